@@ -1,0 +1,1 @@
+"""umform: solid-shell finite elements for sheet-metal bending and forming."""

@@ -1,0 +1,164 @@
+"""Every way in which umform refuses: one exception a mistake, each with place, value, cause and remedy.
+
+A message answers five questions in the same order: what is wrong, where, which value, why it is likely so and
+what to do about it. The command line prints the message; Python users catch the class.
+"""
+
+from __future__ import annotations
+
+
+class UmformError(Exception):
+    """Base of all errors that umform raises on purpose.
+
+    Parameters
+    ----------
+    what : str
+        One sentence that says what is wrong.
+    where : str, optional
+        The place: element, node, set, file, key, step.
+    value : object, optional
+        The offending value.
+    cause : str, optional
+        The likely cause.
+    remedy : str, optional
+        What to do about it.
+    """
+
+    id = "umform"
+
+    def __init__(
+        self, what: str, *, where: str = "", value: object = None, cause: str = "", remedy: str = ""
+    ) -> None:
+        super().__init__(what)
+        self.what = what
+        self.where = where
+        self.value = value
+        self.cause = cause
+        self.remedy = remedy
+
+    def __str__(self) -> str:
+        rows = [
+            ("where", self.where),
+            ("value", "" if self.value is None else str(self.value)),
+            ("cause", self.cause),
+            ("remedy", self.remedy),
+        ]
+        lines = [f"{self.what} [{self.id}]"]
+        lines += [f"  {name + ':':<8}{text}" for name, text in rows if text]
+        return "\n".join(lines)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return (_rebuild, (type(self), self.what, self.where, self.value, self.cause, self.remedy))
+
+
+def _rebuild(
+    kind: type[UmformError], what: str, where: str, value: object, cause: str, remedy: str
+) -> UmformError:
+    """Rebuild an error on the other side of a process boundary."""
+    return kind(what, where=where, value=value, cause=cause, remedy=remedy)
+
+
+class InvalidValue(UmformError, ValueError):
+    """A number or name outside of what is allowed (negative penalty, NaN, unknown option)."""
+
+    id = "value.invalid"
+
+
+class NotFinite(InvalidValue):
+    """A NaN or an infinity in the input."""
+
+    id = "value.not-finite"
+
+
+class HardeningNotMonotone(InvalidValue):
+    """A hardening table whose strain or stress does not increase."""
+
+    id = "material.hardening-not-monotone"
+
+
+class MeshError(UmformError):
+    """A mesh that cannot be used."""
+
+    id = "mesh"
+
+
+class InvertedElement(MeshError):
+    """An element with a negative volume at one of its points."""
+
+    id = "mesh.inverted-element"
+
+
+class FoldedElement(MeshError):
+    """An element whose volume changes sign inside: it is folded over itself."""
+
+    id = "mesh.folded-element"
+
+
+class WrongNodeOrder(MeshError):
+    """Elements that become valid once their nodes are put in another order."""
+
+    id = "mesh.node-order"
+
+
+class WrongCellType(MeshError):
+    """Cells that the chosen element cannot be built on."""
+
+    id = "mesh.cell-type"
+
+
+class UnknownSet(MeshError, KeyError):
+    """A set name that the mesh does not have."""
+
+    id = "mesh.unknown-set"
+
+    __str__ = UmformError.__str__
+
+
+class EmptySet(MeshError):
+    """A set that selects nothing."""
+
+    id = "mesh.empty-set"
+
+
+class ModelError(UmformError):
+    """A model that cannot be solved as it stands."""
+
+    id = "model"
+
+
+class RigidBodyMotion(ModelError):
+    """Supports that leave the body free to move as a rigid whole."""
+
+    id = "model.rigid-body-motion"
+
+
+class ToolSwallowsSheet(ModelError):
+    """A tool that lies over the sheet before anything has moved."""
+
+    id = "model.tool-swallows-sheet"
+
+
+class SolveError(UmformError):
+    """The solution could not be continued; the last converged state is kept."""
+
+    id = "solve"
+
+
+class NoConvergence(SolveError):
+    """Newton's method did not converge at the smallest step allowed."""
+
+    id = "solve.no-convergence"
+
+
+class SingularMatrix(SolveError):
+    """A tangent that cannot be factorised."""
+
+    id = "solve.singular-matrix"
+
+
+class FileProblem(UmformError, OSError):
+    """A file that cannot be read or written."""
+
+    id = "file"
+
+    __str__ = UmformError.__str__

@@ -1,0 +1,1 @@
+"""Sparse solvers: the protocol and one file per solver."""
