@@ -1,0 +1,37 @@
+// Arrays that cross the border to Python: NumPy float64 and int32, contiguous, on the CPU.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <vector>
+
+#include "umform/csr.hpp"
+
+namespace nb = nanobind;
+
+template <class T>
+using Array = nb::ndarray<T, nb::numpy, nb::c_contig, nb::device::cpu>;
+using Input = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
+using InputIds = nb::ndarray<const std::int32_t, nb::c_contig, nb::device::cpu>;
+using Output = nb::ndarray<double, nb::c_contig, nb::device::cpu>;
+
+/// A new NumPy array that owns a copy of `values`.
+template <class T>
+nb::object to_numpy(std::vector<T> values, std::initializer_list<std::size_t> shape) {
+    auto* data = new std::vector<T>(std::move(values));
+    nb::capsule owner(data, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+    return nb::cast(Array<T>(data->data(), shape, owner));
+}
+
+inline std::vector<double> to_vector(const Input& array) { return {array.data(), array.data() + array.size()}; }
+
+inline umform::Connectivity to_connectivity(const InputIds& ids) {
+    return {static_cast<int>(ids.shape(1)), {ids.data(), ids.data() + ids.size()}};
+}
+
+void bind_quadrature(nb::module_& m);
+void bind_materials(nb::module_& m);
+void bind_surfaces(nb::module_& m);
+void bind_sparse(nb::module_& m);
+void bind_blocks(nb::module_& m);

@@ -1,0 +1,16 @@
+// The extension module umform._core.
+#include "arrays.hpp"
+#include "umform/threads.hpp"
+
+NB_MODULE(_core, m) {
+    m.doc() = "Kernels of umform: elements, materials, surfaces, contact, sparse patterns.";
+    bind_quadrature(m);
+    bind_materials(m);
+    bind_surfaces(m);
+    bind_sparse(m);
+    bind_blocks(m);
+    m.def("threads", [] { return umform::thread_count(); }, "Number of threads that the kernels use.");
+    m.def(
+        "set_threads", [](int count) { umform::thread_count() = count; }, nb::arg("count"),
+        "Set the number of threads that the kernels use.");
+}

@@ -1,0 +1,54 @@
+// What a material law is to the elements: strain and history in, stress, tangent and new history out.
+#pragma once
+
+#include <concepts>
+#include <memory>
+
+#include "umform/tensor.hpp"
+
+namespace umform {
+
+/// A law answers at one point. `E` is the Green-Lagrange strain in a local orthonormal frame, `state` the converged
+/// history (never changed), `trial` the new one. It returns false where the strain is outside of its domain.
+template <class L>
+concept MaterialLaw = requires(const L& law, const Voigt& E, const double* state, Voigt& S, Voigt66& CC, double* trial) {
+    { L::state_size } -> std::convertible_to<int>;
+    { law.respond(E, state, S, CC, trial) } -> std::same_as<bool>;
+    { law.initial(trial) } -> std::same_as<void>;
+};
+
+/// The law as the elements see it: one virtual call for all points of an element, so that elements and laws are
+/// compiled apart from each other.
+class Material {
+  public:
+    virtual ~Material() = default;
+    virtual int state_size() const = 0;
+    virtual void initial(double* state) const = 0;
+    /// Answers at n points; arrays are [n][6], [n][state_size], [n][36]. Returns the index of the first point that
+    /// fails, or n.
+    virtual int respond(int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial) const = 0;
+};
+
+template <MaterialLaw Law>
+class MaterialOf final : public Material {
+  public:
+    explicit MaterialOf(Law law) : law_(std::move(law)) {}
+    int state_size() const override { return Law::state_size; }
+    void initial(double* state) const override { law_.initial(state); }
+    int respond(int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial) const override {
+        for (int q = 0; q < n; ++q)
+            if (!law_.respond(E[q], state + q * Law::state_size, S[q], CC[q], trial + q * Law::state_size)) return q;
+        return n;
+    }
+
+  private:
+    Law law_;
+};
+
+/// Adds factor * a (x) b to a tangent; a and b hold tensor components (no engineering factors).
+inline void add_dyad(Voigt66& CC, double factor, const Voigt& a, const Voigt& b) {
+    for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j) CC(i, j) += factor * a[i] * b[j];
+}
+
+}  // namespace umform

@@ -1,0 +1,54 @@
+// Yield stress y(eqps) and its slope: a part of its own, so that every plastic law takes every curve.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+#include <vector>
+
+namespace umform {
+
+struct YieldStress {
+    double value, slope;
+};
+
+/// y = y0 + H e + (y_inf - y0) (1 - exp(-d e)): perfect plasticity, linear and Voce hardening are its special cases.
+struct LinearVoce {
+    double y0, modulus, saturation, rate;
+
+    YieldStress operator()(double eqps) const {
+        const double decay = std::exp(-rate * eqps);
+        const double range = saturation - y0;
+        return {y0 + modulus * eqps + range * (1.0 - decay), modulus + range * rate * decay};
+    }
+};
+
+/// y = K (e0 + e)^n.
+struct Swift {
+    double strength, offset, exponent;
+
+    YieldStress operator()(double eqps) const {
+        const double value = strength * std::pow(offset + eqps, exponent);
+        return {value, exponent * value / (offset + eqps)};
+    }
+};
+
+/// Linear between the points of a table, constant behind its end.
+struct Tabulated {
+    std::vector<double> eqps, stress;
+
+    YieldStress operator()(double e) const {
+        if (e >= eqps.back()) return {stress.back(), 0.0};
+        const auto after = std::upper_bound(eqps.begin() + 1, eqps.end() - 1, e) - eqps.begin();
+        const double slope = (stress[after] - stress[after - 1]) / (eqps[after] - eqps[after - 1]);
+        return {stress[after - 1] + slope * (e - eqps[after - 1]), slope};
+    }
+};
+
+using Hardening = std::variant<LinearVoce, Swift, Tabulated>;
+
+inline YieldStress yield_stress(const Hardening& hardening, double eqps) {
+    return std::visit([eqps](const auto& curve) { return curve(eqps); }, hardening);
+}
+
+}  // namespace umform

@@ -1,0 +1,90 @@
+// Compressible neo-Hooke in two forms that share one tangent: a C^-1 (x) C^-1 + b I_{C^-1}.
+#pragma once
+
+#include "umform/materials/concept.hpp"
+
+namespace umform {
+
+/// The invariants of C = 1 + 2E that both forms need, formed without cancellation for small strains.
+struct RightCauchyGreen {
+    Mat3 inverse;         // C^-1
+    Mat3 one_minus_inverse;  // 1 - C^-1 = 2 C^-1 E
+    double log_det;       // ln I3
+
+    /// False if C is not positive definite.
+    bool set(const Voigt& strain) {
+        const Mat3 E = from_voigt(strain, 0.5);
+        Mat3 C;
+        for (int i = 0; i < 9; ++i) C.a[i] = 2.0 * E.a[i];
+        for (int i = 0; i < 3; ++i) C(i, i) += 1.0;
+        const double minor = C(0, 0) * C(1, 1) - C(0, 1) * C(0, 1);
+        const double trace = E(0, 0) + E(1, 1) + E(2, 2);
+        double second = 0.0;
+        for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {0, 2}}) second += E(i, i) * E(j, j) - E(i, j) * E(i, j);
+        const double det_minus_one = 2.0 * trace + 4.0 * second + 8.0 * det(E);
+        if (!(C(0, 0) > 0.0 && minor > 0.0 && det_minus_one > -1.0)) return false;
+        log_det = std::log1p(det_minus_one);
+        inverse = umform::inverse(C);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) {
+                double sum = 0.0;
+                for (int k = 0; k < 3; ++k) sum += inverse(i, k) * E(k, j) + E(i, k) * inverse(k, j);
+                one_minus_inverse(i, j) = sum;
+            }
+        return true;
+    }
+
+    /// CC = a C^-1 (x) C^-1 + b I_{C^-1} with I_ijkl = (C^-1_ik C^-1_jl + C^-1_il C^-1_jk) / 2.
+    void tangent(double a, double b, Voigt66& CC) const {
+        for (int p = 0; p < 6; ++p)
+            for (int q = 0; q < 6; ++q) {
+                const auto [i, j] = voigt_pair[p];
+                const auto [k, l] = voigt_pair[q];
+                CC(p, q) = a * inverse(i, j) * inverse(k, l) +
+                           0.5 * b * (inverse(i, k) * inverse(j, l) + inverse(i, l) * inverse(j, k));
+            }
+    }
+};
+
+/// W = mu/2 (I1 - 3) - mu ln J + lambda/2 ln^2 J.
+struct NeoHookeLogarithmic {
+    double lambda, mu;
+
+    static constexpr int state_size = 0;
+    void initial(double*) const {}
+
+    bool respond(const Voigt& E, const double*, Voigt& S, Voigt66& CC, double*) const {
+        RightCauchyGreen C;
+        if (!C.set(E)) return false;
+        const double pressure = 0.5 * lambda * C.log_det;
+        for (int p = 0; p < 6; ++p) {
+            const auto [i, j] = voigt_pair[p];
+            S[p] = mu * C.one_minus_inverse(i, j) + pressure * C.inverse(i, j);
+        }
+        C.tangent(lambda, 2.0 * (mu - pressure), CC);
+        return true;
+    }
+};
+
+/// W = c (I1 - 3) + c/beta (I3^-beta - 1) with c = mu/2, beta = nu/(1 - 2 nu).
+struct NeoHookePower {
+    double mu, beta;
+
+    static constexpr int state_size = 0;
+    void initial(double*) const {}
+
+    bool respond(const Voigt& E, const double*, Voigt& S, Voigt66& CC, double*) const {
+        RightCauchyGreen C;
+        if (!C.set(E)) return false;
+        const double one_minus_power = -std::expm1(-beta * C.log_det);  // 1 - I3^-beta
+        const double power = 1.0 - one_minus_power;
+        for (int p = 0; p < 6; ++p) {
+            const auto [i, j] = voigt_pair[p];
+            S[p] = mu * (C.one_minus_inverse(i, j) + one_minus_power * C.inverse(i, j));
+        }
+        C.tangent(2.0 * mu * beta * power, 2.0 * mu * power, CC);
+        return true;
+    }
+};
+
+}  // namespace umform

@@ -1,0 +1,68 @@
+// What a rigid tool is to contact: one function of position.
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <memory>
+
+#include "umform/tensor.hpp"
+
+namespace umform {
+
+/// Signed distance g (negative inside the tool), unit normal n = grad g, Hessian H of the distance.
+struct Gap {
+    double g;
+    Vec3 n;
+    Mat3 H;
+};
+
+template <class S>
+concept ToolSurface = requires(const S& surface, const Vec3& x) {
+    { surface.gap(x) } -> std::same_as<Gap>;
+};
+
+/// A surface as contact sees it: one virtual call for all points.
+class Surface {
+  public:
+    virtual ~Surface() = default;
+    /// Arrays x [count][3], g [count], n [count][3], H [count][3][3].
+    virtual void gap(int count, const double* x, double* g, double* n, double* H) const = 0;
+};
+
+template <ToolSurface Shape>
+class SurfaceOf final : public Surface {
+  public:
+    explicit SurfaceOf(Shape shape) : shape_(shape) {}
+    void gap(int count, const double* x, double* g, double* n, double* H) const override {
+        for (int q = 0; q < count; ++q) {
+            const Gap at = shape_.gap({x[3 * q], x[3 * q + 1], x[3 * q + 2]});
+            g[q] = at.g;
+            std::copy(at.n.begin(), at.n.end(), n + 3 * q);
+            std::copy(at.H.a.begin(), at.H.a.end(), H + 9 * q);
+        }
+    }
+
+  private:
+    Shape shape_;
+};
+
+/// A surface from any function of arrays, a user's own for instance.
+class SurfaceFromFunction final : public Surface {
+  public:
+    using Function = std::function<void(int, const double*, double*, double*, double*)>;
+    explicit SurfaceFromFunction(Function function) : function_(std::move(function)) {}
+    void gap(int count, const double* x, double* g, double* n, double* H) const override { function_(count, x, g, n, H); }
+
+  private:
+    Function function_;
+};
+
+/// Distance to the inside of a closed shape (the sheet lies in a bore or a bowl) is the negative of the outside one.
+inline Gap turned_inside(Gap gap) {
+    gap.g = -gap.g;
+    for (double& value : gap.n) value = -value;
+    for (double& value : gap.H.a) value = -value;
+    return gap;
+}
+
+}  // namespace umform

@@ -1,0 +1,3 @@
+#include "umform/block.hpp"
+
+template class umform::ShellBlockOf<8>;
