@@ -1,1 +1,111 @@
-"""umform: solid-shell finite elements for sheet-metal bending and forming."""
+"""umform: solid-shell finite elements for sheet-metal bending and forming, with exact contact to rigid tools."""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING
+
+from umform import errors
+
+if TYPE_CHECKING:
+    from umform import elements, mesh, processes
+    from umform._core import set_threads, threads
+    from umform.elements import Element, Term, Tying
+    from umform.errors import UmformError
+    from umform.materials import (
+        J2,
+        SVK,
+        Linear,
+        LinearVoce,
+        NeoHooke,
+        NeoHookePower,
+        Perfect,
+        Swift,
+        Table,
+        Voce,
+    )
+    from umform.mesh import Mesh
+    from umform.model import Model
+    from umform.newton import NewtonOptions
+    from umform.results import Result
+    from umform.steps import Move, Release, solve
+    from umform.surfaces import Cylinder, Plane, Sphere, UserSurface, check_surface
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "umform._core": ("set_threads", "threads"),
+    "umform.elements": ("Element", "Term", "Tying"),
+    "umform.errors": ("UmformError",),
+    "umform.materials": (
+        "J2",
+        "SVK",
+        "Linear",
+        "LinearVoce",
+        "NeoHooke",
+        "NeoHookePower",
+        "Perfect",
+        "Swift",
+        "Table",
+        "Voce",
+    ),
+    "umform.mesh": ("Mesh",),
+    "umform.model": ("Model",),
+    "umform.newton": ("NewtonOptions",),
+    "umform.results": ("Result",),
+    "umform.steps": ("Move", "Release", "solve"),
+    "umform.surfaces": ("Cylinder", "Plane", "Sphere", "UserSurface", "check_surface"),
+}
+_MODULES = ("elements", "mesh", "processes")
+_HOME_OF = {name: module for module, names in _HOME.items() for name in names}
+
+__all__ = [
+    "J2",
+    "SVK",
+    "Cylinder",
+    "Element",
+    "Linear",
+    "LinearVoce",
+    "Mesh",
+    "Model",
+    "Move",
+    "NeoHooke",
+    "NeoHookePower",
+    "NewtonOptions",
+    "Perfect",
+    "Plane",
+    "Release",
+    "Result",
+    "Sphere",
+    "Swift",
+    "Table",
+    "Term",
+    "Tying",
+    "UmformError",
+    "UserSurface",
+    "Voce",
+    "check_surface",
+    "elements",
+    "errors",
+    "mesh",
+    "processes",
+    "set_threads",
+    "solve",
+    "threads",
+]
+
+
+def __getattr__(name: str) -> object:
+    """Import a public name when it is first used, so that `import umform` is quick."""
+    if name in _HOME_OF:
+        value = getattr(importlib.import_module(_HOME_OF[name]), name)
+    elif name in _MODULES:
+        value = importlib.import_module(f"umform.{name}")
+    else:
+        raise AttributeError(f"module 'umform' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *__all__])

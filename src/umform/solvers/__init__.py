@@ -1,1 +1,89 @@
-"""Sparse solvers: the protocol and one file per solver."""
+"""Sparse solvers: the protocol, one file per solver, and the choice among them.
+
+``auto`` takes the fastest one present: PARDISO for every size, else the banded Cholesky solver for symmetric
+matrices of narrow band (long strips), else SuperLU. A solver of your own joins with `register`.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+
+from ..errors import InvalidValue
+from . import pardiso
+from .banded import Banded
+from .pardiso import Pardiso
+from .protocol import Factorisation, Pattern, SparseSolver
+from .superlu import SuperLU
+
+__all__ = ["Factorisation", "Pattern", "SparseSolver", "available", "make_solver", "register"]
+
+_log = logging.getLogger("umform.solvers")
+
+# Beyond this bandwidth SuperLU catches up with the banded solver.
+_NARROW = 128
+
+_factories: dict[str, Callable[[], SparseSolver]] = {
+    "pardiso": Pardiso,
+    "banded": Banded,
+    "superlu": SuperLU,
+}
+
+
+def register(name: str, factory: Callable[[], SparseSolver]) -> None:
+    """Make a solver known by a name.
+
+    Parameters
+    ----------
+    name : str
+        The name that `make_solver` is asked for; a solver of this name is replaced.
+    factory : callable
+        Returns a new solver, such as the class itself.
+    """
+    if name == "auto":
+        raise InvalidValue("The name 'auto' stands for the choice among the solvers", remedy="take another")
+    _factories[name] = factory
+
+
+def available() -> dict[str, bool]:
+    """Return for each solver whether it can run here."""
+    return {name: name != "pardiso" or pardiso.available() for name in _factories}
+
+
+def make_solver(pattern: Pattern, name: str = "auto") -> SparseSolver:
+    """Return a solver that has analysed the pattern.
+
+    Parameters
+    ----------
+    pattern : Pattern
+        Where the matrix has entries.
+    name : str, optional
+        One of `available`, or ``auto`` for the fastest one present.
+    """
+    if name == "auto":
+        return _fastest(pattern)
+    if name not in _factories:
+        raise InvalidValue(
+            "There is no solver of this name",
+            value=name,
+            remedy=f"choose one of {', '.join(['auto', *_factories])}",
+        )
+    solver = _factories[name]()
+    solver.analyse(pattern)
+    return solver
+
+
+def _fastest(pattern: Pattern) -> SparseSolver:
+    if available()["pardiso"]:
+        _log.info("solver: pardiso")
+        return make_solver(pattern, "pardiso")
+    solver: SparseSolver = SuperLU()
+    if pattern.symmetric:
+        banded = Banded()
+        banded.analyse(pattern)
+        if banded.bandwidth <= _NARROW:
+            _log.info('solver: banded, bandwidth %d; faster: pip install "umform[pardiso]"', banded.bandwidth)
+            return banded
+    _log.info('solver: superlu; faster: pip install "umform[pardiso]"')
+    solver.analyse(pattern)
+    return solver

@@ -1,0 +1,119 @@
+# All that is done to umform from a shell. A bare clone needs Python >= 3.11 with its headers, make and a
+# C++20 compiler; the rest comes from PyPI into .venv. The package is installed as a user would install it
+# (never editable), so what runs and what is tested is what is shipped; build/venv keeps the object files, so
+# that a second install compiles only what changed.
+
+PYTHON ?= python3
+JOBS   ?= $(shell nproc 2>/dev/null || echo 2)
+ARGS   ?=
+
+VENV   := .venv
+BIN    := $(VENV)/bin
+BUILD  := build/venv
+PIP    := $(BIN)/python -m pip --disable-pip-version-check -q
+SAY    := @printf '\033[1m==>\033[0m %s\n'
+
+# Directories are listed too: their time changes when a file is removed.
+PACKAGE   := $(shell find CMakeLists.txt pyproject.toml cpp src \
+                 -not -name '*.pyc' -not -name '*.so' -not -name __pycache__)
+CPP       := $(shell find cpp -name '*.hpp' -o -name '*.cpp')
+CPP_TESTS := $(wildcard tests/cpp/*.hpp tests/cpp/*.cpp tests/cpp/*/*.hpp tests/cpp/*/*.cpp)
+
+export CMAKE_BUILD_PARALLEL_LEVEL := $(JOBS)
+unexport PYTHONPATH PYTHONHOME
+
+.NOTPARALLEL:
+.DELETE_ON_ERROR:
+.DEFAULT_GOAL := help
+.PHONY: help env dev demo test test-cpp test-python test-long lint lint-python lint-types lint-format lint-cpp \
+        format bench clean
+
+help:  ## show this help
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@echo '  Variables: PYTHON=python3.12, JOBS=4, ARGS="-k contact" (handed to pytest and to the benchmarks)'
+
+# ---- environment: three stamps, each made again only when what it depends on has changed ----
+# A stamp bears the time at which its rule began, so that a file saved during the build counts as changed.
+
+env: $(VENV)/.package  ## make .venv and install umform into it
+dev: $(VENV)/.package $(VENV)/.dev  ## the same, with the tools of the developers
+
+$(VENV)/.tools: pyproject.toml tools/check_machine.py tools/requirements.py
+	@$(PYTHON) tools/check_machine.py
+	$(SAY) 'Making $(VENV) and fetching the build tools from PyPI'
+	@$(BIN)/python -m pip --version > /dev/null 2>&1 || $(PYTHON) -m venv $(VENV)
+	@$(BIN)/python tools/requirements.py build > $@.new
+	@$(PIP) install -r $@.new
+	@mv $@.new $@
+
+$(VENV)/.package: $(VENV)/.tools $(PACKAGE)
+	$(SAY) 'Compiling and installing umform with $(JOBS) jobs (a minute or two the first time)'
+	@touch $@.new
+	@$(PIP) install --no-build-isolation --config-settings=build-dir=$(BUILD) .
+	@mv $@.new $@
+
+$(VENV)/.dev: $(VENV)/.tools
+	$(SAY) 'Fetching the tools of the developers from PyPI'
+	@$(BIN)/python tools/requirements.py run dev > $@.new
+	@$(PIP) install -r $@.new
+	@mv $@.new $@
+
+# ---- run ----
+
+demo: env  ## bend a strip over a cylinder; pictures and report in results/free-bending
+	$(SAY) 'Running the demo'
+	@$(BIN)/umform demo free-bending --out results/free-bending
+
+bench: env  ## time the kernels
+	@$(BIN)/python benchmarks/kernels.py $(ARGS)
+
+# ---- test ----
+
+test: $(if $(wildcard tests/cpp/CMakeLists.txt),test-cpp) test-python  ## all tests but the long ones
+
+test-cpp: env  ## tests of the kernels alone
+	$(SAY) 'Testing the kernels'
+	@$(BIN)/cmake -DUMFORM_BUILD_TESTS=ON $(BUILD) > $(BUILD)/tests.log || { cat $(BUILD)/tests.log; exit 1; }
+	@$(BIN)/cmake --build $(BUILD) > $(BUILD)/tests.log || { cat $(BUILD)/tests.log; exit 1; }
+	@$(BIN)/ctest --test-dir $(BUILD) --output-on-failure --no-tests=error -j $(JOBS) > $(BUILD)/tests.log \
+	    || { cat $(BUILD)/tests.log; exit 1; }
+	@grep 'tests passed' $(BUILD)/tests.log
+
+test-python: dev  ## tests of the installed package
+	$(SAY) 'Testing the installed package'
+	@$(BIN)/pytest -q -m 'not long' $(ARGS)
+
+test-long: dev  ## the long verification runs
+	@$(BIN)/pytest -q -m long $(ARGS)
+
+# ---- style ----
+
+lint: lint-python lint-types lint-format lint-cpp  ## style, types and names, in Python and in C++
+
+lint-python: $(VENV)/.dev
+	$(SAY) 'ruff'
+	@$(BIN)/ruff check -q .
+	@$(BIN)/ruff format -q --check . || { echo "run 'make format' on the files that 'ruff format --check .' names"; exit 1; }
+
+lint-types: $(VENV)/.dev
+	$(SAY) 'mypy'
+	@$(BIN)/mypy --no-error-summary
+
+lint-format: $(VENV)/.dev
+	$(SAY) 'clang-format'
+	@$(BIN)/clang-format --dry-run --Werror $(CPP) $(CPP_TESTS)
+
+# Each header is parsed on its own, so it must include what it uses. Without -fopenmp: clang cannot read every
+# gcc's omp.h; guard it by `#ifdef _OPENMP`.
+lint-cpp: $(VENV)/.dev
+	$(SAY) 'clang-tidy'
+	@includes="$$($(BIN)/python tools/includes.py)" && printf '%s\n' $(CPP) | xargs -P $(JOBS) -I {} \
+	    $(BIN)/clang-tidy --quiet {} -- -x c++ -std=c++20 -Icpp/include $$includes
+
+format: $(VENV)/.dev  ## put Python and C++ into the style of the house
+	@$(BIN)/ruff check -q --fix . || true
+	@$(BIN)/ruff format -q .
+	@$(BIN)/clang-format -i $(CPP) $(CPP_TESTS)
+
+clean:  ## remove what make has made, but not results/
+	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -1,0 +1,133 @@
+"""Contact pairs: faces of the sheet against one rigid tool, its motion, resultants, pressure and gap."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from umform import _core
+from umform.boundary import Control
+from umform.errors import InvalidValue
+from umform.mesh import Ids, Mesh, Selector
+from umform.surfaces import Surface
+
+Floats = NDArray[np.float64]
+
+#: time -> translation (3,), or (translation (3,), rotation vector (3,)) about the tool's reference point.
+Motion = Callable[[float], Floats | tuple[Floats, Floats]]
+
+
+@dataclass(eq=False, repr=False)
+class ToolMotion(Control):
+    """Translation of a tool along a direction; its force is that of the sheet on the tool along it."""
+
+    direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class ContactPoints:
+    """What is known at the contact points of a pair.
+
+    Attributes
+    ----------
+    x : ndarray, shape (n, 3)
+        Current positions.
+    gap : ndarray, shape (n,)
+        Signed distance, negative in penetration.
+    pressure : ndarray, shape (n,)
+        Contact pressure on the reference area, zero without contact.
+    normal : ndarray, shape (n, 3)
+        Unit normal out of the tool.
+    area : ndarray, shape (n,)
+        Reference area that belongs to the point.
+    """
+
+    x: Floats
+    gap: Floats
+    pressure: Floats
+    normal: Floats
+    area: Floats
+
+
+class Contact:
+    """Frictionless penalty contact of faces with one tool (docs/theory, chapter 4).
+
+    Made by :meth:`umform.Model.contact`.
+    """
+
+    def __init__(self, mesh: Mesh, faces: Selector, tool: Surface, penalty: float, points: int | str, name: str) -> None:
+        if not (np.isfinite(penalty) and penalty > 0):
+            raise InvalidValue("the penalty must be positive", where=f"contact {name}", value=penalty, cause="a sign or a missing value", remedy="the allowed penetration is pressure / penalty: 10 to 100 times E / edge length of the part is stiff")
+        at_nodes = points == "nodes"
+        if not at_nodes and (not isinstance(points, int) or not 1 <= points <= 10):
+            raise InvalidValue("contact points per direction must be 1 to 10, or 'nodes'", where=f"contact {name}", value=points)
+        if not isinstance(tool, Surface):
+            raise InvalidValue("a tool must be a surface", where=f"contact {name}", value=type(tool).__name__, remedy="Plane, Cylinder, Sphere or UserSurface(function)")
+        self.name = name
+        self.tool = tool
+        self.penalty = float(penalty)
+        self.points: int | str = points
+        self.facets: Ids = mesh.facets(faces)
+        self.block = _core.contact_block(self.facets, mesh.points, 1 if at_nodes else int(points), at_nodes, tool.kernel())
+        self.block.penalty = self.penalty
+        self.translations: list[ToolMotion] = []
+        self.motion: Motion | None = None
+        self.reference_point = np.zeros(3)
+
+    def place(self, time: float) -> None:
+        """Put the tool where its motions have it at ``time``. eq. (4.18)"""
+        shift, rotation = np.zeros(3), np.eye(3)
+        for control in self.translations:
+            shift += control.value * np.asarray(control.direction)
+        if self.motion is not None:
+            answer = self.motion(time)
+            if isinstance(answer, tuple):
+                shift = shift + np.asarray(answer[0], dtype=float)
+                rotation = Rotation.from_rotvec(np.asarray(answer[1], dtype=float)).as_matrix()
+            else:
+                shift = shift + np.asarray(answer, dtype=float)
+        if shift.shape != (3,) or not np.isfinite(shift).all():
+            raise InvalidValue("a tool motion must return three finite numbers", where=f"contact {self.name}, time {time:g}", value=shift)
+        centre = self.reference_point
+        self.block.set_pose(np.ascontiguousarray(rotation), centre + shift - rotation @ centre)
+
+    def active(self) -> NDArray[np.bool_]:
+        """Which points penetrate, of the last evaluation."""
+        return self.block.gaps < 0.0
+
+    def at_points(self) -> ContactPoints:
+        """Gap, pressure and the rest at the contact points, of the last evaluation."""
+        gap = self.block.gaps
+        return ContactPoints(
+            x=self.block.positions,
+            gap=gap,
+            pressure=self.penalty * np.maximum(-gap, 0.0),
+            normal=self.block.normals,
+            area=self.block.areas,
+        )
+
+    def resultant(self, about: Floats | None = None) -> tuple[Floats, Floats]:
+        """Force and moment (about a point, default the origin) of the sheet on the tool. eq. (4.17)"""
+        at = self.at_points()
+        forces = -(at.pressure * at.area)[:, None] * at.normal
+        arm = at.x - (np.zeros(3) if about is None else np.asarray(about, dtype=float))
+        return forces.sum(axis=0), np.cross(arm, forces).sum(axis=0)
+
+    def nodal_pressure(self, nodes: int) -> Floats:
+        """Pressure averaged to the nodes of the facets, weighted by area; zero elsewhere; shape (nodes,)."""
+        at = self.at_points()
+        per_facet = len(at.gap) // len(self.facets)
+        if self.points == "nodes":
+            weight = at.area.reshape(len(self.facets), per_facet)
+            share = (at.pressure * at.area).reshape(len(self.facets), per_facet)
+        else:
+            weight = np.repeat(at.area.reshape(len(self.facets), per_facet).sum(axis=1)[:, None], self.facets.shape[1], axis=1)
+            share = np.repeat((at.pressure * at.area).reshape(len(self.facets), per_facet).sum(axis=1)[:, None], self.facets.shape[1], axis=1)
+        total, area = np.zeros(nodes), np.zeros(nodes)
+        np.add.at(total, self.facets.ravel(), share.ravel())
+        np.add.at(area, self.facets.ravel(), weight.ravel())
+        return np.divide(total, area, out=np.zeros(nodes), where=area > 0)

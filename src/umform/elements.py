@@ -1,0 +1,309 @@
+"""THE list of elements, by the names of the literature: which strains are tied where, which are enhanced by what.
+
+An element is data. A tying rule is a list of :class:`Tying` rows (docs/theory, eq. (2.1)), an enhancement a list of modes,
+each a sum of :class:`Term` (eq. (2.8)); the kernels know nothing else of it. A new element is a few rows here, or in the
+user's own script: ``Element("MINE", "hex8", tying=(...), modes=(...))``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform import _core
+from umform.errors import InvalidValue
+
+#: Voigt order of the strain components.
+COMPONENTS = ("11", "22", "33", "12", "23", "13")
+
+_A = 1.0 / math.sqrt(3.0)
+_B = math.sqrt(3.0 / 5.0)
+
+
+@dataclass(frozen=True)
+class Tying:
+    """One row of an assumed-strain rule.
+
+    The covariant component is sampled on the grid ``r`` x ``s`` and interpolated with the Lagrange polynomials of the
+    abscissae, at the mid-surface (t = 0) or, with ``at_layer``, at the t of the Gauss point.
+    """
+
+    component: str
+    r: tuple[float, ...]
+    s: tuple[float, ...]
+    at_layer: bool = False
+
+
+@dataclass(frozen=True)
+class Term:
+    """The term ``factor * r**a * s**b * P_c(t)`` of an enhanced mode in one covariant component (P_c: Legendre)."""
+
+    component: str
+    a: int = 0
+    b: int = 0
+    c: int = 0
+    factor: float = 1.0
+
+
+Mode = tuple[Term, ...]
+
+# Tying rules -----------------------------------------------------------------------------------------------------------
+
+#: Bathe & Dvorkin (1985): transverse shear tied at the middles of the edges of the mid-surface.
+ANS_SHEAR = (Tying("13", (0.0,), (-1.0, 1.0)), Tying("23", (-1.0, 1.0), (0.0,)))
+
+#: Bucalem & Bathe (1993): in-plane and transverse shear strains tied layer by layer.
+MITC9_MEMBRANE = (
+    Tying("11", (-_A, _A), (-_B, 0.0, _B), at_layer=True),
+    Tying("22", (-_B, 0.0, _B), (-_A, _A), at_layer=True),
+)
+MITC9_IN_PLANE_SHEAR = (Tying("12", (-_A, _A), (-_A, _A), at_layer=True),)
+MITC9_SHEAR = (
+    Tying("13", (-_A, _A), (-_B, 0.0, _B), at_layer=True),
+    Tying("23", (-_B, 0.0, _B), (-_A, _A), at_layer=True),
+)
+
+#: Betsch & Stein (1995): thickness strain tied at the corners, and its biquadratic sister at the nine nodes.
+ANS_THICKNESS = {
+    "hex8": (Tying("33", (-1.0, 1.0), (-1.0, 1.0)),),
+    "hex18": (Tying("33", (-1.0, 0.0, 1.0), (-1.0, 0.0, 1.0)),),
+}
+
+# Enhanced modes --------------------------------------------------------------------------------------------------------
+
+
+def thickness_modes(count: int, order: int) -> tuple[Mode, ...]:
+    """Modes of E_33: t times 1, 4 or 9 polynomials in the surface, then P_2(t) ... P_order(t).
+
+    Parameters
+    ----------
+    count : {0, 1, 4, 9}
+        Number of modes linear in t: Büchter, Ramm & Roehl (1994) for one; {1, r, s, rs} let the distorted bending patch
+        test pass; nine are the full biquadratic set.
+    order : {1, 2, 3, 4}
+        Highest Legendre polynomial in t.
+    """
+    if count not in (0, 1, 4, 9):
+        raise InvalidValue("the number of thickness modes must be 0, 1, 4 or 9", value=count)
+    if order not in (1, 2, 3, 4):
+        raise InvalidValue("the thickness order must be 1, 2, 3 or 4", value=order)
+    side = math.isqrt(count)
+    linear = tuple((Term("33", a, b, 1),) for b in range(side) for a in range(side))
+    return linear + tuple((Term("33", 0, 0, p),) for p in range(2, order + 1))
+
+
+def membrane_modes(count: int) -> tuple[Mode, ...]:
+    """Modes of the in-plane strains: 4, 5 or 7 (Simo & Rifai 1990; Andelfinger & Ramm 1993)."""
+    four: tuple[Mode, ...] = ((Term("11", 1),), (Term("22", 0, 1),), (Term("12", 1),), (Term("12", 0, 1),))
+    coupled: Mode = (Term("11", 1, 1), Term("22", 1, 1, factor=-1.0), Term("12", 2), Term("12", 0, 2, factor=-1.0))
+    modes: dict[int, tuple[Mode, ...]] = {
+        0: (),
+        4: four,
+        5: (*four, coupled),
+        7: (*four, (Term("11", 1, 1),), (Term("22", 1, 1),), (Term("12", 1, 1),)),
+    }
+    if count not in modes:
+        raise InvalidValue("the number of membrane modes must be 0, 4, 5 or 7", value=count)
+    return modes[count]
+
+
+# Elements --------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Element:
+    """A solid-shell element as data.
+
+    Parameters
+    ----------
+    name : str
+        Name in the literature.
+    cell : {"hex8", "hex18"}
+        Cell type of the mesh.
+    tying : tuple of Tying
+        Assumed strains; components without a row are compatible.
+    modes : tuple of Mode
+        Enhanced strains.
+    surface_points : int
+        Gauss points per direction of the surface.
+    thickness_order : int
+        Highest order in t of the enhanced thickness strain (0: none); it needs order + 1 thickness points.
+    citation : str
+        Where it comes from (keys of references.bib).
+    """
+
+    name: str
+    cell: str
+    tying: tuple[Tying, ...] = ()
+    modes: tuple[Mode, ...] = ()
+    surface_points: int = 2
+    thickness_order: int = 0
+    citation: str = ""
+    options: dict[str, object] = field(default_factory=dict, compare=False)
+
+    @property
+    def nodes(self) -> int:
+        """Number of nodes: 8 or 18."""
+        return {"hex8": 8, "hex18": 18}[self.cell]
+
+    def technology(self) -> _core.Technology:
+        """The element as the kernels take it."""
+        index = COMPONENTS.index
+        return _core.Technology(
+            [_core.Tying(index(row.component), list(row.r), list(row.s), row.at_layer) for row in self.tying],
+            [[_core.Term(index(t.component), t.factor, t.a, t.b, t.c) for t in mode] for mode in self.modes],
+        )
+
+
+def _build(
+    name: str,
+    cell: str,
+    tying: tuple[Tying, ...],
+    citation: str,
+    *,
+    thickness: int,
+    membrane: int = 0,
+) -> Callable[..., Element]:
+    """Element factory whose keyword arguments are the options that the literature leaves open."""
+
+    def make(
+        thickness_modes_count: int = thickness,
+        thickness_order: int = 1,
+        membrane_modes_count: int = membrane,
+        tie_E33: bool = False,
+        compatible_E12: bool = False,
+    ) -> Element:
+        if thickness == 0 and (thickness_modes_count != 0 or thickness_order != 1):
+            raise InvalidValue(
+                f"{name} has no enhanced thickness strain",
+                value=f"thickness_order={thickness_order}, thickness_modes={thickness_modes_count}",
+                remedy="take one of the elements with EAS in their name" if cell == "hex8" else "take DISP9K3DEAS or MI9K3DEAS",
+            )
+        if thickness > 0 and thickness_modes_count not in (1, 4, 9):
+            raise InvalidValue("the number of thickness modes must be 1, 4 or 9", value=thickness_modes_count)
+        if membrane == 0 and membrane_modes_count != 0:
+            raise InvalidValue(f"{name} has no enhanced membrane strain", remedy="take EAS3DEAS")
+        if membrane > 0 and membrane_modes_count not in (4, 5, 7):
+            raise InvalidValue("the number of membrane modes must be 4, 5 or 7", value=membrane_modes_count)
+        rows = tuple(row for row in tying if not (compatible_E12 and row.component == "12"))
+        modes = membrane_modes(membrane_modes_count)
+        if thickness > 0:
+            modes += thickness_modes(thickness_modes_count, thickness_order)
+        return Element(
+            name=name,
+            cell=cell,
+            tying=rows + (ANS_THICKNESS[cell] if tie_E33 else ()),
+            modes=modes,
+            surface_points=2 if cell == "hex8" else 3,
+            thickness_order=thickness_order if thickness > 0 else 0,
+            citation=citation,
+            options={
+                "thickness_modes": thickness_modes_count,
+                "thickness_order": thickness_order,
+                "membrane_modes": membrane_modes_count,
+                "tie_E33": tie_E33,
+                "compatible_E12": compatible_E12,
+            },
+        )
+
+    return make
+
+
+_MITC9 = MITC9_MEMBRANE + MITC9_IN_PLANE_SHEAR + MITC9_SHEAR
+
+#: The catalogue: name -> factory.
+CATALOGUE: dict[str, Callable[..., Element]] = {
+    "DISP3D": _build("DISP3D", "hex8", (), "Hauptmann1998", thickness=0),
+    "DISP3DEAS": _build("DISP3DEAS", "hex8", (), "Hauptmann1998", thickness=4),
+    "ANS3DEAS": _build("ANS3DEAS", "hex8", ANS_SHEAR, "Hauptmann1998", thickness=4),
+    "EAS3DEAS": _build("EAS3DEAS", "hex8", ANS_SHEAR, "Hauptmann2001", thickness=4, membrane=7),
+    "DISP9K3D": _build("DISP9K3D", "hex18", (), "Hauptmann2001", thickness=0),
+    "DISP9K3DEAS": _build("DISP9K3DEAS", "hex18", (), "Hauptmann2001", thickness=9),
+    "MI9K3DEAS": _build("MI9K3DEAS", "hex18", _MITC9, "Hauptmann2001", thickness=9),
+}
+
+
+def element(
+    name: str | Element,
+    *,
+    thickness_modes: int | None = None,
+    thickness_order: int | None = None,
+    membrane_modes: int | None = None,
+    tie_E33: bool | None = None,
+    compatible_E12: bool | None = None,
+) -> Element:
+    """Take an element out of the catalogue.
+
+    Parameters
+    ----------
+    name : str or Element
+        A name of :data:`CATALOGUE`, or an element of your own (then without options).
+    thickness_modes : {1, 4, 9}, optional
+        Number of enhanced modes of E_33 linear in t; default 4 (8 nodes) or 9 (18 nodes).
+    thickness_order : {1, 2, 3, 4}, optional
+        Order of the thickness strain in t; 1 is the paper, 3 with ``tie_E33`` is for sharp bends.
+    membrane_modes : {4, 5, 7}, optional
+        Number of enhanced in-plane modes of EAS3DEAS; default 7.
+    tie_E33 : bool, optional
+        Tie E_33 at the corners (18 nodes: at the nodes) against curvature-thickness locking.
+    compatible_E12 : bool, optional
+        Leave the tying of E_12 out of MI9K3DEAS.
+
+    Raises
+    ------
+    InvalidValue
+        If the name is unknown or an option does not belong to the element.
+    """
+    options = {
+        "thickness_modes_count": thickness_modes,
+        "thickness_order": thickness_order,
+        "membrane_modes_count": membrane_modes,
+        "tie_E33": tie_E33,
+        "compatible_E12": compatible_E12,
+    }
+    given = {key: value for key, value in options.items() if value is not None}
+    if isinstance(name, Element):
+        if given:
+            raise InvalidValue("an Element takes no further options", value=sorted(given), remedy="set them where you build it")
+        return name
+    if name not in CATALOGUE:
+        raise InvalidValue("unknown element", value=name, remedy="one of " + ", ".join(CATALOGUE))
+    if compatible_E12 and name != "MI9K3DEAS":
+        raise InvalidValue(f"{name} does not tie E_12", remedy="leave compatible_E12 out, or take MI9K3DEAS")
+    return CATALOGUE[name](**given)
+
+
+def thickness_rule(points: int, rule: str = "gauss") -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Abscissae and weights through the thickness on [-1, 1].
+
+    Parameters
+    ----------
+    points : int
+        2 to 15.
+    rule : {"gauss", "lobatto", "split"}
+        ``split`` puts points/2 Gauss points into each half, exact for the kink of the stress at the mid-surface.
+    """
+    if not 2 <= points <= 15:
+        raise InvalidValue("the number of thickness points must lie between 2 and 15", value=points)
+    if rule not in ("gauss", "lobatto", "split"):
+        raise InvalidValue("unknown thickness rule", value=rule, remedy="gauss, lobatto or split")
+    if rule == "split" and points % 2:
+        raise InvalidValue("the split rule needs an even number of thickness points", value=points, remedy=f"take {points + 1}")
+    return {"gauss": _core.gauss, "lobatto": _core.lobatto, "split": _core.split}[rule](points)
+
+
+__all__ = [
+    "CATALOGUE",
+    "Element",
+    "Term",
+    "Tying",
+    "element",
+    "membrane_modes",
+    "replace",
+    "thickness_modes",
+    "thickness_rule",
+]

@@ -1,0 +1,141 @@
+"""Fields of a converged state: stress and strain at the Gauss points, thickness, contact pressure, reactions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue
+from umform.model import Model
+
+Floats = NDArray[np.float64]
+
+_PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
+
+
+@dataclass(frozen=True)
+class PointFields:
+    """Fields at the Gauss points, arrays (cells, points, ...); points run through the surface, then the thickness.
+
+    Attributes
+    ----------
+    E, S : ndarray, shape (cells, points, 6)
+        Green-Lagrange strain (engineering shears) and second Piola-Kirchhoff stress in the local frame.
+    frame : ndarray, shape (cells, points, 3, 3)
+        Rows: base vectors e_1, e_2, e_3 of the local frame in the reference configuration.
+    F : ndarray, shape (cells, points, 3, 3)
+        Compatible deformation gradient in global axes.
+    volume : ndarray, shape (cells, points)
+        Reference volume of a point.
+    eqps : ndarray or None, shape (cells, points)
+        Accumulated plastic strain; None for elastic laws.
+    """
+
+    E: Floats
+    S: Floats
+    frame: Floats
+    F: Floats
+    volume: Floats
+    eqps: Floats | None
+
+    def stress(self, kind: str = "cauchy", frame: str = "global") -> Floats:
+        """Stress at the Gauss points, Voigt order 11 22 33 12 23 13.
+
+        Parameters
+        ----------
+        kind : {"cauchy", "pk2"}
+            Cauchy stress, pushed forward with F := R U where U^2 = 1 + 2E is the assumed and enhanced strain of the
+            element and R the rotation of its compatible deformation (eqs. (3.33), (3.34)), or second Piola-Kirchhoff.
+        frame : {"global", "local"}
+            Global axes, or the local frame: that of the reference configuration for pk2, turned with R for cauchy.
+
+        Returns
+        -------
+        ndarray, shape (cells, points, 6)
+        """
+        if kind not in ("cauchy", "pk2") or frame not in ("global", "local"):
+            raise InvalidValue("stress is cauchy or pk2, in the global or local frame", value=f"{kind}, {frame}")
+        S = _tensor(self.S)
+        if kind == "pk2":
+            return _voigt(S if frame == "local" else _to_global(S, self.frame))
+        C = np.eye(3) + 2.0 * _tensor(self.E * np.array([1, 1, 1, 0.5, 0.5, 0.5]))
+        values, vectors = np.linalg.eigh(C)
+        U = np.einsum("...ik,...k,...jk->...ij", vectors, np.sqrt(values), vectors)
+        rotated = np.einsum("...ik,...kl,...lj->...ij", U, S, U) / np.sqrt(np.linalg.det(C))[..., None, None]
+        if frame == "local":
+            return _voigt(rotated)
+        left, _, right = np.linalg.svd(self.F)
+        R = left @ right
+        return _voigt(np.einsum("...ik,...kl,...jl->...ij", R, _to_global(rotated, self.frame), R))
+
+    def cell_average(self, values: Floats) -> Floats:
+        """Average over the volume of each cell of values (cells, points, ...)."""
+        weight = self.volume / self.volume.sum(axis=1, keepdims=True)
+        return np.einsum("eq,eq...->e...", weight, values)
+
+
+def point_fields(model: Model) -> PointFields:
+    """Fields at the Gauss points of the converged state of a model."""
+    E, S, frame, F, volume = model.block.point_fields(model.u)
+    state = model.block.state
+    eqps = state[..., 6] if state.shape[-1] == 7 else None
+    return PointFields(E, S, frame, F, volume, eqps)
+
+
+def thickness(model: Model) -> Floats:
+    """Thickness of the sheet at the nodes: distance of lower and upper node along the mid-surface normal, per layer.
+
+    Both nodes of a pair carry the value of their pair; where layers are stacked, the mean of the layers.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+    """
+    return _thickness(model, model.mesh.points + model.u.reshape(-1, 3))
+
+
+def thickness_change(model: Model) -> Floats:
+    """Relative change of the thickness at the nodes, negative where the sheet has thinned; shape (n,)."""
+    return thickness(model) / _thickness(model, model.mesh.points) - 1.0
+
+
+def _thickness(model: Model, x: Floats) -> Floats:
+    from umform import _core
+    from umform.mesh import FACE_NODES
+
+    cells = model.mesh.connectivity
+    half = cells.shape[1] // 2
+    at_nodes = np.concatenate([FACE_NODES[:half], np.zeros((half, 1))], axis=1)
+    _, dN = _core.shell_functions(2 * half, at_nodes)
+    g = np.einsum("qia,eak->eqik", dN, x[cells])
+    normal = np.cross(g[:, :, 0], g[:, :, 1])
+    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
+    distance = np.abs(np.einsum("eqk,eqk->eq", 2.0 * g[:, :, 2], normal))
+    total, count = np.zeros(len(x)), np.zeros(len(x))
+    for side in (cells[:, :half], cells[:, half:]):
+        np.add.at(total, side, distance)
+        np.add.at(count, side, 1.0)
+    return total / np.maximum(count, 1.0)
+
+
+def contact_pressure(model: Model) -> Floats:
+    """Contact pressure at the nodes of all contact faces, averaged by area; shape (n,)."""
+    pressure = np.zeros(len(model.mesh.points))
+    for contact in model.contacts:
+        contact.block.locate(model.u)
+        pressure += contact.nodal_pressure(len(pressure))
+    return pressure
+
+
+def _tensor(voigt: Floats) -> Floats:
+    return voigt[..., [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
+
+
+def _voigt(tensor: Floats) -> Floats:
+    return np.stack([tensor[..., i, j] for i, j in _PAIRS], axis=-1)
+
+
+def _to_global(local: Floats, frame: Floats) -> Floats:
+    return np.einsum("...ki,...kl,...lj->...ij", frame, local, frame)

@@ -1,0 +1,120 @@
+"""Files that are written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from pathlib import Path
+from types import TracebackType
+
+from umform.errors import FileProblem
+
+
+class PendingFile:
+    r"""A file that takes its name only once it is complete.
+
+    As a context manager it gives the path of an empty temporary file in the directory of the target. At the
+    regular end of the block the temporary file is flushed to the disk and renamed to the target in one step;
+    after an exception it is removed, and a target that existed before stays as it was.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        The target. A symbolic link is followed.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+        The target.
+    temporary : pathlib.Path
+        The temporary file, hidden, with the suffix of the target.
+
+    Raises
+    ------
+    FileProblem
+        The directory is missing or not writable, the target is a directory, or writing failed.
+
+    Examples
+    --------
+    >>> with PendingFile("table.csv") as temporary:  # doctest: +SKIP
+    ...     temporary.write_text("time,force\n")
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = Path(path).resolve()
+        self.temporary = self.path.with_name(f".{self.path.stem}.{secrets.token_hex(4)}{self.path.suffix}")
+
+    def __enter__(self) -> Path:
+        try:
+            if self.path.is_dir():
+                raise IsADirectoryError(str(self.path))
+            self.temporary.touch(exist_ok=False)
+        except OSError as error:
+            raise write_problem(self.path, error) from error
+        return self.temporary
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if error is None:
+            try:
+                self.commit()
+            except FileProblem:
+                self.discard()
+                raise
+            return
+        self.discard()
+        if isinstance(error, OSError) and not isinstance(error, FileProblem):
+            raise write_problem(self.path, error) from error
+
+    def commit(self) -> None:
+        """Flush the temporary file to the disk and give it the name of the target.
+
+        Raises
+        ------
+        FileProblem
+            The temporary file cannot be flushed or renamed; it stays where it is.
+        """
+        try:
+            with self.temporary.open("rb+") as file:
+                os.fsync(file.fileno())
+            self.temporary.replace(self.path)
+        except OSError as error:
+            raise write_problem(self.path, error) from error
+
+    def discard(self) -> None:
+        """Remove the temporary file; the target stays as it was."""
+        self.temporary.unlink(missing_ok=True)
+
+
+def write_problem(path: Path, error: OSError) -> FileProblem:
+    """Say why a file cannot be written.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The target.
+    error : OSError
+        What the operating system said.
+
+    Returns
+    -------
+    FileProblem
+        The error to raise, with cause and remedy.
+    """
+    if isinstance(error, FileNotFoundError):
+        cause = f"the directory {path.parent} does not exist"
+        remedy = "create the directory or choose another path"
+    elif isinstance(error, NotADirectoryError):
+        cause = f"{path.parent} is a file, not a directory"
+        remedy = "choose another path"
+    elif isinstance(error, PermissionError):
+        cause = f"no permission to write in {path.parent}"
+        remedy = "choose a directory that you may write to"
+    elif isinstance(error, IsADirectoryError):
+        cause = "there is a directory of this name"
+        remedy = "add a file name to the path"
+    else:
+        cause = error.strerror or str(error)
+        remedy = "check the free space of the disk and the length of the path"
+    return FileProblem("the file cannot be written", where=str(path), cause=cause, remedy=remedy)

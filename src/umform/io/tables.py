@@ -1,0 +1,112 @@
+"""Tables as CSV and records as JSON, written whole or not at all."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import os
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from umform.errors import InvalidValue, NotFinite
+from umform.io.atomic import PendingFile
+
+Scalar = bool | int | float | str | None
+
+
+def write_csv(path: str | os.PathLike[str], columns: Mapping[str, Iterable[Any]]) -> None:
+    """Write named columns as a CSV table with one header row.
+
+    Floats are written with all the digits that they need to be read back bit by bit; NaN is written as
+    ``nan`` and None as an empty field.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        The file to write.
+    columns : mapping of str to iterable
+        The columns by name, in the order of the table, all of the same length; numbers, strings or None.
+
+    Raises
+    ------
+    InvalidValue
+        There is no column, the lengths differ, or an entry is not a scalar.
+    FileProblem
+        The file cannot be written.
+    """
+    table = {
+        name: [_scalar(value, f"column {name!r}") for value in column] for name, column in columns.items()
+    }
+    lengths = {name: len(column) for name, column in table.items()}
+    if len(set(lengths.values())) != 1:
+        raise InvalidValue(
+            "a table needs at least one column, and columns of one length",
+            where=os.fspath(path),
+            value=lengths,
+            remedy="give every column the same number of entries",
+        )
+    with PendingFile(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(table)
+        writer.writerows(zip(*table.values()))
+
+
+def write_json(path: str | os.PathLike[str], record: Any) -> None:
+    """Write a record as JSON, with sorted keys, so that equal records give equal files.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        The file to write.
+    record : object
+        Mappings with string keys, lists, tuples, NumPy arrays and scalars, numbers, strings and None, nested
+        at will.
+
+    Raises
+    ------
+    NotFinite
+        A number is NaN or infinite, which JSON cannot express.
+    InvalidValue
+        A value or key is of another kind.
+    FileProblem
+        The file cannot be written.
+    """
+    text = json.dumps(_plain(record, "$"), indent=2, sort_keys=True, allow_nan=False, ensure_ascii=False)
+    with PendingFile(path) as temporary:
+        temporary.write_text(text + "\n", encoding="utf-8", newline="\n")
+
+
+def _plain(value: Any, where: str) -> Any:
+    """Turn a record into what JSON can hold; `where` is the place in the record, such as ``$.a[3]``."""
+    if isinstance(value, Mapping):
+        for key in value:
+            if not isinstance(key, str):
+                raise InvalidValue("a key of a JSON object must be a string", where=where, value=repr(key))
+        return {key: _plain(item, f"{where}.{key}") for key, item in value.items()}
+    if isinstance(value, list | tuple) or (isinstance(value, np.ndarray) and value.ndim > 0):
+        return [_plain(item, f"{where}[{i}]") for i, item in enumerate(value)]
+    scalar = _scalar(value, where)
+    if isinstance(scalar, float) and not math.isfinite(scalar):
+        raise NotFinite(
+            "JSON has no NaN and no infinity",
+            where=where,
+            value=scalar,
+            remedy="find out where the number comes from, or write None for a missing one",
+        )
+    return scalar
+
+
+def _scalar(value: Any, where: str) -> Scalar:
+    """Turn a NumPy scalar into the Python scalar of the same value and let only scalars pass."""
+    if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
+        value = value.item()
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    raise InvalidValue(
+        "only numbers, strings and None can be written here",
+        where=where,
+        value=f"{type(value).__name__} {value!r}",
+    )

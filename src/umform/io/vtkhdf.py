@@ -1,0 +1,331 @@
+"""Results over time as one VTKHDF file, for ParaView, PyVista and every other reader of VTK (9.3 and later).
+
+The mesh is stored once; a step adds its time and its fields. The layout is that of a temporal
+``UnstructuredGrid`` in version 2.0 of the VTKHDF specification: the fields of all steps lie one after the
+other, and ``Steps`` says where those of each step begin, which for the mesh is always 0.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import os
+from types import TracebackType
+from typing import Any, Self
+
+import h5py
+import numpy as np
+from numpy.typing import ArrayLike
+
+from umform.errors import FileProblem, InvalidValue, WrongCellType
+from umform.io.atomic import PendingFile, write_problem
+from umform.io.cells import CELL_TYPES, cell_type, to_vtk
+from umform.io.checks import Fields, FloatArray, IntArray, check_ids, field_arrays
+
+VERSION = (2, 0)
+SMALL_CHUNK = 256
+COMPRESSION = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
+MESH_OFFSETS = ("PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets")
+
+
+class VtkHdfSeries:
+    """A VTKHDF file with one mesh and any number of steps, to be used in a ``with`` block.
+
+    The steps go to a temporary file beside `path`, which takes the name `path` at the end of the block. This
+    also happens when the block ends with an exception: the file then holds the steps appended before it, so
+    that the last converged state survives. A block without any step leaves no new file, and an existing one
+    as it was. The temporary file is flushed after each step: should the process be killed, it can still be
+    read. Should the disk be full, the series ends with the last step that fitted.
+
+    Points are in the reference position. A point field ``displacement`` of shape (n, 3) is what ParaView's
+    *Warp By Vector* and PyVista's ``warp_by_vector`` take. A symmetric tensor is a field with six components
+    in the order 11 22 33 12 23 13, which is also VTK's.
+
+    Cells ``hex18`` are stored as VTK cells with 27 nodes, and their point fields with the means in the middle
+    layer; both are exact, see `umform.io.cells`. The points of the mesh keep their numbers.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        The file to write; readers recognise it by the suffix ``.vtkhdf``.
+    points : array_like of float, shape (n, 3)
+        Reference positions of the points.
+    cells : str
+        Type of all the cells, ``"hex8"`` or ``"hex18"``.
+    connectivity : array_like of int, shape (m, k)
+        The points of each cell in the order of umform.
+
+    Raises
+    ------
+    WrongCellType
+        There is no such cell type.
+    InvalidValue
+        The shapes do not fit, or a cell names a point that does not exist.
+    NotFinite
+        A coordinate is NaN or infinite.
+    FileProblem
+        On entering or leaving the block: the file cannot be written.
+
+    Notes
+    -----
+    In PyVista, step k is ``reader = pyvista.get_reader(path); reader.reader.SetStep(k); reader.read()``.
+
+    Examples
+    --------
+    >>> with VtkHdfSeries("bending.vtkhdf", X, "hex8", cells) as series:  # doctest: +SKIP
+    ...     series.append(0.0, {"displacement": u}, {"eqps": eqps})
+    """
+
+    def __init__(
+        self, path: str | os.PathLike[str], points: ArrayLike, cells: str, connectivity: ArrayLike
+    ) -> None:
+        self._grid = to_vtk(cell_type(cells), points, connectivity)
+        self._target = PendingFile(path)
+        self._raw: io.FileIO
+        self._file: Any = None
+        self._times: list[float] = []
+        self._shapes: dict[str, tuple[int, ...]] = {}
+
+    def __enter__(self) -> Self:
+        self._raw = _UntilDiskFull(self._target.__enter__(), "wb+")
+        try:
+            self._file = h5py.File(self._raw, "w", rdcc_nbytes=0)  # no cache: a failing write is seen at once
+            self._write_mesh()
+        except OSError as error:
+            self._close()
+            self._target.discard()
+            raise write_problem(self._target.path, error) from error
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        try:
+            self._close()
+            if self._times:
+                self._target.commit()
+            else:
+                self._target.discard()
+        except (OSError, RuntimeError) as problem:
+            raise FileProblem(
+                "the results could not be given their name",
+                where=str(self._target.path),
+                cause=str(problem),
+                remedy=f"what was written is in {self._target.temporary}; rename it",
+            ) from problem
+
+    @property
+    def times(self) -> tuple[float, ...]:
+        """Times of the steps appended so far."""
+        return tuple(self._times)
+
+    def append(self, time: float, point_data: Fields | None = None, cell_data: Fields | None = None) -> None:
+        """Add a step.
+
+        The first step fixes the names and the numbers of components of the fields. A step that is refused
+        leaves the file as it was.
+
+        Parameters
+        ----------
+        time : float
+            Time (load parameter), greater than that of the step before.
+        point_data : mapping of str to array_like of float, shape (n,) or (n, c), optional
+            Fields at the points, such as ``displacement``.
+        cell_data : mapping of str to array_like of float, shape (m,) or (m, c), optional
+            Fields in the cells. NaN stands for "no value", here and at the points.
+
+        Raises
+        ------
+        InvalidValue
+            The time does not increase, a field has a wrong shape or name, the fields differ from those of the
+            first step, or the series is not open.
+        FileProblem
+            The step cannot be written.
+        """
+        if self._file is None:
+            raise InvalidValue(
+                "this series is not open",
+                where=str(self._target.path),
+                cause="the block has ended, or a step could not be written",
+                remedy="append within `with VtkHdfSeries(...) as series:`",
+            )
+        time = float(time)
+        if not math.isfinite(time) or (self._times and time <= self._times[-1]):
+            raise InvalidValue(
+                "times must be finite and increase from step to step",
+                where=f"step {len(self._times)}",
+                value=time,
+                cause=f"the step before has the time {self._times[-1]!r}" if self._times else "",
+                remedy="number the steps if the load parameter goes up and down",
+            )
+        grid = self._grid
+        n, m = len(grid.points) - len(grid.pairs), len(grid.connectivity)
+        fields = {
+            f"PointData/{name}": grid.complete(a) for name, a in field_arrays(point_data, n, "point").items()
+        }
+        fields |= {f"CellData/{name}": a for name, a in field_arrays(cell_data, m, "cell").items()}
+        self._check_fields({name: array.shape for name, array in fields.items()})
+        try:
+            self._write_step(time, fields)
+        except OSError as error:
+            self._close()
+            raise write_problem(self._target.path, error) from error
+        self._times.append(time)
+
+    def _close(self) -> None:
+        """Close the temporary file; the series takes no more steps."""
+        file, self._file = self._file, None
+        if file is not None:
+            file.close()
+        self._raw.close()
+
+    def _check_fields(self, shapes: dict[str, tuple[int, ...]]) -> None:
+        """Let the first step fix the fields and refuse later ones that differ."""
+        if not self._times:
+            self._shapes = shapes
+        elif shapes != self._shapes:
+            differing = {name for name, _ in shapes.items() ^ self._shapes.items()}
+            raise InvalidValue(
+                "the fields of a step differ from those of the first step",
+                where=f"step {len(self._times)}",
+                value=", ".join(sorted(differing)),
+                remedy="append the same names and numbers of components in every step",
+            )
+
+    def _write_mesh(self) -> None:
+        """Write all that does not change from step to step."""
+        grid = self._grid
+        m, k = grid.connectivity.shape
+        root = self._file.create_group("VTKHDF")
+        root.attrs["Version"] = np.array(VERSION, dtype=np.int64)
+        root.attrs["Type"] = np.bytes_("UnstructuredGrid")
+        for name, count in (
+            ("NumberOfPoints", len(grid.points)),
+            ("NumberOfCells", m),
+            ("NumberOfConnectivityIds", m * k),
+        ):
+            root[name] = np.array([count], dtype=np.int64)
+        for name, array in (
+            ("Points", grid.points),
+            ("Connectivity", grid.connectivity.ravel()),
+            ("Offsets", k * np.arange(m + 1, dtype=np.int64)),
+            ("Types", np.full(m, grid.vtk_type, dtype=np.uint8)),
+        ):
+            root.create_dataset(name, data=array, **COMPRESSION)
+        for name in ("PointData", "CellData", "Steps/PointDataOffsets", "Steps/CellDataOffsets"):
+            root.create_group(name)
+        root["Steps"].attrs["NSteps"] = np.int64(0)
+
+    def _write_step(self, time: float, fields: dict[str, FloatArray]) -> None:
+        """Write the data of a step and then, last of all, count it."""
+        step, root = len(self._times), self._file["VTKHDF"]
+        for name, array in fields.items():
+            kind, field = name.split("/")
+            _put(root, name, step, array)
+            _put(root, f"Steps/{kind}Offsets/{field}", step, np.array([step * len(array)]))
+        for name in MESH_OFFSETS:
+            _put(root, f"Steps/{name}", step, np.array([0]))
+        _put(root, "Steps/NumberOfParts", step, np.array([1]))
+        _put(root, "Steps/Values", step, np.array([time]))
+        root["Steps"].attrs["NSteps"] = np.int64(step + 1)
+        self._file.flush()
+
+
+class _UntilDiskFull(io.FileIO):
+    """A file that drops everything after the first write that fails.
+
+    HDF5 cannot forget a step that did not fit on the disk: on closing it writes what it still has, and
+    damages the file. Dropped instead, the file stays as of the last flush, with all the steps before.
+    """
+
+    full = False
+
+    def write(self, data: Any) -> int:
+        rest = memoryview(data).cast("B")
+        size = rest.nbytes
+        try:
+            while rest and not self.full:
+                rest = rest[super().write(rest) :]
+        except OSError:
+            self.full = True
+            raise
+        return size
+
+    def truncate(self, size: int | None = None) -> int:
+        return self.tell() if self.full else super().truncate(size)
+
+
+def read_vtkhdf(path: str | os.PathLike[str]) -> tuple[FloatArray, dict[str, IntArray]]:
+    """Read the mesh of a VTKHDF file with hexahedra.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        A file of type ``UnstructuredGrid`` in one part, such as `VtkHdfSeries` writes.
+
+    Returns
+    -------
+    points : ndarray of float, shape (n, 3)
+        Positions of all the points of the file.
+    cells : dict of str to ndarray of int, shape (m, k)
+        For each cell type of umform the points of its cells, in the order of VTK.
+
+    Raises
+    ------
+    WrongCellType
+        There are cells that are not hexahedra with 8 or 27 nodes.
+    FileProblem
+        The file cannot be read.
+    """
+    place = os.fspath(path)
+    try:
+        with h5py.File(path, "r") as file:
+            root = file["VTKHDF"]
+            if root.attrs["Type"] != b"UnstructuredGrid" or len(root["NumberOfPoints"]) != 1:
+                raise ValueError("it is not an UnstructuredGrid in one part")
+            X = np.asarray(root["Points"], dtype=np.float64)
+            nodes = np.asarray(root["Connectivity"], dtype=np.int64)
+            first = np.asarray(root["Offsets"], dtype=np.int64)[:-1]
+            types = np.asarray(root["Types"])
+    except (OSError, KeyError, ValueError) as error:
+        raise FileProblem(
+            "the file cannot be read as VTKHDF",
+            where=place,
+            cause=str(error),
+            remedy="give a file that umform has written",
+        ) from error
+    known = {kind.vtk_type: kind for kind in CELL_TYPES.values()}
+    found = np.unique(types).tolist()
+    if not found or not known.keys() >= set(found):
+        raise WrongCellType(
+            "umform reads hexahedra with 8 or 27 nodes only",
+            where=place,
+            value=f"VTK cell types {found}",
+            remedy="write the hexahedra alone to the file",
+        )
+    cells = {}
+    for number in found:
+        kind = known[number]
+        cells[kind.name] = nodes[first[types == number][:, None] + np.arange(len(kind.vtk_nodes))]
+        check_ids(cells[kind.name], len(X), place)
+    return X, cells
+
+
+def _put(root: Any, name: str, step: int, array: FloatArray | IntArray) -> None:
+    """Write the rows of a step behind those of the steps before, in a dataset created at need.
+
+    The step of a field is one chunk, so that it is compressed and read as a whole.
+    """
+    rows = len(array)
+    if name not in root:
+        root.create_dataset(
+            name,
+            shape=(0, *array.shape[1:]),
+            maxshape=(None, *array.shape[1:]),
+            dtype=array.dtype,
+            chunks=(rows if rows > 1 else SMALL_CHUNK, *array.shape[1:]),
+            **COMPRESSION,
+        )
+    data = root[name]
+    data.resize((step + 1) * rows, axis=0)
+    data[step * rows :] = array

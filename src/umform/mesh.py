@@ -1,0 +1,284 @@
+"""Meshes of solid-shells: points, cells, named sets of nodes and faces; structured generators; files.
+
+Cells are ``hex8`` (4 nodes on the lower face, then 4 on the upper one) and ``hex18`` (9 and 9: corners, mid-sides,
+centre). Their six faces are called lower, upper, r0, r1, s0, s1: the natural coordinate that is constant there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform.errors import EmptySet, InvalidValue, NotFinite, UnknownSet, WrongCellType
+from umform.mesh_quality import check_cells
+
+Floats = NDArray[np.float64]
+Ids = NDArray[np.int32]
+
+#: Names of the faces of a cell, in the order of their numbers.
+FACES = ("lower", "upper", "r0", "r1", "s0", "s1")
+
+#: Natural coordinates (r, s) of the nodes of a face, corners first.
+FACE_NODES = np.array(
+    [(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0), (0, 0)], dtype=float
+)
+
+_OUTWARD_LOWER = {"hex8": [0, 3, 2, 1], "hex18": [0, 3, 2, 1, 7, 6, 5, 4, 8]}
+
+#: What selects nodes or faces: a name, a predicate of the coordinates x, y, z, or ids.
+Selector = str | Callable[[Floats, Floats, Floats], ArrayLike] | ArrayLike
+
+
+def _nodes_of_faces(cell: str) -> list[list[int]]:
+    """Local nodes of the six faces (in no special order but for lower and upper)."""
+    half = 4 if cell == "hex8" else 9
+    plane = FACE_NODES[:half]
+    sides = [np.flatnonzero(plane[:, axis] == value) for axis in (0, 1) for value in (-1.0, 1.0)]
+    lateral = [[*side, *(side + half)] for side in sides]
+    return [list(range(half)), list(range(half, 2 * half)), *[[int(n) for n in nodes] for nodes in lateral]]
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Points and cells with named sets.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        Reference positions.
+    cells : mapping of str to array_like, shape (m, 8) or (m, 18)
+        Exactly one cell type, ``hex8`` or ``hex18``: node ids of each cell.
+    sets : mapping of str to array_like, optional
+        Named sets of node ids.
+    faces : mapping of str to array_like, shape (k, 2), optional
+        Named sets of faces, each row (cell, number of the face in :data:`FACES`).
+
+    Raises
+    ------
+    NotFinite, WrongCellType, InvalidValue
+        If the arrays make no mesh.
+    InvertedElement, FoldedElement, WrongNodeOrder
+        If a cell has no positive volume everywhere.
+    """
+
+    points: Floats
+    cells: Mapping[str, Ids]
+    sets: Mapping[str, Ids] = field(default_factory=dict)
+    faces: Mapping[str, Ids] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        points = np.ascontiguousarray(self.points, dtype=float)
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise InvalidValue("points must have shape (n, 3)", value=points.shape)
+        if not np.isfinite(points).all():
+            node = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
+            raise NotFinite("a node has no finite position", where=f"node {node}", value=points[node], remedy="look at what wrote the mesh")
+        if len(self.cells) != 1 or next(iter(self.cells)) not in ("hex8", "hex18"):
+            raise WrongCellType(
+                "a mesh has cells of one type, hex8 or hex18",
+                value=", ".join(self.cells) or "none",
+                remedy="give cells={'hex8': ids} or cells={'hex18': ids}",
+            )
+        name, raw = next(iter(self.cells.items()))
+        cells = np.ascontiguousarray(raw, dtype=np.int32)
+        nodes = 8 if name == "hex8" else 18
+        if cells.ndim != 2 or cells.shape[1] != nodes or len(cells) == 0:
+            raise WrongCellType(f"{name} cells must have shape (m, {nodes}) with m > 0", value=np.shape(raw), cause="cells of another type", remedy="an 8-node hexahedron is hex8, a solid-shell with 9 nodes a face is hex18")
+        if cells.min() < 0 or cells.max() >= len(points):
+            cell = int(np.flatnonzero(((cells < 0) | (cells >= len(points))).any(axis=1))[0])
+            raise InvalidValue("a cell names a node that does not exist", where=f"cell {cell}", value=cells[cell], cause="node numbers that start at 1, or a cut file")
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "cells", {name: cells})
+        object.__setattr__(self, "sets", {key: np.unique(np.asarray(ids, dtype=np.int32)) for key, ids in self.sets.items()})
+        object.__setattr__(self, "faces", {key: np.asarray(rows, dtype=np.int32).reshape(-1, 2) for key, rows in self.faces.items()})
+        check_cells(points, cells)
+
+    @property
+    def cell(self) -> str:
+        """Type of the cells: hex8 or hex18."""
+        return next(iter(self.cells))
+
+    @property
+    def connectivity(self) -> Ids:
+        """Node ids of the cells, shape (m, 8) or (m, 18)."""
+        return self.cells[self.cell]
+
+    def __repr__(self) -> str:
+        return f"Mesh({len(self.points)} points, {len(self.connectivity)} {self.cell}, sets: {', '.join(self.sets) or 'none'})"
+
+    def nodes(self, selector: Selector) -> Ids:
+        """Node ids of a set: by name, by a predicate of x, y, z, or the ids themselves.
+
+        Raises
+        ------
+        UnknownSet, EmptySet
+            If there is no such set, or nothing is in it.
+        """
+        if isinstance(selector, str):
+            if selector in self.sets:
+                ids = self.sets[selector]
+            elif selector in self.faces:
+                ids = np.unique(np.concatenate([self._face_nodes(face) for face in self.faces[selector]]))
+            else:
+                raise _unknown("node", selector, [*self.sets, *self.faces])
+        elif callable(selector):
+            ids = np.flatnonzero(np.asarray(selector(*self.points.T), dtype=bool)).astype(np.int32)
+        else:
+            ids = np.unique(np.asarray(selector, dtype=np.int32))
+        if len(ids) == 0:
+            raise EmptySet("a set selects no node", value=selector if isinstance(selector, str) else "predicate or list", remedy="look at the coordinates: comparisons of reals need a tolerance")
+        if ids.min() < 0 or ids.max() >= len(self.points):
+            raise InvalidValue("a node id does not exist", value=int(ids.max()), where=f"mesh of {len(self.points)} points")
+        return ids
+
+    def face_set(self, selector: Selector) -> Ids:
+        """Faces of a set as rows (cell, face number): by name, by a predicate that all nodes of the face meet, or rows."""
+        if isinstance(selector, str):
+            if selector not in self.faces:
+                raise _unknown("face", selector, list(self.faces))
+            rows = self.faces[selector]
+        elif callable(selector):
+            inside = np.asarray(selector(*self.points.T), dtype=bool)
+            rows = np.concatenate(
+                [np.stack([hit, np.full(len(hit), number)], axis=1)
+                 for number, local in enumerate(_nodes_of_faces(self.cell))
+                 for hit in [np.flatnonzero(inside[self.connectivity[:, local]].all(axis=1))]]
+            ).astype(np.int32)
+        else:
+            rows = np.asarray(selector, dtype=np.int32).reshape(-1, 2)
+        if len(rows) == 0:
+            raise EmptySet("a set selects no face", value=selector if isinstance(selector, str) else "predicate or list")
+        return rows
+
+    def facets(self, selector: Selector) -> Ids:
+        """Nodes of lower and upper faces, ordered so that x,r x x,s points out of the body; shape (k, 4) or (k, 9).
+
+        Raises
+        ------
+        InvalidValue
+            If the set has lateral faces.
+        """
+        rows = self.face_set(selector)
+        if (rows[:, 1] > 1).any():
+            raise InvalidValue("contact and pressure act on lower and upper faces only", value=FACES[int(rows[:, 1].max())], remedy="choose a set of lower or upper faces")
+        half = self.connectivity.shape[1] // 2
+        lower = self.connectivity[:, :half][:, _OUTWARD_LOWER[self.cell]]
+        upper = self.connectivity[:, half:]
+        return np.ascontiguousarray(np.where(rows[:, 1:] == 0, lower[rows[:, 0]], upper[rows[:, 0]]))
+
+    def transformed(self, function: Callable[[Floats], Floats]) -> Mesh:
+        """The same mesh with its points (n, 3) mapped by ``function``."""
+        return Mesh(function(self.points), self.cells, self.sets, self.faces)
+
+    def _face_nodes(self, face: Ids) -> Ids:
+        return self.connectivity[face[0]][_nodes_of_faces(self.cell)[face[1]]]
+
+
+def _unknown(kind: str, name: str, known: Sequence[str]) -> UnknownSet:
+    return UnknownSet(f"the mesh has no {kind} set of that name", value=name, cause="a slip of the pen, or a set lost in the mesh file", remedy="known sets: " + (", ".join(sorted(set(known))) or "none"))
+
+
+def graded(length: float, cells: int, ratio: float = 1.0) -> Floats:
+    """Grid lines from 0 to ``length``; the last of the ``cells`` intervals is ``ratio`` times the first one."""
+    if cells < 1 or not length > 0 or not ratio > 0:
+        raise InvalidValue("a grid needs a positive length, number of cells and ratio", value=(length, cells, ratio))
+    steps = ratio ** (np.arange(cells) / max(cells - 1, 1))
+    return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()]) * length
+
+
+def grid(x: ArrayLike, y: ArrayLike, z: ArrayLike, cell: str = "hex8") -> Mesh:
+    """Structured mesh from grid lines.
+
+    Parameters
+    ----------
+    x, y, z : array_like
+        Increasing positions of the element borders; z through the thickness, one element a layer.
+    cell : {"hex8", "hex18"}
+        Cell type.
+
+    Returns
+    -------
+    Mesh
+        With node and face sets x0, x1, y0, y1, lower, upper, and node sets x0_lower, x0_upper, ... for their edges.
+    """
+    lines = [np.asarray(values, dtype=float) for values in (x, y, z)]
+    for name, values in zip("xyz", lines, strict=True):
+        if values.ndim != 1 or len(values) < 2 or not (np.diff(values) > 0).all():
+            raise InvalidValue("grid lines must increase", where=name, value=values)
+    if cell not in ("hex8", "hex18"):
+        raise WrongCellType("unknown cell type", value=cell, remedy="hex8 or hex18")
+    per_cell = 1 if cell == "hex8" else 2
+    if per_cell == 2:
+        for axis in (0, 1):
+            middles = 0.5 * (lines[axis][1:] + lines[axis][:-1])
+            lines[axis] = np.sort(np.concatenate([lines[axis], middles]))
+    nx, ny, nz = (len(values) for values in lines)
+    points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3)
+    number = np.arange(nx * ny * nz, dtype=np.int32).reshape(nx, ny, nz)
+
+    offsets = ((FACE_NODES[: 4 if per_cell == 1 else 9] + 1) / 2 * per_cell).astype(int)
+    ix, iy, iz = (a.ravel() for a in np.meshgrid(
+        np.arange(0, nx - 1, per_cell), np.arange(0, ny - 1, per_cell), np.arange(nz - 1), indexing="ij"))
+    cells = np.stack([number[ix + dx, iy + dy, iz + dz] for dz in (0, 1) for dx, dy in offsets], axis=1)
+
+    planes = {"x0": number[0], "x1": number[-1], "y0": number[:, 0], "y1": number[:, -1], "lower": number[..., 0], "upper": number[..., -1]}
+    sets = {name: ids.ravel() for name, ids in planes.items()}
+    for name in ("x0", "x1", "y0", "y1"):
+        for side in ("lower", "upper"):
+            sets[f"{name}_{side}"] = np.intersect1d(sets[name], sets[side])
+    where = {"x0": (ix == 0, 2), "x1": (ix == ix.max(), 3), "y0": (iy == 0, 4), "y1": (iy == iy.max(), 5), "lower": (iz == 0, 0), "upper": (iz == iz.max(), 1)}
+    faces = {name: np.stack([np.flatnonzero(hit), np.full(hit.sum(), face)], axis=1) for name, (hit, face) in where.items()}
+    return Mesh(points, {cell: cells}, sets, faces)
+
+
+def strip(
+    length: float,
+    width: float,
+    thickness: float,
+    cells: tuple[int, int],
+    *,
+    cell: str = "hex8",
+    layers: int = 1,
+    grading: tuple[float, float] = (1.0, 1.0),
+) -> Mesh:
+    """Flat strip or plate: x from 0 to length, y from 0 to width, mid-surface at z = 0.
+
+    Parameters
+    ----------
+    length, width, thickness : float
+        Dimensions.
+    cells : tuple of int
+        Number of elements along x and y.
+    cell : {"hex8", "hex18"}
+        Cell type.
+    layers : int
+        Elements stacked through the thickness.
+    grading : tuple of float
+        Size of the last element over that of the first one, along x and y.
+    """
+    return grid(
+        graded(length, cells[0], grading[0]),
+        graded(width, cells[1], grading[1]),
+        graded(thickness, layers) - 0.5 * thickness,
+        cell,
+    )
+
+
+#: A plate is a wide strip.
+plate = strip
+
+
+def read(path: str | Path) -> Mesh:
+    """Read a mesh of hexahedra from any file that meshio knows, or from a VTKHDF file written by umform.
+
+    Named groups of nodes become node sets. Contact and pressure need faces: choose them by a predicate, for instance
+    ``lambda x, y, z: z < 1e-9``.
+    """
+    from umform.io.meshes import read_mesh_arrays
+
+    points, cells, point_sets, _ = read_mesh_arrays(path)
+    return Mesh(points, cells, point_sets)

@@ -1,0 +1,79 @@
+"""Refuse cells without a positive volume, and say what is probably wrong with them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform import _core
+from umform.errors import FoldedElement, InvertedElement, WrongNodeOrder
+
+Floats = NDArray[np.float64]
+Ids = NDArray[np.int32]
+
+
+def jacobians(points: Floats, cells: Ids) -> Floats:
+    """Determinants of the Jacobian at the Gauss points and corners of all cells, shape (cells, points)."""
+    gauss = _core.gauss(2 if cells.shape[1] == 8 else 3)[0]
+    samples = [np.stack(np.meshgrid(a, a, a[[0, -1]], indexing="ij"), axis=-1).reshape(-1, 3) for a in (gauss, np.array([-1.0, 1.0]))]
+    _, dN = _core.shell_functions(cells.shape[1], np.concatenate(samples))
+    J: Floats = np.linalg.det(np.einsum("qia,eak->eqik", dN, points[cells]))
+    return J
+
+
+def _other_orders(nodes: int) -> dict[str, Ids]:
+    """Node orders that are met in the wild, as permutations into ours."""
+    half = nodes // 2
+    lower, upper = np.arange(half), np.arange(half, nodes)
+    clockwise = np.array([0, 3, 2, 1] if nodes == 8 else [0, 3, 2, 1, 7, 6, 5, 4, 8])
+    orders = {
+        "upper face first": np.concatenate([upper, lower]),
+        "faces numbered clockwise": np.concatenate([lower[clockwise], upper[clockwise]]),
+    }
+    if nodes == 8:
+        orders["nodes numbered line by line"] = np.array([0, 1, 3, 2, 4, 5, 7, 6])
+    else:
+        orders["nodes numbered line by line"] = np.array([0, 2, 8, 6, 1, 5, 7, 3, 4, 9, 11, 17, 15, 10, 14, 16, 12, 13])
+    return {name: order.astype(np.int32) for name, order in orders.items()}
+
+
+def check_cells(points: Floats, cells: Ids) -> None:
+    """Refuse inverted and folded cells.
+
+    Raises
+    ------
+    WrongNodeOrder
+        If all cells are bad and become good with another order of their nodes.
+    InvertedElement
+        If a cell has a negative volume.
+    FoldedElement
+        If a cell is folded over itself or flat.
+    """
+    J = jacobians(points, cells)
+    scale = np.abs(J).max(axis=1, keepdims=True)
+    bad = ~(J > 1e-10 * scale)
+    if not bad.any():
+        return
+    if bad.any(axis=1).all():
+        for name, order in _other_orders(cells.shape[1]).items():
+            if (jacobians(points, cells[:, order]) > 0).all():
+                raise WrongNodeOrder(
+                    "the nodes of the cells are in another order than umform's",
+                    where=f"all {len(cells)} cells",
+                    cause=name,
+                    remedy=f"reorder the columns of the connectivity: cells[:, {order.tolist()}]",
+                )
+    cell = int(np.flatnonzero(bad.any(axis=1))[0])
+    where = f"cell {cell} (one of {int(bad.any(axis=1).sum())}), nodes {cells[cell].tolist()}"
+    value = f"det J from {J[cell].min():.3g} to {J[cell].max():.3g}"
+    if (J[cell] < 0).all():
+        raise InvertedElement(
+            "a cell is turned inside out", where=where, value=value,
+            cause="lower and upper face exchanged, or nodes numbered clockwise",
+            remedy="number the lower face counter-clockwise seen from the upper one",
+        )
+    raise FoldedElement(
+        "a cell is folded or flat", where=where, value=value,
+        cause="two nodes exchanged or at the same place, a warped face, or no thickness",
+        remedy="look at the nodes of this cell; a mid-side node of hex18 must lie near the middle of its side",
+    )

@@ -1,0 +1,408 @@
+"""The model: mesh, element, material, supports, loads, contact; residual and tangent at a displacement."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform import _core, boundary
+from umform.boundary import DIRECTIONS, Control, Load, Prescribed, Pressure
+from umform.contact import Contact, Motion, ToolMotion
+from umform.elements import Element, element as catalogue_element, thickness_rule as make_thickness_rule
+from umform.errors import InvalidValue, RigidBodyMotion, ToolSwallowsSheet, WrongCellType
+from umform.materials import Material
+from umform.mesh import Mesh, Selector
+from umform.solvers import Pattern
+from umform.surfaces import Direction, Surface, unit_vector
+
+Floats = NDArray[np.float64]
+_C = TypeVar("_C", bound=Control)
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Residual and tangent at a displacement.
+
+    Attributes
+    ----------
+    residual : ndarray, shape (3 n,)
+        Internal and contact forces minus loads at all degrees of freedom; reactions at the prescribed ones.
+    values : ndarray
+        Entries of the tangent over the free degrees of freedom, in the order of :attr:`Model.pattern`.
+    predictor : ndarray, shape (3 n,)
+        Tangent times the increment of the prescribed degrees of freedom (zero without one).
+    force_scale : float
+        Root of the sum of squares of all element forces, the scale of a residual. eq. (5.8)
+    failed : int
+        First cell whose strain left the domain of its law, or -1.
+    """
+
+    residual: Floats
+    values: Floats
+    predictor: Floats
+    force_scale: float
+    failed: int
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A converged state that a model can be put back to."""
+
+    u: Floats
+    state: Floats
+    alpha: Floats
+    controls: tuple[float, ...]
+    time: float
+
+
+class Model:
+    """Solid-shells with supports, loads and rigid tools.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Points and cells.
+    element : str or Element
+        Name in the catalogue (:data:`umform.elements.CATALOGUE`) or an element of your own.
+    material : Material
+        SVK, NeoHooke, NeoHookePower or J2.
+    thickness_points : int, optional
+        Points through the thickness, 2 to 15; default 2 (elastic) or 5 (plastic), at least thickness_order + 1.
+    thickness_rule : {"gauss", "lobatto", "split"}
+        Where they lie.
+    **options
+        Options of the element: thickness_modes, thickness_order, membrane_modes, tie_E33, compatible_E12.
+
+    Raises
+    ------
+    WrongCellType
+        If the element does not stand on the cells of the mesh.
+    InvalidValue
+        If an option does not fit.
+    """
+
+    def __init__(
+        self,
+        mesh: Mesh,
+        element: str | Element = "ANS3DEAS",
+        *,
+        material: Material,
+        thickness_points: int | None = None,
+        thickness_rule: str = "gauss",
+        **options: int | bool | None,
+    ) -> None:
+        self.mesh = mesh
+        self.element = catalogue_element(element, **options)  # type: ignore[arg-type]
+        if self.element.cell != mesh.cell:
+            raise WrongCellType(
+                f"{self.element.name} stands on {self.element.cell} cells, the mesh has {mesh.cell}",
+                remedy=f"make the mesh with cell={self.element.cell!r}, or take an element for {mesh.cell}",
+            )
+        if not isinstance(material, Material):
+            raise InvalidValue("material must be a material law", value=type(material).__name__, remedy="SVK, NeoHooke, NeoHookePower or J2")
+        self.material = material
+        least = self.element.thickness_order + 1
+        self.thickness_points = thickness_points if thickness_points is not None else max(material.thickness_points, least)
+        self.thickness_rule = thickness_rule
+        if self.thickness_points < least:
+            raise InvalidValue(
+                f"thickness order {least - 1} needs at least {least} thickness points",
+                value=self.thickness_points, cause="fewer points cannot see the highest mode", remedy=f"thickness_points={least} or more",
+            )
+        t, w = make_thickness_rule(self.thickness_points, thickness_rule)
+        self.block = _core.shell_block(
+            self.element.technology(), self.element.surface_points, t, w, material.law(), mesh.connectivity, mesh.points
+        )
+        size = 3 * len(mesh.points)
+        self.u: Floats = np.zeros(size)
+        self.time = 0.0
+        self.controls: list[Control] = []
+        self.contacts: list[Contact] = []
+        self._fixed = np.zeros(size, dtype=bool)
+        self._assembled: _Assembly | None = None
+
+    # Supports ----------------------------------------------------------------------------------------------------------
+
+    def fix(self, nodes: Selector, directions: str = "xyz") -> None:
+        """Hold nodes in one or more of the directions x, y, z."""
+        ids = self.mesh.nodes(nodes)
+        for direction in directions:
+            self._fixed[3 * ids + self._direction(direction)] = True
+        self._assembled = None
+
+    def symmetry(self, nodes: Selector, normal: str) -> None:
+        """Symmetry plane: nodes stay in the plane with the normal x, y or z."""
+        self.fix(nodes, normal)
+
+    def prescribe(self, nodes: Selector, direction: str, name: str = "") -> Prescribed:
+        """Prescribe the displacement of nodes in a direction; steps move the value of the control returned."""
+        dofs = (3 * self.mesh.nodes(nodes) + self._direction(direction)).astype(np.int32)
+        taken = {"fix or symmetry": np.flatnonzero(self._fixed)} | {c.name: c.dofs for c in self._of(Prescribed)}
+        for other, theirs in taken.items():
+            shared = np.intersect1d(dofs, theirs)
+            if len(shared):
+                raise InvalidValue("a displacement is prescribed twice", where=f"node {shared[0] // 3}, direction {direction}", value=f"by {other} and by {name or 'this one'}", remedy="take the node out of one of the sets")
+        return self._add(Prescribed(name or self._name("displacement"), dofs=dofs))
+
+    # Loads -------------------------------------------------------------------------------------------------------------
+
+    def force(self, nodes: Selector, force: ArrayLike, name: str = "") -> Load:
+        """The same dead force on each node of a set, times the value of the control."""
+        return self._load(boundary.nodal_forces(self.mesh, nodes, force), name or self._name("force"))
+
+    def traction(self, faces: Selector, traction: ArrayLike, name: str = "") -> Load:
+        """Dead traction per reference area on faces, times the value of the control."""
+        return self._load(boundary.traction_forces(self.mesh, faces, traction), name or self._name("traction"))
+
+    def line_load(self, faces: Selector, side: str, load: ArrayLike, name: str = "") -> Load:
+        """Dead load per reference length on the lower or upper edge of lateral faces, times the value of the control."""
+        return self._load(boundary.edge_forces(self.mesh, faces, side, load), name or self._name("line_load"))
+
+    def body_force(self, force: ArrayLike, name: str = "") -> Load:
+        """Dead force per reference volume, times the value of the control."""
+        return self._load(boundary.body_forces(self.mesh, force), name or self._name("body_force"))
+
+    def pressure(self, faces: Selector, name: str = "") -> Pressure:
+        """Follower pressure on lower or upper faces, against their outward normal; the tangent becomes unsymmetric."""
+        block = _core.pressure_block(self.mesh.facets(faces), self.mesh.points)
+        return self._add(Pressure(name or self._name("pressure"), block=block))
+
+    # Contact -----------------------------------------------------------------------------------------------------------
+
+    def contact(self, faces: Selector, tool: Surface, *, penalty: float, points: int | str = 2, name: str = "") -> Contact:
+        """Let faces touch a rigid tool.
+
+        Parameters
+        ----------
+        faces : Selector
+            Lower or upper faces.
+        tool : Surface
+            Plane, Cylinder, Sphere or UserSurface.
+        penalty : float
+            Pressure per penetration.
+        points : int or "nodes"
+            Gauss points per direction and facet, 1 to 10, or the nodes with their tributary areas. Take at least 2 on
+            4-node and 3 on 9-node facets.
+        name : str, optional
+            For the history: the columns ``<name>_fx`` ... are the force on the tool.
+        """
+        contact = Contact(self.mesh, faces, tool, penalty, points, name or f"tool{len(self.contacts) + 1}")
+        if any(other.name == contact.name for other in self.contacts):
+            raise InvalidValue("two contacts have the same name", value=contact.name)
+        self.contacts.append(contact)
+        self._assembled = None
+        return contact
+
+    def drive(self, contact: Contact, direction: Direction, name: str = "") -> ToolMotion:
+        """Let steps move a tool along a direction."""
+        control = ToolMotion(name or self._name(contact.name), direction=unit_vector(direction, "drive"))
+        contact.translations.append(control)
+        return self._add(control)
+
+    def set_motion(self, contact: Contact, motion: Motion, about: ArrayLike = (0.0, 0.0, 0.0)) -> None:
+        """Give a tool a motion in time: time -> translation, or (translation, rotation vector) about a point."""
+        contact.motion = motion
+        contact.reference_point = boundary.vector3(about, "about")
+
+    # Evaluation --------------------------------------------------------------------------------------------------------
+
+    @property
+    def pattern(self) -> Pattern:
+        """Sparse pattern of the tangent over the free degrees of freedom."""
+        return self._assembly().pattern
+
+    @property
+    def free(self) -> NDArray[np.int64]:
+        """Degrees of freedom (3 * node + direction) that are not prescribed."""
+        return self._assembly().free
+
+    def prescribed_displacement(self) -> Floats:
+        """Displacements of the prescribed degrees of freedom at the present values of the controls; zero elsewhere."""
+        u = np.zeros_like(self.u)
+        for control in self._of(Prescribed):
+            u[control.dofs] = control.value
+        return u
+
+    def evaluate(self, u: Floats, du: Floats | None = None) -> Evaluation:
+        """Residual and tangent at ``u``, at the present values of controls and time; changes no converged history.
+
+        Parameters
+        ----------
+        u : ndarray, shape (3 n,)
+            Displacement.
+        du : ndarray, shape (3 n,), optional
+            Increment of the prescribed degrees of freedom, for the predictor.
+        """
+        assembly = self._assembly()
+        f, values = np.zeros(u.size), np.zeros(assembly.pattern.indices.size)
+        Kdu = np.zeros(u.size)
+        target = (f, values, du, None if du is None else Kdu)
+        failed, scale = self.block.evaluate(u, assembly.scatter, *target)
+        for contact, scatter in zip(self.contacts, assembly.contact_scatter, strict=True):
+            contact.place(self.time)
+            scale += contact.block.evaluate(u, scatter, *target)[1]
+        for control, scatter in zip(self._of(Pressure), assembly.pressure_scatter, strict=True):
+            assert control.block is not None
+            control.block.pressure = control.value
+            scale += control.block.evaluate(u, scatter, *target)[1]
+        for load in self._of(Load):
+            if load.value != 0.0:
+                f -= load.value * load.vector
+                scale += load.value**2 * float(load.vector @ load.vector)
+        return Evaluation(f, values, Kdu, float(np.sqrt(scale)), failed)
+
+    def recover(self, du: Floats, s: float) -> None:
+        """Update the enhanced parameters after ``u += s du``. eq. (2.19)"""
+        self.block.recover(du, s)
+
+    def undo_recover(self) -> None:
+        """Take the last :meth:`recover` back."""
+        self.block.undo_recover()
+
+    def active_set(self) -> NDArray[np.bool_]:
+        """Which contact points penetrate, over all contacts, of the last evaluation."""
+        if not self.contacts:
+            return np.zeros(0, dtype=bool)
+        return np.concatenate([contact.active() for contact in self.contacts])
+
+    def commit(self, u: Floats) -> None:
+        """Make ``u`` and the trial history of the last evaluation the converged state."""
+        self.block.commit()
+        self.u = u.copy()
+
+    def revert(self) -> None:
+        """Forget everything since the last commit."""
+        self.block.revert()
+
+    def snapshot(self) -> Snapshot:
+        """Copy of the converged state and of the controls."""
+        return Snapshot(self.u.copy(), self.block.state, self.block.alpha, tuple(c.value for c in self.controls), self.time)
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Go back to a snapshot."""
+        self.block.restore(snapshot.state, snapshot.alpha)
+        self.u = snapshot.u.copy()
+        self.time = snapshot.time
+        for control, value in zip(self.controls, snapshot.controls, strict=True):
+            control.value = value
+
+    def conjugate_force(self, control: Control, residual: Floats) -> float:
+        """Force that belongs to a control: sum of reactions, force on a tool along its motion, or the load itself."""
+        if isinstance(control, Prescribed):
+            return float(residual[control.dofs].sum())
+        if isinstance(control, ToolMotion):
+            owner = next(contact for contact in self.contacts if control in contact.translations)
+            return float(owner.resultant()[0] @ np.asarray(control.direction))
+        return control.value
+
+    # Checks ------------------------------------------------------------------------------------------------------------
+
+    def check(self) -> None:
+        """Refuse what cannot be solved before time is spent on it.
+
+        Raises
+        ------
+        RigidBodyMotion
+            If supports and tools in touch leave a rigid-body motion free.
+        ToolSwallowsSheet
+            If a tool overlaps the sheet by more than half of its thickness.
+        """
+        half = len(self.mesh.connectivity[0]) // 2
+        directors = self.mesh.points[self.mesh.connectivity[:, half:]] - self.mesh.points[self.mesh.connectivity[:, :half]]
+        thickness = float(np.median(np.linalg.norm(directors, axis=-1)))
+        rows = [boundary.rigid_body_modes(self.mesh.points)[:, np.flatnonzero(self._constrained())].T]
+        for contact in self.contacts:
+            contact.place(self.time)
+            contact.block.locate(self.u)
+            at = contact.at_points()
+            deepest = int(np.argmin(at.gap))
+            if at.gap[deepest] < -0.5 * thickness:
+                raise ToolSwallowsSheet(
+                    "a tool overlaps the sheet before anything has moved",
+                    where=f"contact {contact.name}, x = {np.round(at.x[deepest], 6)}", value=f"gap {at.gap[deepest]:.4g}, thickness {thickness:.4g}",
+                    cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
+                    remedy="move the tool so that it just touches the sheet, or turn its normal",
+                )
+            touching = at.gap <= 1e-6 * thickness
+            if touching.any():
+                rows.append(self._rigid_motion_along(at.x[touching], at.normal[touching]))
+        matrix = np.concatenate([row for row in rows if len(row)]) if any(len(row) for row in rows) else np.zeros((1, 6))
+        _, singular, directions = np.linalg.svd(matrix, full_matrices=True)
+        rank = int((singular > 1e-8 * max(singular.max(), 1e-300)).sum())
+        if rank < 6:
+            raise RigidBodyMotion(
+                f"the sheet can move as a rigid whole in {6 - rank} way{'s' if rank < 5 else ''}",
+                value=_describe_motion(directions[-1]),
+                cause="too few supports, or a tool that does not touch the sheet yet",
+                remedy="hold the sheet with fix(), symmetry() or prescribe(), or start with a tool in touch",
+            )
+
+    def _rigid_motion_along(self, x: Floats, n: Floats) -> Floats:
+        """Normal velocity of contact points in the six rigid modes: rows of the constraint matrix."""
+        centred = self.mesh.points - self.mesh.points.mean(axis=0)
+        size = max(float(np.abs(centred).max()), 1e-300)
+        arm = (x - self.mesh.points.mean(axis=0)) / size
+        return np.concatenate([n, np.cross(arm, n)], axis=1)
+
+    # Inside ------------------------------------------------------------------------------------------------------------
+
+    def _assembly(self) -> _Assembly:
+        if self._assembled is None:
+            self._assembled = _Assembly(self)
+        return self._assembled
+
+    def _constrained(self) -> NDArray[np.bool_]:
+        constrained = self._fixed.copy()
+        for control in self._of(Prescribed):
+            constrained[control.dofs] = True
+        return constrained
+
+    def _of(self, kind: type[_C]) -> list[_C]:
+        return [control for control in self.controls if isinstance(control, kind)]
+
+    def _add(self, control: _C) -> _C:
+        if any(other.name == control.name for other in self.controls):
+            raise InvalidValue("two controls have the same name", value=control.name)
+        self.controls.append(control)
+        self._assembled = None
+        return control
+
+    def _load(self, vector: Floats, name: str) -> Load:
+        return self._add(Load(name, vector=vector))
+
+    def _name(self, base: str) -> str:
+        taken = {control.name for control in self.controls}
+        return base if base not in taken else next(f"{base}{k}" for k in range(2, 10**6) if f"{base}{k}" not in taken)
+
+    @staticmethod
+    def _direction(name: str) -> int:
+        if name not in DIRECTIONS:
+            raise InvalidValue("a direction is x, y or z", value=name)
+        return DIRECTIONS[name]
+
+
+class _Assembly:
+    """Pattern and scatter maps, made once for a set of supports, contacts and pressures."""
+
+    def __init__(self, model: Model) -> None:
+        constrained = model._constrained()
+        self.free = np.flatnonzero(~constrained)
+        if len(self.free) == 0:
+            raise InvalidValue("all degrees of freedom are prescribed", remedy="leave some nodes free")
+        equation = np.full(constrained.size, -1, dtype=np.int32)
+        equation[self.free] = np.arange(len(self.free))
+        pressures = [c.block for c in model._of(Pressure) if c.block is not None]
+        pattern = _core.Pattern(equation, [model.block.connectivity], symmetric=not pressures)
+        self.scatter = pattern.scatter(model.block.connectivity)
+        self.contact_scatter = [pattern.scatter(contact.block.connectivity) for contact in model.contacts]
+        self.pressure_scatter = [pattern.scatter(block.connectivity) for block in pressures]
+        self.pattern = Pattern(len(self.free), pattern.indptr, pattern.indices, pattern.symmetric)
+
+
+def _describe_motion(mode: Floats) -> str:
+    names = ("translation x", "translation y", "translation z", "rotation about x", "rotation about y", "rotation about z")
+    strong = np.abs(mode) > 0.3 * np.abs(mode).max()
+    return "free: " + " with ".join(name for name, hit in zip(names, strong, strict=True) if hit)

@@ -1,0 +1,1 @@
+"""Ready parametric forming processes."""

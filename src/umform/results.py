@@ -1,0 +1,161 @@
+"""What comes out of a run: history, iterations, frames with fields; and how to write and draw it."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform import fields
+from umform.errors import InvalidValue
+from umform.io.tables import write_csv
+from umform.newton import Iteration
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from umform.model import Model
+
+log = logging.getLogger("umform")
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Fields of one converged state: values at points (n, ...) and cells (m, ...)."""
+
+    number: int
+    time: float
+    points: dict[str, Floats]
+    cells: dict[str, Floats]
+
+
+class Result:
+    """History of all converged increments, frames of some of them.
+
+    The history has one row for each increment: ``step``, ``time``, each control and its ``<name>_force``, for each
+    contact the force ``<name>_fx``, ``_fy``, ``_fz`` and moment about the origin ``_mx``, ``_my``, ``_mz`` of the sheet
+    on the tool, the largest penetration ``<name>_penetration`` and the number of ``<name>_active`` points, and the
+    number of ``iterations``.
+    """
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.rows: list[dict[str, float]] = []
+        self.frames: list[Frame] = []
+        self.iterations: list[list[Iteration]] = []
+        self.warnings: list[str] = []
+        self.seconds = 0.0
+
+    def add(self, residual: Floats, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
+        """Add the converged state of the model (of its last evaluation) to the history."""
+        model = self.model
+        row: dict[str, float] = {"step": step, "time": model.time}
+        for control in model.controls:
+            row[control.name] = control.value
+            row[f"{control.name}_force"] = model.conjugate_force(control, residual)
+        for contact in model.contacts:
+            force, moment = contact.resultant()
+            row |= {f"{contact.name}_f{axis}": float(value) for axis, value in zip("xyz", force, strict=True)}
+            row |= {f"{contact.name}_m{axis}": float(value) for axis, value in zip("xyz", moment, strict=True)}
+            gaps = contact.block.gaps
+            row[f"{contact.name}_penetration"] = float(max(-gaps.min(), 0.0))
+            row[f"{contact.name}_active"] = int((gaps < 0).sum())
+        row["iterations"] = len(iterations)
+        self.rows.append(row)
+        self.iterations.append(iterations)
+        log.info("step %d  time %.4f  %s  iterations %d", step, model.time, "  ".join(f"{c.name} {c.value:.6g} force {row[c.name + '_force']:.6g}" for c in model.controls), len(iterations))
+        if frame:
+            self.frames.append(self._frame(residual))
+
+    def warn(self, message: str) -> None:
+        """Keep a warning and log it."""
+        self.warnings.append(message)
+        log.warning(message)
+
+    def _frame(self, residual: Floats) -> Frame:
+        model = self.model
+        at = fields.point_fields(model)
+        cells = {
+            "stress_cauchy": at.cell_average(at.stress("cauchy", "global")),
+            "stress_cauchy_local": at.cell_average(at.stress("cauchy", "local")),
+            "stress_pk2": at.cell_average(at.stress("pk2", "global")),
+            "stress_pk2_local": at.cell_average(at.stress("pk2", "local")),
+        }
+        if at.eqps is not None:
+            cells |= {"plastic_strain_mean": at.cell_average(at.eqps), "plastic_strain_max": at.eqps.max(axis=1)}
+        points = {
+            "displacement": model.u.reshape(-1, 3).copy(),
+            "reaction": np.where(np.isin(np.arange(residual.size), model.free), 0.0, residual).reshape(-1, 3),
+            "thickness_change": fields.thickness_change(model),
+        }
+        if model.contacts:
+            points["contact_pressure"] = fields.contact_pressure(model)
+        return Frame(len(self.rows) - 1, model.time, points, cells)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __getitem__(self, column: str) -> Floats:
+        """A column of the history."""
+        if not self.rows or column not in self.rows[0]:
+            raise InvalidValue("the history has no such column", value=column, remedy="one of " + ", ".join(self.columns()))
+        return np.array([row[column] for row in self.rows])
+
+    def columns(self) -> list[str]:
+        """Names of the columns of the history."""
+        return list(self.rows[0]) if self.rows else []
+
+    def table(self) -> dict[str, Floats]:
+        """History as columns; ``pandas.DataFrame(result.table())`` is a data frame."""
+        return {name: self[name] for name in self.columns()}
+
+    def write(self, path: str | Path) -> Path:
+        """Write frames (``.vtkhdf``) or the history (``.csv``), whole or not at all.
+
+        Returns
+        -------
+        Path
+            The file written.
+        """
+        path = Path(path)
+        if path.suffix == ".csv":
+            write_csv(path, self.table())
+        elif path.suffix == ".vtkhdf":
+            from umform.io.vtkhdf import VtkHdfSeries
+
+            if not self.frames:
+                raise InvalidValue("this run kept no frames", remedy="solve(..., frames=60)")
+            mesh = self.model.mesh
+            with VtkHdfSeries(path, mesh.points, mesh.cell, mesh.connectivity) as series:
+                for frame in self.frames:
+                    series.append(float(frame.number), frame.points, frame.cells)
+        else:
+            raise InvalidValue("results are written to .csv (history) or .vtkhdf (fields)", value=path.name)
+        return path
+
+    def plot(self, x: str, y: str | list[str], path: str | Path | None = None) -> Figure:
+        """Draw columns of the history against each other; save as PNG or SVG with ``path``."""
+        from umform.plotting import plot_history
+
+        return plot_history(self, x, [y] if isinstance(y, str) else y, path)
+
+    def report(self, path: str | Path) -> Path:
+        """Write one self-contained HTML page: curves, last shape, history, settings, versions."""
+        from umform.report.page import write_report
+
+        return write_report(self, path)
+
+    def summary(self) -> dict[str, Any]:
+        """Numbers that describe the run."""
+        return {
+            "increments": len(self.rows) - 1,
+            "iterations": int(sum(row["iterations"] for row in self.rows)),
+            "seconds": self.seconds,
+            "warnings": list(self.warnings),
+        }

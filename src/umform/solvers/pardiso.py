@@ -1,0 +1,262 @@
+"""MKL PARDISO, called directly in the library of the PyPI package `mkl`: the fastest solver known here.
+
+TIMES
+
+MKL is told to use the GNU OpenMP runtime, the one of umform's kernels, so that there is one pool of threads; the
+environment variable ``MKL_THREADING_LAYER`` overrules this.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+import weakref
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from ..errors import InvalidValue, SolveError
+from .protocol import (
+    Factorisation,
+    FloatArray,
+    Pattern,
+    backward_error,
+    check_accuracy,
+    not_factored,
+    singular,
+    vanishing_pivot,
+)
+
+_CHOLESKY, _INDEFINITE, _UNSYMMETRIC = 2, -2, 11
+_ANALYSE, _FACTOR, _SOLVE, _RELEASE = 11, 22, 33, -1
+_PIVOT_NOT_POSITIVE = -4
+_LP64, _GNU_THREADS = 0, 3
+_CAUSES = {
+    -1: "the pattern is not consistent",
+    -2: "not enough memory",
+    -3: "the ordering failed",
+    -8: "the factors need more than 2^31 entries",
+}
+
+
+class Pardiso:
+    """Supernodal factorisation on all threads: Cholesky, Bunch-Kaufman or LU."""
+
+    name = "pardiso"
+    _factored = False
+
+    def analyse(self, pattern: Pattern) -> None:
+        """Order the equations by nested dissection; Cholesky is expected of a symmetric matrix."""
+        self._pattern = pattern
+        self._matrix = sparse.csr_matrix(
+            (
+                np.zeros(pattern.nnz),
+                np.ascontiguousarray(pattern.indices, dtype=np.int32),
+                np.ascontiguousarray(pattern.indptr, dtype=np.int32),
+            ),
+            shape=(pattern.n, pattern.n),
+        )
+        self._start(_CHOLESKY if pattern.symmetric else _UNSYMMETRIC)
+
+    def factor(self, values: FloatArray) -> Factorisation:
+        """Factorise; the first pivot that is not positive ends the use of Cholesky for this pattern."""
+        self._factored = False
+        np.copyto(self._matrix.data, self._pattern.checked(values))
+        code = self._handle.call(_FACTOR, self._matrix)
+        if code == _PIVOT_NOT_POSITIVE and self._handle.kind == _CHOLESKY:
+            self._start(_INDEFINITE)
+            code = self._handle.call(_FACTOR, self._matrix)
+        self._check(code, "factorise")
+        handle = self._handle
+        pivots, diagonal = handle.pivots()
+        weakest = vanishing_pivot(pivots, diagonal)
+        if weakest is not None or handle.perturbed_pivots:
+            known = weakest is not None and self._pattern.symmetric
+            raise singular(self.name, int(handle.order[weakest]) if known else None)
+        self._factored = True
+        return Factorisation(handle.negative_pivots if self._pattern.symmetric else None, handle.fill)
+
+    def solve(self, rhs: FloatArray) -> FloatArray:
+        """Solve; without Cholesky the residual is checked, as pivots are not sought everywhere."""
+        if not self._factored:
+            raise not_factored()
+        b = np.array(self._pattern.checked_rhs(rhs), order="F")
+        x = np.empty_like(b)
+        self._check(self._handle.call(_SOLVE, self._matrix, b, x), "solve")
+        if self._handle.kind != _CHOLESKY:
+            self._check_residual(x, b)
+        return x
+
+    def _start(self, kind: int) -> None:
+        self._factored = False
+        self._handle = _Handle(kind, self._matrix)
+        self._check(self._handle.call(_ANALYSE, self._matrix), "analyse")
+
+    def _check(self, code: int, deed: str) -> None:
+        if code == _PIVOT_NOT_POSITIVE:
+            raise singular(self.name, None)
+        if code:
+            raise SolveError(
+                f"PARDISO could not {deed} the matrix",
+                where=f"{self._pattern.n} equations, {self._pattern.nnz} entries",
+                value=code,
+                cause=_CAUSES.get(code, "see the error codes of PARDISO in the manual of MKL"),
+                remedy="choose another solver, or a smaller model",
+            )
+
+    def _check_residual(self, x: FloatArray, b: FloatArray) -> None:
+        matrix = self._matrix
+        product = matrix @ x
+        if self._pattern.symmetric:
+            product += matrix.T @ x - (matrix.diagonal() * x.T).T
+        size = float(np.abs(matrix.data).max())
+        check_accuracy(self.name, backward_error(b - product, size, x, b))
+
+
+class _Handle:
+    """PARDISO's memory for one matrix, released with this object.
+
+    Parameters
+    ----------
+    kind : int
+        PARDISO's type of matrix.
+    matrix : sparse.csr_matrix
+        The stored entries; its pattern stays the same from call to call.
+    """
+
+    def __init__(self, kind: int, matrix: sparse.csr_matrix) -> None:
+        n = matrix.shape[0]
+        self.kind = kind
+        self.order = np.zeros(n, dtype=np.int32)
+        self._library = _library()
+        self._memory = np.zeros(64, dtype=np.int64)
+        self._parameters = np.zeros(64, dtype=np.int32)
+        for place, value in _PARAMETERS.items():
+            self._parameters[place] = value
+        self._finalizer = weakref.finalize(
+            self, _call, self._library, self._memory, self._parameters, kind, _RELEASE, matrix, self.order
+        )
+
+    def call(
+        self, phase: int, matrix: sparse.csr_matrix, b: FloatArray | None = None, x: FloatArray | None = None
+    ) -> int:
+        """Run a phase and return PARDISO's error code."""
+        return _call(
+            self._library, self._memory, self._parameters, self.kind, phase, matrix, self.order, b, x
+        )
+
+    @property
+    def fill(self) -> int:
+        """Number of entries in the factors."""
+        return int(self._parameters[17])
+
+    @property
+    def negative_pivots(self) -> int:
+        """Number of negative pivots of a symmetric matrix; PARDISO counts none under Cholesky."""
+        return int(self._parameters[22])
+
+    @property
+    def perturbed_pivots(self) -> int:
+        """Number of pivots that PARDISO has replaced because they vanish beside the norm of the matrix."""
+        return int(self._parameters[13])
+
+    def pivots(self) -> tuple[FloatArray, FloatArray]:
+        """Return the pivots and the diagonal of the matrix, both in the order of elimination."""
+        pivots, diagonal = np.empty(len(self.order)), np.empty(len(self.order))
+        self._library.pardiso_getdiag(
+            _address(self._memory), _address(pivots), _address(diagonal), _integer(1), _integer(0)
+        )
+        return pivots, diagonal
+
+
+# By PARDISO's own numbers, counted from 0; what is not named is 0.
+_PARAMETERS = {
+    0: 1,  # these values instead of the defaults
+    1: 2,  # nested dissection (METIS)
+    4: 2,  # return the order of elimination
+    9: 15,  # replace pivots below 1e-15 |K|
+    17: -1,  # count the entries of the factors
+    20: 1,  # Bunch-Kaufman pivots for symmetric indefinite matrices
+    34: 1,  # rows and columns count from 0
+    55: 1,  # keep the diagonal for `pardiso_getdiag`
+}
+
+
+def _call(
+    library: ctypes.CDLL,
+    memory: NDArray[np.int64],
+    parameters: NDArray[np.int32],
+    kind: int,
+    phase: int,
+    matrix: sparse.csr_matrix,
+    order: NDArray[np.int32],
+    b: FloatArray | None = None,
+    x: FloatArray | None = None,
+) -> int:
+    code = ctypes.c_int(0)
+    columns = 1 if b is None or b.ndim == 1 else b.shape[1]
+    library.pardiso(
+        _address(memory),
+        _integer(1),
+        _integer(1),
+        _integer(kind),
+        _integer(phase),
+        _integer(len(order)),
+        _address(matrix.data),
+        _address(matrix.indptr),
+        _address(matrix.indices),
+        _address(order),
+        _integer(columns),
+        _address(parameters),
+        _integer(0),
+        None if b is None else _address(b),
+        None if x is None else _address(x),
+        ctypes.byref(code),
+    )
+    return code.value
+
+
+def _address(array: NDArray[np.generic]) -> ctypes.c_void_p:
+    return ctypes.c_void_p(array.ctypes.data)
+
+
+def _integer(value: int) -> object:
+    return ctypes.byref(ctypes.c_int(value))
+
+
+def available() -> bool:
+    """Return whether the library of MKL is installed here."""
+    return _find() is not None
+
+
+@cache
+def _find() -> Path | None:
+    """Return the library: among the files of the package `mkl`, or beside Python as conda puts it."""
+    try:
+        files = metadata.files("mkl") or []
+    except metadata.PackageNotFoundError:
+        files = []
+    candidates = [Path(str(file.locate())).resolve() for file in files if "mkl_rt" in file.name]
+    prefix = Path(sys.prefix)
+    candidates += [*prefix.glob("lib/libmkl_rt.so*"), *prefix.glob("Library/bin/mkl_rt*.dll")]
+    return next((path for path in candidates if path.suffix != ".lib" and path.is_file()), None)
+
+
+@cache
+def _library() -> ctypes.CDLL:
+    """Load MKL, once, with 32-bit integers and on the OpenMP runtime of the kernels."""
+    path = _find()
+    if path is None:
+        raise InvalidValue(
+            "The solver 'pardiso' needs MKL, which is not installed", remedy='pip install "umform[pardiso]"'
+        )
+    library = ctypes.CDLL(str(path))
+    library.MKL_Set_Interface_Layer(_LP64)
+    if sys.platform == "linux" and "MKL_THREADING_LAYER" not in os.environ:
+        library.MKL_Set_Threading_Layer(_GNU_THREADS)
+    return library

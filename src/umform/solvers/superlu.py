@@ -1,0 +1,98 @@
+"""SuperLU through SciPy: the solver of the base install, for any matrix.
+
+TEXT
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse.linalg import SuperLU as Factors
+from scipy.sparse.linalg import splu
+
+from .protocol import (
+    Factorisation,
+    FloatArray,
+    Pattern,
+    backward_error,
+    check_accuracy,
+    not_factored,
+    singular,
+    vanishing_pivot,
+)
+
+# A backward error above this is worth a step of iterative refinement.
+_POOR_RESIDUAL = 1e-13
+
+
+class SuperLU:
+    """Sparse LU factorisation with the ordering kept."""
+
+    name = "superlu"
+    _lu: Factors | None = None
+
+    def analyse(self, pattern: Pattern) -> None:
+        """Order by minimum degree and plan the way of the values into that order."""
+        positions = pattern.positions().tocsc()
+        order = _minimum_degree(positions)
+        permuted = positions[order][:, order]
+        permuted.sort_indices()
+        self._pattern = pattern
+        self._order = order
+        self._gather = permuted.data - 1
+        self._matrix = sparse.csc_matrix(
+            (np.empty(permuted.nnz), permuted.indices.astype(np.int32), permuted.indptr.astype(np.int32)),
+            shape=permuted.shape,
+        )
+        self._matrix.has_canonical_format = True
+        self._lu = None
+
+    def factor(self, values: FloatArray) -> Factorisation:
+        """Factorise; the inertia is known as long as all pivots lie on the diagonal."""
+        self._lu = None
+        matrix = self._matrix
+        np.take(self._pattern.checked(values), self._gather, out=matrix.data)
+        symmetric = self._pattern.symmetric
+        try:
+            lu = splu(
+                matrix,
+                permc_spec="NATURAL",
+                diag_pivot_thresh=1e-3 if symmetric else 0.1,
+                options={"SymmetricMode": symmetric},
+            )
+        except RuntimeError as error:
+            raise singular(self.name, None) from error
+        size = np.maximum.reduceat(np.abs(matrix.data), matrix.indptr[:-1])
+        pivots = lu.U.diagonal()[lu.perm_c]
+        weakest = vanishing_pivot(pivots, size)
+        if weakest is not None:
+            raise singular(self.name, int(self._order[weakest]))
+        self._size = float(size.max())
+        self._lu = lu
+        on_diagonal = symmetric and np.array_equal(lu.perm_r, lu.perm_c)
+        return Factorisation(int(np.count_nonzero(pivots < 0)) if on_diagonal else None, int(lu.nnz))
+
+    def solve(self, rhs: FloatArray) -> FloatArray:
+        """Solve, and refine the solution once if its residual is poor."""
+        if self._lu is None:
+            raise not_factored()
+        b = self._pattern.checked_rhs(rhs)[self._order]
+        x = self._lu.solve(b)
+        residual = b - self._matrix @ x
+        if backward_error(residual, self._size, x, b) > _POOR_RESIDUAL:
+            x += self._lu.solve(residual)
+            check_accuracy(self.name, backward_error(b - self._matrix @ x, self._size, x, b))
+        result: FloatArray = np.empty_like(x)
+        result[self._order] = x
+        return result
+
+
+def _minimum_degree(positions: sparse.csc_matrix) -> NDArray[np.intp]:
+    """Return the equations in the order of elimination; a matrix that needs no pivoting stands in for K."""
+    model = sparse.csc_matrix(
+        (np.full(positions.nnz, -1.0), positions.indices, positions.indptr), shape=positions.shape
+    )
+    model.setdiag(2.0 * np.diff(positions.indptr) + 2.0 * np.bincount(positions.indices))
+    lu = splu(model, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    return np.argsort(lu.perm_c)
