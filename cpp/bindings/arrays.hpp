@@ -1,10 +1,10 @@
 // Arrays that cross the border to Python: NumPy float64 and int32, contiguous, on the CPU.
 #pragma once
 
+#include <vector>
+
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
-
-#include <vector>
 
 #include "umform/csr.hpp"
 

@@ -1,10 +1,10 @@
+#include <optional>
+
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
-
-#include <optional>
 
 #include "arrays.hpp"
 #include "umform/block.hpp"
@@ -17,13 +17,16 @@ namespace {
 
 Rule to_rule(const Input& x, const Input& w) { return {to_vector(x), to_vector(w)}; }
 
-std::unique_ptr<ShellBlock> shell_block(const Technology& technology, int surface_points, const Input& t, const Input& w,
-                                        std::shared_ptr<Material> material, const InputIds& connectivity, const Input& X) {
+std::unique_ptr<ShellBlock> shell_block(const Technology& technology, int surface_points, const Input& t,
+                                        const Input& w, std::shared_ptr<Material> material,
+                                        const InputIds& connectivity, const Input& X) {
     Connectivity part = to_connectivity(connectivity);
     if (part.nodes == 8)
-        return std::make_unique<ShellBlockOf<8>>(technology, surface_points, to_rule(t, w), std::move(material), std::move(part), to_vector(X));
+        return std::make_unique<ShellBlockOf<8>>(technology, surface_points, to_rule(t, w), std::move(material),
+                                                 std::move(part), to_vector(X));
     if (part.nodes == 18)
-        return std::make_unique<ShellBlockOf<18>>(technology, surface_points, to_rule(t, w), std::move(material), std::move(part), to_vector(X));
+        return std::make_unique<ShellBlockOf<18>>(technology, surface_points, to_rule(t, w), std::move(material),
+                                                  std::move(part), to_vector(X));
     throw std::invalid_argument("a solid-shell has 8 or 18 nodes");
 }
 
@@ -31,8 +34,10 @@ std::unique_ptr<ContactBlock> contact_block(const InputIds& facets, const Input&
                                             std::shared_ptr<Surface> surface) {
     Connectivity part = to_connectivity(facets);
     const ContactRule rule{points, at_nodes};
-    if (part.nodes == 4) return std::make_unique<ContactBlockOf<4>>(std::move(part), to_vector(X), rule, std::move(surface));
-    if (part.nodes == 9) return std::make_unique<ContactBlockOf<9>>(std::move(part), to_vector(X), rule, std::move(surface));
+    if (part.nodes == 4)
+        return std::make_unique<ContactBlockOf<4>>(std::move(part), to_vector(X), rule, std::move(surface));
+    if (part.nodes == 9)
+        return std::make_unique<ContactBlockOf<9>>(std::move(part), to_vector(X), rule, std::move(surface));
     throw std::invalid_argument("a facet has 4 or 9 nodes");
 }
 
@@ -56,10 +61,12 @@ std::pair<int, double> evaluate(Block& block, const Input& u, const Scatter& sca
 template <class Block>
 void bind_common(nb::class_<Block>& type) {
     type.def_prop_ro("connectivity", &Block::connectivity, nb::rv_policy::reference_internal)
-        .def("evaluate", &evaluate<Block>, nb::arg("u"), nb::arg("scatter"), nb::arg("f"), nb::arg("values"),
-             nb::arg("du").none(), nb::arg("Kdu").none(),
-             nb::sig("def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64], du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]"),
-             "Add the share of the block to f and values (and K du to Kdu); returns the first failed element (or -1) and sum |f_e|^2.");
+        .def(
+            "evaluate", &evaluate<Block>, nb::arg("u"), nb::arg("scatter"), nb::arg("f"), nb::arg("values"),
+            nb::arg("du").none(), nb::arg("Kdu").none(),
+            nb::sig(
+                "def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64], du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]"),
+            "Add the share of the block to f and values (and K du to Kdu); returns the first failed element (or -1) and sum |f_e|^2.");
 }
 
 nb::object point_fields(ShellBlock& block, const Input& u) {
@@ -67,7 +74,8 @@ nb::object point_fields(ShellBlock& block, const Input& u) {
     std::vector<double> E(6 * count), S(6 * count), frame(9 * count), F(9 * count), dV(count);
     block.fields(u.data(), {E.data(), S.data(), frame.data(), F.data(), dV.data()});
     return nb::make_tuple(to_numpy(std::move(E), {elements, points, 6}), to_numpy(std::move(S), {elements, points, 6}),
-                          to_numpy(std::move(frame), {elements, points, 3, 3}), to_numpy(std::move(F), {elements, points, 3, 3}),
+                          to_numpy(std::move(frame), {elements, points, 3, 3}),
+                          to_numpy(std::move(F), {elements, points, 3, 3}),
                           to_numpy(std::move(dV), {elements, points}));
 }
 
@@ -82,9 +90,11 @@ nb::object element_matrix(ShellBlock& block, int e, const Input& u) {
 
 void bind_blocks(nb::module_& m) {
     nb::class_<Tying>(m, "Tying", "One row of an assumed-strain rule.")
-        .def(nb::init<int, std::vector<double>, std::vector<double>, bool>(), nb::arg("component"), nb::arg("r"), nb::arg("s"), nb::arg("at_layer"));
+        .def(nb::init<int, std::vector<double>, std::vector<double>, bool>(), nb::arg("component"), nb::arg("r"),
+             nb::arg("s"), nb::arg("at_layer"));
     nb::class_<Term>(m, "Term", "factor * r^a s^b P_c(t) of an enhanced mode in one covariant component.")
-        .def(nb::init<int, double, int, int, int>(), nb::arg("component"), nb::arg("factor"), nb::arg("a"), nb::arg("b"), nb::arg("c"));
+        .def(nb::init<int, double, int, int, int>(), nb::arg("component"), nb::arg("factor"), nb::arg("a"),
+             nb::arg("b"), nb::arg("c"));
     nb::class_<Technology>(m, "Technology", "Which strains are tied where, and which are enhanced by what.")
         .def(nb::init<std::vector<Tying>, std::vector<Mode>>(), nb::arg("tying"), nb::arg("modes"));
 
@@ -93,46 +103,85 @@ void bind_blocks(nb::module_& m) {
     shell.def_prop_ro("points", &ShellBlock::points)
         .def_prop_ro("modes", &ShellBlock::modes)
         .def_prop_ro("state_size", &ShellBlock::state_size)
-        .def("recover", [](ShellBlock& b, const Input& du, double s) { b.recover(du.data(), s); }, nb::arg("du"), nb::arg("s"),
-             nb::sig("def recover(self, du: NDArray[float64], s: float) -> None"), "Update the enhanced parameters after u += s du.")
+        .def(
+            "recover", [](ShellBlock& b, const Input& du, double s) { b.recover(du.data(), s); }, nb::arg("du"),
+            nb::arg("s"), nb::sig("def recover(self, du: NDArray[float64], s: float) -> None"),
+            "Update the enhanced parameters after u += s du.")
         .def("undo_recover", &ShellBlock::undo_recover, "Take the last recover back.")
         .def("commit", &ShellBlock::commit, "Make the trial history the converged one.")
         .def("revert", &ShellBlock::revert, "Go back to the converged history.")
-        .def_prop_ro("state", [](const ShellBlock& b) {
-                return to_numpy(b.state(), {static_cast<std::size_t>(b.connectivity().size()), static_cast<std::size_t>(b.points()), static_cast<std::size_t>(b.state_size())});
-            }, nb::sig("def state(self) -> NDArray[float64]"), "Converged history (elements, points, state_size).")
-        .def_prop_ro("alpha", [](const ShellBlock& b) {
-                return to_numpy(b.alpha(), {static_cast<std::size_t>(b.connectivity().size()), static_cast<std::size_t>(b.modes())});
-            }, nb::sig("def alpha(self) -> NDArray[float64]"), "Converged enhanced parameters (elements, modes).")
-        .def("restore", [](ShellBlock& b, const Input& state, const Input& alpha) {
-                if (state.size() != b.state().size() || alpha.size() != b.alpha().size()) throw std::invalid_argument("state or alpha has another size");
+        .def_prop_ro(
+            "state",
+            [](const ShellBlock& b) {
+                return to_numpy(
+                    b.state(), {static_cast<std::size_t>(b.connectivity().size()), static_cast<std::size_t>(b.points()),
+                                static_cast<std::size_t>(b.state_size())});
+            },
+            nb::sig("def state(self) -> NDArray[float64]"), "Converged history (elements, points, state_size).")
+        .def_prop_ro(
+            "alpha",
+            [](const ShellBlock& b) {
+                return to_numpy(b.alpha(), {static_cast<std::size_t>(b.connectivity().size()),
+                                            static_cast<std::size_t>(b.modes())});
+            },
+            nb::sig("def alpha(self) -> NDArray[float64]"), "Converged enhanced parameters (elements, modes).")
+        .def(
+            "restore",
+            [](ShellBlock& b, const Input& state, const Input& alpha) {
+                if (state.size() != b.state().size() || alpha.size() != b.alpha().size())
+                    throw std::invalid_argument("state or alpha has another size");
                 b.restore(state.data(), alpha.data());
-            }, nb::arg("state"), nb::arg("alpha"), nb::sig("def restore(self, state: NDArray[float64], alpha: NDArray[float64]) -> None"), "Put a stored history back.")
-        .def("point_fields", &point_fields, nb::arg("u"),
-             nb::sig("def point_fields(self, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64]]"),
-             "E, S (elements, points, 6) in the local frame, the frame and F (elements, points, 3, 3), dV (elements, points).")
+            },
+            nb::arg("state"), nb::arg("alpha"),
+            nb::sig("def restore(self, state: NDArray[float64], alpha: NDArray[float64]) -> None"),
+            "Put a stored history back.")
+        .def(
+            "point_fields", &point_fields, nb::arg("u"),
+            nb::sig(
+                "def point_fields(self, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64]]"),
+            "E, S (elements, points, 6) in the local frame, the frame and F (elements, points, 3, 3), dV (elements, points).")
         .def("element", &element_matrix, nb::arg("e"), nb::arg("u"),
-             nb::sig("def element(self, e: int, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]"), "Condensed K and f of one element.");
-    m.def("shell_block", &shell_block, nb::arg("technology"), nb::arg("surface_points"), nb::arg("t"), nb::arg("w"), nb::arg("material"),
-          nb::arg("connectivity"), nb::arg("X"),
-          nb::sig("def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64]) -> ShellBlock"));
+             nb::sig("def element(self, e: int, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]"),
+             "Condensed K and f of one element.");
+    m.def(
+        "shell_block", &shell_block, nb::arg("technology"), nb::arg("surface_points"), nb::arg("t"), nb::arg("w"),
+        nb::arg("material"), nb::arg("connectivity"), nb::arg("X"),
+        nb::sig(
+            "def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64]) -> ShellBlock"));
 
     auto contact = nb::class_<ContactBlock>(m, "ContactBlock", "Penalty contact of element faces with one rigid tool.");
     bind_common(contact);
     contact.def_rw("penalty", &ContactBlock::penalty)
-        .def("set_pose", [](ContactBlock& b, const Input& Q, const Input& c) {
+        .def(
+            "set_pose",
+            [](ContactBlock& b, const Input& Q, const Input& c) {
                 std::copy_n(Q.data(), 9, b.pose.Q.a.begin());
                 std::copy_n(c.data(), 3, b.pose.c.begin());
-            }, nb::arg("Q"), nb::arg("c"), nb::sig("def set_pose(self, Q: NDArray[float64], c: NDArray[float64]) -> None"), "Place the tool: x = Q X + c.")
-        .def("locate", [](ContactBlock& b, const Input& u) { b.locate(u.data()); }, nb::arg("u"), nb::sig("def locate(self, u: NDArray[float64]) -> None"),
-             "Move the contact points to X + u and measure the gaps.")
+            },
+            nb::arg("Q"), nb::arg("c"), nb::sig("def set_pose(self, Q: NDArray[float64], c: NDArray[float64]) -> None"),
+            "Place the tool: x = Q X + c.")
+        .def(
+            "locate", [](ContactBlock& b, const Input& u) { b.locate(u.data()); }, nb::arg("u"),
+            nb::sig("def locate(self, u: NDArray[float64]) -> None"),
+            "Move the contact points to X + u and measure the gaps.")
         .def_prop_ro("points", &ContactBlock::points)
-        .def_prop_ro("positions", [](const ContactBlock& b) { return to_numpy(b.positions(), {b.gaps().size(), 3}); }, nb::sig("def positions(self) -> NDArray[float64]"))
-        .def_prop_ro("gaps", [](const ContactBlock& b) { return to_numpy(b.gaps(), {b.gaps().size()}); }, nb::sig("def gaps(self) -> NDArray[float64]"))
-        .def_prop_ro("normals", [](const ContactBlock& b) { return to_numpy(b.normals(), {b.gaps().size(), 3}); }, nb::sig("def normals(self) -> NDArray[float64]"))
-        .def_prop_ro("areas", [](const ContactBlock& b) { return to_numpy(b.areas(), {b.areas().size()}); }, nb::sig("def areas(self) -> NDArray[float64]"));
-    m.def("contact_block", &contact_block, nb::arg("facets"), nb::arg("X"), nb::arg("points"), nb::arg("at_nodes"), nb::arg("surface"),
-          nb::sig("def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface) -> ContactBlock"));
+        .def_prop_ro(
+            "positions", [](const ContactBlock& b) { return to_numpy(b.positions(), {b.gaps().size(), 3}); },
+            nb::sig("def positions(self) -> NDArray[float64]"))
+        .def_prop_ro(
+            "gaps", [](const ContactBlock& b) { return to_numpy(b.gaps(), {b.gaps().size()}); },
+            nb::sig("def gaps(self) -> NDArray[float64]"))
+        .def_prop_ro(
+            "normals", [](const ContactBlock& b) { return to_numpy(b.normals(), {b.gaps().size(), 3}); },
+            nb::sig("def normals(self) -> NDArray[float64]"))
+        .def_prop_ro(
+            "areas", [](const ContactBlock& b) { return to_numpy(b.areas(), {b.areas().size()}); },
+            nb::sig("def areas(self) -> NDArray[float64]"));
+    m.def(
+        "contact_block", &contact_block, nb::arg("facets"), nb::arg("X"), nb::arg("points"), nb::arg("at_nodes"),
+        nb::arg("surface"),
+        nb::sig(
+            "def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface) -> ContactBlock"));
 
     auto pressure = nb::class_<PressureBlock>(m, "PressureBlock", "Follower pressure on element faces.");
     bind_common(pressure);

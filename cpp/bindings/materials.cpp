@@ -20,39 +20,68 @@ nb::object respond(const Material& material, const Input& E, const Input& state)
     if (E.ndim() != 2 || E.shape(1) != 6 || state.size() != n * size)
         throw std::invalid_argument("E must have shape (n, 6) and state (n, state_size)");
     std::vector<double> S(6 * n), CC(36 * n), trial(n * size);
-    const int done = material.respond(static_cast<int>(n), reinterpret_cast<const Voigt*>(E.data()), state.data(),
-                                      reinterpret_cast<Voigt*>(S.data()), reinterpret_cast<Voigt66*>(CC.data()), trial.data());
+    const int done =
+        material.respond(static_cast<int>(n), reinterpret_cast<const Voigt*>(E.data()), state.data(),
+                         reinterpret_cast<Voigt*>(S.data()), reinterpret_cast<Voigt66*>(CC.data()), trial.data());
     if (done != static_cast<int>(n)) throw std::domain_error("the strain is outside of the domain of the law");
-    return nb::make_tuple(to_numpy(std::move(S), {n, 6}), to_numpy(std::move(CC), {n, 6, 6}), to_numpy(std::move(trial), {n, size}));
+    return nb::make_tuple(to_numpy(std::move(S), {n, 6}), to_numpy(std::move(CC), {n, 6, 6}),
+                          to_numpy(std::move(trial), {n, size}));
 }
 
 }  // namespace
 
 void bind_materials(nb::module_& m) {
     nb::class_<Hardening>(m, "Hardening", "Yield stress as a function of the accumulated plastic strain.")
-        .def("__call__", [](const Hardening& h, double eqps) { return nb::make_tuple(yield_stress(h, eqps).value, yield_stress(h, eqps).slope); },
-             nb::arg("eqps"), nb::sig("def __call__(self, eqps: float) -> tuple[float, float]"), "Yield stress and its slope.");
-    m.def("linear_voce", [](double y0, double modulus, double saturation, double rate) { return Hardening(LinearVoce{y0, modulus, saturation, rate}); },
-          nb::arg("y0"), nb::arg("modulus"), nb::arg("saturation"), nb::arg("rate"));
-    m.def("swift", [](double strength, double offset, double exponent) { return Hardening(Swift{strength, offset, exponent}); },
-          nb::arg("strength"), nb::arg("offset"), nb::arg("exponent"));
-    m.def("tabulated", [](std::vector<double> eqps, std::vector<double> stress) { return Hardening(Tabulated{std::move(eqps), std::move(stress)}); },
-          nb::arg("eqps"), nb::arg("stress"));
+        .def(
+            "__call__",
+            [](const Hardening& h, double eqps) {
+                return nb::make_tuple(yield_stress(h, eqps).value, yield_stress(h, eqps).slope);
+            },
+            nb::arg("eqps"), nb::sig("def __call__(self, eqps: float) -> tuple[float, float]"),
+            "Yield stress and its slope.");
+    m.def(
+        "linear_voce",
+        [](double y0, double modulus, double saturation, double rate) {
+            return Hardening(LinearVoce{y0, modulus, saturation, rate});
+        },
+        nb::arg("y0"), nb::arg("modulus"), nb::arg("saturation"), nb::arg("rate"));
+    m.def(
+        "swift",
+        [](double strength, double offset, double exponent) { return Hardening(Swift{strength, offset, exponent}); },
+        nb::arg("strength"), nb::arg("offset"), nb::arg("exponent"));
+    m.def(
+        "tabulated",
+        [](std::vector<double> eqps, std::vector<double> stress) {
+            return Hardening(Tabulated{std::move(eqps), std::move(stress)});
+        },
+        nb::arg("eqps"), nb::arg("stress"));
 
     nb::class_<Material>(m, "Material", "A material law: strain and history in, stress, tangent and new history out.")
         .def_prop_ro("state_size", &Material::state_size)
-        .def("initial", [](const Material& law) {
+        .def(
+            "initial",
+            [](const Material& law) {
                 std::vector<double> state(law.state_size());
                 law.initial(state.data());
                 const std::size_t size = state.size();
                 return to_numpy(std::move(state), {size});
-            }, nb::sig("def initial(self) -> NDArray[float64]"), "History of the virgin material.")
-        .def("respond", &respond, nb::arg("E"), nb::arg("state"),
-             nb::sig("def respond(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]"),
-             "S (n, 6), CC (n, 6, 6) and the new history at n points.");
-    m.def("saint_venant_kirchhoff", [](double lambda, double mu) { return material(SaintVenantKirchhoff{lambda, mu}); }, nb::arg("lambda_"), nb::arg("mu"));
-    m.def("neo_hooke_logarithmic", [](double lambda, double mu) { return material(NeoHookeLogarithmic{lambda, mu}); }, nb::arg("lambda_"), nb::arg("mu"));
-    m.def("neo_hooke_power", [](double mu, double beta) { return material(NeoHookePower{mu, beta}); }, nb::arg("mu"), nb::arg("beta"));
-    m.def("j2", [](double kappa, double mu, const Hardening& hardening) { return material(J2{kappa, mu, hardening}); },
-          nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"));
+            },
+            nb::sig("def initial(self) -> NDArray[float64]"), "History of the virgin material.")
+        .def(
+            "respond", &respond, nb::arg("E"), nb::arg("state"),
+            nb::sig(
+                "def respond(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]"),
+            "S (n, 6), CC (n, 6, 6) and the new history at n points.");
+    m.def(
+        "saint_venant_kirchhoff", [](double lambda, double mu) { return material(SaintVenantKirchhoff{lambda, mu}); },
+        nb::arg("lambda_"), nb::arg("mu"));
+    m.def(
+        "neo_hooke_logarithmic", [](double lambda, double mu) { return material(NeoHookeLogarithmic{lambda, mu}); },
+        nb::arg("lambda_"), nb::arg("mu"));
+    m.def(
+        "neo_hooke_power", [](double mu, double beta) { return material(NeoHookePower{mu, beta}); }, nb::arg("mu"),
+        nb::arg("beta"));
+    m.def(
+        "j2", [](double kappa, double mu, const Hardening& hardening) { return material(J2{kappa, mu, hardening}); },
+        nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"));
 }

@@ -1,8 +1,9 @@
+#include "umform/quadrature.hpp"
+
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 
 #include "arrays.hpp"
-#include "umform/quadrature.hpp"
 #include "umform/topology.hpp"
 
 using namespace umform;
@@ -32,21 +33,27 @@ nb::object shell_functions(const Input& points) {
 
 void bind_quadrature(nb::module_& m) {
     m.def(
-        "gauss", [](int n) { return rule_to_numpy(gauss(n)); }, nb::arg("n"), nb::sig("def gauss(n: int) -> tuple[NDArray[float64], NDArray[float64]]"),
+        "gauss", [](int n) { return rule_to_numpy(gauss(n)); }, nb::arg("n"),
+        nb::sig("def gauss(n: int) -> tuple[NDArray[float64], NDArray[float64]]"),
         "Gauss rule of n points on [-1, 1]: abscissae and weights.");
     m.def(
-        "lobatto", [](int n) { return rule_to_numpy(lobatto(n)); }, nb::arg("n"), nb::sig("def lobatto(n: int) -> tuple[NDArray[float64], NDArray[float64]]"),
+        "lobatto", [](int n) { return rule_to_numpy(lobatto(n)); }, nb::arg("n"),
+        nb::sig("def lobatto(n: int) -> tuple[NDArray[float64], NDArray[float64]]"),
         "Gauss-Lobatto rule of n points on [-1, 1]: abscissae and weights.");
     m.def(
-        "split", [](int n) { return rule_to_numpy(split(n)); }, nb::arg("n"), nb::sig("def split(n: int) -> tuple[NDArray[float64], NDArray[float64]]"),
+        "split", [](int n) { return rule_to_numpy(split(n)); }, nb::arg("n"),
+        nb::sig("def split(n: int) -> tuple[NDArray[float64], NDArray[float64]]"),
         "Gauss rule of n/2 points on each half of [-1, 1]: abscissae and weights.");
     m.def(
         "shell_functions",
         [](int nodes, const Input& points) {
             if (nodes != 8 && nodes != 18) throw std::invalid_argument("a solid-shell has 8 or 18 nodes");
-            if (points.ndim() != 2 || points.shape(1) != 3) throw std::invalid_argument("points must have shape (count, 3)");
+            if (points.ndim() != 2 || points.shape(1) != 3)
+                throw std::invalid_argument("points must have shape (count, 3)");
             return nodes == 8 ? shell_functions<8>(points) : shell_functions<18>(points);
         },
-        nb::arg("nodes"), nb::arg("points"), nb::sig("def shell_functions(nodes: int, points: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]"),
+        nb::arg("nodes"), nb::arg("points"),
+        nb::sig(
+            "def shell_functions(nodes: int, points: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]"),
         "Shape functions (count, nodes) and their derivatives (count, 3, nodes) at natural points (count, 3).");
 }

@@ -120,7 +120,11 @@ def edge_forces(mesh: Mesh, faces: Selector, side: str, line_load: ArrayLike) ->
     if side not in ("lower", "upper"):
         raise InvalidValue("an edge lies on the lower or on the upper face", value=side)
     if (rows[:, 1] < 2).any():
-        raise InvalidValue("an edge belongs to a lateral face", value=FACES[int(rows[:, 1].min())], remedy="choose faces like x0, x1, y0, y1")
+        raise InvalidValue(
+            "an edge belongs to a lateral face",
+            value=FACES[int(rows[:, 1].min())],
+            remedy="choose faces like x0, x1, y0, y1",
+        )
     parts = []
     for number in np.unique(rows[:, 1]):
         axis, value = _FACE_COORDINATE[int(number)]

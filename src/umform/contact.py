@@ -59,20 +59,37 @@ class Contact:
     Made by :meth:`umform.Model.contact`.
     """
 
-    def __init__(self, mesh: Mesh, faces: Selector, tool: Surface, penalty: float, points: int | str, name: str) -> None:
+    def __init__(
+        self, mesh: Mesh, faces: Selector, tool: Surface, penalty: float, points: int | str, name: str
+    ) -> None:
         if not (np.isfinite(penalty) and penalty > 0):
-            raise InvalidValue("the penalty must be positive", where=f"contact {name}", value=penalty, cause="a sign or a missing value", remedy="the allowed penetration is pressure / penalty: 10 to 100 times E / edge length of the part is stiff")
+            raise InvalidValue(
+                "the penalty must be positive",
+                where=f"contact {name}",
+                value=penalty,
+                cause="a sign or a missing value",
+                remedy="the allowed penetration is pressure / penalty: 10 to 100 times E / edge length of the part is stiff",
+            )
         at_nodes = points == "nodes"
         if not at_nodes and (not isinstance(points, int) or not 1 <= points <= 10):
-            raise InvalidValue("contact points per direction must be 1 to 10, or 'nodes'", where=f"contact {name}", value=points)
+            raise InvalidValue(
+                "contact points per direction must be 1 to 10, or 'nodes'", where=f"contact {name}", value=points
+            )
         if not isinstance(tool, Surface):
-            raise InvalidValue("a tool must be a surface", where=f"contact {name}", value=type(tool).__name__, remedy="Plane, Cylinder, Sphere or UserSurface(function)")
+            raise InvalidValue(
+                "a tool must be a surface",
+                where=f"contact {name}",
+                value=type(tool).__name__,
+                remedy="Plane, Cylinder, Sphere or UserSurface(function)",
+            )
         self.name = name
         self.tool = tool
         self.penalty = float(penalty)
         self.points: int | str = points
         self.facets: Ids = mesh.facets(faces)
-        self.block = _core.contact_block(self.facets, mesh.points, 1 if at_nodes else int(points), at_nodes, tool.kernel())
+        self.block = _core.contact_block(
+            self.facets, mesh.points, 1 if at_nodes else int(points), at_nodes, tool.kernel()
+        )
         self.block.penalty = self.penalty
         self.translations: list[ToolMotion] = []
         self.motion: Motion | None = None
@@ -91,7 +108,11 @@ class Contact:
             else:
                 shift = shift + np.asarray(answer, dtype=float)
         if shift.shape != (3,) or not np.isfinite(shift).all():
-            raise InvalidValue("a tool motion must return three finite numbers", where=f"contact {self.name}, time {time:g}", value=shift)
+            raise InvalidValue(
+                "a tool motion must return three finite numbers",
+                where=f"contact {self.name}, time {time:g}",
+                value=shift,
+            )
         centre = self.reference_point
         self.block.set_pose(np.ascontiguousarray(rotation), centre + shift - rotation @ centre)
 
@@ -125,8 +146,14 @@ class Contact:
             weight = at.area.reshape(len(self.facets), per_facet)
             share = (at.pressure * at.area).reshape(len(self.facets), per_facet)
         else:
-            weight = np.repeat(at.area.reshape(len(self.facets), per_facet).sum(axis=1)[:, None], self.facets.shape[1], axis=1)
-            share = np.repeat((at.pressure * at.area).reshape(len(self.facets), per_facet).sum(axis=1)[:, None], self.facets.shape[1], axis=1)
+            weight = np.repeat(
+                at.area.reshape(len(self.facets), per_facet).sum(axis=1)[:, None], self.facets.shape[1], axis=1
+            )
+            share = np.repeat(
+                (at.pressure * at.area).reshape(len(self.facets), per_facet).sum(axis=1)[:, None],
+                self.facets.shape[1],
+                axis=1,
+            )
         total, area = np.zeros(nodes), np.zeros(nodes)
         np.add.at(total, self.facets.ravel(), share.ravel())
         np.add.at(area, self.facets.ravel(), weight.ravel())

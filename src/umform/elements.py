@@ -1,8 +1,8 @@
 """THE list of elements, by the names of the literature: which strains are tied where, which are enhanced by what.
 
-An element is data. A tying rule is a list of :class:`Tying` rows (docs/theory, eq. (2.1)), an enhancement a list of modes,
-each a sum of :class:`Term` (eq. (2.8)); the kernels know nothing else of it. A new element is a few rows here, or in the
-user's own script: ``Element("MINE", "hex8", tying=(...), modes=(...))``.
+An element is data. A tying rule is a list of :class:`Tying` rows (docs/theory, eq. (2.2)), an enhancement a list of
+modes, each a sum of :class:`Term` (eq. (2.10)); the kernels know nothing else of it. A new element is a few rows here,
+or in the user's own script: ``Element("MINE", "hex8", tying=(...), modes=(...))``.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Term:
 
 Mode = tuple[Term, ...]
 
-# Tying rules -----------------------------------------------------------------------------------------------------------
+# Tying rules -------------------------------------------------------------------------------------------------
 
 #: Bathe & Dvorkin (1985): transverse shear tied at the middles of the edges of the mid-surface.
 ANS_SHEAR = (Tying("13", (0.0,), (-1.0, 1.0)), Tying("23", (-1.0, 1.0), (0.0,)))
@@ -73,7 +73,7 @@ ANS_THICKNESS = {
     "hex18": (Tying("33", (-1.0, 0.0, 1.0), (-1.0, 0.0, 1.0)),),
 }
 
-# Enhanced modes --------------------------------------------------------------------------------------------------------
+# Enhanced modes ----------------------------------------------------------------------------------------------
 
 
 def thickness_modes(count: int, order: int) -> tuple[Mode, ...]:
@@ -111,7 +111,7 @@ def membrane_modes(count: int) -> tuple[Mode, ...]:
     return modes[count]
 
 
-# Elements --------------------------------------------------------------------------------------------------------------
+# Elements ----------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -181,7 +181,9 @@ def _build(
             raise InvalidValue(
                 f"{name} has no enhanced thickness strain",
                 value=f"thickness_order={thickness_order}, thickness_modes={thickness_modes_count}",
-                remedy="take one of the elements with EAS in their name" if cell == "hex8" else "take DISP9K3DEAS or MI9K3DEAS",
+                remedy="take one of the elements with EAS in their name"
+                if cell == "hex8"
+                else "take DISP9K3DEAS or MI9K3DEAS",
             )
         if thickness > 0 and thickness_modes_count not in (1, 4, 9):
             raise InvalidValue("the number of thickness modes must be 1, 4 or 9", value=thickness_modes_count)
@@ -268,7 +270,9 @@ def element(
     given = {key: value for key, value in options.items() if value is not None}
     if isinstance(name, Element):
         if given:
-            raise InvalidValue("an Element takes no further options", value=sorted(given), remedy="set them where you build it")
+            raise InvalidValue(
+                "an Element takes no further options", value=sorted(given), remedy="set them where you build it"
+            )
         return name
     if name not in CATALOGUE:
         raise InvalidValue("unknown element", value=name, remedy="one of " + ", ".join(CATALOGUE))
@@ -292,7 +296,9 @@ def thickness_rule(points: int, rule: str = "gauss") -> tuple[NDArray[np.float64
     if rule not in ("gauss", "lobatto", "split"):
         raise InvalidValue("unknown thickness rule", value=rule, remedy="gauss, lobatto or split")
     if rule == "split" and points % 2:
-        raise InvalidValue("the split rule needs an even number of thickness points", value=points, remedy=f"take {points + 1}")
+        raise InvalidValue(
+            "the split rule needs an even number of thickness points", value=points, remedy=f"take {points + 1}"
+        )
     return {"gauss": _core.gauss, "lobatto": _core.lobatto, "split": _core.split}[rule](points)
 
 

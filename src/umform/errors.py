@@ -26,9 +26,7 @@ class UmformError(Exception):
 
     id = "umform"
 
-    def __init__(
-        self, what: str, *, where: str = "", value: object = None, cause: str = "", remedy: str = ""
-    ) -> None:
+    def __init__(self, what: str, *, where: str = "", value: object = None, cause: str = "", remedy: str = "") -> None:
         super().__init__(what)
         self.what = what
         self.where = where
@@ -51,9 +49,7 @@ class UmformError(Exception):
         return (_rebuild, (type(self), self.what, self.where, self.value, self.cause, self.remedy))
 
 
-def _rebuild(
-    kind: type[UmformError], what: str, where: str, value: object, cause: str, remedy: str
-) -> UmformError:
+def _rebuild(kind: type[UmformError], what: str, where: str, value: object, cause: str, remedy: str) -> UmformError:
     """Rebuild an error on the other side of a process boundary."""
     return kind(what, where=where, value=value, cause=cause, remedy=remedy)
 

@@ -73,7 +73,8 @@ class PointFields:
     def cell_average(self, values: Floats) -> Floats:
         """Average over the volume of each cell of values (cells, points, ...)."""
         weight = self.volume / self.volume.sum(axis=1, keepdims=True)
-        return np.einsum("eq,eq...->e...", weight, values)
+        average: Floats = np.einsum("eq,eq...->e...", weight, values)
+        return average
 
 
 def point_fields(model: Model) -> PointFields:
@@ -130,7 +131,8 @@ def contact_pressure(model: Model) -> Floats:
 
 
 def _tensor(voigt: Floats) -> Floats:
-    return voigt[..., [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
+    tensor: Floats = voigt[..., [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
+    return tensor
 
 
 def _voigt(tensor: Floats) -> Floats:
@@ -138,4 +140,5 @@ def _voigt(tensor: Floats) -> Floats:
 
 
 def _to_global(local: Floats, frame: Floats) -> Floats:
-    return np.einsum("...ki,...kl,...lj->...ij", frame, local, frame)
+    tensor: Floats = np.einsum("...ki,...kl,...lj->...ij", frame, local, frame)
+    return tensor

@@ -39,12 +39,19 @@ class Elastic:
     kappa: float
     mu: float
 
-    def __init__(self, E: float | None = None, nu: float | None = None, *, kappa: float | None = None, mu: float | None = None) -> None:
+    def __init__(
+        self, E: float | None = None, nu: float | None = None, *, kappa: float | None = None, mu: float | None = None
+    ) -> None:
         where = type(self).__name__
         if E is not None and nu is not None and kappa is None and mu is None:
             _finite(where, E=E, nu=nu)
             if not E > 0 or not -1 < nu < 0.5:
-                raise InvalidValue("E must be positive and nu between -1 and 0.5", where=where, value=f"E={E}, nu={nu}", remedy="nearly incompressible: nu = 0.4999")
+                raise InvalidValue(
+                    "E must be positive and nu between -1 and 0.5",
+                    where=where,
+                    value=f"E={E}, nu={nu}",
+                    remedy="nearly incompressible: nu = 0.4999",
+                )
             kappa, mu = E / (3 * (1 - 2 * nu)), E / (2 * (1 + nu))
         elif kappa is not None and mu is not None and E is None and nu is None:
             _finite(where, kappa=kappa, mu=mu)
@@ -113,7 +120,7 @@ class NeoHookePower(Elastic):
         return _core.neo_hooke_power(self.mu, self.nu / (1 - 2 * self.nu))
 
 
-# Hardening -------------------------------------------------------------------------------------------------------------
+# Hardening ---------------------------------------------------------------------------------------------------
 
 
 class Hardening(Protocol):
@@ -155,7 +162,9 @@ class LinearVoce:
         _check_yield(where, self.yield_stress)
         if self.modulus < 0 or self.rate < 0 or self.saturation < self.yield_stress:
             raise HardeningNotMonotone(
-                "the yield stress must not fall", where=where, value=self,
+                "the yield stress must not fall",
+                where=where,
+                value=self,
                 cause="softening needs a length scale that this law does not have",
                 remedy="modulus and rate >= 0, saturation >= yield_stress",
             )
@@ -227,7 +236,11 @@ class Table:
         object.__setattr__(self, "eqps", tuple(float(e) for e in self.eqps))
         object.__setattr__(self, "stress", tuple(float(s) for s in self.stress))
         if len(self.eqps) != len(self.stress) or len(self.eqps) < 2:
-            raise InvalidValue("a hardening table needs two or more pairs", where="Table", value=f"{len(self.eqps)} strains, {len(self.stress)} stresses")
+            raise InvalidValue(
+                "a hardening table needs two or more pairs",
+                where="Table",
+                value=f"{len(self.eqps)} strains, {len(self.stress)} stresses",
+            )
         for row, (e, s) in enumerate(zip(self.eqps, self.stress, strict=True)):
             _finite(f"Table, row {row}", eqps=e, stress=s)
             if row and (e <= self.eqps[row - 1] or s < self.stress[row - 1]):
@@ -239,7 +252,12 @@ class Table:
                     remedy="smooth the curve, or fit Swift or Voce to it",
                 )
         if self.eqps[0] != 0.0:
-            raise InvalidValue("a hardening table starts at plastic strain 0", where="Table, row 0", value=self.eqps[0], remedy="give the plastic strain, not the total one")
+            raise InvalidValue(
+                "a hardening table starts at plastic strain 0",
+                where="Table, row 0",
+                value=self.eqps[0],
+                remedy="give the plastic strain, not the total one",
+            )
         _check_yield("Table, row 0", self.stress[0])
 
     def curve(self) -> _core.Hardening:
@@ -261,7 +279,15 @@ class J2(Elastic):
 
     hardening: Hardening
 
-    def __init__(self, E: float | None = None, nu: float | None = None, *, kappa: float | None = None, mu: float | None = None, hardening: Hardening) -> None:
+    def __init__(
+        self,
+        E: float | None = None,
+        nu: float | None = None,
+        *,
+        kappa: float | None = None,
+        mu: float | None = None,
+        hardening: Hardening,
+    ) -> None:
         super().__init__(E, nu, kappa=kappa, mu=mu)
         object.__setattr__(self, "hardening", hardening)
 

@@ -23,9 +23,7 @@ Ids = NDArray[np.int32]
 FACES = ("lower", "upper", "r0", "r1", "s0", "s1")
 
 #: Natural coordinates (r, s) of the nodes of a face, corners first.
-FACE_NODES = np.array(
-    [(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0), (0, 0)], dtype=float
-)
+FACE_NODES = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0), (0, 0)], dtype=float)
 
 _OUTWARD_LOWER = {"hex8": [0, 3, 2, 1], "hex18": [0, 3, 2, 1, 7, 6, 5, 4, 8]}
 
@@ -66,9 +64,9 @@ class Mesh:
     """
 
     points: Floats
-    cells: Mapping[str, Ids]
-    sets: Mapping[str, Ids] = field(default_factory=dict)
-    faces: Mapping[str, Ids] = field(default_factory=dict)
+    cells: Mapping[str, NDArray[np.integer]]
+    sets: Mapping[str, NDArray[np.integer]] = field(default_factory=dict)
+    faces: Mapping[str, NDArray[np.integer]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         points = np.ascontiguousarray(self.points, dtype=float)
@@ -76,7 +74,12 @@ class Mesh:
             raise InvalidValue("points must have shape (n, 3)", value=points.shape)
         if not np.isfinite(points).all():
             node = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
-            raise NotFinite("a node has no finite position", where=f"node {node}", value=points[node], remedy="look at what wrote the mesh")
+            raise NotFinite(
+                "a node has no finite position",
+                where=f"node {node}",
+                value=points[node],
+                remedy="look at what wrote the mesh",
+            )
         if len(self.cells) != 1 or next(iter(self.cells)) not in ("hex8", "hex18"):
             raise WrongCellType(
                 "a mesh has cells of one type, hex8 or hex18",
@@ -87,14 +90,28 @@ class Mesh:
         cells = np.ascontiguousarray(raw, dtype=np.int32)
         nodes = 8 if name == "hex8" else 18
         if cells.ndim != 2 or cells.shape[1] != nodes or len(cells) == 0:
-            raise WrongCellType(f"{name} cells must have shape (m, {nodes}) with m > 0", value=np.shape(raw), cause="cells of another type", remedy="an 8-node hexahedron is hex8, a solid-shell with 9 nodes a face is hex18")
+            raise WrongCellType(
+                f"{name} cells must have shape (m, {nodes}) with m > 0",
+                value=np.shape(raw),
+                cause="cells of another type",
+                remedy="an 8-node hexahedron is hex8, a solid-shell with 9 nodes a face is hex18",
+            )
         if cells.min() < 0 or cells.max() >= len(points):
             cell = int(np.flatnonzero(((cells < 0) | (cells >= len(points))).any(axis=1))[0])
-            raise InvalidValue("a cell names a node that does not exist", where=f"cell {cell}", value=cells[cell], cause="node numbers that start at 1, or a cut file")
+            raise InvalidValue(
+                "a cell names a node that does not exist",
+                where=f"cell {cell}",
+                value=cells[cell],
+                cause="node numbers that start at 1, or a cut file",
+            )
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "cells", {name: cells})
-        object.__setattr__(self, "sets", {key: np.unique(np.asarray(ids, dtype=np.int32)) for key, ids in self.sets.items()})
-        object.__setattr__(self, "faces", {key: np.asarray(rows, dtype=np.int32).reshape(-1, 2) for key, rows in self.faces.items()})
+        object.__setattr__(
+            self, "sets", {key: np.unique(np.asarray(ids, dtype=np.int32)) for key, ids in self.sets.items()}
+        )
+        object.__setattr__(
+            self, "faces", {key: np.asarray(rows, dtype=np.int32).reshape(-1, 2) for key, rows in self.faces.items()}
+        )
         check_cells(points, cells)
 
     @property
@@ -105,7 +122,7 @@ class Mesh:
     @property
     def connectivity(self) -> Ids:
         """Node ids of the cells, shape (m, 8) or (m, 18)."""
-        return self.cells[self.cell]
+        return np.asarray(self.cells[self.cell], dtype=np.int32)
 
     def __repr__(self) -> str:
         return f"Mesh({len(self.points)} points, {len(self.connectivity)} {self.cell}, sets: {', '.join(self.sets) or 'none'})"
@@ -120,7 +137,7 @@ class Mesh:
         """
         if isinstance(selector, str):
             if selector in self.sets:
-                ids = self.sets[selector]
+                ids = np.asarray(self.sets[selector], dtype=np.int32)
             elif selector in self.faces:
                 ids = np.unique(np.concatenate([self._face_nodes(face) for face in self.faces[selector]]))
             else:
@@ -130,9 +147,15 @@ class Mesh:
         else:
             ids = np.unique(np.asarray(selector, dtype=np.int32))
         if len(ids) == 0:
-            raise EmptySet("a set selects no node", value=selector if isinstance(selector, str) else "predicate or list", remedy="look at the coordinates: comparisons of reals need a tolerance")
+            raise EmptySet(
+                "a set selects no node",
+                value=selector if isinstance(selector, str) else "predicate or list",
+                remedy="look at the coordinates: comparisons of reals need a tolerance",
+            )
         if ids.min() < 0 or ids.max() >= len(self.points):
-            raise InvalidValue("a node id does not exist", value=int(ids.max()), where=f"mesh of {len(self.points)} points")
+            raise InvalidValue(
+                "a node id does not exist", value=int(ids.max()), where=f"mesh of {len(self.points)} points"
+            )
         return ids
 
     def face_set(self, selector: Selector) -> Ids:
@@ -140,18 +163,22 @@ class Mesh:
         if isinstance(selector, str):
             if selector not in self.faces:
                 raise _unknown("face", selector, list(self.faces))
-            rows = self.faces[selector]
+            rows = np.asarray(self.faces[selector], dtype=np.int32)
         elif callable(selector):
             inside = np.asarray(selector(*self.points.T), dtype=bool)
             rows = np.concatenate(
-                [np.stack([hit, np.full(len(hit), number)], axis=1)
-                 for number, local in enumerate(_nodes_of_faces(self.cell))
-                 for hit in [np.flatnonzero(inside[self.connectivity[:, local]].all(axis=1))]]
+                [
+                    np.stack([hit, np.full(len(hit), number)], axis=1)
+                    for number, local in enumerate(_nodes_of_faces(self.cell))
+                    for hit in [np.flatnonzero(inside[self.connectivity[:, local]].all(axis=1))]
+                ]
             ).astype(np.int32)
         else:
             rows = np.asarray(selector, dtype=np.int32).reshape(-1, 2)
         if len(rows) == 0:
-            raise EmptySet("a set selects no face", value=selector if isinstance(selector, str) else "predicate or list")
+            raise EmptySet(
+                "a set selects no face", value=selector if isinstance(selector, str) else "predicate or list"
+            )
         return rows
 
     def facets(self, selector: Selector) -> Ids:
@@ -164,7 +191,11 @@ class Mesh:
         """
         rows = self.face_set(selector)
         if (rows[:, 1] > 1).any():
-            raise InvalidValue("contact and pressure act on lower and upper faces only", value=FACES[int(rows[:, 1].max())], remedy="choose a set of lower or upper faces")
+            raise InvalidValue(
+                "contact and pressure act on lower and upper faces only",
+                value=FACES[int(rows[:, 1].max())],
+                remedy="choose a set of lower or upper faces",
+            )
         half = self.connectivity.shape[1] // 2
         lower = self.connectivity[:, :half][:, _OUTWARD_LOWER[self.cell]]
         upper = self.connectivity[:, half:]
@@ -175,11 +206,17 @@ class Mesh:
         return Mesh(function(self.points), self.cells, self.sets, self.faces)
 
     def _face_nodes(self, face: Ids) -> Ids:
-        return self.connectivity[face[0]][_nodes_of_faces(self.cell)[face[1]]]
+        ids: Ids = self.connectivity[face[0]][_nodes_of_faces(self.cell)[face[1]]]
+        return ids
 
 
 def _unknown(kind: str, name: str, known: Sequence[str]) -> UnknownSet:
-    return UnknownSet(f"the mesh has no {kind} set of that name", value=name, cause="a slip of the pen, or a set lost in the mesh file", remedy="known sets: " + (", ".join(sorted(set(known))) or "none"))
+    return UnknownSet(
+        f"the mesh has no {kind} set of that name",
+        value=name,
+        cause="a slip of the pen, or a set lost in the mesh file",
+        remedy="known sets: " + (", ".join(sorted(set(known))) or "none"),
+    )
 
 
 def graded(length: float, cells: int, ratio: float = 1.0) -> Floats:
@@ -221,17 +258,37 @@ def grid(x: ArrayLike, y: ArrayLike, z: ArrayLike, cell: str = "hex8") -> Mesh:
     number = np.arange(nx * ny * nz, dtype=np.int32).reshape(nx, ny, nz)
 
     offsets = ((FACE_NODES[: 4 if per_cell == 1 else 9] + 1) / 2 * per_cell).astype(int)
-    ix, iy, iz = (a.ravel() for a in np.meshgrid(
-        np.arange(0, nx - 1, per_cell), np.arange(0, ny - 1, per_cell), np.arange(nz - 1), indexing="ij"))
+    ix, iy, iz = (
+        a.ravel()
+        for a in np.meshgrid(
+            np.arange(0, nx - 1, per_cell), np.arange(0, ny - 1, per_cell), np.arange(nz - 1), indexing="ij"
+        )
+    )
     cells = np.stack([number[ix + dx, iy + dy, iz + dz] for dz in (0, 1) for dx, dy in offsets], axis=1)
 
-    planes = {"x0": number[0], "x1": number[-1], "y0": number[:, 0], "y1": number[:, -1], "lower": number[..., 0], "upper": number[..., -1]}
+    planes = {
+        "x0": number[0],
+        "x1": number[-1],
+        "y0": number[:, 0],
+        "y1": number[:, -1],
+        "lower": number[..., 0],
+        "upper": number[..., -1],
+    }
     sets = {name: ids.ravel() for name, ids in planes.items()}
     for name in ("x0", "x1", "y0", "y1"):
         for side in ("lower", "upper"):
             sets[f"{name}_{side}"] = np.intersect1d(sets[name], sets[side])
-    where = {"x0": (ix == 0, 2), "x1": (ix == ix.max(), 3), "y0": (iy == 0, 4), "y1": (iy == iy.max(), 5), "lower": (iz == 0, 0), "upper": (iz == iz.max(), 1)}
-    faces = {name: np.stack([np.flatnonzero(hit), np.full(hit.sum(), face)], axis=1) for name, (hit, face) in where.items()}
+    where = {
+        "x0": (ix == 0, 2),
+        "x1": (ix == ix.max(), 3),
+        "y0": (iy == 0, 4),
+        "y1": (iy == iy.max(), 5),
+        "lower": (iz == 0, 0),
+        "upper": (iz == iz.max(), 1),
+    }
+    faces = {
+        name: np.stack([np.flatnonzero(hit), np.full(hit.sum(), face)], axis=1) for name, (hit, face) in where.items()
+    }
     return Mesh(points, {cell: cells}, sets, faces)
 
 

@@ -15,7 +15,10 @@ Ids = NDArray[np.int32]
 def jacobians(points: Floats, cells: Ids) -> Floats:
     """Determinants of the Jacobian at the Gauss points and corners of all cells, shape (cells, points)."""
     gauss = _core.gauss(2 if cells.shape[1] == 8 else 3)[0]
-    samples = [np.stack(np.meshgrid(a, a, a[[0, -1]], indexing="ij"), axis=-1).reshape(-1, 3) for a in (gauss, np.array([-1.0, 1.0]))]
+    samples = [
+        np.stack(np.meshgrid(a, a, a[[0, -1]], indexing="ij"), axis=-1).reshape(-1, 3)
+        for a in (gauss, np.array([-1.0, 1.0]))
+    ]
     _, dN = _core.shell_functions(cells.shape[1], np.concatenate(samples))
     J: Floats = np.linalg.det(np.einsum("qia,eak->eqik", dN, points[cells]))
     return J
@@ -51,7 +54,7 @@ def check_cells(points: Floats, cells: Ids) -> None:
     """
     J = jacobians(points, cells)
     scale = np.abs(J).max(axis=1, keepdims=True)
-    bad = ~(J > 1e-10 * scale)
+    bad = ~(1e-10 * scale < J)
     if not bad.any():
         return
     if bad.any(axis=1).all():
@@ -68,12 +71,16 @@ def check_cells(points: Floats, cells: Ids) -> None:
     value = f"det J from {J[cell].min():.3g} to {J[cell].max():.3g}"
     if (J[cell] < 0).all():
         raise InvertedElement(
-            "a cell is turned inside out", where=where, value=value,
+            "a cell is turned inside out",
+            where=where,
+            value=value,
             cause="lower and upper face exchanged, or nodes numbered clockwise",
             remedy="number the lower face counter-clockwise seen from the upper one",
         )
     raise FoldedElement(
-        "a cell is folded or flat", where=where, value=value,
+        "a cell is folded or flat",
+        where=where,
+        value=value,
         cause="two nodes exchanged or at the same place, a warped face, or no thickness",
         remedy="look at the nodes of this cell; a mid-side node of hex18 must lie near the middle of its side",
     )

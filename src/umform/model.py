@@ -11,7 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from umform import _core, boundary
 from umform.boundary import DIRECTIONS, Control, Load, Prescribed, Pressure
 from umform.contact import Contact, Motion, ToolMotion
-from umform.elements import Element, element as catalogue_element, thickness_rule as make_thickness_rule
+from umform.elements import Element
+from umform.elements import element as catalogue_element
+from umform.elements import thickness_rule as make_thickness_rule
 from umform.errors import InvalidValue, RigidBodyMotion, ToolSwallowsSheet, WrongCellType
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
@@ -102,15 +104,23 @@ class Model:
                 remedy=f"make the mesh with cell={self.element.cell!r}, or take an element for {mesh.cell}",
             )
         if not isinstance(material, Material):
-            raise InvalidValue("material must be a material law", value=type(material).__name__, remedy="SVK, NeoHooke, NeoHookePower or J2")
+            raise InvalidValue(
+                "material must be a material law",
+                value=type(material).__name__,
+                remedy="SVK, NeoHooke, NeoHookePower or J2",
+            )
         self.material = material
         least = self.element.thickness_order + 1
-        self.thickness_points = thickness_points if thickness_points is not None else max(material.thickness_points, least)
+        self.thickness_points = (
+            thickness_points if thickness_points is not None else max(material.thickness_points, least)
+        )
         self.thickness_rule = thickness_rule
         if self.thickness_points < least:
             raise InvalidValue(
                 f"thickness order {least - 1} needs at least {least} thickness points",
-                value=self.thickness_points, cause="fewer points cannot see the highest mode", remedy=f"thickness_points={least} or more",
+                value=self.thickness_points,
+                cause="fewer points cannot see the highest mode",
+                remedy=f"thickness_points={least} or more",
             )
         t, w = make_thickness_rule(self.thickness_points, thickness_rule)
         self.block = _core.shell_block(
@@ -124,7 +134,7 @@ class Model:
         self._fixed = np.zeros(size, dtype=bool)
         self._assembled: _Assembly | None = None
 
-    # Supports ----------------------------------------------------------------------------------------------------------
+    # Supports ------------------------------------------------------------------------------------------------
 
     def fix(self, nodes: Selector, directions: str = "xyz") -> None:
         """Hold nodes in one or more of the directions x, y, z."""
@@ -144,10 +154,15 @@ class Model:
         for other, theirs in taken.items():
             shared = np.intersect1d(dofs, theirs)
             if len(shared):
-                raise InvalidValue("a displacement is prescribed twice", where=f"node {shared[0] // 3}, direction {direction}", value=f"by {other} and by {name or 'this one'}", remedy="take the node out of one of the sets")
+                raise InvalidValue(
+                    "a displacement is prescribed twice",
+                    where=f"node {shared[0] // 3}, direction {direction}",
+                    value=f"by {other} and by {name or 'this one'}",
+                    remedy="take the node out of one of the sets",
+                )
         return self._add(Prescribed(name or self._name("displacement"), dofs=dofs))
 
-    # Loads -------------------------------------------------------------------------------------------------------------
+    # Loads ---------------------------------------------------------------------------------------------------
 
     def force(self, nodes: Selector, force: ArrayLike, name: str = "") -> Load:
         """The same dead force on each node of a set, times the value of the control."""
@@ -170,9 +185,11 @@ class Model:
         block = _core.pressure_block(self.mesh.facets(faces), self.mesh.points)
         return self._add(Pressure(name or self._name("pressure"), block=block))
 
-    # Contact -----------------------------------------------------------------------------------------------------------
+    # Contact -------------------------------------------------------------------------------------------------
 
-    def contact(self, faces: Selector, tool: Surface, *, penalty: float, points: int | str = 2, name: str = "") -> Contact:
+    def contact(
+        self, faces: Selector, tool: Surface, *, penalty: float, points: int | str = 2, name: str = ""
+    ) -> Contact:
         """Let faces touch a rigid tool.
 
         Parameters
@@ -207,7 +224,7 @@ class Model:
         contact.motion = motion
         contact.reference_point = boundary.vector3(about, "about")
 
-    # Evaluation --------------------------------------------------------------------------------------------------------
+    # Evaluation ----------------------------------------------------------------------------------------------
 
     @property
     def pattern(self) -> Pattern:
@@ -279,7 +296,9 @@ class Model:
 
     def snapshot(self) -> Snapshot:
         """Copy of the converged state and of the controls."""
-        return Snapshot(self.u.copy(), self.block.state, self.block.alpha, tuple(c.value for c in self.controls), self.time)
+        return Snapshot(
+            self.u.copy(), self.block.state, self.block.alpha, tuple(c.value for c in self.controls), self.time
+        )
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot."""
@@ -298,7 +317,7 @@ class Model:
             return float(owner.resultant()[0] @ np.asarray(control.direction))
         return control.value
 
-    # Checks ------------------------------------------------------------------------------------------------------------
+    # Checks --------------------------------------------------------------------------------------------------
 
     def check(self) -> None:
         """Refuse what cannot be solved before time is spent on it.
@@ -311,7 +330,9 @@ class Model:
             If a tool overlaps the sheet by more than half of its thickness.
         """
         half = len(self.mesh.connectivity[0]) // 2
-        directors = self.mesh.points[self.mesh.connectivity[:, half:]] - self.mesh.points[self.mesh.connectivity[:, :half]]
+        directors = (
+            self.mesh.points[self.mesh.connectivity[:, half:]] - self.mesh.points[self.mesh.connectivity[:, :half]]
+        )
         thickness = float(np.median(np.linalg.norm(directors, axis=-1)))
         rows = [boundary.rigid_body_modes(self.mesh.points)[:, np.flatnonzero(self._constrained())].T]
         for contact in self.contacts:
@@ -322,14 +343,17 @@ class Model:
             if at.gap[deepest] < -0.5 * thickness:
                 raise ToolSwallowsSheet(
                     "a tool overlaps the sheet before anything has moved",
-                    where=f"contact {contact.name}, x = {np.round(at.x[deepest], 6)}", value=f"gap {at.gap[deepest]:.4g}, thickness {thickness:.4g}",
+                    where=f"contact {contact.name}, x = {np.round(at.x[deepest], 6)}",
+                    value=f"gap {at.gap[deepest]:.4g}, thickness {thickness:.4g}",
                     cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
                     remedy="move the tool so that it just touches the sheet, or turn its normal",
                 )
             touching = at.gap <= 1e-6 * thickness
             if touching.any():
                 rows.append(self._rigid_motion_along(at.x[touching], at.normal[touching]))
-        matrix = np.concatenate([row for row in rows if len(row)]) if any(len(row) for row in rows) else np.zeros((1, 6))
+        matrix = (
+            np.concatenate([row for row in rows if len(row)]) if any(len(row) for row in rows) else np.zeros((1, 6))
+        )
         _, singular, directions = np.linalg.svd(matrix, full_matrices=True)
         rank = int((singular > 1e-8 * max(singular.max(), 1e-300)).sum())
         if rank < 6:
@@ -347,7 +371,7 @@ class Model:
         arm = (x - self.mesh.points.mean(axis=0)) / size
         return np.concatenate([n, np.cross(arm, n)], axis=1)
 
-    # Inside ------------------------------------------------------------------------------------------------------------
+    # Inside --------------------------------------------------------------------------------------------------
 
     def _assembly(self) -> _Assembly:
         if self._assembled is None:
@@ -399,10 +423,17 @@ class _Assembly:
         self.scatter = pattern.scatter(model.block.connectivity)
         self.contact_scatter = [pattern.scatter(contact.block.connectivity) for contact in model.contacts]
         self.pressure_scatter = [pattern.scatter(block.connectivity) for block in pressures]
-        self.pattern = Pattern(len(self.free), pattern.indptr, pattern.indices, pattern.symmetric)
+        self.pattern = Pattern(len(self.free), pattern.indptr.astype(np.int32), pattern.indices, pattern.symmetric)
 
 
 def _describe_motion(mode: Floats) -> str:
-    names = ("translation x", "translation y", "translation z", "rotation about x", "rotation about y", "rotation about z")
+    names = (
+        "translation x",
+        "translation y",
+        "translation z",
+        "rotation about x",
+        "rotation about y",
+        "rotation about z",
+    )
     strong = np.abs(mode) > 0.3 * np.abs(mode).max()
     return "free: " + " with ".join(name for name, hit in zip(names, strong, strict=True) if hit)

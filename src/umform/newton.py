@@ -1,13 +1,15 @@
 """Newton's method on a system that can evaluate, recover, commit and revert; it knows no elements and no contact.
 
-Convergence asks for a small residual AND a small increment, both without units: the residual against the root of the sum
-of squares of all element forces, the increment against the largest displacement. Neither can fall below round-off, so the
-floor that round-off sets is estimated in each iteration, and a residual at the floor counts as zero. eqs. (5.8)-(5.11)
+Convergence asks for a small residual AND a small increment, both without units: the residual against the root of the
+sum of squares of all element forces, the increment against the largest displacement. Neither can fall below round-off,
+so the floor that round-off sets is estimated in each iteration, and a residual at the floor counts as zero.
+eqs. (5.8)-(5.11)
 """
 
 from __future__ import annotations
 
 import logging
+import math
 import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -27,11 +29,25 @@ Floats = NDArray[np.float64]
 class Evaluation(Protocol):
     """What Newton reads of an evaluation."""
 
-    residual: Floats
-    values: Floats
-    predictor: Floats
-    force_scale: float
-    failed: int
+    @property
+    def residual(self) -> Floats:
+        """Residual at all degrees of freedom, reactions at the prescribed ones."""
+
+    @property
+    def values(self) -> Floats:
+        """Entries of the tangent."""
+
+    @property
+    def predictor(self) -> Floats:
+        """Tangent times the increment of the prescribed degrees of freedom."""
+
+    @property
+    def force_scale(self) -> float:
+        """Scale of the forces."""
+
+    @property
+    def failed(self) -> int:
+        """First cell outside of the domain of its law, or -1."""
 
 
 class System(Protocol):
@@ -226,7 +242,9 @@ class Newton:
             small = norm <= max(options.residual * scale, floor) and increment <= options.increment
             settled = small and (not (entered or left) or extra >= 2)
             if settled or norm <= floor:
-                self._record(iterations, number, norm / scale, increment, 0.0, entered, left, step_length, pivots, start)
+                self._record(
+                    iterations, number, norm / scale, increment, 0.0, entered, left, step_length, pivots, start
+                )
                 return Converged(u, evaluation.residual, iterations)
             extra += int(small)
             self._detect_chatter(seen, active, iterations)
@@ -258,7 +276,11 @@ class Newton:
             # Evaluation is pure: put the parameters back and evaluate at u again, and nothing of the trial is left.
             system.undo_recover()
             system.evaluate(u)
-            s = max(0.1 * s, min(0.5 * s, s * slope / (slope - along))) if np.isfinite(along) and slope != along else 0.5 * s
+            s = (
+                max(0.1 * s, min(0.5 * s, s * slope / (slope - along)))
+                if np.isfinite(along) and slope != along
+                else 0.5 * s
+            )
         else:
             system.recover(du, s)
             trial = u + s * du
@@ -275,14 +297,34 @@ class Newton:
     def _floor(self, values: Floats, u: Floats) -> float:
         """Residual that round-off of the displacements leaves behind. eq. (5.10)"""
         largest = float(np.abs(values).max(initial=0.0))
-        return 4.0 * np.finfo(float).eps * largest * float(np.abs(u).max()) * np.sqrt(self.system.free.size)
+        eps = float(np.finfo(float).eps)
+        return 4.0 * eps * largest * float(np.abs(u).max()) * math.sqrt(self.system.free.size)
 
-    def _record(self, iterations: list[Iteration], number: int, residual: float, increment: float, energy: float, entered: int, left: int, step_length: float, pivots: int | None, start: float) -> None:
-        record = Iteration(number, residual, increment, energy, entered, left, step_length, pivots, clock.perf_counter() - start)
+    def _record(
+        self,
+        iterations: list[Iteration],
+        number: int,
+        residual: float,
+        increment: float,
+        energy: float,
+        entered: int,
+        left: int,
+        step_length: float,
+        pivots: int | None,
+        start: float,
+    ) -> None:
+        record = Iteration(
+            number, residual, increment, energy, entered, left, step_length, pivots, clock.perf_counter() - start
+        )
         iterations.append(record)
         log.debug(
             "    iteration %2d  residual %.3e  increment %.3e  contact +%d -%d%s",
-            number, residual, increment, entered, left, f"  negative pivots {pivots}" if pivots else "",
+            number,
+            residual,
+            increment,
+            entered,
+            left,
+            f"  negative pivots {pivots}" if pivots else "",
         )
         for callback in self.callbacks:
             callback(record)
@@ -305,7 +347,9 @@ class Newton:
             tail = seen[-period:]
             cycle = tail == seen[-2 * period : -period] == seen[-3 * period : -2 * period] and len(set(tail)) > 1
             if cycle and iterations[-1].residual > 0.5 * iterations[-1 - period].residual:
-                raise Failed(f"the active set of contact chatters between {len(set(tail))} states", iterations, chattering=True)
+                raise Failed(
+                    f"the active set of contact chatters between {len(set(tail))} states", iterations, chattering=True
+                )
 
 
 def _size(du: Floats, u: Floats) -> float:

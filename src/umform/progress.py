@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def progress_bar(show: bool | None = None) -> Iterator[Callable[[str, float], None]]:
-    """Yield ``tick(name, fraction)``; one bar for each name, shown on a terminal only unless ``show`` says otherwise."""
+    """Yield ``tick(name, fraction)``; one bar a name, on a terminal only unless ``show`` says otherwise."""
     if show is None:
         show = sys.stderr.isatty()
     if not show:
@@ -18,7 +18,13 @@ def progress_bar(show: bool | None = None) -> Iterator[Callable[[str, float], No
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"), TimeElapsedColumn(), TimeRemainingColumn())
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.percentage:3.0f} %"),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    )
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
         tasks: dict[str, int] = {}
 

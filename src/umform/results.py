@@ -69,7 +69,13 @@ class Result:
         row["iterations"] = len(iterations)
         self.rows.append(row)
         self.iterations.append(iterations)
-        log.info("step %d  time %.4f  %s  iterations %d", step, model.time, "  ".join(f"{c.name} {c.value:.6g} force {row[c.name + '_force']:.6g}" for c in model.controls), len(iterations))
+        log.info(
+            "step %d  time %.4f  %s  iterations %d",
+            step,
+            model.time,
+            "  ".join(f"{c.name} {c.value:.6g} force {row[c.name + '_force']:.6g}" for c in model.controls),
+            len(iterations),
+        )
         if frame:
             self.frames.append(self._frame(residual))
 
@@ -104,7 +110,9 @@ class Result:
     def __getitem__(self, column: str) -> Floats:
         """A column of the history."""
         if not self.rows or column not in self.rows[0]:
-            raise InvalidValue("the history has no such column", value=column, remedy="one of " + ", ".join(self.columns()))
+            raise InvalidValue(
+                "the history has no such column", value=column, remedy="one of " + ", ".join(self.columns())
+            )
         return np.array([row[column] for row in self.rows])
 
     def columns(self) -> list[str]:

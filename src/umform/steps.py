@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 import time as clock
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -54,7 +55,9 @@ class Move:
             if not callable(target) and not np.isfinite(target):
                 raise InvalidValue("a control cannot be moved there", value=target)
         if len(self.targets()) != len(self.moved()):
-            raise InvalidValue("give one target for each control", value=f"{len(self.moved())} controls, {len(self.targets())} targets")
+            raise InvalidValue(
+                "give one target for each control", value=f"{len(self.moved())} controls, {len(self.targets())} targets"
+            )
 
     def moved(self) -> list[Control]:
         """The controls of the step."""
@@ -173,7 +176,9 @@ def solve(
     return run.result
 
 
-def _increment(run: _Run, values: Sequence[float], controls: Sequence[Control], time: float, extrapolation: float | None) -> Converged:
+def _increment(
+    run: _Run, values: Sequence[float], controls: Sequence[Control], time: float, extrapolation: float | None
+) -> Converged:
     """One increment to new values of the controls; on failure everything stands as before."""
     model = run.model
     before, time_before = [control.value for control in controls], model.time
@@ -222,7 +227,9 @@ def _move(run: _Run, step: Move, number: int, frames: int) -> None:
             easy = 0
             last_size = None
             if failure.chattering:
-                run.result.warn(f"step {number}, time {start_time + target:.4f}: {failure.reason}; the increment is cut")
+                run.result.warn(
+                    f"step {number}, time {start_time + target:.4f}: {failure.reason}; the increment is cut"
+                )
             log.info("step %d: %s; increment cut to %.3g", number, failure.reason, size)
             if size < smallest:
                 raise _no_convergence(failure, number, controls, path(target), step) from None
@@ -238,7 +245,9 @@ def _move(run: _Run, step: Move, number: int, frames: int) -> None:
             mark = (np.floor(fraction / nominal + 1e-9) + 1) * nominal
             size = min(size, mark - fraction) if mark - fraction > 1e-9 * nominal else size
         last = fraction >= 1.0 - 1e-9 * nominal
-        run.result.add(converged.residual, converged.iterations, step=number, frame=bool(every) and (count % every == 0 or last))
+        run.result.add(
+            converged.residual, converged.iterations, step=number, frame=bool(every) and (count % every == 0 or last)
+        )
         run.tick(f"step {number}", fraction)
 
 
@@ -249,8 +258,10 @@ def _release(run: _Run, step: Release, number: int, frames: int) -> None:
     force = model.conjugate_force(control, model.evaluate(model.u).residual)
     scale = abs(force)
     if start_value == 0.0 or scale == 0.0:
-        raise InvalidValue("there is nothing to release", where=control.name, value=f"value {start_value:g}, force {force:g}")
-    size = -np.sign(start_value) * (step.increment or abs(start_value) / 1000.0)
+        raise InvalidValue(
+            "there is nothing to release", where=control.name, value=f"value {start_value:g}, force {force:g}"
+        )
+    size = -math.copysign(step.increment or abs(start_value) / 1000.0, start_value)
     largest, resolution = abs(start_value) / 20.0, 1e-6 * abs(start_value)
     before: tuple[float, float] | None = None  # value and force of the state before the present one
     bound: float | None = None  # a value where the force is known to be zero or beyond
@@ -272,7 +283,7 @@ def _release(run: _Run, step: Release, number: int, frames: int) -> None:
         force_there = model.conjugate_force(control, converged.residual)
         zero = abs(force_there) <= step.tolerance * scale
         lifted = bool(model.contacts) and zero and not model.active_set().any()
-        if force_there * force < 0.0 and not zero or lifted and abs(target - value) > 2.5 * resolution:
+        if (force_there * force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
             bound = target
             model.restore(saved)
             model.evaluate(model.u)
@@ -297,7 +308,7 @@ def _next_release(
     """Next value of a control on its way to zero force; with a bound, close in on the zero from the loaded side."""
     if bound is None:
         return value + size
-    sign = np.sign(bound - value)
+    sign = 1.0 if bound > value else -1.0
     if abs(bound - value) <= 2.5 * resolution:
         return bound
     if before is None:  # crossed zero: the size is that of the secant
@@ -311,14 +322,16 @@ def _next_release(
     return value + 0.99 * (zero - value)
 
 
-def _no_convergence(failure: Failed, number: int, controls: Sequence[Control], values: Sequence[float], step: Step) -> NoConvergence:
+def _no_convergence(
+    failure: Failed, number: int, controls: Sequence[Control], values: Sequence[float], step: Step
+) -> NoConvergence:
     goal = ", ".join(f"{c.name} = {v:.6g}" for c, v in zip(controls, values, strict=True))
     return NoConvergence(
         "Newton's method did not converge at the smallest increment",
         where=f"step {number}, on the way to {goal}",
         value=_history(failure.iterations),
         cause=failure.reason,
-        remedy="look at the last converged state (it is kept): buckling, a tool that pinches the sheet, elements folded; "
+        remedy="look at the last converged state (it is kept): buckling, a pinched sheet, folded elements; "
         "else take more steps, fewer contact jumps (more contact points), a softer penalty or line_search=True",
     )
 
@@ -326,4 +339,3 @@ def _no_convergence(failure: Failed, number: int, controls: Sequence[Control], v
 def _history(iterations: Sequence[Iteration]) -> str:
     tail = [f"{record.residual:.1e}" for record in iterations[-4:]]
     return "last residuals " + ", ".join(tail) if tail else "no iteration"
-

@@ -102,7 +102,12 @@ class Cylinder:
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
-        return _core.cylinder(_point(self.centre, "Cylinder.centre"), unit_vector(self.axis, "Cylinder.axis"), _radius(self.radius, "Cylinder.radius"), self.inside)
+        return _core.cylinder(
+            _point(self.centre, "Cylinder.centre"),
+            unit_vector(self.axis, "Cylinder.axis"),
+            _radius(self.radius, "Cylinder.radius"),
+            self.inside,
+        )
 
 
 @dataclass(frozen=True)
@@ -159,15 +164,24 @@ class UserSurface:
         answer = self.function(x)
         shapes = ((len(x),), (len(x), 3), (len(x), 3, 3))
         if not isinstance(answer, tuple) or len(answer) != 3:
-            raise InvalidValue("a surface function must return three arrays: g, n, H", where=self.name, value=type(answer).__name__)
+            raise InvalidValue(
+                "a surface function must return three arrays: g, n, H", where=self.name, value=type(answer).__name__
+            )
         arrays = []
         for name, shape, values in zip(("g", "n", "H"), shapes, answer, strict=True):
             array = np.ascontiguousarray(values, dtype=float)
             if array.shape != shape:
-                raise InvalidValue(f"{name} of a surface function must have shape {shape}", where=self.name, value=array.shape)
+                raise InvalidValue(
+                    f"{name} of a surface function must have shape {shape}", where=self.name, value=array.shape
+                )
             if not np.isfinite(array).all():
                 at = int(np.argwhere(~np.isfinite(array))[0][0])
-                raise NotFinite(f"{name} of a surface function is not finite", where=f"{self.name} at x = {x[at]}", cause="a square root or division outside of its domain", remedy="make the function smooth around the tool, inside of it too")
+                raise NotFinite(
+                    f"{name} of a surface function is not finite",
+                    where=f"{self.name} at x = {x[at]}",
+                    cause="a square root or division outside of its domain",
+                    remedy="make the function smooth around the tool, inside of it too",
+                )
             arrays.append(array)
         return arrays[0], arrays[1], arrays[2]
 

@@ -12,10 +12,10 @@ namespace umform {
 
 /// Where a block adds its share. Arrays over all degrees of freedom, but `values` over the entries of the pattern.
 struct Target {
-    double* f;                  // internal forces
-    double* values;             // tangent over the free degrees of freedom
-    const double* du = nullptr; // if given: increment of the prescribed degrees of freedom ...
-    double* Kdu = nullptr;      // ... and K du
+    double* f;                   // internal forces
+    double* values;              // tangent over the free degrees of freedom
+    const double* du = nullptr;  // if given: increment of the prescribed degrees of freedom ...
+    double* Kdu = nullptr;       // ... and K du
 };
 
 /// Outcome of `evaluate`: the first element whose strain left the domain of its law (or -1), and sum |f_e|^2, the scale
@@ -27,10 +27,10 @@ struct Outcome {
 
 /// Fields at the Gauss points of all elements, for output. Arrays [element][point][...].
 struct PointFields {
-    double *E, *S;   // [6] in the local frame
-    double *frame;   // [3][3]: rows e_1, e_2, e_3
-    double *F;       // [3][3]: compatible deformation gradient in global axes
-    double *dV;      // reference volume
+    double *E, *S;  // [6] in the local frame
+    double* frame;  // [3][3]: rows e_1, e_2, e_3
+    double* F;      // [3][3]: compatible deformation gradient in global axes
+    double* dV;     // reference volume
 };
 
 /// Reads the nodal values of one element into its order by direction.
@@ -79,7 +79,7 @@ class ShellBlock {
     /// K, f of one element before its scatter, condensed; for tests and eigenvalues.
     virtual void element(int e, const double* u, double* K, double* f) = 0;
 
-    /// alpha -= Kaa^-1 (ra + s Kad du) with the blocks of the last `evaluate`. eq. (2.13)
+    /// alpha -= Kaa^-1 (ra + s Kad du) with the blocks of the last `evaluate`. eq. (2.19)
     virtual void recover(const double* du, double s) = 0;
     /// Takes the last `recover` back.
     void undo_recover() { alpha_ = alpha_before_; }
@@ -100,7 +100,7 @@ class ShellBlock {
     }
 
   protected:
-    std::vector<double> state_, trial_;                        // [element][point][state_size]
+    std::vector<double> state_, trial_;                           // [element][point][state_size]
     std::vector<double> alpha_, alpha_before_, alpha_converged_;  // [element][mode]
 };
 
@@ -201,7 +201,8 @@ class ShellBlockOf final : public ShellBlock {
                 std::copy(w.E[q].begin(), w.E[q].end(), out.E + 6 * at);
                 std::copy(w.S[q].begin(), w.S[q].end(), out.S + 6 * at);
                 const Mat3 J = Element::jacobian(element_.gradient(q), X), Jinv = inverse(J);
-                const auto frame = local_frame({Vec3{J(0, 0), J(1, 0), J(2, 0)}, {J(0, 1), J(1, 1), J(2, 1)}, {J(0, 2), J(1, 2), J(2, 2)}});
+                const auto frame = local_frame(
+                    {Vec3{J(0, 0), J(1, 0), J(2, 0)}, {J(0, 1), J(1, 1), J(2, 1)}, {J(0, 2), J(1, 2), J(2, 2)}});
                 for (int i = 0; i < 3; ++i)
                     for (int k = 0; k < 3; ++k) {
                         out.frame[9 * at + 3 * i + k] = frame[i][k];
@@ -224,14 +225,16 @@ class ShellBlockOf final : public ShellBlock {
     bool respond(int e, Workspace& w) {
         const int q = points();
         const std::size_t first = static_cast<std::size_t>(e) * q * material_->state_size();
-        return material_->respond(q, w.E.data(), state_.data() + first, w.S.data(), w.CC.data(), trial_.data() + first) == q;
+        return material_->respond(q, w.E.data(), state_.data() + first, w.S.data(), w.CC.data(), trial_.data() + first)
+               == q;
     }
 
     bool compute(int e, const double* u, Workspace& w) {
         typename Element::Nodal X, local_u;
         gather<Nodes>(part_, e, X_.data(), X.data());
         gather<Nodes>(part_, e, u, local_u.data());
-        if (!element_.strains(X, local_u, alpha_.data() + static_cast<std::size_t>(e) * element_.modes(), w)) return false;
+        if (!element_.strains(X, local_u, alpha_.data() + static_cast<std::size_t>(e) * element_.modes(), w))
+            return false;
         if (!respond(e, w)) return false;
         element_.integrate(w);
         return element_.condense(w);

@@ -75,7 +75,7 @@ class ContactBlockOf final : public ContactBlock {
         for (int q = 0; q < points(); ++q) to_space(q);
     }
 
-    /// f_a = penalty int g~ n N_a,  K_ab = penalty int N_a N_b (n n^T + g~ H) over the points with g < 0. eq. (4.3), (4.4)
+    /// f_a = penalty int g~ n N_a,  K_ab = penalty int N_a N_b (n n^T + g~ H) over the points with g < 0. eqs. (4.9), (4.10)
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         locate(u);
         const int per_facet = static_cast<int>(N_.size());
@@ -107,7 +107,7 @@ class ContactBlockOf final : public ContactBlock {
                     area_.push_back(rule.w[ir] * rule.w[is] * jacobian(e, rule.x[ir], rule.x[is]));
     }
 
-    /// Tributary areas int N_a dA: 1/4 of a plane 4-node facet, 1/36, 4/36 and 16/36 of a plane 9-node facet.
+    /// Tributary areas int N_a dA: 1/4 of a plane 4-node facet, 1/36, 4/36 and 16/36 of a plane 9-node facet. eq. (4.12)
     void nodal_rule() {
         for (int a = 0; a < Nodes; ++a) {
             Values N{};
@@ -166,7 +166,8 @@ class ContactBlockOf final : public ContactBlock {
             for (int l = k; l < 3; ++l) {
                 const double stiffness = weight * (n[k] * n[l] + g * H[3 * k + l]);
                 for (int a = 0; a < Nodes; ++a)
-                    for (int b = 0; b < Nodes; ++b) K[(k * Nodes + a) * size + l * Nodes + b] += stiffness * N[a] * N[b];
+                    for (int b = 0; b < Nodes; ++b)
+                        K[(k * Nodes + a) * size + l * Nodes + b] += stiffness * N[a] * N[b];
             }
     }
 

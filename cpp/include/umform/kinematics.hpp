@@ -19,19 +19,19 @@ Vec3 derivative(const double* dN, const double* v) {
 }
 
 /// Covariant Green-Lagrange strain E_ij = (G_i.h_j + h_i.G_j + h_i.h_j) / 2 with h_i = u,i: the metric difference
-/// (g_i.g_j - G_i.G_j) / 2 without its cancellation. Shears are engineering shears. eq. (1.4)
+/// (g_i.g_j - G_i.G_j) / 2 without its cancellation. Shears are engineering shears. eq. (1.7)
 inline double covariant_strain(int i, int j, const Vec3& Gi, const Vec3& Gj, const Vec3& hi, const Vec3& hj) {
     const double twice = dot(Gi, hj) + dot(hi, Gj) + dot(hi, hj);
     return i == j ? 0.5 * twice : twice;
 }
 
-/// Local orthonormal frame (columns e_1, e_2, e_3): e_3 normal to the layer, e_1 along G_1.
+/// Local orthonormal frame (columns e_1, e_2, e_3): e_3 normal to the layer, e_1 along G_1. eq. (1.13)
 inline std::array<Vec3, 3> local_frame(const std::array<Vec3, 3>& G) {
     const Vec3 e3 = normalised(cross(G[0], G[1])), e1 = normalised(G[0]);
     return {e1, cross(e3, e1), e3};
 }
 
-/// T with E_local = T E_covariant in Voigt components, from J^-1 with J_ki = e_k.G_i. eq. (1.7)
+/// T with E_local = T E_covariant in Voigt components, from J^-1 with J_ki = e_k.G_i. eq. (1.16)
 inline Voigt66 strain_transform(const Mat3& Jinv) {
     Voigt66 T;
     for (int p = 0; p < 6; ++p) {

@@ -14,7 +14,7 @@ class PressureBlock {
 };
 
 /// Facets are numbered so that x,r x x,s points out of the body. f_a = p int N_a (x,r x x,s) dr ds as an internal force;
-/// its tangent is not symmetric. eq. (5.4), (5.5)
+/// its tangent is not symmetric. eqs. (5.3), (5.4)
 template <int Nodes>
 class PressureBlockOf final : public PressureBlock {
   public:
@@ -50,7 +50,8 @@ class PressureBlockOf final : public PressureBlock {
         for (std::size_t q = 0; q < shapes_.size(); ++q) {
             const FaceShape<Nodes>& shape = shapes_[q];
             const double p = pressure * weights_[q];
-            const Vec3 gr = derivative<Nodes>(shape.Nr.data(), x.data()), gs = derivative<Nodes>(shape.Ns.data(), x.data());
+            const Vec3 gr = derivative<Nodes>(shape.Nr.data(), x.data()),
+                       gs = derivative<Nodes>(shape.Ns.data(), x.data());
             const Vec3 normal = cross(gr, gs);
             for (int a = 0; a < Nodes; ++a)
                 for (int k = 0; k < 3; ++k) {

@@ -28,10 +28,10 @@ class SolidShell {
     /// Everything that one thread needs to work on one element; nothing is allocated after construction.
     struct Workspace {
         // Strain at the Gauss points.
-        std::vector<Voigt> E, S;           // [q] in the local frame
-        std::vector<Voigt66> T, CC;        // [q]
-        std::vector<double> dV;            // [q]
-        std::vector<Voigt> enhanced;       // [q][component] covariant direction of an enhanced component
+        std::vector<Voigt> E, S;             // [q] in the local frame
+        std::vector<Voigt66> T, CC;          // [q]
+        std::vector<double> dV;              // [q]
+        std::vector<Voigt> enhanced;         // [q][component] covariant direction of an enhanced component
         std::vector<std::array<Vec3, 3>> g;  // [q] current base vectors
         // Tying samples: of the mid-surface, then of each layer.
         std::vector<double> sample_E;
@@ -64,7 +64,8 @@ class SolidShell {
         w.enhanced.resize(q * enhanced_.size());
         w.sample_E.resize(all), w.sample_gi.resize(all), w.sample_gj.resize(all);
         w.sample_B.resize(per_pass * size), w.sample_sigma.resize(per_pass);
-        w.Kaa.resize(modes_ * modes_), w.Kad.resize(modes_ * size), w.Kad_raw.resize(modes_ * size), w.ra.resize(modes_);
+        w.Kaa.resize(modes_ * modes_), w.Kad.resize(modes_ * size), w.Kad_raw.resize(modes_ * size),
+            w.ra.resize(modes_);
         return w;
     }
 
@@ -72,8 +73,10 @@ class SolidShell {
     bool strains(const Nodal& X, const Nodal& u, const double* alpha, Workspace& w) const {
         for (std::size_t k = 0; k < samples_.size(); ++k) {
             const Sample& sample = samples_[k];
-            const Vec3 Gi = derivative<Nodes>(sample.Ni.data(), X.data()), hi = derivative<Nodes>(sample.Ni.data(), u.data());
-            const Vec3 Gj = derivative<Nodes>(sample.Nj.data(), X.data()), hj = derivative<Nodes>(sample.Nj.data(), u.data());
+            const Vec3 Gi = derivative<Nodes>(sample.Ni.data(), X.data()),
+                       hi = derivative<Nodes>(sample.Ni.data(), u.data());
+            const Vec3 Gj = derivative<Nodes>(sample.Nj.data(), X.data()),
+                       hj = derivative<Nodes>(sample.Nj.data(), u.data());
             const auto [i, j] = voigt_pair[sample.component];
             w.sample_E[k] = covariant_strain(i, j, Gi, Gj, hi, hj);
             w.sample_gi[k] = sum(Gi, hi);
@@ -104,8 +107,8 @@ class SolidShell {
             Mat3 Jinv;
             for (int i = 0; i < 3; ++i)
                 for (int k = 0; k < 3; ++k)
-                    Jinv(i, k) = contravariant(i, 0) * frame[k][0] + contravariant(i, 1) * frame[k][1] +
-                                 contravariant(i, 2) * frame[k][2];
+                    Jinv(i, k) = contravariant(i, 0) * frame[k][0] + contravariant(i, 1) * frame[k][1]
+                                 + contravariant(i, 2) * frame[k][2];
             w.T[q] = strain_transform(Jinv);
 
             Voigt E{};
@@ -149,7 +152,7 @@ class SolidShell {
                     w.K[(k * Nodes + a) * size + k * Nodes + b] += w.K_geometric[a * Nodes + b];
     }
 
-    /// Eliminates the enhanced parameters: K -= Kda Kaa^-1 Kad, f -= Kda Kaa^-1 ra. False if Kaa is singular. eq. (2.12)
+    /// Eliminates the enhanced parameters: K -= Kda Kaa^-1 Kad, f -= Kda Kaa^-1 ra. False if Kaa is singular. eq. (2.18)
     bool condense(Workspace& w) const {
         if (modes_ == 0) return true;
         if (!factor_ldlt(w.Kaa.data(), modes_)) return false;
@@ -179,8 +182,8 @@ class SolidShell {
     };
     struct Row {
         bool at_layer;
-        int first, count;   // samples, counted inside the mid-surface or inside a layer
-        int first_weight;   // in tying_weights_, then [surface point][sample]
+        int first, count;  // samples, counted inside the mid-surface or inside a layer
+        int first_weight;  // in tying_weights_, then [surface point][sample]
     };
     struct ModeEntry {
         int component, mode;  // component: position in enhanced_
@@ -249,8 +252,9 @@ class SolidShell {
         for (int m = 0; m < modes_; ++m)
             for (const int component : enhanced_)
                 for (const Term& term : technology.modes[m])
-                    if (term.component == component &&
-                        (entries_.empty() || entries_.back().mode != m || entries_.back().component != position[component]))
+                    if (term.component == component
+                        && (entries_.empty() || entries_.back().mode != m
+                            || entries_.back().component != position[component]))
                         entries_.push_back({position[component], m});
         for (const double t : thickness.x)
             for (const double s : surface.x)
@@ -263,7 +267,7 @@ class SolidShell {
                     }
     }
 
-    /// E += (detJ0/detJ) A^T M A alpha with A = J0^-1 J, for each enhanced component a fixed direction. eq. (2.9)
+    /// E += (detJ0/detJ) A^T M A alpha with A = J0^-1 J, for each enhanced component a fixed direction. eq. (2.10)
     void add_enhanced_strain(int q, const Mat3& J, const Mat3& J0_inverse, double ratio, const double* alpha, Voigt& E,
                              Workspace& w) const {
         if (modes_ == 0) return;
@@ -288,8 +292,9 @@ class SolidShell {
         }
     }
 
-    /// Row of a strain component: N_i[a] g_j + N_j[a] g_i for shears, N_i[a] g_i for stretches. eq. (1.5)
-    static void strain_row(int component, const double* Ni, const double* Nj, const Vec3& gi, const Vec3& gj, double* B) {
+    /// Row of a strain component: N_i[a] g_j + N_j[a] g_i for shears, N_i[a] g_i for stretches. eq. (1.10)
+    static void strain_row(int component, const double* Ni, const double* Nj, const Vec3& gi, const Vec3& gj,
+                           double* B) {
         for (int k = 0; k < 3; ++k) {
             if (component < 3) {
 #pragma omp simd
@@ -314,7 +319,7 @@ class SolidShell {
         const Voigt66& T = w.T[q];
         const double dV = w.dV[q];
 
-        // Convected stress and tangent, times dV: S = T^T S_local, C = T^T CC T. eq. (1.8)
+        // Convected stress and tangent, times dV: S = T^T S_local, C = T^T CC T. eq. (1.17)
         Voigt S{};
         Voigt66 CT{}, C{};
         for (int p = 0; p < 6; ++p)
@@ -350,14 +355,14 @@ class SolidShell {
             double* row_CB = CB.data() + p * size;
 #pragma omp simd
             for (int i = 0; i < size; ++i) {
-                row_CB[i] = C(p, 0) * B[i] + C(p, 1) * B[size + i] + C(p, 2) * B[2 * size + i] + C(p, 3) * B[3 * size + i] +
-                            C(p, 4) * B[4 * size + i] + C(p, 5) * B[5 * size + i];
+                row_CB[i] = C(p, 0) * B[i] + C(p, 1) * B[size + i] + C(p, 2) * B[2 * size + i]
+                            + C(p, 3) * B[3 * size + i] + C(p, 4) * B[4 * size + i] + C(p, 5) * B[5 * size + i];
             }
         }
 #pragma omp simd
         for (int i = 0; i < size; ++i)
-            w.f[i] += S[0] * B[i] + S[1] * B[size + i] + S[2] * B[2 * size + i] + S[3] * B[3 * size + i] +
-                      S[4] * B[4 * size + i] + S[5] * B[5 * size + i];
+            w.f[i] += S[0] * B[i] + S[1] * B[size + i] + S[2] * B[2 * size + i] + S[3] * B[3 * size + i]
+                      + S[4] * B[4 * size + i] + S[5] * B[5 * size + i];
         add_transposed_product<size>(w.K.data(), B.data(), CB.data(), 6, 1.0);
         add_compatible_geometry(q, compatible_S, w);
         if (modes_ > 0) add_enhanced_blocks(q, S, C, B.data(), w);
@@ -408,8 +413,8 @@ class SolidShell {
             alignas(64) std::array<double, size> dCB;
 #pragma omp simd
             for (int i = 0; i < size; ++i)
-                dCB[i] = Cd[c][0] * B[i] + Cd[c][1] * B[size + i] + Cd[c][2] * B[2 * size + i] + Cd[c][3] * B[3 * size + i] +
-                         Cd[c][4] * B[4 * size + i] + Cd[c][5] * B[5 * size + i];
+                dCB[i] = Cd[c][0] * B[i] + Cd[c][1] * B[size + i] + Cd[c][2] * B[2 * size + i]
+                         + Cd[c][3] * B[3 * size + i] + Cd[c][4] * B[4 * size + i] + Cd[c][5] * B[5 * size + i];
             for (std::size_t e = 0; e < entries_.size(); ++e) {
                 if (entries_[e].component != c) continue;
                 const int mode = entries_[e].mode;
@@ -417,7 +422,8 @@ class SolidShell {
 #pragma omp simd
                 for (int i = 0; i < size; ++i) w.Kad[mode * size + i] += value[e] * dCB[i];
                 for (std::size_t other = 0; other < entries_.size(); ++other)
-                    w.Kaa[mode * modes_ + entries_[other].mode] += value[e] * value[other] * dCd[c][entries_[other].component];
+                    w.Kaa[mode * modes_ + entries_[other].mode] +=
+                        value[e] * value[other] * dCd[c][entries_[other].component];
             }
         }
     }
@@ -427,13 +433,13 @@ class SolidShell {
     std::vector<ShellGradient<Nodes>> gauss_;  // [q]
     std::vector<double> weight_;               // [q]
     ShellGradient<Nodes> centre_;
-    std::array<int, 6> row_of_;                // component -> row of the tying rule, or -1
+    std::array<int, 6> row_of_;  // component -> row of the tying rule, or -1
     std::vector<Row> rows_;
     std::vector<double> tying_weights_;
-    std::vector<Sample> samples_;              // of the mid-surface, then layer by layer
-    std::vector<int> enhanced_;                // enhanced components
-    std::vector<ModeEntry> entries_;           // which component of which mode is not zero
-    std::vector<double> mode_values_;          // [q][entry]
+    std::vector<Sample> samples_;      // of the mid-surface, then layer by layer
+    std::vector<int> enhanced_;        // enhanced components
+    std::vector<ModeEntry> entries_;   // which component of which mode is not zero
+    std::vector<double> mode_values_;  // [q][entry]
 };
 
 }  // namespace umform

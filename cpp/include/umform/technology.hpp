@@ -9,7 +9,7 @@
 namespace umform {
 
 /// One row of an assumed-strain rule: the covariant `component` is sampled at the grid r x s and interpolated with the
-/// Lagrange polynomials of the abscissae; at the layer t of the Gauss point, or at the mid-surface. eq. (2.1)
+/// Lagrange polynomials of the abscissae; at the layer t of the Gauss point, or at the mid-surface. eq. (2.2)
 struct Tying {
     int component;
     std::vector<double> r, s;
@@ -27,7 +27,7 @@ struct Term {
     }
 };
 
-/// One enhanced mode: a column of M(r, s, t). eq. (2.8)
+/// One enhanced mode: a column of M(r, s, t). eq. (2.10)
 using Mode = std::vector<Term>;
 
 /// An element of the catalogue; components without a tying row are compatible.
@@ -36,7 +36,7 @@ struct Technology {
     std::vector<Mode> modes;
 };
 
-/// Weights of the Lagrange polynomials of the abscissae at x.
+/// Weights of the Lagrange polynomials of the abscissae at x. eq. (2.1)
 inline std::vector<double> lagrange(const std::vector<double>& abscissae, double x) {
     std::vector<double> weights(abscissae.size(), 1.0);
     for (std::size_t i = 0; i < abscissae.size(); ++i)

@@ -5,7 +5,7 @@
 #include <vector>
 
 #ifdef _OPENMP
-#include <omp.h>
+    #include <omp.h>
 #endif
 
 namespace umform {

@@ -97,9 +97,7 @@ def cell_type(name: str) -> CellType:
         There is no such cell type.
     """
     if name not in CELL_TYPES:
-        raise WrongCellType(
-            "unknown cell type", value=name, remedy=f"choose one of {', '.join(sorted(CELL_TYPES))}"
-        )
+        raise WrongCellType("unknown cell type", value=name, remedy=f"choose one of {', '.join(sorted(CELL_TYPES))}")
     return CELL_TYPES[name]
 
 

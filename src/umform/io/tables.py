@@ -37,9 +37,7 @@ def write_csv(path: str | os.PathLike[str], columns: Mapping[str, Iterable[Any]]
     FileProblem
         The file cannot be written.
     """
-    table = {
-        name: [_scalar(value, f"column {name!r}") for value in column] for name, column in columns.items()
-    }
+    table = {name: [_scalar(value, f"column {name!r}") for value in column] for name, column in columns.items()}
     lengths = {name: len(column) for name, column in table.items()}
     if len(set(lengths.values())) != 1:
         raise InvalidValue(

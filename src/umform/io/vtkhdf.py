@@ -76,9 +76,7 @@ class VtkHdfSeries:
     ...     series.append(0.0, {"displacement": u}, {"eqps": eqps})
     """
 
-    def __init__(
-        self, path: str | os.PathLike[str], points: ArrayLike, cells: str, connectivity: ArrayLike
-    ) -> None:
+    def __init__(self, path: str | os.PathLike[str], points: ArrayLike, cells: str, connectivity: ArrayLike) -> None:
         self._grid = to_vtk(cell_type(cells), points, connectivity)
         self._target = PendingFile(path)
         self._raw: io.FileIO
@@ -160,9 +158,7 @@ class VtkHdfSeries:
             )
         grid = self._grid
         n, m = len(grid.points) - len(grid.pairs), len(grid.connectivity)
-        fields = {
-            f"PointData/{name}": grid.complete(a) for name, a in field_arrays(point_data, n, "point").items()
-        }
+        fields = {f"PointData/{name}": grid.complete(a) for name, a in field_arrays(point_data, n, "point").items()}
         fields |= {f"CellData/{name}": a for name, a in field_arrays(cell_data, m, "cell").items()}
         self._check_fields({name: array.shape for name, array in fields.items()})
         try:

@@ -1,7 +1,7 @@
 """Sparse solvers: the protocol, one file per solver, and the choice among them.
 
-``auto`` takes the fastest one present: PARDISO for every size, else the banded Cholesky solver for symmetric
-matrices of narrow band (long strips), else SuperLU. A solver of your own joins with `register`.
+``auto`` takes the fastest one present: the banded Cholesky solver for symmetric matrices of narrow band (long
+strips), else PARDISO, else SuperLU. A solver of your own joins with `register`.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ __all__ = ["Factorisation", "Pattern", "SparseSolver", "available", "make_solver
 
 _log = logging.getLogger("umform.solvers")
 
-# Beyond this bandwidth SuperLU catches up with the banded solver.
-_NARROW = 128
+# Up to these bandwidths the banded solver is ahead of PARDISO and of SuperLU.
+_NARROW_FOR_PARDISO, _NARROW_FOR_SUPERLU = 32, 128
 
 _factories: dict[str, Callable[[], SparseSolver]] = {
     "pardiso": Pardiso,
@@ -74,16 +74,16 @@ def make_solver(pattern: Pattern, name: str = "auto") -> SparseSolver:
 
 
 def _fastest(pattern: Pattern) -> SparseSolver:
-    if available()["pardiso"]:
-        _log.info("solver: pardiso")
-        return make_solver(pattern, "pardiso")
-    solver: SparseSolver = SuperLU()
+    """Return the solver that `auto` stands for, and say in one line of log which and what would be faster."""
+    has_pardiso = available()["pardiso"]
+    narrow = _NARROW_FOR_PARDISO if has_pardiso else _NARROW_FOR_SUPERLU
+    hint = "" if has_pardiso else '; faster: pip install "umform[pardiso]"'
     if pattern.symmetric:
         banded = Banded()
         banded.analyse(pattern)
-        if banded.bandwidth <= _NARROW:
-            _log.info('solver: banded, bandwidth %d; faster: pip install "umform[pardiso]"', banded.bandwidth)
+        if banded.bandwidth <= narrow:
+            _log.info("solver: banded%s", hint if banded.bandwidth > _NARROW_FOR_PARDISO else "")
             return banded
-    _log.info('solver: superlu; faster: pip install "umform[pardiso]"')
-    solver.analyse(pattern)
-    return solver
+    name = "pardiso" if has_pardiso else "superlu"
+    _log.info("solver: %s%s", name, hint)
+    return make_solver(pattern, name)

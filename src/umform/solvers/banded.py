@@ -1,9 +1,9 @@
 """Cholesky factors in band storage by LAPACK, for long strips of few cells across: symmetric matrices only.
 
-Reverse Cuthill-McKee finds the ends of the strip, moving each equation to the middle of its neighbours then takes
-another fifth off the bandwidth. At bandwidths up to 128 a factorisation is 2.5 to 5 times faster than SuperLU's, at 240 it
-is slower: `auto` draws the line at 128. A matrix that is not positive definite goes on to SuperLU, which finds the
-number of negative pivots.
+Reverse Cuthill-McKee finds the ends of the strip; moving each equation to the middle of its neighbours then
+takes an eighth to a quarter off the bandwidth. Up to a bandwidth of 32 this is the fastest solver of all, 1.5
+times ahead of PARDISO; up to 128 it is 2 to 5 times faster than SuperLU, at 240 no longer. A matrix that is
+not positive definite goes on to SuperLU, which finds the number of negative pivots.
 """
 
 from __future__ import annotations
@@ -32,9 +32,7 @@ class Banded:
     def analyse(self, pattern: Pattern) -> None:
         """Look for the order with the narrowest band and plan the way of the values into the band."""
         if not pattern.symmetric:
-            raise InvalidValue(
-                "The solver 'banded' takes symmetric matrices only", remedy="choose 'auto' or 'superlu'"
-            )
+            raise InvalidValue("The solver 'banded' takes symmetric matrices only", remedy="choose 'auto' or 'superlu'")
         rows, columns = pattern.rows, pattern.indices
         places = min(_orders(pattern.positions()), key=lambda place: _bandwidth(place, rows, columns))
         i, j = places[rows], places[columns]
@@ -43,7 +41,6 @@ class Banded:
         self._places = places
         self._scatter = np.minimum(i, j) * (self.bandwidth + 1) + np.abs(i - j)
         self._diagonal = pattern.indptr[:-1]
-        self._band = np.empty((0, 0))
         self._fallback: SuperLU | None = None
         self._back_substitute = None
 

@@ -1,6 +1,13 @@
 """SuperLU through SciPy: the solver of the base install, for any matrix.
 
-TEXT
+SciPy cannot keep SuperLU's symbolic work, but it can keep the ordering: minimum degree on K + K^T is found
+once a pattern and the values are gathered in that order. The gather saves about a tenth of each call; minimum
+degree against SciPy's default COLAMD saves a fifth on strips and is 2 to 4 times faster on sheets.
+
+A pivot stays on the diagonal unless it is 1000 times smaller than its column (10 times if the matrix is not
+symmetric), so that the signs of the pivots give the inertia; a step of iterative refinement, where the
+residual asks for it, repairs what that costs in accuracy. SuperLU's blocking parameters are left alone on
+purpose: SciPy accepts values that overrun SuperLU's work arrays.
 """
 
 from __future__ import annotations
@@ -23,7 +30,7 @@ from .protocol import (
 )
 
 # A backward error above this is worth a step of iterative refinement.
-_POOR_RESIDUAL = 1e-13
+_POOR_RESIDUAL = 1e-14
 
 
 class SuperLU:
@@ -89,7 +96,7 @@ class SuperLU:
 
 
 def _minimum_degree(positions: sparse.csc_matrix) -> NDArray[np.intp]:
-    """Return the equations in the order of elimination; a matrix that needs no pivoting stands in for K."""
+    """Return the equations in the order of elimination; a matrix with a heavy diagonal stands in for K."""
     model = sparse.csc_matrix(
         (np.full(positions.nnz, -1.0), positions.indices, positions.indptr), shape=positions.shape
     )

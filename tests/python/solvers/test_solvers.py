@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy import sparse
+
 from umform import solvers
 from umform.errors import InvalidValue, NotFinite, SingularMatrix, SolveError
 from umform.solvers import Factorisation, Pattern, banded, make_solver, pardiso, superlu
@@ -263,13 +264,21 @@ def test_pardiso_runs_on_gnu_openmp():
     assert "libmkl_gnu_thread" in MAPS.read_text()
 
 
-def test_refinement_restores_the_accuracy_of_small_pivots():
-    """A pivot of 2e-3 beside 1 stays on the diagonal and costs three digits, which the refinement brings back."""
-    matrix = sheet(5)
-    matrix[0, 0] = 2e-3 * np.abs(matrix[0]).max()
-    solver, _ = factored("superlu", matrix)
-    x = solver.solve(np.ones(len(matrix)))
-    np.testing.assert_allclose(matrix @ x, 1.0, rtol=1e-12 * max(1.0, np.abs(x).max()))
+def test_refinement_restores_the_accuracy_that_small_pivots_cost(monkeypatch):
+    random = np.random.default_rng(0)
+    matrix = random.normal(size=(200, 200)) * (random.random((200, 200)) < 0.02)
+    matrix += matrix.T
+    largest = np.abs(matrix).max(axis=0)
+    np.fill_diagonal(matrix, 2e-3 * random.choice([-1, 1], 200) * largest + (largest == 0))
+    solver, factorisation = factored("superlu", matrix)
+    assert factorisation.negative_pivots == np.count_nonzero(np.linalg.eigvalsh(matrix) < 0)
+
+    def error(x):
+        return np.abs(matrix @ x - 1.0).max() / (largest.max() * np.abs(x).max() + 1.0)
+
+    refined = error(solver.solve(np.ones(200)))
+    monkeypatch.setattr(superlu, "_POOR_RESIDUAL", np.inf)
+    assert refined < 1e-15 < 0.1 * error(solver.solve(np.ones(200)))
 
 
 def test_banded_finds_the_strip_in_shuffled_equations():
@@ -332,31 +341,30 @@ def test_unknown_name():
         make_solver(stored(np.eye(2))[0], "nastran")
 
 
-def test_auto_takes_pardiso_where_present(monkeypatch, caplog):
-    monkeypatch.setattr(pardiso, "available", lambda: True)
-    monkeypatch.setitem(solvers._factories, "pardiso", Dense)
-    with caplog.at_level(logging.INFO, "umform.solvers"):
-        assert isinstance(make_solver(stored(sheet(3))[0]), Dense)
-    assert caplog.messages == ["solver: pardiso"]
-
-
 @pytest.mark.parametrize(
-    ("matrix", "symmetric", "name"),
-    [(sheet(3), True, "banded"), (sheet(16), True, "banded"), (unsymmetric(3), False, "superlu")],
+    ("cells", "symmetric", "mkl", "line"),
+    [
+        (3, True, True, "solver: banded"),
+        (3, True, False, "solver: banded"),
+        (3, False, True, "solver: pardiso"),
+        (3, False, False, 'solver: superlu; faster: pip install "umform[pardiso]"'),
+        (14, True, True, "solver: pardiso"),
+        (14, True, False, 'solver: banded; faster: pip install "umform[pardiso]"'),
+    ],
 )
-def test_auto_without_mkl(monkeypatch, caplog, matrix, symmetric, name):
-    monkeypatch.setattr(pardiso, "available", lambda: False)
+def test_auto(monkeypatch, caplog, cells, symmetric, mkl, line):
+    monkeypatch.setattr(pardiso, "available", lambda: mkl)
+    monkeypatch.setitem(solvers._factories, "pardiso", Dense)
+    matrix = sheet(cells) if symmetric else unsymmetric(cells)
     with caplog.at_level(logging.INFO, "umform.solvers"):
         solver = make_solver(stored(matrix, symmetric)[0])
-    assert solver.name == name
-    (message,) = caplog.messages
-    assert name in message
-    assert "umform[pardiso]" in message
+    assert caplog.messages == [line]
+    assert solver.name == ("dense" if "solver: pardiso" in line else line.split()[1].rstrip(";"))
 
 
 def test_auto_leaves_wide_bands_to_superlu(monkeypatch):
     monkeypatch.setattr(pardiso, "available", lambda: False)
-    monkeypatch.setattr(solvers, "_NARROW", 2)
+    monkeypatch.setattr(solvers, "_NARROW_FOR_SUPERLU", 2)
     assert make_solver(stored(sheet(4))[0]).name == "superlu"
 
 

@@ -11,11 +11,12 @@ namespace umform {
 /// A law answers at one point. `E` is the Green-Lagrange strain in a local orthonormal frame, `state` the converged
 /// history (never changed), `trial` the new one. It returns false where the strain is outside of its domain.
 template <class L>
-concept MaterialLaw = requires(const L& law, const Voigt& E, const double* state, Voigt& S, Voigt66& CC, double* trial) {
-    { L::state_size } -> std::convertible_to<int>;
-    { law.respond(E, state, S, CC, trial) } -> std::same_as<bool>;
-    { law.initial(trial) } -> std::same_as<void>;
-};
+concept MaterialLaw =
+    requires(const L& law, const Voigt& E, const double* state, Voigt& S, Voigt66& CC, double* trial) {
+        { L::state_size } -> std::convertible_to<int>;
+        { law.respond(E, state, S, CC, trial) } -> std::same_as<bool>;
+        { law.initial(trial) } -> std::same_as<void>;
+    };
 
 /// The law as the elements see it: one virtual call for all points of an element, so that elements and laws are
 /// compiled apart from each other.

@@ -12,7 +12,7 @@ struct YieldStress {
     double value, slope;
 };
 
-/// y = y0 + H e + (y_inf - y0) (1 - exp(-d e)): perfect plasticity, linear and Voce hardening are its special cases.
+/// y = y0 + H e + (y_inf - y0) (1 - exp(-d e)): perfect plasticity, linear and Voce hardening are its special cases. eq. (3.30)
 struct LinearVoce {
     double y0, modulus, saturation, rate;
 

@@ -17,7 +17,7 @@ struct J2 {
 
     bool respond(const Voigt& strain, const double* state, Voigt& S, Voigt66& CC, double* trial) const {
         // 1. Principal elastic trial stretches: C N_i = l_i^2 Cp N_i with Cp^-1 = L L^T, N = L V,
-        //    from the eigenproblem of L^T C L - 1, so that small strains keep their digits.
+        //    from the eigenproblem of L^T C L - 1, so that small strains keep their digits. eqs. (3.12)-(3.14)
         Voigt metric;
         std::copy_n(state, 6, metric.begin());
         Mat3 L, V;
@@ -30,7 +30,7 @@ struct J2 {
             eps[i] = 0.5 * std::log1p(excess[i]);
         }
 
-        // 2. Return map on the Kirchhoff stress.
+        // 2. Return map on the Kirchhoff stress. eqs. (3.15)-(3.20)
         const double volumetric = eps[0] + eps[1] + eps[2];
         Vec3 deviator;
         for (int i = 0; i < 3; ++i) deviator[i] = eps[i] - volumetric / 3.0;
@@ -45,7 +45,7 @@ struct J2 {
         Vec3 tau;
         for (int i = 0; i < 3; ++i) tau[i] = kappa * volumetric + 2.0 * mu * (1.0 - b) * deviator[i];
 
-        // 3. Stress and plastic metric in the eigenbasis.
+        // 3. Stress and plastic metric in the eigenbasis. eqs. (3.16), (3.21)
         std::array<Voigt, 3> NN;
         Mat3 N;
         for (int k = 0; k < 3; ++k)
@@ -112,9 +112,9 @@ struct J2 {
         return dgam;
     }
 
-    /// Steps 4 and 5: principal moduli c_ij = d tau_i / d eps_j and the spectral form of CC.
-    void tangent(bool plastic, double b, double norm, double slope, const Vec3& deviator, const Vec3& tau, const Vec3& l2,
-                 const Vec3& excess, const Mat3& N, const std::array<Voigt, 3>& NN, Voigt66& CC) const {
+    /// Steps 4 and 5: principal moduli c_ij = d tau_i / d eps_j and the spectral form of CC. eqs. (3.22)-(3.25)
+    void tangent(bool plastic, double b, double norm, double slope, const Vec3& deviator, const Vec3& tau,
+                 const Vec3& l2, const Vec3& excess, const Mat3& N, const std::array<Voigt, 3>& NN, Voigt66& CC) const {
         const double shear = 2.0 * mu * (1.0 - b);
         const double flow = plastic ? 2.0 * mu * (3.0 * mu / (3.0 * mu + slope) - b) / (norm * norm) : 0.0;
         CC = Voigt66{};
@@ -126,7 +126,7 @@ struct J2 {
             }
         for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {0, 2}}) {
             // k_ij = (S_j - S_i) / (l_j^2 - l_i^2) without a difference of stresses: tau_j - tau_i = shear (eps_j - eps_i)
-            // and eps_j - eps_i = log1p(d)/2 with d = l_j^2/l_i^2 - 1, exact for close and for equal roots.
+            // and eps_j - eps_i = log1p(d)/2 with d = l_j^2/l_i^2 - 1, exact for close and for equal roots. eq. (3.27)
             const double d = (excess[j] - excess[i]) / l2[i];
             const double log_ratio = d == 0.0 ? 1.0 : std::log1p(d) / d;
             const double k = (0.5 * shear * log_ratio - tau[i]) / (l2[i] * l2[j]);

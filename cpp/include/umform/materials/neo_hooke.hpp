@@ -5,11 +5,11 @@
 
 namespace umform {
 
-/// The invariants of C = 1 + 2E that both forms need, formed without cancellation for small strains.
+/// The invariants of C = 1 + 2E that both forms need, formed without cancellation for small strains. eqs. (3.9), (3.10)
 struct RightCauchyGreen {
-    Mat3 inverse;         // C^-1
+    Mat3 inverse;            // C^-1
     Mat3 one_minus_inverse;  // 1 - C^-1 = 2 C^-1 E
-    double log_det;       // ln I3
+    double log_det;          // ln I3
 
     /// False if C is not positive definite.
     bool set(const Voigt& strain) {
@@ -40,13 +40,13 @@ struct RightCauchyGreen {
             for (int q = 0; q < 6; ++q) {
                 const auto [i, j] = voigt_pair[p];
                 const auto [k, l] = voigt_pair[q];
-                CC(p, q) = a * inverse(i, j) * inverse(k, l) +
-                           0.5 * b * (inverse(i, k) * inverse(j, l) + inverse(i, l) * inverse(j, k));
+                CC(p, q) = a * inverse(i, j) * inverse(k, l)
+                           + 0.5 * b * (inverse(i, k) * inverse(j, l) + inverse(i, l) * inverse(j, k));
             }
     }
 };
 
-/// W = mu/2 (I1 - 3) - mu ln J + lambda/2 ln^2 J.
+/// W = mu/2 (I1 - 3) - mu ln J + lambda/2 ln^2 J. eqs. (3.5), (3.6)
 struct NeoHookeLogarithmic {
     double lambda, mu;
 
@@ -66,7 +66,7 @@ struct NeoHookeLogarithmic {
     }
 };
 
-/// W = c (I1 - 3) + c/beta (I3^-beta - 1) with c = mu/2, beta = nu/(1 - 2 nu).
+/// W = c (I1 - 3) + c/beta (I3^-beta - 1) with c = mu/2, beta = nu/(1 - 2 nu). eqs. (3.7), (3.8)
 struct NeoHookePower {
     double mu, beta;
 

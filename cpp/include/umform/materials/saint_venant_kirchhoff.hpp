@@ -1,4 +1,4 @@
-// St. Venant-Kirchhoff: linear between second Piola-Kirchhoff stress and Green-Lagrange strain.
+// St. Venant-Kirchhoff: linear between second Piola-Kirchhoff stress and Green-Lagrange strain. eq. (3.4)
 #pragma once
 
 #include "umform/materials/concept.hpp"

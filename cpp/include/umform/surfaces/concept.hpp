@@ -51,7 +51,9 @@ class SurfaceFromFunction final : public Surface {
   public:
     using Function = std::function<void(int, const double*, double*, double*, double*)>;
     explicit SurfaceFromFunction(Function function) : function_(std::move(function)) {}
-    void gap(int count, const double* x, double* g, double* n, double* H) const override { function_(count, x, g, n, H); }
+    void gap(int count, const double* x, double* g, double* n, double* H) const override {
+        function_(count, x, g, n, H);
+    }
 
   private:
     Function function_;

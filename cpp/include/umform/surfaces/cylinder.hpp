@@ -10,7 +10,7 @@ struct Cylinder {
     double radius;
     bool inside;  // the sheet lies inside of the bore
 
-    /// H = (1 - a a^T - n n^T) / rho with rho the distance to the axis. eq. (4.7)
+    /// H = (1 - a a^T - n n^T) / rho with rho the distance to the axis. eq. (4.3)
     Gap gap(const Vec3& x) const {
         Vec3 d{x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
         const double along = dot(d, axis);

@@ -10,7 +10,7 @@ struct Sphere {
     double radius;
     bool inside;  // the sheet lies inside of the sphere
 
-    /// H = (1 - n n^T) / rho with rho the distance to the centre. eq. (4.6)
+    /// H = (1 - n n^T) / rho with rho the distance to the centre. eq. (4.3)
     Gap gap(const Vec3& x) const {
         const Vec3 d{x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
         const double rho = std::sqrt(dot(d, d));

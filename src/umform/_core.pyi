@@ -1,0 +1,244 @@
+"""
+Kernels of umform: elements, materials, surfaces, contact, sparse patterns.
+"""
+
+from collections.abc import Sequence
+
+
+from collections.abc import Callable
+from numpy import float64, int32, int64
+from numpy.typing import NDArray
+
+def gauss(n: int) -> tuple[NDArray[float64], NDArray[float64]]:
+    """Gauss rule of n points on [-1, 1]: abscissae and weights."""
+
+def lobatto(n: int) -> tuple[NDArray[float64], NDArray[float64]]:
+    """Gauss-Lobatto rule of n points on [-1, 1]: abscissae and weights."""
+
+def split(n: int) -> tuple[NDArray[float64], NDArray[float64]]:
+    """
+    Gauss rule of n/2 points on each half of [-1, 1]: abscissae and weights.
+    """
+
+def shell_functions(nodes: int, points: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
+    """
+    Shape functions (count, nodes) and their derivatives (count, 3, nodes) at natural points (count, 3).
+    """
+
+class Hardening:
+    """Yield stress as a function of the accumulated plastic strain."""
+
+    def __call__(self, eqps: float) -> tuple[float, float]:
+        """Yield stress and its slope."""
+
+def linear_voce(y0: float, modulus: float, saturation: float, rate: float) -> Hardening: ...
+
+def swift(strength: float, offset: float, exponent: float) -> Hardening: ...
+
+def tabulated(eqps: Sequence[float], stress: Sequence[float]) -> Hardening: ...
+
+class Material:
+    """
+    A material law: strain and history in, stress, tangent and new history out.
+    """
+
+    @property
+    def state_size(self) -> int: ...
+
+    def initial(self) -> NDArray[float64]:
+        """History of the virgin material."""
+
+    def respond(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+        """S (n, 6), CC (n, 6, 6) and the new history at n points."""
+
+def saint_venant_kirchhoff(lambda_: float, mu: float) -> Material: ...
+
+def neo_hooke_logarithmic(lambda_: float, mu: float) -> Material: ...
+
+def neo_hooke_power(mu: float, beta: float) -> Material: ...
+
+def j2(kappa: float, mu: float, hardening: Hardening) -> Material: ...
+
+class Surface:
+    """
+    A rigid tool: signed distance, normal and Hessian as functions of position.
+    """
+
+    def gap(self, x: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+        """
+        Signed distance (n,), normal (n, 3) and Hessian (n, 3, 3) at the positions x (n, 3).
+        """
+
+def plane(point: Sequence[float], normal: Sequence[float]) -> Surface: ...
+
+def sphere(centre: Sequence[float], radius: float, inside: bool) -> Surface: ...
+
+def cylinder(centre: Sequence[float], axis: Sequence[float], radius: float, inside: bool) -> Surface: ...
+
+def surface_from_function(function: Callable[[NDArray[float64]], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]]) -> Surface:
+    """A tool from a function x (n, 3) -> (g (n,), n (n, 3), H (n, 3, 3))."""
+
+class Connectivity:
+    """Node ids of the elements of one kind."""
+
+    def __len__(self) -> int: ...
+
+class Scatter:
+    """Map from the element matrices of one kind into a pattern."""
+
+    @property
+    def bytes(self) -> int: ...
+
+class Pattern:
+    """
+    Sparse pattern over the free degrees of freedom (upper triangle if symmetric).
+    """
+
+    def __init__(self, equation: NDArray[int32], parts: Sequence[Connectivity], symmetric: bool) -> None: ...
+
+    @property
+    def indptr(self) -> NDArray[int64]: ...
+
+    @property
+    def indices(self) -> NDArray[int32]: ...
+
+    @property
+    def symmetric(self) -> bool: ...
+
+    def scatter(self, part: Connectivity) -> Scatter:
+        """The map for the elements of one kind."""
+
+class Tying:
+    """One row of an assumed-strain rule."""
+
+    def __init__(self, component: int, r: Sequence[float], s: Sequence[float], at_layer: bool) -> None: ...
+
+class Term:
+    """
+    factor * r^a s^b P_c(t) of an enhanced mode in one covariant component.
+    """
+
+    def __init__(self, component: int, factor: float, a: int, b: int, c: int) -> None: ...
+
+class Technology:
+    """Which strains are tied where, and which are enhanced by what."""
+
+    def __init__(self, tying: Sequence[Tying], modes: Sequence[Sequence[Term]]) -> None: ...
+
+class ShellBlock:
+    """All solid-shell elements of one kind with their history."""
+
+    @property
+    def connectivity(self) -> Connectivity: ...
+
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64], du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+        """
+        Add the share of the block to f and values (and K du to Kdu); returns the first failed element (or -1) and sum |f_e|^2.
+        """
+
+    @property
+    def points(self) -> int: ...
+
+    @property
+    def modes(self) -> int: ...
+
+    @property
+    def state_size(self) -> int: ...
+
+    def recover(self, du: NDArray[float64], s: float) -> None:
+        """Update the enhanced parameters after u += s du."""
+
+    def undo_recover(self) -> None:
+        """Take the last recover back."""
+
+    def commit(self) -> None:
+        """Make the trial history the converged one."""
+
+    def revert(self) -> None:
+        """Go back to the converged history."""
+
+    @property
+    def state(self) -> NDArray[float64]:
+        """Converged history (elements, points, state_size)."""
+
+    @property
+    def alpha(self) -> NDArray[float64]:
+        """Converged enhanced parameters (elements, modes)."""
+
+    def restore(self, state: NDArray[float64], alpha: NDArray[float64]) -> None:
+        """Put a stored history back."""
+
+    def point_fields(self, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64]]:
+        """
+        E, S (elements, points, 6) in the local frame, the frame and F (elements, points, 3, 3), dV (elements, points).
+        """
+
+    def element(self, e: int, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
+        """Condensed K and f of one element."""
+
+def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64]) -> ShellBlock: ...
+
+class ContactBlock:
+    """Penalty contact of element faces with one rigid tool."""
+
+    @property
+    def connectivity(self) -> Connectivity: ...
+
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64], du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+        """
+        Add the share of the block to f and values (and K du to Kdu); returns the first failed element (or -1) and sum |f_e|^2.
+        """
+
+    @property
+    def penalty(self) -> float: ...
+
+    @penalty.setter
+    def penalty(self, arg: float, /) -> None: ...
+
+    def set_pose(self, Q: NDArray[float64], c: NDArray[float64]) -> None:
+        """Place the tool: x = Q X + c."""
+
+    def locate(self, u: NDArray[float64]) -> None:
+        """Move the contact points to X + u and measure the gaps."""
+
+    @property
+    def points(self) -> int: ...
+
+    @property
+    def positions(self) -> NDArray[float64]: ...
+
+    @property
+    def gaps(self) -> NDArray[float64]: ...
+
+    @property
+    def normals(self) -> NDArray[float64]: ...
+
+    @property
+    def areas(self) -> NDArray[float64]: ...
+
+def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface) -> ContactBlock: ...
+
+class PressureBlock:
+    """Follower pressure on element faces."""
+
+    @property
+    def connectivity(self) -> Connectivity: ...
+
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64], du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+        """
+        Add the share of the block to f and values (and K du to Kdu); returns the first failed element (or -1) and sum |f_e|^2.
+        """
+
+    @property
+    def pressure(self) -> float: ...
+
+    @pressure.setter
+    def pressure(self, arg: float, /) -> None: ...
+
+def pressure_block(facets: NDArray[int32], X: NDArray[float64]) -> PressureBlock: ...
+
+def threads() -> int:
+    """Number of threads that the kernels use."""
+
+def set_threads(count: int) -> None:
+    """Set the number of threads that the kernels use."""
