@@ -3,6 +3,7 @@
 #include "umform/threads.hpp"
 
 NB_MODULE(_core, m) {
+    nb::set_leak_warnings(false);  // functions of users may close over the model: a cycle that ends with the process
     m.doc() = "Kernels of umform: elements, materials, surfaces, contact, sparse patterns.";
     bind_quadrature(m);
     bind_materials(m);

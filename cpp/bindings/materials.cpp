@@ -28,6 +28,31 @@ nb::object respond(const Material& material, const Input& E, const Input& state)
                           to_numpy(std::move(trial), {n, size}));
 }
 
+void copy_result(nb::handle result, double* out, std::size_t size) {
+    const auto array = nb::cast<Input>(result);
+    if (array.size() != size)
+        throw std::invalid_argument("a law must return S (n, 6), CC (n, 6, 6) and state (n, size)");
+    std::copy_n(array.data(), size, out);
+}
+
+/// A Python function (E (n, 6), state (n, size)) -> (S, CC, new state), called once for each element.
+std::shared_ptr<Material> material_from_function(nb::callable function, std::vector<double> initial) {
+    const std::size_t size = initial.size();
+    auto call = [function, size](int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial) {
+        const nb::gil_scoped_acquire gil;
+        const std::size_t count = n;
+        const auto* strain = reinterpret_cast<const double*>(E);
+        const auto answer =
+            nb::cast<nb::tuple>(function(to_numpy(std::vector<double>(strain, strain + 6 * count), {count, 6}),
+                                         to_numpy(std::vector<double>(state, state + size * count), {count, size})));
+        copy_result(answer[0], reinterpret_cast<double*>(S), 6 * count);
+        copy_result(answer[1], reinterpret_cast<double*>(CC), 36 * count);
+        copy_result(answer[2], trial, size * count);
+        return n;
+    };
+    return std::make_shared<MaterialFromFunction>(std::move(call), std::move(initial));
+}
+
 }  // namespace
 
 void bind_materials(nb::module_& m) {
@@ -84,4 +109,9 @@ void bind_materials(nb::module_& m) {
     m.def(
         "j2", [](double kappa, double mu, const Hardening& hardening) { return material(J2{kappa, mu, hardening}); },
         nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"));
+    m.def(
+        "material_from_function", &material_from_function, nb::arg("function"), nb::arg("initial"),
+        nb::sig(
+            "def material_from_function(function: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float]) -> Material"),
+        "A law from a function (E (n, 6), state (n, size)) -> (S (n, 6), CC (n, 6, 6), new state (n, size)).");
 }

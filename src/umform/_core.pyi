@@ -59,6 +59,11 @@ def neo_hooke_power(mu: float, beta: float) -> Material: ...
 
 def j2(kappa: float, mu: float, hardening: Hardening) -> Material: ...
 
+def material_from_function(function: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float]) -> Material:
+    """
+    A law from a function (E (n, 6), state (n, size)) -> (S (n, 6), CC (n, 6, 6), new state (n, size)).
+    """
+
 class Surface:
     """
     A rigid tool: signed distance, normal and Hessian as functions of position.

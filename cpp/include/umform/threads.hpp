@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <vector>
 
 #ifdef _OPENMP
@@ -28,20 +29,31 @@ inline int thread_index() {
 }
 
 /// Calls work(element, thread) for every element, colour after colour. Small sets run on one thread: starting a team
-/// costs more than it brings.
+/// costs more than it brings. The first exception (a user's function may throw) ends the loop and is thrown again outside
+/// of the team.
 template <class Work>
 void for_each_by_colour(const std::vector<std::vector<std::int32_t>>& colours, int size, const Work& work) {
     constexpr int worth_a_team = 64;
     [[maybe_unused]] const int threads = size < worth_a_team ? 1 : thread_count();
+    std::exception_ptr thrown;
+    const auto guarded = [&](std::int32_t element, int thread) {
+        try {
+            work(element, thread);
+        } catch (...) {
+#pragma omp critical
+            if (!thrown) thrown = std::current_exception();
+        }
+    };
 #pragma omp parallel num_threads(threads) if (threads > 1)
     {
         const int thread = thread_index();
         for (const auto& colour : colours) {
             const int count = static_cast<int>(colour.size());
 #pragma omp for schedule(static)
-            for (int k = 0; k < count; ++k) work(colour[k], thread);
+            for (int k = 0; k < count; ++k) guarded(colour[k], thread);
         }
     }
+    if (thrown) std::rethrow_exception(thrown);
 }
 
 }  // namespace umform

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <concepts>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "umform/tensor.hpp"
 
@@ -44,6 +46,26 @@ class MaterialOf final : public Material {
 
   private:
     Law law_;
+};
+
+/// A law from any function of arrays, a user's own for instance.
+class MaterialFromFunction final : public Material {
+  public:
+    /// n, E [n][6], state [n][state_size] -> S [n][6], CC [n][36], trial [n][state_size]; the index of the first point
+    /// that fails, or n.
+    using Function = std::function<int(int, const Voigt*, const double*, Voigt*, Voigt66*, double*)>;
+
+    MaterialFromFunction(Function function, std::vector<double> initial)
+        : function_(std::move(function)), initial_(std::move(initial)) {}
+    int state_size() const override { return static_cast<int>(initial_.size()); }
+    void initial(double* state) const override { std::copy(initial_.begin(), initial_.end(), state); }
+    int respond(int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial) const override {
+        return function_(n, E, state, S, CC, trial);
+    }
+
+  private:
+    Function function_;
+    std::vector<double> initial_;
 };
 
 /// Adds factor * a (x) b to a tangent; a and b hold tensor components (no engineering factors).
