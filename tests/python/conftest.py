@@ -1,0 +1,205 @@
+"""Small models, differences and rotations that the tests share; helpers are handed out as fixtures."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from umform import _core, elements
+from umform import materials as mt
+from umform.mesh import FACE_NODES, Mesh, strip
+from umform.model import Model
+from umform.surfaces import Cylinder
+
+#: One law of each kind; the plastic one yields at a strain of 0.001, so that the states of the tests are plastic.
+MATERIALS = {
+    "svk": mt.SVK(E=210e3, nu=0.3),
+    "neo-hooke": mt.NeoHooke(E=210e3, nu=0.3),
+    "neo-hooke-power": mt.NeoHookePower(E=210e3, nu=0.3),
+    "j2": mt.J2(kappa=175e3, mu=80.77e3, hardening=mt.LinearVoce(160.0, 500.0, 260.0, 20.0)),
+}
+
+CELL_NODES = {"hex8": 8, "hex18": 18}
+
+
+class OneElement:
+    """One distorted element whose enhanced parameters are solved for at each displacement."""
+
+    def __init__(self, name, material, thickness_points=5, seed=1, **options):
+        self.rng = np.random.default_rng(seed)
+        self.element = elements.element(name, **options)
+        self.nodes = self.element.nodes
+        self.X = self.natural_nodes() + self.rng.normal(size=(self.nodes, 3)) * (0.1, 0.1, 0.02)
+        self.block = _core.shell_block(
+            self.element.technology(),
+            self.element.surface_points,
+            *elements.thickness_rule(thickness_points),
+            material.law(),
+            np.arange(self.nodes, dtype=np.int32)[None],
+            self.X.copy(),
+        )
+        self.pattern = _core.Pattern(np.arange(3 * self.nodes, dtype=np.int32), [self.block.connectivity], True)
+        self.scatter = self.pattern.scatter(self.block.connectivity)
+
+    def natural_nodes(self):
+        """A plate of 2 x 2 x 0.2."""
+        face = FACE_NODES[: self.nodes // 2]
+        return np.vstack([np.c_[face, np.full(len(face), z)] for z in (-0.1, 0.1)])
+
+    def displacement(self, size=1.0):
+        return size * (self.rng.normal(size=(self.nodes, 3)) * (0.03, 0.03, 0.006)).ravel()
+
+    def rotated(self, u, R):
+        """The displacement u followed by a rotation and a translation of the element."""
+        return ((self.X + u.reshape(-1, 3)) @ R.T + (3.0, -2.0, 1.0) - self.X).ravel()
+
+    def settle(self, u):
+        """Solve for the enhanced parameters at u, and leave the trial history of the solution behind."""
+        last = np.inf
+        for _ in range(40):
+            f, values = np.zeros(u.size), np.zeros(self.pattern.indices.size)
+            failed, _scale = self.block.evaluate(u, self.scatter, f, values, None, None)
+            assert failed == -1
+            if self.block.modes == 0 or np.abs(f - last).max() <= 1e-15 * np.abs(f).max():
+                return
+            last = f
+            self.block.recover(np.zeros(u.size), 1.0)
+
+    def __call__(self, u):
+        """Condensed tangent and force of the element at u."""
+        self.settle(u)
+        return self.block.element(0, u)
+
+    def harden(self, u, steps=4):
+        """Go to u in a few converged steps."""
+        for step in range(1, steps + 1):
+            self.settle(u * step / steps)
+            self.block.commit()
+
+
+def central_difference(function, x, direction, h=1e-6):
+    """Derivative of a function along a direction."""
+    return (function(x + h * direction) - function(x - h * direction)) / (2 * h)
+
+
+def relative_error(value, reference):
+    """Largest deviation over the largest entry of the reference."""
+    return float(np.abs(np.asarray(value) - reference).max() / np.abs(reference).max())
+
+
+def dense(pattern, values):
+    """Matrix of the entries of a pattern, both triangles."""
+    n = len(pattern.indptr) - 1
+    K = np.zeros((n, n))
+    K[np.repeat(np.arange(n), np.diff(pattern.indptr)), pattern.indices] = values
+    return K + np.triu(K, 1).T if pattern.symmetric else K
+
+
+class FullTangent:
+    """Force and dense tangent over all degrees of freedom of a contact or pressure block."""
+
+    def __init__(self, block, nodes):
+        self.block, self.size = block, 3 * nodes
+        equation = np.arange(self.size, dtype=np.int32)
+        self.pattern = _core.Pattern(equation, [block.connectivity], False)
+        self.scatter = self.pattern.scatter(block.connectivity)
+
+    def __call__(self, u):
+        f, values = np.zeros(self.size), np.zeros(self.pattern.indices.size)
+        self.block.evaluate(u, self.scatter, f, values, None, None)
+        return f, dense(self.pattern, values)
+
+    def force(self, u):
+        return self(u)[0]
+
+
+def jittered(mesh, amount, seed=5, normal=0.0):
+    """Move the inner nodes in the plane, lower and upper ones alike, so that the outline stays what it was.
+
+    With ``normal`` all nodes move out of the plane as well.
+    """
+    points = mesh.points.copy()
+    low, high = points.min(axis=0), points.max(axis=0)
+    inner = ((points[:, :2] > low[:2] + 1e-9) & (points[:, :2] < high[:2] - 1e-9)).all(axis=1)
+    _, column = np.unique(np.round(points[:, :2], 9), axis=0, return_inverse=True)
+    rng = np.random.default_rng(seed)
+    shift = rng.uniform(-amount, amount, (column.max() + 1, 2))[column.ravel()]
+    points[:, :2] += inner[:, None] * shift
+    points[:, 2] += normal * rng.uniform(-1, 1, len(points))
+    return Mesh(points, mesh.cells, mesh.sets, mesh.faces)
+
+
+def free_bending(
+    cells=(12, 1), element="ANS3DEAS", points=2, length_unit=1.0, force_unit=1.0, material=None, **options
+):
+    """A strip bent freely over a cylinder by its clamped end; units as multiples of mm and N."""
+    stress = force_unit / length_unit**2
+    L = length_unit
+    cell = "hex18" if "9K" in element else "hex8"
+    mesh = strip(60 * L, 10 * L, 1 * L, cells, cell=cell)
+    material = material or mt.J2(
+        kappa=175e3 * stress, mu=80.77e3 * stress, hardening=mt.Linear(160 * stress, 500 * stress)
+    )
+    model = Model(mesh, element, material=material, **options)
+    model.symmetry("x0", normal="x")
+    model.symmetry(lambda x, y, z: (x < 1e-9 * L) & (y < 1e-9 * L) & (z < 0), normal="y")
+    punch = model.prescribe("x0_lower", "z", "punch")
+    tool = Cylinder(centre=(25 * L, 0, -20.5 * L), axis="y", radius=20 * L)
+    contact = model.contact("lower", tool, penalty=100 * stress / L, points=points, name="tool")
+    return SimpleNamespace(model=model, punch=punch, contact=contact, unit=L, force_unit=force_unit)
+
+
+def bar(element="ANS3DEAS", material=None, area=0.2, **options):
+    """One element of unit length between sliding planes, pulled at x1; its lateral faces are free."""
+    cell = "hex18" if "9K" in element else "hex8"
+    mesh = strip(1.0, 0.5, area / 0.5, (1, 1), cell=cell)
+    model = Model(mesh, element, material=material or MATERIALS["neo-hooke"], **options)
+    for face, normal in (("x0", "x"), ("y0", "y"), ("lower", "z")):
+        model.symmetry(face, normal=normal)
+    return model, model.prescribe("x1", "x", "pull")
+
+
+def cantilever(load=0.5, cells=(6, 1), element="ANS3DEAS", material=None):
+    """An elastic strip clamped at x0 with a dead force at its tip that bends it far."""
+    cell = "hex18" if "9K" in element else "hex8"
+    model = Model(
+        strip(10.0, 1.0, 0.1, cells, cell=cell), element, material=material or mt.SVK(E=1.2e6, nu=0.0)
+    )
+    model.fix("x0")
+    tip = model.line_load("x1", "lower", (0.0, 0.0, 2.0 * load), "tip")
+    return model, tip
+
+
+@pytest.fixture
+def materials():
+    return MATERIALS
+
+
+@pytest.fixture
+def build():
+    """Builders of small models and the functions that look at them."""
+    return SimpleNamespace(
+        one_element=OneElement,
+        central_difference=central_difference,
+        relative_error=relative_error,
+        dense=dense,
+        full_tangent=FullTangent,
+        jittered=jittered,
+        free_bending=free_bending,
+        bar=bar,
+        cantilever=cantilever,
+    )
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(20)
+
+
+@pytest.fixture
+def rotation():
+    """A large rotation about a skew axis."""
+    return Rotation.from_rotvec([0.7, -1.9, 1.1]).as_matrix()

@@ -1,0 +1,306 @@
+"""Every element of the catalogue with every material: tangent, rigid motions, objectivity; options and rules."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+
+from umform import elements
+from umform.elements import CATALOGUE, Element, Term, Tying, element, thickness_rule
+from umform.errors import InvalidValue
+
+LAWS = ("svk", "neo-hooke", "neo-hooke-power", "j2")
+ENHANCED = [name for name in CATALOGUE if name.endswith("EAS")]
+
+
+def options_of(name):
+    """The ways of E_33: tied or not, order 1 and 3 where the element has an enhanced thickness strain."""
+    orders = (1, 3) if name in ENHANCED else (None,)
+    for tie, order in itertools.product((False, True), orders):
+        yield {"tie_E33": tie} | ({} if order is None else {"thickness_order": order})
+
+
+VARIANTS = [
+    pytest.param(name, options, id=f"{name}-{'tied' if options['tie_E33'] else 'free'}-{options.get('thickness_order', 0)}")
+    for name in CATALOGUE
+    for options in options_of(name)
+] + [
+    pytest.param("EAS3DEAS", {"membrane_modes": 4}, id="EAS3DEAS-4-modes"),
+    pytest.param("EAS3DEAS", {"membrane_modes": 5}, id="EAS3DEAS-5-modes"),
+    pytest.param("ANS3DEAS", {"thickness_modes": 1}, id="ANS3DEAS-1-mode"),
+    pytest.param("ANS3DEAS", {"thickness_order": 4}, id="ANS3DEAS-order-4"),
+    pytest.param("MI9K3DEAS", {"thickness_modes": 4}, id="MI9K3DEAS-4-modes"),
+    pytest.param("MI9K3DEAS", {"compatible_E12": True}, id="MI9K3DEAS-compatible-E12"),
+]  # fmt: skip
+
+every_element = pytest.mark.parametrize(("name", "options"), VARIANTS)
+every_law = pytest.mark.parametrize("law", LAWS)
+
+
+@pytest.fixture
+def strained(build, materials):
+    """A distorted element in a strained state; with history, and plastic, if the law has one."""
+
+    def make(name, law, options):
+        one = build.one_element(name, materials[law], **options)
+        u = one.displacement()
+        if law == "j2":
+            one.harden(u)
+            assert (one.block.state[..., 6] > 0.005).mean() > 0.9
+            u = u + one.displacement(0.2)
+        return one, u
+
+    return make
+
+
+@every_element
+@every_law
+def test_tangent_is_the_derivative_of_the_force(build, strained, name, law, options):
+    one, u = strained(name, law, options)
+    K, _ = one(u)
+    for _ in range(3):
+        du = one.rng.normal(size=u.size)
+        slope = build.central_difference(lambda v: one(v)[1], u, du)
+        assert build.relative_error(K @ du, slope) < 1e-7
+
+
+@every_element
+@every_law
+def test_scattered_tangent_is_symmetric_and_that_of_the_element(build, strained, name, law, options):
+    one, u = strained(name, law, options)
+    K, f = one(u)
+    assert (K == K.T).all()
+    force, values = np.zeros(u.size), np.zeros(one.pattern.indices.size)
+    du, Kdu = one.rng.normal(size=u.size), np.zeros(u.size)
+    failed, scale = one.block.evaluate(u, one.scatter, force, values, du, Kdu)
+    assert failed == -1
+    assert scale == pytest.approx(f @ f, rel=1e-12)
+    np.testing.assert_allclose(force, f, atol=1e-12 * np.abs(f).max())
+    np.testing.assert_array_equal(build.dense(one.pattern, values), K)
+    np.testing.assert_allclose(Kdu, K @ du, atol=1e-12 * np.abs(Kdu).max())
+
+
+@every_element
+def test_tangent_of_a_general_pattern_is_symmetric_too(build, materials, name, options):
+    """The full matrix goes through another scatter than the upper triangle."""
+    one = build.one_element(name, materials["svk"], **options)
+    u = one.displacement()
+    K, _ = one(u)
+    full = build.full_tangent(one.block, one.nodes)
+    np.testing.assert_array_equal(full(u)[1], K)
+
+
+@every_element
+@every_law
+def test_exactly_six_zero_modes(build, materials, rotation, name, law, options):
+    one = build.one_element(name, materials[law], **options)
+    at_rest = np.zeros(3 * one.nodes)
+    for u in (at_rest, one.rotated(at_rest, rotation)):
+        K, f = one(u)
+        values, modes = np.linalg.eigh(K)
+        assert np.abs(f).max() < 1e-12 * values.max()
+        assert (np.abs(values) < 1e-11 * values.max()).sum() == 6
+        assert values.min() > -1e-11 * values.max()
+        x = one.X + u.reshape(-1, 3)
+        rigid = [np.tile(e, one.nodes) for e in np.eye(3)] + [np.cross(e, x).ravel() for e in np.eye(3)]
+        zero = modes[:, np.abs(values) < 1e-11 * values.max()]
+        for mode in rigid:
+            mode = mode / np.linalg.norm(mode)
+            assert np.linalg.norm(mode - zero @ (zero.T @ mode)) < 1e-5
+
+
+@every_element
+@every_law
+def test_a_superposed_rigid_motion_only_turns_the_forces(strained, rotation, name, law, options):
+    one, u = strained(name, law, options)
+    K, f = one(u)
+    E, S, frame, F, dV = one.block.point_fields(u)
+    turned = one.rotated(u, rotation)
+    K_turned, f_turned = one(turned)
+    Q = np.kron(np.eye(one.nodes), rotation)
+    np.testing.assert_allclose(f_turned, Q @ f, atol=1e-9 * np.abs(f).max())
+    np.testing.assert_allclose(K_turned, Q @ K @ Q.T, atol=1e-9 * np.abs(K).max())
+    E2, S2, frame2, F2, dV2 = one.block.point_fields(turned)
+    assert (S2 * E2 * dV2[..., None]).sum() == pytest.approx((S * E * dV[..., None]).sum(), rel=1e-9)
+    np.testing.assert_allclose(E2, E, atol=1e-9 * np.abs(E).max())
+    np.testing.assert_allclose(S2, S, atol=1e-9 * np.abs(S).max())
+    np.testing.assert_allclose(F2, rotation @ F, atol=1e-12)
+    np.testing.assert_array_equal(frame2, frame)
+
+
+@every_element
+def test_forces_of_an_element_are_in_equilibrium(strained, name, options):
+    one, u = strained(name, "neo-hooke", options)
+    f = one(u)[1].reshape(-1, 3)
+    x = one.X + u.reshape(-1, 3)
+    assert np.abs(f.sum(axis=0)).max() < 1e-12 * np.abs(f).max()
+    assert np.abs(np.cross(x, f).sum(axis=0)).max() < 1e-12 * np.abs(f).max()
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_internal_work_is_the_work_of_the_nodal_forces(build, materials, name):
+    """Along a closed loop of displacements an elastic element gives back what it took."""
+    one = build.one_element(name, materials["neo-hooke"])
+    a, b = one.displacement(0.5), one.displacement(0.5)
+    angle, weight = 2 * np.pi * np.arange(24) / 24, 2 * np.pi / 24
+    work = [
+        one(np.cos(t) * a + np.sin(t) * b)[1] @ (-np.sin(t) * a + np.cos(t) * b) * weight for t in angle
+    ]
+    assert abs(sum(work)) < 1e-8 * sum(abs(w) for w in work)
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_undo_recover_and_revert_take_the_parameters_back(build, materials, name):
+    one = build.one_element(name, materials["neo-hooke"])
+    u = one.displacement()
+    before = one.block.element(0, u)
+
+    def evaluate_and_recover():
+        f, values = np.zeros(u.size), np.zeros(one.pattern.indices.size)
+        one.block.evaluate(u, one.scatter, f, values, None, None)
+        one.block.recover(one.displacement(0.1), 0.7)
+
+    evaluate_and_recover()
+    changed = one.block.element(0, u)
+    assert (one.block.modes == 0) == (changed[1] == before[1]).all()
+    one.block.undo_recover()
+    np.testing.assert_array_equal(one.block.element(0, u)[0], before[0])
+    evaluate_and_recover()
+    evaluate_and_recover()
+    one.block.revert()
+    np.testing.assert_array_equal(one.block.element(0, u)[0], before[0])
+    np.testing.assert_array_equal(one.block.element(0, u)[1], before[1])
+
+
+def test_recover_solves_for_the_parameters_after_a_linear_step(build, materials):
+    """For a linear law and a tiny displacement one recovery makes the parameters stationary."""
+    one = build.one_element("EAS3DEAS", materials["svk"])
+    u = one.displacement(1e-9)
+    f, values = np.zeros(u.size), np.zeros(one.pattern.indices.size)
+    one.block.evaluate(np.zeros(u.size), one.scatter, f, values, None, None)
+    one.block.recover(u, 1.0)
+    once = one.block.element(0, u)[1]
+    settled = one(u)[1]
+    assert np.abs(once - settled).max() < 1e-7 * np.abs(settled).max()
+
+
+def test_a_strain_outside_of_the_domain_names_the_cell(build, materials):
+    one = build.one_element("ANS3DEAS", materials["neo-hooke"])
+    flat = np.zeros((8, 3))
+    flat[4:, 2] = -0.5  # the upper face pushed through the lower one
+    f, values = np.zeros(24), np.zeros(one.pattern.indices.size)
+    squeezed = -one.X.ravel()
+    failed, _ = one.block.evaluate(squeezed, one.scatter, f, values, None, None)
+    assert failed == 0
+    with pytest.raises(ValueError, match="domain"):
+        one.block.element(0, squeezed)
+
+
+# The catalogue -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_every_entry_of_the_catalogue_is_cited_and_has_its_nodes(name):
+    made = element(name)
+    assert made.name == name
+    assert made.citation
+    assert made.nodes == (18 if "9K" in name else 8)
+    assert made.surface_points == (3 if "9K" in name else 2)
+    assert (made.thickness_order > 0) == (name in ENHANCED)
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "modes"),
+    [
+        ("DISP3D", {}, 0),
+        ("DISP3DEAS", {}, 4),
+        ("ANS3DEAS", {"thickness_modes": 1}, 1),
+        ("ANS3DEAS", {"thickness_order": 3}, 6),
+        ("EAS3DEAS", {}, 11),
+        ("EAS3DEAS", {"membrane_modes": 5, "thickness_order": 2}, 10),
+        ("MI9K3DEAS", {}, 9),
+        ("MI9K3DEAS", {"thickness_modes": 4, "thickness_order": 4}, 7),
+    ],
+)
+def test_number_of_enhanced_modes(name, options, modes):
+    assert len(element(name, **options).modes) == modes
+
+
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("DISP3D", {"thickness_order": 3}),
+        ("DISP9K3D", {"thickness_modes": 4}),
+        ("ANS3DEAS", {"thickness_order": 5}),
+        ("ANS3DEAS", {"thickness_order": 0}),
+        ("ANS3DEAS", {"thickness_modes": 3}),
+        ("ANS3DEAS", {"membrane_modes": 4}),
+        ("EAS3DEAS", {"membrane_modes": 6}),
+        ("ANS3DEAS", {"compatible_E12": True}),
+        ("ANS4DEAS", {}),
+    ],
+)
+def test_options_that_do_not_belong_to_the_element_are_refused(name, options):
+    with pytest.raises(InvalidValue):
+        element(name, **options)
+
+
+def test_an_unknown_element_is_answered_with_the_catalogue():
+    with pytest.raises(InvalidValue) as caught:
+        element("ANS")
+    assert all(name in caught.value.remedy for name in CATALOGUE)
+
+
+def test_an_element_of_ones_own_equals_its_sister_in_the_catalogue(build, materials):
+    """Rows written by hand: the assumed shear of Bathe and Dvorkin and four thickness modes."""
+    mine = Element(
+        "MINE",
+        "hex8",
+        tying=(Tying("13", (0.0,), (-1.0, 1.0)), Tying("23", (-1.0, 1.0), (0.0,))),
+        modes=tuple((Term("33", a, b, 1),) for b in (0, 1) for a in (0, 1)),
+        thickness_order=1,
+    )
+    assert element(mine) is mine
+    with pytest.raises(InvalidValue, match="no further options"):
+        element(mine, tie_E33=True)
+    one, other = build.one_element(mine, materials["svk"]), build.one_element("ANS3DEAS", materials["svk"])
+    u = one.displacement()
+    np.testing.assert_array_equal(one(u)[0], other(u)[0])
+
+
+@pytest.mark.parametrize("rule", ["gauss", "lobatto", "split"])
+@pytest.mark.parametrize("points", range(2, 16))
+def test_thickness_rules_integrate_as_far_as_they_promise(rule, points):
+    if rule == "split" and points % 2:
+        with pytest.raises(InvalidValue, match="even"):
+            thickness_rule(points, rule)
+        return
+    t, w = thickness_rule(points, rule)
+    assert len(t) == len(w) == points
+    assert (np.diff(t) > 0).all()
+    np.testing.assert_allclose(t, -t[::-1], atol=1e-15)
+    degree = {"gauss": 2 * points - 1, "lobatto": 2 * points - 3, "split": points - 1}[rule]
+    for k in range(degree + 1):
+        assert w @ t**k == pytest.approx(2 / (k + 1) if k % 2 == 0 else 0.0, abs=1e-13)
+    if rule == "split":
+        assert w @ np.abs(t) == pytest.approx(1.0, abs=1e-14)
+
+
+@pytest.mark.parametrize(("points", "rule"), [(1, "gauss"), (16, "gauss"), (4, "simpson")])
+def test_thickness_rules_out_of_range_are_refused(points, rule):
+    with pytest.raises(InvalidValue):
+        thickness_rule(points, rule)
+
+
+def test_modes_of_the_membrane_have_no_mean():
+    """The enhanced strains must do no work on constant stresses: their integral over the square vanishes."""
+    x, w = thickness_rule(3)
+    for count in (4, 5, 7):
+        for mode in elements.membrane_modes(count):
+            for component in {term.component for term in mode}:
+                total = sum(
+                    term.factor * (w @ x**term.a) * (w @ x**term.b) for term in mode if term.component == component
+                )
+                assert total == pytest.approx(0.0, abs=1e-15)
