@@ -2,7 +2,8 @@
 
 Convergence asks for a small residual AND a small increment, both without units: the residual against the root of the
 sum of squares of all element forces, the increment against the largest displacement. Neither can fall below round-off,
-so the floor that round-off sets is estimated in each iteration, and a residual at the floor counts as zero.
+so the floor that round-off sets is estimated in each iteration: a residual below it is small, and two in a row end the
+iteration even where the increment cannot become small (sheets so thin that round-off moves them).
 eqs. (5.8)-(5.11)
 """
 
@@ -228,7 +229,7 @@ class Newton:
         evaluation = system.evaluate(u)
         active = system.active_set()
         previous_active = active
-        extra = 0
+        extra = at_floor = 0
 
         for number in range(1, options.max_iterations + 1):
             self._check_domain(evaluation, iterations)
@@ -241,7 +242,8 @@ class Newton:
             floor = self._floor(evaluation.values, u)
             small = norm <= max(options.residual * scale, floor) and increment <= options.increment
             settled = small and (not (entered or left) or extra >= 2)
-            if settled or norm <= floor:
+            at_floor = at_floor + 1 if norm <= floor else 0
+            if settled or at_floor >= 2:
                 self._record(
                     iterations, number, norm / scale, increment, 0.0, entered, left, step_length, pivots, start
                 )
@@ -298,7 +300,7 @@ class Newton:
         """Residual that round-off of the displacements leaves behind. eq. (5.10)"""
         largest = float(np.abs(values).max(initial=0.0))
         eps = float(np.finfo(float).eps)
-        return 4.0 * eps * largest * float(np.abs(u).max()) * math.sqrt(self.system.free.size)
+        return eps * largest * float(np.abs(u).max()) * math.sqrt(self.system.free.size)
 
     def _record(
         self,

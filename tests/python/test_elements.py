@@ -188,8 +188,6 @@ def test_recover_solves_for_the_parameters_after_a_linear_step(build, materials)
 
 def test_a_strain_outside_of_the_domain_names_the_cell(build, materials):
     one = build.one_element("ANS3DEAS", materials["neo-hooke"])
-    flat = np.zeros((8, 3))
-    flat[4:, 2] = -0.5  # the upper face pushed through the lower one
     f, values = np.zeros(24), np.zeros(one.pattern.indices.size)
     squeezed = -one.X.ravel()
     failed, _ = one.block.evaluate(squeezed, one.scatter, f, values, None, None)

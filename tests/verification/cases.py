@@ -98,10 +98,10 @@ def hemisphere(cells: int, cell: str = "hex8", *, radius: float = 10.0, thicknes
 # Models ---------------------------------------------------------------------------------------------------------------
 
 
-def pinched_hemisphere(cells: int, element: str | uf.Element, **options) -> tuple[uf.Model, object, int, int]:
-    """Hemisphere of Sze et al. (2004) with its load: model, control (P of the whole shell), nodes of A and B.
+def pinched_hemisphere(cells: int, element: str | uf.Element, **options) -> tuple[uf.Model, list, Floats, Floats]:
+    """Hemisphere of Sze et al. (2004) with its loads: model, controls (P of the whole shell), nodes of A and of B.
 
-    The quarter carries P/2, half on the lower and half on the upper node: outward along x at B, inward along y at A.
+    The quarter carries P/2, half on the lower and half on the upper node: inward along x at B, outward along y at A.
     """
     cell = element.cell if isinstance(element, uf.Element) else uf.elements.element(element).cell
     mesh = hemisphere(cells, cell)
@@ -110,7 +110,5 @@ def pinched_hemisphere(cells: int, element: str | uf.Element, **options) -> tupl
     model.symmetry("y1", "x")
     at_B, at_A = (np.intersect1d(mesh.nodes("x1"), mesh.nodes(side)) for side in ("y0", "y1"))
     model.fix(at_B[:1], "z")
-    forces = np.zeros((len(mesh.points), 3))
-    forces[at_B, 0] = -0.25
-    forces[at_A, 1] = 0.25
-    return model, forces, at_A, at_B
+    loads = [model.force(at_B, (-0.25, 0, 0), "B"), model.force(at_A, (0, 0.25, 0), "A")]
+    return model, loads, at_A, at_B
