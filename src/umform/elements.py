@@ -48,6 +48,12 @@ class Term:
     c: int = 0
     factor: float = 1.0
 
+    def mean(self) -> float:
+        """Mean over the parent cube. eq. (2.12)"""
+        if self.c > 0 or self.a % 2 or self.b % 2:
+            return 0.0
+        return self.factor / ((self.a + 1) * (self.b + 1))
+
 
 Mode = tuple[Term, ...]
 
@@ -144,6 +150,34 @@ class Element:
     thickness_order: int = 0
     citation: str = ""
     options: dict[str, object] = field(default_factory=dict, compare=False)
+
+    def __post_init__(self) -> None:
+        if self.cell not in ("hex8", "hex18"):
+            raise InvalidValue("an element stands on hex8 or hex18 cells", where=self.name, value=self.cell)
+        tied = [row.component for row in self.tying]
+        for row in self.tying:
+            if row.component not in COMPONENTS or tied.count(row.component) > 1:
+                raise InvalidValue(
+                    "a tying row belongs to one component, and a component has one row",
+                    where=self.name,
+                    value=row.component,
+                    remedy="components: " + ", ".join(COMPONENTS),
+                )
+            if any(len(set(abscissae)) != len(abscissae) or not abscissae for abscissae in (row.r, row.s)):
+                raise InvalidValue("the abscissae of a tying row must be distinct", where=self.name, value=row)
+        for mode in self.modes:
+            if not mode or any(term.component not in COMPONENTS for term in mode):
+                raise InvalidValue("a mode is a tuple of terms in known components", where=self.name, value=mode)
+            for component in {term.component for term in mode}:
+                mean = sum(term.mean() for term in mode if term.component == component)
+                if abs(mean) > 1e-12:
+                    raise InvalidValue(
+                        "the mean of an enhanced mode over the element must vanish",
+                        where=self.name,
+                        value=f"{mode}: mean {mean:.3g}",
+                        cause="such a mode takes part in constant strain: the patch test is lost",
+                        remedy="odd powers of r or s, or Legendre order c > 0; or subtract the mean by another term",
+                    )
 
     @property
     def nodes(self) -> int:

@@ -194,12 +194,12 @@ class Newton:
         """
         try:
             return self._solve(extrapolation)
-        except Failed:
-            self.system.revert()
-            raise
         except (SingularMatrix, NotFinite) as error:
             self.system.revert()
             raise Failed(error.what, []) from error
+        except BaseException:  # an error of a user's function or an interrupt too leaves no trace
+            self.system.revert()
+            raise
 
     def _solve(self, extrapolation: Floats | None) -> Converged:
         system, options = self.system, self.options

@@ -123,8 +123,16 @@ class Result:
         """History as columns; ``pandas.DataFrame(result.table())`` is a data frame."""
         return {name: self[name] for name in self.columns()}
 
-    def write(self, path: str | Path) -> Path:
+    def write(self, path: str | Path, *, lagrange: bool = False) -> Path:
         """Write frames (``.vtkhdf``) or the history (``.csv``), whole or not at all.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file to write.
+        lagrange : bool, optional
+            Whether frames of 18-node cells are written as Lagrange cells of VTK with the same nodes, which needs
+            VTK 9.7 or later to read, and not as cells with 27 nodes, which every VTK reads.
 
         Returns
         -------
@@ -140,7 +148,7 @@ class Result:
             if not self.frames:
                 raise InvalidValue("this run kept no frames", remedy="solve(..., frames=60)")
             mesh = self.model.mesh
-            with VtkHdfSeries(path, mesh.points, mesh.cell, mesh.connectivity) as series:
+            with VtkHdfSeries(path, mesh.points, mesh.cell, mesh.connectivity, lagrange=lagrange) as series:
                 for frame in self.frames:
                     series.append(float(frame.number), frame.points, frame.cells)
         else:

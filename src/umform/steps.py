@@ -197,7 +197,7 @@ def _increment(
                 raise
             model.evaluate(model.u)  # the extrapolation may have gone too far: once more from the tangent
             converged = run.newton.solve(None)
-    except Failed:
+    except BaseException:
         for control, value in zip(controls, before, strict=True):
             control.value = value
         model.time = time_before

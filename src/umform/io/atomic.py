@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import os
 import secrets
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 from umform.errors import FileProblem
 
@@ -118,3 +120,29 @@ def write_problem(path: Path, error: OSError) -> FileProblem:
         cause = error.strerror or str(error)
         remedy = "check the free space of the disk and the length of the path"
     return FileProblem("the file cannot be written", where=str(path), cause=cause, remedy=remedy)
+
+
+class UntilDiskFull(io.FileIO):
+    """A file that drops everything after the first write that fails.
+
+    HDF5 cannot forget a step that did not fit on the disk: on closing it writes what it still has, and
+    damages the file. Dropped instead, the file stays as of the last flush, with all the steps before.
+    """
+
+    full = False
+
+    def write(self, data: Any) -> int:
+        """Write all of the data, or drop it if an earlier write failed."""
+        rest = memoryview(data).cast("B")
+        size = rest.nbytes
+        try:
+            while rest and not self.full:
+                rest = rest[super().write(rest) :]
+        except OSError:
+            self.full = True
+            raise
+        return size
+
+    def truncate(self, size: int | None = None) -> int:
+        """Change the size of the file, unless a write failed."""
+        return self.tell() if self.full else super().truncate(size)

@@ -18,6 +18,9 @@ only; older readers warn and build a wrong cell. An ``hex18`` cell is therefore 
 the lower and upper ones. Since ``hex18`` interpolates linearly through the thickness, the cell with 27 nodes
 is the same function, of position and of every field. The points of the middle layer come after all the
 others; reading leaves them out again.
+
+For readers that are new enough there is the Lagrange cell too: with the option ``lagrange`` VTKHDF files hold
+the 18 nodes alone.
 """
 
 from __future__ import annotations
@@ -50,6 +53,8 @@ class CellType:
         For each node of the VTK cell its number in umform; numbers from `nodes` on are the middle layer.
     meshio_type : str
         Name in meshio, which has the node order of VTK.
+    degrees : tuple of int, optional
+        Degrees along r, s and t, which VTK must be told of its Lagrange cells; empty for all others.
     """
 
     name: str
@@ -57,6 +62,7 @@ class CellType:
     vtk_type: int
     vtk_nodes: tuple[int, ...]
     meshio_type: str
+    degrees: tuple[int, ...] = ()
 
 
 HEX8 = CellType("hex8", 8, 12, tuple(range(8)), "hexahedron")
@@ -75,16 +81,32 @@ HEX18 = CellType(
     "hexahedron27",
 )
 
+HEX18_LAGRANGE = CellType(
+    "hex18",
+    18,
+    72,
+    (
+        *(0, 1, 2, 3, 9, 10, 11, 12),  # corners, lower and upper
+        *(4, 5, 6, 7, 13, 14, 15, 16),  # mid-sides, lower and upper
+        *(8, 17),  # centres, lower and upper
+    ),
+    "VTK_LAGRANGE_HEXAHEDRON",
+    (2, 2, 1),
+)
+
 CELL_TYPES = {cell.name: cell for cell in (HEX8, HEX18)}
+LAGRANGE_TYPES = {cell.name: cell for cell in (HEX18_LAGRANGE,)}
 
 
-def cell_type(name: str) -> CellType:
+def cell_type(name: str, *, lagrange: bool = False) -> CellType:
     """Look up a cell type by its name.
 
     Parameters
     ----------
     name : str
         ``"hex8"`` or ``"hex18"``.
+    lagrange : bool, optional
+        Whether VTK is to have its Lagrange cell, where there is one for this type.
 
     Returns
     -------
@@ -98,7 +120,7 @@ def cell_type(name: str) -> CellType:
     """
     if name not in CELL_TYPES:
         raise WrongCellType("unknown cell type", value=name, remedy=f"choose one of {', '.join(sorted(CELL_TYPES))}")
-    return CELL_TYPES[name]
+    return LAGRANGE_TYPES.get(name, CELL_TYPES[name]) if lagrange else CELL_TYPES[name]
 
 
 @dataclass(frozen=True)
@@ -107,8 +129,8 @@ class VtkGrid:
 
     Parameters
     ----------
-    vtk_type : int
-        Number of the cell type in VTK.
+    kind : CellType
+        The type of all the cells.
     points : ndarray of float, shape (n + p, 3)
         The n points of the mesh, followed by p points of the middle layers.
     connectivity : ndarray of int, shape (m, k)
@@ -117,7 +139,7 @@ class VtkGrid:
         For each point of the middle layers the lower and the upper point of which it is the mean.
     """
 
-    vtk_type: int
+    kind: CellType
     points: FloatArray
     connectivity: IntArray
     pairs: IntArray
@@ -176,7 +198,7 @@ def to_vtk(kind: CellType, points: ArrayLike, connectivity: ArrayLike) -> VtkGri
         lower, upper = np.hsplit(cells, 2)
         pairs, number = np.unique(np.stack([lower, upper], -1).reshape(-1, 2), axis=0, return_inverse=True)
         cells = np.hstack([cells, len(X) + number.reshape(lower.shape)])
-    return VtkGrid(kind.vtk_type, _with_means(X, pairs), cells[:, list(kind.vtk_nodes)], pairs)
+    return VtkGrid(kind, _with_means(X, pairs), cells[:, list(kind.vtk_nodes)], pairs)
 
 
 def from_vtk(kind: CellType, points: FloatArray, connectivity: IntArray) -> IntArray:

@@ -25,7 +25,7 @@ from umform.io.cells import (
     to_vtk,
 )
 from umform.io.checks import Fields, FloatArray, IntArray, check_ids, check_points, field_arrays
-from umform.io.vtkhdf import read_vtkhdf
+from umform.io.vtkhdf_reader import read_vtkhdf
 
 BY_MESHIO = {kind.meshio_type: kind for kind in CELL_TYPES.values()}
 VTKHDF_SUFFIXES = (".vtkhdf", ".hdf")
@@ -95,24 +95,14 @@ def read_mesh_arrays(path: str | os.PathLike[str]) -> MeshArrays:
     the logger ``umform.io.meshes``.
     """
     place = Path(path)
+    point_sets: dict[str, IntArray] = {}
+    cell_sets: dict[str, dict[str, IntArray]] = {}
     if place.suffix.lower() in VTKHDF_SUFFIXES:
-        X, blocks = read_vtkhdf(place)
-        mesh = meshio.Mesh(X, [(CELL_TYPES[name].meshio_type, cells) for name, cells in blocks.items()])
+        X, cells = read_vtkhdf(place)
     else:
         mesh = _read(place)
-    _check_types(mesh, place)
-    X = np.ascontiguousarray(mesh.points, dtype=np.float64)
-    check_points(X, str(place))
-
-    cells: dict[str, IntArray] = {}
-    for block in mesh.cells:
-        ids = np.asarray(block.data, dtype=np.int64)
-        check_ids(ids, len(X), str(place))
-        if block.type in BY_MESHIO:
-            name = BY_MESHIO[block.type].name
-            cells[name] = np.vstack([cells[name], ids]) if name in cells else ids
-    cells = {name: from_vtk(CELL_TYPES[name], X, ids) for name, ids in cells.items()}
-    point_sets, cell_sets = _sets(mesh)
+        X, cells = _hexahedra(mesh, place)
+        point_sets, cell_sets = _sets(mesh)
 
     used = np.unique(np.concatenate([ids.ravel() for ids in cells.values()]))
     number = np.full(len(X), -1)
@@ -228,6 +218,21 @@ def _quiet() -> Iterator[io.StringIO]:
         finally:
             if said.getvalue():
                 _log.info(said.getvalue().strip())
+
+
+def _hexahedra(mesh: Any, path: Path) -> tuple[FloatArray, dict[str, IntArray]]:
+    """Return all the points of a mesh and its hexahedra, in the order of umform."""
+    _check_types(mesh, path)
+    X = np.ascontiguousarray(mesh.points, dtype=np.float64)
+    check_points(X, str(path))
+    cells: dict[str, IntArray] = {}
+    for block in mesh.cells:
+        ids = np.asarray(block.data, dtype=np.int64)
+        check_ids(ids, len(X), str(path))
+        if block.type in BY_MESHIO:
+            name = BY_MESHIO[block.type].name
+            cells[name] = np.vstack([cells[name], ids]) if name in cells else ids
+    return X, {name: from_vtk(CELL_TYPES[name], X, ids) for name, ids in cells.items()}
 
 
 def _check_types(mesh: Any, path: Path) -> None:

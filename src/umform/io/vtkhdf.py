@@ -2,7 +2,8 @@
 
 The mesh is stored once; a step adds its time and its fields. The layout is that of a temporal
 ``UnstructuredGrid`` in version 2.0 of the VTKHDF specification: the fields of all steps lie one after the
-other, and ``Steps`` says where those of each step begin, which for the mesh is always 0.
+other, and ``Steps`` says where those of each step begin, which for the mesh is always 0. The degrees of
+Lagrange cells belong to the mesh; that they are the active attribute of this name is version 2.6.
 """
 
 from __future__ import annotations
@@ -17,12 +18,14 @@ import h5py
 import numpy as np
 from numpy.typing import ArrayLike
 
-from umform.errors import FileProblem, InvalidValue, WrongCellType
-from umform.io.atomic import PendingFile, write_problem
-from umform.io.cells import CELL_TYPES, cell_type, to_vtk
-from umform.io.checks import Fields, FloatArray, IntArray, check_ids, field_arrays
+from umform.errors import FileProblem, InvalidValue
+from umform.io.atomic import PendingFile, UntilDiskFull, write_problem
+from umform.io.cells import cell_type, to_vtk
+from umform.io.checks import Fields, FloatArray, IntArray, field_arrays
 
 VERSION = (2, 0)
+VERSION_OF_ATTRIBUTES = (2, 6)
+DEGREES = "HigherOrderDegrees"
 SMALL_CHUNK = 256
 COMPRESSION = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
 MESH_OFFSETS = ("PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets")
@@ -42,7 +45,9 @@ class VtkHdfSeries:
     in the order 11 22 33 12 23 13, which is also VTK's.
 
     Cells ``hex18`` are stored as VTK cells with 27 nodes, and their point fields with the means in the middle
-    layer; both are exact, see `umform.io.cells`. The points of the mesh keep their numbers.
+    layer; both are exact, see `umform.io.cells`. The points of the mesh keep their numbers. With `lagrange`
+    the cells keep their 18 nodes and the file has no points but those of the mesh: two thirds of the points
+    for one layer of cells. No VTK before 9.7 reads such a file rightly.
 
     Parameters
     ----------
@@ -54,6 +59,9 @@ class VtkHdfSeries:
         Type of all the cells, ``"hex8"`` or ``"hex18"``.
     connectivity : array_like of int, shape (m, k)
         The points of each cell in the order of umform.
+    lagrange : bool, optional
+        Whether to store ``hex18`` as ``VTK_LAGRANGE_HEXAHEDRON`` of the degrees (2, 2, 1), for VTK 9.7 and
+        later; cells ``hex8`` are the same either way.
 
     Raises
     ------
@@ -76,16 +84,25 @@ class VtkHdfSeries:
     ...     series.append(0.0, {"displacement": u}, {"eqps": eqps})
     """
 
-    def __init__(self, path: str | os.PathLike[str], points: ArrayLike, cells: str, connectivity: ArrayLike) -> None:
-        self._grid = to_vtk(cell_type(cells), points, connectivity)
+    def __init__(
+        self,
+        path: str | os.PathLike[str],
+        points: ArrayLike,
+        cells: str,
+        connectivity: ArrayLike,
+        *,
+        lagrange: bool = False,
+    ) -> None:
+        self._grid = to_vtk(cell_type(cells, lagrange=lagrange), points, connectivity)
         self._target = PendingFile(path)
         self._raw: io.FileIO
         self._file: Any = None
         self._times: list[float] = []
         self._shapes: dict[str, tuple[int, ...]] = {}
+        self._mesh_offsets: tuple[str, ...] = MESH_OFFSETS
 
     def __enter__(self) -> Self:
-        self._raw = _UntilDiskFull(self._target.__enter__(), "wb+")
+        self._raw = UntilDiskFull(self._target.__enter__(), "wb+")
         try:
             self._file = h5py.File(self._raw, "w", rdcc_nbytes=0)  # no cache: a failing write is seen at once
             self._write_mesh()
@@ -136,7 +153,7 @@ class VtkHdfSeries:
         ------
         InvalidValue
             The time does not increase, a field has a wrong shape or name, the fields differ from those of the
-            first step, or the series is not open.
+            first step, or the series is not open. In the cells the name ``HigherOrderDegrees`` is VTK's own.
         FileProblem
             The step cannot be written.
         """
@@ -160,6 +177,8 @@ class VtkHdfSeries:
         n, m = len(grid.points) - len(grid.pairs), len(grid.connectivity)
         fields = {f"PointData/{name}": grid.complete(a) for name, a in field_arrays(point_data, n, "point").items()}
         fields |= {f"CellData/{name}": a for name, a in field_arrays(cell_data, m, "cell").items()}
+        if f"CellData/{DEGREES}" in fields:
+            raise InvalidValue("VTK takes a field of this name for the degrees of the cells", value=DEGREES)
         self._check_fields({name: array.shape for name, array in fields.items()})
         try:
             self._write_step(time, fields)
@@ -193,7 +212,8 @@ class VtkHdfSeries:
         grid = self._grid
         m, k = grid.connectivity.shape
         root = self._file.create_group("VTKHDF")
-        root.attrs["Version"] = np.array(VERSION, dtype=np.int64)
+        degrees = grid.kind.degrees
+        root.attrs["Version"] = np.array(VERSION_OF_ATTRIBUTES if degrees else VERSION, dtype=np.int64)
         root.attrs["Type"] = np.bytes_("UnstructuredGrid")
         for name, count in (
             ("NumberOfPoints", len(grid.points)),
@@ -205,12 +225,16 @@ class VtkHdfSeries:
             ("Points", grid.points),
             ("Connectivity", grid.connectivity.ravel()),
             ("Offsets", k * np.arange(m + 1, dtype=np.int64)),
-            ("Types", np.full(m, grid.vtk_type, dtype=np.uint8)),
+            ("Types", np.full(m, grid.kind.vtk_type, dtype=np.uint8)),
         ):
             root.create_dataset(name, data=array, **COMPRESSION)
         for name in ("PointData", "CellData", "Steps/PointDataOffsets", "Steps/CellDataOffsets"):
             root.create_group(name)
         root["Steps"].attrs["NSteps"] = np.int64(0)
+        if degrees:
+            rows = np.tile(np.array(degrees, dtype=np.float64), (m, 1))
+            root.create_dataset(f"CellData/{DEGREES}", data=rows, **COMPRESSION).attrs["Attribute"] = np.bytes_(DEGREES)
+            self._mesh_offsets = (*MESH_OFFSETS, f"CellDataOffsets/{DEGREES}")
 
     def _write_step(self, time: float, fields: dict[str, FloatArray]) -> None:
         """Write the data of a step and then, last of all, count it."""
@@ -219,92 +243,12 @@ class VtkHdfSeries:
             kind, field = name.split("/")
             _put(root, name, step, array)
             _put(root, f"Steps/{kind}Offsets/{field}", step, np.array([step * len(array)]))
-        for name in MESH_OFFSETS:
+        for name in self._mesh_offsets:
             _put(root, f"Steps/{name}", step, np.array([0]))
         _put(root, "Steps/NumberOfParts", step, np.array([1]))
         _put(root, "Steps/Values", step, np.array([time]))
         root["Steps"].attrs["NSteps"] = np.int64(step + 1)
         self._file.flush()
-
-
-class _UntilDiskFull(io.FileIO):
-    """A file that drops everything after the first write that fails.
-
-    HDF5 cannot forget a step that did not fit on the disk: on closing it writes what it still has, and
-    damages the file. Dropped instead, the file stays as of the last flush, with all the steps before.
-    """
-
-    full = False
-
-    def write(self, data: Any) -> int:
-        rest = memoryview(data).cast("B")
-        size = rest.nbytes
-        try:
-            while rest and not self.full:
-                rest = rest[super().write(rest) :]
-        except OSError:
-            self.full = True
-            raise
-        return size
-
-    def truncate(self, size: int | None = None) -> int:
-        return self.tell() if self.full else super().truncate(size)
-
-
-def read_vtkhdf(path: str | os.PathLike[str]) -> tuple[FloatArray, dict[str, IntArray]]:
-    """Read the mesh of a VTKHDF file with hexahedra.
-
-    Parameters
-    ----------
-    path : str or os.PathLike
-        A file of type ``UnstructuredGrid`` in one part, such as `VtkHdfSeries` writes.
-
-    Returns
-    -------
-    points : ndarray of float, shape (n, 3)
-        Positions of all the points of the file.
-    cells : dict of str to ndarray of int, shape (m, k)
-        For each cell type of umform the points of its cells, in the order of VTK.
-
-    Raises
-    ------
-    WrongCellType
-        There are cells that are not hexahedra with 8 or 27 nodes.
-    FileProblem
-        The file cannot be read.
-    """
-    place = os.fspath(path)
-    try:
-        with h5py.File(path, "r") as file:
-            root = file["VTKHDF"]
-            if root.attrs["Type"] != b"UnstructuredGrid" or len(root["NumberOfPoints"]) != 1:
-                raise ValueError("it is not an UnstructuredGrid in one part")
-            X = np.asarray(root["Points"], dtype=np.float64)
-            nodes = np.asarray(root["Connectivity"], dtype=np.int64)
-            first = np.asarray(root["Offsets"], dtype=np.int64)[:-1]
-            types = np.asarray(root["Types"])
-    except (OSError, KeyError, ValueError) as error:
-        raise FileProblem(
-            "the file cannot be read as VTKHDF",
-            where=place,
-            cause=str(error),
-            remedy="give a file that umform has written",
-        ) from error
-    known = {kind.vtk_type: kind for kind in CELL_TYPES.values()}
-    found = np.unique(types).tolist()
-    if not found or not known.keys() >= set(found):
-        raise WrongCellType(
-            "umform reads hexahedra with 8 or 27 nodes only",
-            where=place,
-            value=f"VTK cell types {found}",
-            remedy="write the hexahedra alone to the file",
-        )
-    cells = {}
-    for number in found:
-        kind = known[number]
-        cells[kind.name] = nodes[first[types == number][:, None] + np.arange(len(kind.vtk_nodes))]
-        check_ids(cells[kind.name], len(X), place)
-    return X, cells
 
 
 def _put(root: Any, name: str, step: int, array: FloatArray | IntArray) -> None:

@@ -1,0 +1,199 @@
+"""One case of free bending: build the model, bend, release, measure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform import mesh
+from umform.boundary import Prescribed
+from umform.elements import element as catalogue_element
+from umform.errors import InvalidValue, NoConvergence
+from umform.materials import J2, Linear, Perfect
+from umform.model import Model
+from umform.processes.bending.measures import at_marks, jump, roughness
+from umform.processes.bending.parameters import FreeBending
+from umform.results import Result
+from umform.shape import Shape
+from umform.solvers import make_solver
+from umform.steps import Move, Release, solve
+from umform.surfaces import Cylinder
+
+Floats = NDArray[np.float64]
+
+#: Width of the window in which jumps are looked for, as a fraction of the stroke: 0.1 of 15 mm.
+_WINDOW = 0.1 / 15
+
+
+@dataclass(frozen=True)
+class Bending:
+    """What came out of one case.
+
+    Attributes
+    ----------
+    case : FreeBending
+        Its parameters.
+    step : ndarray of int
+        Step of each converged state: 0 at the start, 1 bending, 2 release.
+    u, F : ndarray
+        Displacement (downwards) and force (half strip, full width) of each converged state.
+    shape : Shape
+        Deformed strip at the end of the stroke, or at the last converged state.
+    solver : str
+        Sparse solver that was used.
+    iterations : int
+        Newton iterations of all increments.
+    seconds : float
+        Wall time.
+    warnings : tuple of str
+        What the run had to say.
+    failure : str
+        Why the case ended early; empty if it is complete.
+    result : Result or None
+        Everything else; None for a case that ran in another process.
+    """
+
+    case: FreeBending
+    step: NDArray[np.int64]
+    u: Floats
+    F: Floats
+    shape: Shape
+    solver: str
+    iterations: int
+    seconds: float
+    warnings: tuple[str, ...] = ()
+    failure: str = ""
+    result: Result | None = None
+
+    @property
+    def loading(self) -> tuple[Floats, Floats]:
+        """Displacement and force while the strip is bent."""
+        bent = self.step < 2
+        return self.u[bent], self.F[bent]
+
+    @property
+    def forces(self) -> list[float | None]:
+        """Forces at the marks."""
+        return at_marks(*self.loading, self.case.marks)
+
+    @property
+    def zero_force(self) -> float | None:
+        """Displacement at which the force is zero again; None if the case did not come so far."""
+        return None if self.failure or not self.case.unload else float(self.u[-1])
+
+    @property
+    def jump(self) -> float | None:
+        """Jump measure J: largest |dF|/F within any 0.1 mm (of a stroke of 15 mm) beyond the first mark."""
+        return jump(*self.loading, self.case.marks[0], self.case.stroke * _WINDOW)
+
+    @property
+    def roughness(self) -> float | None:
+        """Deviation (root mean square) from a smooth fit beyond the first mark, relative to the mean force."""
+        return roughness(*self.loading, self.case.marks[0])
+
+    def record(self) -> dict[str, Any]:
+        """The case and its measures in one flat record."""
+        case = self.case
+        forces = {f"F_{mark:g}": force for mark, force in zip(case.marks, self.forces, strict=True)}
+        return {
+            "run": case.name,
+            "mesh": case.mesh_name,
+            "element": case.element,
+            "contact": case.contact_name,
+            "thickness_points": case.thickness_points,
+            "thickness_rule": case.thickness_rule,
+            "thickness_order": case.thickness_order,
+            "tie_E33": case.tie_E33,
+            **forces,
+            "u_zero_force": self.zero_force,
+            "J": self.jump,
+            "roughness": self.roughness,
+            "solver": self.solver,
+            "iterations": self.iterations,
+            "seconds": self.seconds,
+            "warnings": self.warnings,
+            "failure": self.failure,
+        }
+
+    def detached(self) -> Bending:
+        """The same without the model, to be sent to another process."""
+        return replace(self, result=None)
+
+
+def free_bending(
+    case: FreeBending | None = None, *, frames: int = 1, progress: bool | None = None
+) -> Bending:
+    """Bend a strip over a cylinder and release it.
+
+    Parameters
+    ----------
+    case : FreeBending, optional
+        The parameters; by default those of the example on its coarse mesh.
+    frames : int
+        States kept for pictures in each step; at least 1, the end of the step.
+    progress : bool, optional
+        Show a progress bar; default: only on a terminal.
+
+    Returns
+    -------
+    Bending
+        Curve, measures, shape, and the result with its history and frames.
+
+    Raises
+    ------
+    NoConvergence
+        If it cannot be continued; the attribute ``result`` holds what was reached, see `measured`.
+    InvalidValue
+        If a parameter does not fit.
+    """
+    case = case or FreeBending()
+    model, punch = build(case)
+    down = Move(punch, to=-case.stroke, steps=case.steps)
+    steps: list[Move | Release] = [down, Release(punch)] if case.unload else [down]
+    return measured(case, solve(model, steps, solver=case.solver, frames=max(1, frames), progress=progress))
+
+
+def build(case: FreeBending) -> tuple[Model, Prescribed]:
+    """Model of a case, and the control that pushes the strip down."""
+    if not case.stroke > 0:
+        raise InvalidValue("the stroke must be positive", value=case.stroke, remedy="the strip is pushed downwards")
+    cell = catalogue_element(case.element).cell
+    half_strip = mesh.strip(case.length, case.width, case.thickness, case.mesh, cell=cell)
+    curve = Linear(case.yield_stress, case.hardening) if case.hardening else Perfect(case.yield_stress)
+    model = Model(
+        half_strip,
+        case.element,
+        material=J2(kappa=case.kappa, mu=case.mu, hardening=curve),
+        thickness_points=case.thickness_points,
+        thickness_rule=case.thickness_rule,
+        thickness_order=case.thickness_order,
+        tie_E33=case.tie_E33,
+    )
+    model.symmetry("x0", normal="x")
+    punch = model.prescribe("x0_lower", "z", name="punch")
+    model.fix(np.intersect1d(half_strip.nodes("x0_lower"), half_strip.nodes("y0_lower")), "y")
+    cylinder = Cylinder(case.centre, axis="y", radius=case.radius)
+    model.contact("lower", cylinder, penalty=case.penalty, points=case.contact, name="cylinder")
+    return model, punch
+
+
+def measured(case: FreeBending, result: Result, failure: NoConvergence | None = None) -> Bending:
+    """Measures of a result, complete or ended by a failure."""
+    step = result["step"].astype(np.int64)
+    bent = [number for number, frame in enumerate(result.frames) if step[frame.number] < 2]
+    return Bending(
+        case=case,
+        step=step,
+        u=-result["punch"],
+        F=-result["punch_force"],
+        shape=Shape.of(result, bent[-1]),
+        solver=make_solver(result.model.pattern, case.solver).name,
+        iterations=int(result["iterations"].sum()),
+        seconds=result.seconds,
+        warnings=tuple(result.warnings),
+        failure=str(failure) if failure else "",
+        result=result,
+    )
