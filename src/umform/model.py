@@ -14,9 +14,10 @@ from umform.contact import Contact, Motion, ToolMotion
 from umform.elements import Element
 from umform.elements import element as catalogue_element
 from umform.elements import thickness_rule as make_thickness_rule
-from umform.errors import InvalidValue, RigidBodyMotion, ToolSwallowsSheet, WrongCellType
+from umform.errors import InvalidValue, WrongCellType
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
+from umform.model_checks import check_model
 from umform.solvers import Pattern
 from umform.surfaces import Direction, Surface, unit_vector
 
@@ -173,7 +174,7 @@ class Model:
         return self._load(boundary.traction_forces(self.mesh, faces, traction), name or self._name("traction"))
 
     def line_load(self, faces: Selector, side: str, load: ArrayLike, name: str = "") -> Load:
-        """Dead load per reference length on the lower or upper edge of lateral faces, times the value of the control."""
+        """Dead load per reference length on the lower or upper edge of lateral faces, times the control."""
         return self._load(boundary.edge_forces(self.mesh, faces, side, load), name or self._name("line_load"))
 
     def body_force(self, force: ArrayLike, name: str = "") -> Load:
@@ -317,59 +318,9 @@ class Model:
             return float(owner.resultant()[0] @ np.asarray(control.direction))
         return control.value
 
-    # Checks --------------------------------------------------------------------------------------------------
-
     def check(self) -> None:
-        """Refuse what cannot be solved before time is spent on it.
-
-        Raises
-        ------
-        RigidBodyMotion
-            If supports and tools in touch leave a rigid-body motion free.
-        ToolSwallowsSheet
-            If a tool overlaps the sheet by more than half of its thickness.
-        """
-        half = len(self.mesh.connectivity[0]) // 2
-        directors = (
-            self.mesh.points[self.mesh.connectivity[:, half:]] - self.mesh.points[self.mesh.connectivity[:, :half]]
-        )
-        thickness = float(np.median(np.linalg.norm(directors, axis=-1)))
-        rows = [boundary.rigid_body_modes(self.mesh.points)[:, np.flatnonzero(self._constrained())].T]
-        for contact in self.contacts:
-            contact.place(self.time)
-            contact.block.locate(self.u)
-            at = contact.at_points()
-            deepest = int(np.argmin(at.gap))
-            if at.gap[deepest] < -0.5 * thickness:
-                raise ToolSwallowsSheet(
-                    "a tool overlaps the sheet before anything has moved",
-                    where=f"contact {contact.name}, x = {np.round(at.x[deepest], 6)}",
-                    value=f"gap {at.gap[deepest]:.4g}, thickness {thickness:.4g}",
-                    cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
-                    remedy="move the tool so that it just touches the sheet, or turn its normal",
-                )
-            touching = at.gap <= 1e-6 * thickness
-            if touching.any():
-                rows.append(self._rigid_motion_along(at.x[touching], at.normal[touching]))
-        matrix = (
-            np.concatenate([row for row in rows if len(row)]) if any(len(row) for row in rows) else np.zeros((1, 6))
-        )
-        _, singular, directions = np.linalg.svd(matrix, full_matrices=True)
-        rank = int((singular > 1e-8 * max(singular.max(), 1e-300)).sum())
-        if rank < 6:
-            raise RigidBodyMotion(
-                f"the sheet can move as a rigid whole in {6 - rank} way{'s' if rank < 5 else ''}",
-                value=_describe_motion(directions[-1]),
-                cause="too few supports, or a tool that does not touch the sheet yet",
-                remedy="hold the sheet with fix(), symmetry() or prescribe(), or start with a tool in touch",
-            )
-
-    def _rigid_motion_along(self, x: Floats, n: Floats) -> Floats:
-        """Normal velocity of contact points in the six rigid modes: rows of the constraint matrix."""
-        centred = self.mesh.points - self.mesh.points.mean(axis=0)
-        size = max(float(np.abs(centred).max()), 1e-300)
-        arm = (x - self.mesh.points.mean(axis=0)) / size
-        return np.concatenate([n, np.cross(arm, n)], axis=1)
+        """Refuse what cannot be solved before time is spent on it, see :func:`umform.model_checks.check_model`."""
+        check_model(self)
 
     # Inside --------------------------------------------------------------------------------------------------
 
@@ -378,7 +329,8 @@ class Model:
             self._assembled = _Assembly(self)
         return self._assembled
 
-    def _constrained(self) -> NDArray[np.bool_]:
+    def constrained(self) -> NDArray[np.bool_]:
+        """Which degrees of freedom are held or prescribed."""
         constrained = self._fixed.copy()
         for control in self._of(Prescribed):
             constrained[control.dofs] = True
@@ -412,7 +364,7 @@ class _Assembly:
     """Pattern and scatter maps, made once for a set of supports, contacts and pressures."""
 
     def __init__(self, model: Model) -> None:
-        constrained = model._constrained()
+        constrained = model.constrained()
         self.free = np.flatnonzero(~constrained)
         if len(self.free) == 0:
             raise InvalidValue("all degrees of freedom are prescribed", remedy="leave some nodes free")
@@ -424,16 +376,3 @@ class _Assembly:
         self.contact_scatter = [pattern.scatter(contact.block.connectivity) for contact in model.contacts]
         self.pressure_scatter = [pattern.scatter(block.connectivity) for block in pressures]
         self.pattern = Pattern(len(self.free), pattern.indptr.astype(np.int32), pattern.indices, pattern.symmetric)
-
-
-def _describe_motion(mode: Floats) -> str:
-    names = (
-        "translation x",
-        "translation y",
-        "translation z",
-        "rotation about x",
-        "rotation about y",
-        "rotation about z",
-    )
-    strong = np.abs(mode) > 0.3 * np.abs(mode).max()
-    return "free: " + " with ".join(name for name, hit in zip(names, strong, strict=True) if hit)

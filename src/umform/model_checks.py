@@ -1,0 +1,80 @@
+"""Refuse models that cannot be solved as they stand, before time is spent on them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform import boundary
+from umform.errors import RigidBodyMotion, ToolSwallowsSheet
+
+if TYPE_CHECKING:
+    from umform.model import Model
+
+Floats = NDArray[np.float64]
+
+
+def check_model(model: Model) -> None:
+    """Look at supports and tools.
+
+    Raises
+    ------
+    RigidBodyMotion
+        If supports and tools in touch leave a rigid-body motion free.
+    ToolSwallowsSheet
+        If a tool overlaps the sheet by more than half of its thickness.
+    """
+    mesh = model.mesh
+    half = len(mesh.connectivity[0]) // 2
+    directors = mesh.points[mesh.connectivity[:, half:]] - mesh.points[mesh.connectivity[:, :half]]
+    thickness = float(np.median(np.linalg.norm(directors, axis=-1)))
+    rows = [boundary.rigid_body_modes(mesh.points)[:, np.flatnonzero(model.constrained())].T]
+    for contact in model.contacts:
+        contact.place(model.time)
+        contact.block.locate(model.u)
+        at = contact.at_points()
+        deepest = int(np.argmin(at.gap))
+        if at.gap[deepest] < -0.5 * thickness:
+            raise ToolSwallowsSheet(
+                "a tool overlaps the sheet before anything has moved",
+                where=f"contact {contact.name}, x = {np.round(at.x[deepest], 6)}",
+                value=f"gap {at.gap[deepest]:.4g}, thickness {thickness:.4g}",
+                cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
+                remedy="move the tool so that it just touches the sheet, or turn its normal",
+            )
+        touching = at.gap <= 1e-6 * thickness
+        if touching.any():
+            rows.append(_motion_along(mesh.points, at.x[touching], at.normal[touching]))
+    matrix = np.concatenate([row for row in rows if len(row)]) if any(len(row) for row in rows) else np.zeros((1, 6))
+    _, singular, directions = np.linalg.svd(matrix, full_matrices=True)
+    rank = int((singular > 1e-8 * max(singular.max(), 1e-300)).sum())
+    if rank < 6:
+        raise RigidBodyMotion(
+            f"the sheet can move as a rigid whole in {6 - rank} way{'s' if rank < 5 else ''}",
+            value=_describe_motion(directions[-1]),
+            cause="too few supports, or a tool that does not touch the sheet yet",
+            remedy="hold the sheet with fix(), symmetry() or prescribe(), or start with a tool in touch",
+        )
+
+
+def _motion_along(points: Floats, x: Floats, n: Floats) -> Floats:
+    """Normal velocity of contact points in the six rigid modes: rows of the constraint matrix."""
+    centred = points - points.mean(axis=0)
+    size = max(float(np.abs(centred).max()), 1e-300)
+    arm = (x - points.mean(axis=0)) / size
+    return np.concatenate([n, np.cross(arm, n)], axis=1)
+
+
+def _describe_motion(mode: Floats) -> str:
+    names = (
+        "translation x",
+        "translation y",
+        "translation z",
+        "rotation about x",
+        "rotation about y",
+        "rotation about z",
+    )
+    strong = np.abs(mode) > 0.3 * np.abs(mode).max()
+    return "free: " + " with ".join(name for name, hit in zip(names, strong, strict=True) if hit)

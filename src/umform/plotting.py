@@ -1,0 +1,187 @@
+"""Pictures with matplotlib: histories and deformed shapes, saved whole as PNG or SVG; no global state is touched."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue
+from umform.io.atomic import PendingFile
+from umform.shape import Shape
+
+if TYPE_CHECKING:
+    from umform.results import Result
+
+Floats = NDArray[np.float64]
+
+#: Colours that colour-blind readers can tell apart (Okabe & Ito).
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+INK = "#222222"
+
+_STYLE = {
+    "font.size": 9.0,
+    "axes.titlesize": 10.0,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": "#777777",
+    "axes.labelcolor": INK,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.prop_cycle": mpl.cycler(color=COLOURS),
+    "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.7,
+    "xtick.color": "#555555",
+    "ytick.color": "#555555",
+    "lines.linewidth": 1.4,
+    "legend.frameon": False,
+    "svg.hashsalt": "umform",
+}
+
+_FORMATS = (".png", ".svg", ".pdf")
+
+
+@contextmanager
+def house_style() -> Iterator[None]:
+    """Draw what is made in this block in the style of the house."""
+    with mpl.rc_context(_STYLE):
+        yield
+
+
+def save(figure: Figure, path: str | Path) -> Path:
+    """Write a figure as PNG, SVG or PDF, whole or not at all."""
+    path = Path(path)
+    if path.suffix not in _FORMATS:
+        raise InvalidValue("a picture is saved as PNG, SVG or PDF", value=path.name, remedy="end it in .png or .svg")
+    with house_style(), PendingFile(path) as temporary:
+        undated = {"CreationDate": None} if path.suffix == ".pdf" else {}
+        figure.savefig(temporary, dpi=200, metadata={"Date": None} if path.suffix == ".svg" else undated)
+    return path
+
+
+def inline_svg(figure: Figure) -> str:
+    """The figure as an <svg> element for a page of HTML: no prologue, no metadata, no address of any kind."""
+    text = io.StringIO()
+    with house_style():
+        figure.savefig(text, format="svg", metadata={"Date": None})
+    svg = text.getvalue()
+    svg = svg[svg.index("<svg") :]
+    svg = re.sub(r"<metadata>.*?</metadata>\s*", "", svg, flags=re.DOTALL)
+    return re.sub(r' xmlns(:\w+)?="[^"]*"', "", svg)
+
+
+def plot_history(result: Result, x: str, ys: Sequence[str], path: str | Path | None = None) -> Figure:
+    """Draw columns of a history against each other.
+
+    Parameters
+    ----------
+    result : Result
+        A result.
+    x : str
+        Column of the abscissa.
+    ys : sequence of str
+        Columns of the ordinate.
+    path : str or Path, optional
+        Where to save the picture: .png, .svg or .pdf.
+    """
+    with house_style():
+        figure = Figure(figsize=(6.2, 3.8), layout="constrained")
+        axes = figure.add_subplot()
+        for name in ys:
+            axes.plot(result[x], result[name], label=name)
+        axes.set_xlabel(x)
+        if len(ys) == 1:
+            axes.set_ylabel(ys[0])
+        else:
+            axes.legend()
+    if path is not None:
+        save(figure, path)
+    return figure
+
+
+def plot_shape(
+    shape: Shape | Result,
+    values: str | None = None,
+    path: str | Path | None = None,
+    *,
+    view: tuple[float, float] = (-65.0, 22.0),
+) -> Figure:
+    """Picture of the deformed sheet, coloured by a field.
+
+    Parameters
+    ----------
+    shape : Shape or Result
+        What to draw; of a result, the last frame.
+    values : str, optional
+        Scalar field, such as plastic_strain_max or thickness_change; by default the first of these that is there.
+    path : str or Path, optional
+        Where to save the picture: .png, .svg or .pdf.
+    view : tuple of float
+        Azimuth and elevation of the observer in degrees; (-90, 0) looks along y and shows x and z.
+    """
+    if not isinstance(shape, Shape):
+        shape = Shape.of(shape)
+    if values is None:
+        values = next((name for name in ("plastic_strain_max", "thickness_change") if name in shape.values), None)
+    with house_style():
+        figure = Figure(figsize=(7.2, 3.2), layout="constrained")
+        drawn = draw_shape(figure.add_subplot(), shape, values, view)
+        if values is not None:
+            bar = figure.colorbar(drawn, ax=figure.axes, shrink=0.7, aspect=25, pad=0.02)
+            bar.set_label(values.replace("_", " "))
+            bar.outline.set_visible(False)
+    if path is not None:
+        save(figure, path)
+    return figure
+
+
+def draw_shape(
+    axes: Axes,
+    shape: Shape,
+    values: str | None,
+    view: tuple[float, float],
+    limits: tuple[float, float] | None = None,
+) -> PolyCollection:
+    """Draw the faces that look at the observer into axes, the near ones last; returns what a colour bar needs."""
+    if values is not None and values not in shape.values:
+        raise InvalidValue("the shape has no such field", value=values, remedy=f"one of {', '.join(shape.values)}")
+    towards, across, up = _camera(*view)
+    corners = shape.points[shape.quads]
+    normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    seen = np.flatnonzero(normals @ towards > 0.0)
+    depth = corners[seen].mean(axis=1) @ towards
+    seen = seen[np.argsort(depth, kind="stable")]
+    flat = corners[seen] @ np.stack([across, up], axis=1)
+    faces = PolyCollection(list(flat), edgecolors="#33333388", linewidths=0.25)
+    if values is None:
+        faces.set_facecolor("#b8c4d0")
+    else:
+        faces.set_array(shape.values[values][seen])
+        faces.set_cmap("viridis")
+        if limits is not None:
+            faces.set_clim(*limits)
+    axes.add_collection(faces)
+    axes.autoscale_view()
+    axes.set_aspect("equal")
+    axes.axis("off")
+    return faces
+
+
+def _camera(azimuth: float, elevation: float) -> tuple[Floats, Floats, Floats]:
+    """Unit vectors towards the observer, to the right and upwards in the picture."""
+    a, e = np.radians(azimuth), np.radians(elevation)
+    towards = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+    across = np.array([-np.sin(a), np.cos(a), 0.0])
+    return towards, across, np.cross(towards, across)

@@ -1,0 +1,103 @@
+"""Figures of free bending: force over displacement, a panel for each mesh; and the deformed strips."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from umform.plotting import COLOURS, INK, draw_shape, house_style
+from umform.processes.bending.case import Bending
+from umform.processes.bending.parameters import FreeBending
+
+BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = COLOURS
+
+#: Force of fine continuum meshes (C3D20R, 60x2x2 and 120x2x4 elements) at displacements of the example.
+CONTINUUM = {2.0: 20.1, 5.0: 21.6, 10.0: 23.2}
+#: The same at the end, where the hinge localises and the force depends on the mesh.
+CONTINUUM_END = (15.0, 21.0, 23.0)
+
+_CONTACT_COLOURS = {"nodes": VERMILION, "2x2": BLUE, "3x3": BLUE, "5x5": GREEN}
+
+
+def panels(runs: Sequence[Bending]) -> dict[tuple[str, str], list[Bending]]:
+    """The runs of each element and mesh."""
+    grouped: dict[tuple[str, str], list[Bending]] = {}
+    for run in runs:
+        grouped.setdefault((run.case.element, run.case.mesh_name), []).append(run)
+    return grouped
+
+
+def curves(runs: Sequence[Bending]) -> Figure:
+    """Force over displacement in loading and unloading, one panel for each element and mesh."""
+    groups = panels(runs)
+    columns = 1 if len(groups) == 1 else 2
+    rows = -(-len(groups) // columns)
+    with house_style():
+        figure = Figure(figsize=(4.6 * columns + 0.4, 3.5 * rows + 0.2), layout="constrained")
+        grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+        for axes, ((element, mesh), group) in zip(grid.flat, groups.items(), strict=False):
+            _draw_panel(axes, group)
+            axes.set_title(f"{element}, {mesh.replace('x', ' × ')} elements")
+        for axes in grid.flat[len(groups) :]:
+            axes.set_visible(False)
+        for axes in grid[-1]:
+            axes.set_xlabel("displacement u [mm]")
+        for axes in grid[:, 0]:
+            axes.set_ylabel("force F [N]")
+        grid[0, 0].set_xlim(left=0.0)
+        grid[0, 0].set_ylim(bottom=0.0)
+    return figure
+
+
+def _draw_panel(axes: Axes, group: Sequence[Bending]) -> None:
+    others = iter((ORANGE, SKY, PURPLE))
+    for run in group:
+        case = run.case
+        if case.is_paper_element:
+            colour, dash = _CONTACT_COLOURS.get(case.contact_name) or next(others, INK), "-"
+            label = _contact_label(case)
+        else:
+            colour, dash = INK, (0, (5, 2))
+            label = f"{_contact_label(case)}, {_variant_label(case)}"
+        bent = run.step < 2
+        back = np.flatnonzero(bent)[-1]
+        axes.plot(run.u[bent], run.F[bent], color=colour, linestyle=dash, label=label, linewidth=1.2)
+        axes.plot(run.u[back:], run.F[back:], color=colour, linestyle=dash, linewidth=0.8, alpha=0.8)
+    if all(run.case.is_example for run in group):
+        axes.plot(list(CONTINUUM), list(CONTINUUM.values()), "D", color=INK, mfc="white", ms=5, zorder=5, label="continuum")
+        u, low, high = CONTINUUM_END
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
+        axes.errorbar([u], [middle], yerr=[half], color=INK, capsize=4, capthick=1.4, elinewidth=1.4, zorder=5)
+    axes.legend(loc="upper left", handlelength=2.4, fontsize=8)
+
+
+def _contact_label(case: FreeBending) -> str:
+    return "contact at nodes" if case.contact == "nodes" else f"contact {case.contact} × {case.contact}"
+
+
+def _variant_label(case: FreeBending) -> str:
+    return f"{case.variant_name.replace(' tied', ', E₃₃ tied')}, {case.thickness_points} pts."
+
+
+def shapes(runs: Sequence[Bending]) -> Figure:
+    """Whole deformed strips with their tool, seen from the side and coloured by the plastic strain."""
+    field = "plastic_strain_max"
+    top = max(float(run.shape.values[field].max()) for run in runs)
+    with house_style():
+        figure = Figure(figsize=(8.4, 0.4 + 2.6 * len(runs)), layout="constrained")
+        grid = figure.subplots(len(runs), 1, squeeze=False)[:, 0]
+        for axes, run in zip(grid, runs, strict=True):
+            case, whole = run.case, run.shape.mirrored(axis=0)
+            x, _, z = case.centre
+            drawn = draw_shape(axes, whole, field, (-72.0, 14.0), (0.0, top))
+            for side in (-x, x):
+                axes.add_patch(Circle((side, z), case.radius, facecolor="#eeeeee", edgecolor="#bbbbbb", zorder=0))
+            axes.set_title(case.name)
+        bar = figure.colorbar(drawn, ax=grid, shrink=0.6, aspect=25, pad=0.02)
+        bar.set_label("largest plastic strain in the element")
+        bar.outline.set_visible(False)
+    return figure

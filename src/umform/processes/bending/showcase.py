@@ -1,0 +1,124 @@
+"""The whole example: which runs there are, running them side by side, and the files that come of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from umform.elements import element as catalogue_element
+from umform.errors import NoConvergence
+from umform.io.tables import write_csv, write_json
+from umform.processes.bending.case import Bending, free_bending, measured
+from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
+from umform.processes.bending.pool import run_all
+from umform.progress import progress_bar
+from umform.report.versions import versions
+
+_MESHES = {"hex8": ((24, 1), (48, 2)), "hex18": ((12, 1), (24, 2))}
+_ELEMENTS = ("ANS3DEAS", "MI9K3DEAS")
+#: Contact points per direction that a facet needs at least.
+_LEAST_POINTS = {"hex8": 2, "hex18": 3}
+#: What meets sharp bends: cubic thickness strain, tied at the nodes.
+_SHARP = {"thickness_order": 3, "tie_E33": True, "thickness_points": 8}
+_FRAMES = 60
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Which meshes, elements and contact rules to run; what is left empty is that of the example."""
+
+    meshes: tuple[tuple[int, int], ...] = ()
+    elements: tuple[str, ...] = ()
+    contacts: tuple[int | str, ...] = ()
+
+    def pairs(self) -> list[tuple[str, tuple[int, int]]]:
+        """Elements with their meshes."""
+        if self.meshes and not self.elements:
+            return [
+                (element, mesh)
+                for mesh in self.meshes
+                for element in [e for e in _ELEMENTS if mesh in _MESHES[_cell(e)]] or _ELEMENTS
+            ]
+        return [
+            (element, mesh)
+            for element in self.elements or _ELEMENTS
+            for mesh in self.meshes or _MESHES[_cell(element)]
+        ]
+
+    def runs(self, base: FreeBending, *, sharp: bool = True) -> list[FreeBending]:
+        """The cases, in the order of tables and figures.
+
+        Parameters
+        ----------
+        base : FreeBending
+            All the parameters that are not selected.
+        sharp : bool
+            On the fine meshes of the example, one more run with the thickness strain that sharp bends need.
+        """
+        cases = []
+        for element, mesh in self.pairs():
+            cell = _cell(element)
+            least = _LEAST_POINTS[cell]
+            contacts = self.contacts or ("nodes", least, 5)
+            on_mesh = replace(base, element=element, mesh=mesh)
+            cases += [replace(on_mesh, contact=contact) for contact in contacts]
+            if sharp and element in _ELEMENTS and mesh == _MESHES[cell][1] and least in contacts:
+                cases.append(replace(on_mesh, contact=least, **_SHARP))  # type: ignore[arg-type]
+        return cases
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """All runs, in order, and the files written."""
+
+    runs: list[Bending]
+    files: list[Path]
+
+
+def demo(
+    out: str | Path = "results/free-bending",
+    runs: Sequence[FreeBending] | None = None,
+    *,
+    processes: int | None = None,
+    progress: bool | None = None,
+) -> Outcome:
+    """Bend the strip of the example with all its meshes, elements and contact rules, and show what comes out.
+
+    The runs go in parallel processes, which are spawned: a script that calls this needs
+    ``if __name__ == "__main__":``.
+
+    Parameters
+    ----------
+    out : str or Path
+        Folder for free_bending.csv, .json, .png, .svg, .vtkhdf and report.html; made if it is missing.
+    runs : sequence of FreeBending, optional
+        Other cases than the 14 of the example.
+    processes : int, optional
+        Number of processes; default: that of the processors.
+    progress : bool, optional
+        Show a progress bar; default: only on a terminal.
+
+    Returns
+    -------
+    Outcome
+        The runs, in the order of the cases, and the files. A run that could not be continued says so in ``failure``.
+    """
+    from umform.processes.bending.page import write_page  # matplotlib takes time to load; the workers do without
+
+    cases = list(runs) if runs is not None else Selection().runs(FreeBending())
+    folder = Path(out)
+    folder.mkdir(parents=True, exist_ok=True)
+    pictured = cases.index(_most_telling(cases))
+    tasks = [(case, folder / "free_bending.vtkhdf" if n == pictured else None) for n, case in enumerate(cases)]
+    with progress_bar(progress) as bar:
+        name = f"{len(cases)} runs" if len(cases) > 1 else cases[0].name
+        bar(name, 0.0)
+        finished = run_all(
+            _run, tasks, [_cost(case) for case in cases], processes=processes, tick=partial(bar, name)
+        )
+    return Outcome(finished, [*_write_tables(folder, finished), *write_page(folder, finished, finished[pictured])])
