@@ -25,7 +25,7 @@ unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long lint lint-python lint-types lint-format lint-cpp \
+.PHONY: help env dev demo test test-cpp test-python test-long lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
         format bench clean
 
 help:  ## show this help
@@ -88,7 +88,7 @@ test-long: dev  ## the long verification runs
 
 # ---- style ----
 
-lint: lint-python lint-types lint-format lint-cpp  ## style, types and names, in Python and in C++
+lint: lint-python lint-types lint-stubs lint-format lint-cpp  ## style, types and names, in Python and in C++
 
 lint-python: $(VENV)/.dev
 	$(SAY) 'ruff'
@@ -98,6 +98,16 @@ lint-python: $(VENV)/.dev
 lint-types: $(VENV)/.dev
 	$(SAY) 'mypy'
 	@$(BIN)/mypy --no-error-summary
+
+STUBGEN := $(BIN)/python -m nanobind.stubgen -q -m umform._core -p cpp/bindings/stub_pattern.txt
+
+lint-stubs: dev
+	$(SAY) 'stubs of the kernels'
+	@$(STUBGEN) -o $(BUILD)/_core.pyi
+	@cmp -s $(BUILD)/_core.pyi src/umform/_core.pyi || { echo "the bindings have changed: run 'make stubs'"; exit 1; }
+
+stubs: dev  ## write src/umform/_core.pyi anew from the bindings
+	@$(STUBGEN) -o src/umform/_core.pyi
 
 lint-format: $(VENV)/.dev
 	$(SAY) 'clang-format'

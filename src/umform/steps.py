@@ -149,9 +149,13 @@ def solve(
     Raises
     ------
     NoConvergence
-        If an increment fails at its smallest size; its attribute ``result`` holds all that was reached.
+        If an increment fails at its smallest size.
     RigidBodyMotion, ToolSwallowsSheet
         If the model cannot be solved as it stands.
+
+    Notes
+    -----
+    Any exception that ends the run, Ctrl-C too, carries all that was reached as its attribute ``result``.
     """
     from umform.progress import progress_bar
 
@@ -168,7 +172,7 @@ def solve(
                     _move(run, step, number, frames)
                 else:
                     _release(run, step, number, frames)
-            except NoConvergence as error:
+            except BaseException as error:  # whatever ends the run: what was reached is kept with the error
                 run.result.seconds = clock.perf_counter() - start
                 error.result = run.result  # type: ignore[attr-defined]
                 raise
@@ -195,12 +199,12 @@ def _increment(
         except Failed:
             if guess is None:
                 raise
-            model.evaluate(model.u)  # the extrapolation may have gone too far: once more from the tangent
-            converged = run.newton.solve(None)
-    except BaseException:
+            converged = run.newton.solve(None)  # the extrapolation may have gone too far: once more from the tangent
+    except BaseException:  # no convergence, Ctrl-C, a user's function: the last converged state stands
         for control, value in zip(controls, before, strict=True):
             control.value = value
         model.time = time_before
+        model.revert()
         raise
     model.commit(converged.u)
     run.last_du = model.u - u_before

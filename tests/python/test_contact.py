@@ -51,6 +51,13 @@ def contact_of(mesh, tool, points, penalty=50.0, cell="hex8", faces="lower"):
     return model, model.contact(faces, tool, penalty=penalty, points=points)
 
 
+def middle_of_a_void(gaps):
+    """A value near the median that is far from all gaps."""
+    inner = np.sort(gaps)[int(0.35 * len(gaps)) : int(0.65 * len(gaps)) + 1]
+    widest = np.diff(inner).argmax()
+    return inner[widest : widest + 2].mean()
+
+
 @pytest.mark.parametrize("name", TOOLS)
 @pytest.mark.parametrize("cell", ["hex8", "hex18"])
 @pytest.mark.parametrize("points", [2, 3, 5, "nodes"])
@@ -65,7 +72,7 @@ def test_tangent_is_the_derivative_of_the_force(build, rng, name, cell, points):
     for _ in range(2):  # move the tool until about half of the points penetrate
         contact.place(0.0)
         contact.block.locate(u)
-        shift[2] += np.median(contact.block.gaps)
+        shift[2] += middle_of_a_void(contact.block.gaps)
     contact.place(0.0)
     f, K = full(u)
     assert 0.3 < contact.active().mean() < 0.7
@@ -141,12 +148,12 @@ def test_nodal_rule_has_the_tributary_areas_of_the_shape_functions(cell, parts):
     np.testing.assert_allclose(contact.at_points().area, 3.0 * np.array(parts) / sum(parts), rtol=1e-13)
 
 
-@pytest.mark.parametrize("cell", ["hex8", "hex18"])
-@pytest.mark.parametrize("points", POINTS)
+@pytest.mark.parametrize(
+    ("cell", "points"),
+    [(cell, points) for cell in ELEMENT for points in POINTS if (cell, points) != ("hex18", 1)],
+)  # one point on a 9-node facet would hold its centre only
 def test_under_a_uniform_traction_the_gap_is_pressure_over_penalty_everywhere(cell, points):
     """In equilibrium, not prescribed: a compressed block on a plane between sliding walls."""
-    if (cell, points) == ("hex18", 1):
-        pytest.skip("one point on a 9-node facet holds its centre only")
     mesh = strip(2.0, 1.5, 0.5, (3, 2), cell=cell, grading=(1.5, 1.0)).transformed(
         lambda x: x + (0, 0, 0.25)
     )
@@ -344,13 +351,9 @@ def test_an_error_of_the_users_function_arrives_intact_and_the_model_stays_where
         solve(model, step, frames=0)
     assert caught.value is error
     assert len(calls) == 7
-    calls.clear()
-    before = model.snapshot()
-    model.revert()
     assert step.control.value in (0.0, -0.005)
+    assert model.time in (0.0, 0.5)
     np.testing.assert_allclose(model.u[step.control.dofs], step.control.value, atol=1e-15)
-    alpha = model.block.alpha
-    np.testing.assert_array_equal(alpha, before.alpha)
 
 
 def test_a_result_of_interrupted_evaluation_is_not_kept(build):

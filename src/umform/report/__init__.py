@@ -1,1 +1,1 @@
-"""Self-contained HTML reports."""
+"""Self-contained HTML reports: one page, no network."""

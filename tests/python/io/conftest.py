@@ -1,9 +1,14 @@
-"""Small distorted meshes, and the exact interpolation of umform's cells written once more, independently."""
+"""Small distorted meshes, the exact interpolation of umform's cells written once more, independently, and VTK's."""
 
 import itertools
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import pyvista as pv
+from vtkmodules.vtkCommonCore import reference, vtkVersion
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkIOHDF import vtkHDFReader
 
 FACE = [(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0), (0, 0)]
 NODES = {
@@ -67,3 +72,60 @@ def sheet(request):
 @pytest.fixture
 def quadratic_sheet():
     return Sheet("hex18")
+
+
+def read(path, step):
+    """What VTK's own reader gives for a step, as a PyVista grid."""
+    reader = vtkHDFReader()
+    reader.SetFileName(str(path))
+    reader.UpdateInformation()
+    reader.SetStep(step)
+    reader.Update()
+    return pv.wrap(reader.GetOutputDataObject(0))
+
+
+def times(path):
+    """The times of the steps that VTK's own reader finds."""
+    reader = vtkHDFReader()
+    reader.SetFileName(str(path))
+    reader.UpdateInformation()
+    return reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
+
+
+def steps(path):
+    """The number of steps that VTK's own reader finds; it gives no times for a single one."""
+    reader = vtkHDFReader()
+    reader.SetFileName(str(path))
+    reader.UpdateInformation()
+    return reader.GetNumberOfSteps()
+
+
+def evaluate(cell, rst):
+    """Position and interpolation weights in VTK, for parametric coordinates in [-1, 1]."""
+    x, weights = [0.0] * 3, [0.0] * cell.GetNumberOfPoints()
+    cell.EvaluateLocation(reference(0), [(c + 1) / 2 for c in rst], x, weights)
+    return np.array(x), np.array(weights)
+
+
+def volume(cell):
+    """Volume by a Gauss rule over VTK's own shape functions; differences of these polynomials are exact."""
+    abscissae, weights = np.polynomial.legendre.leggauss(5)
+    total = 0.0
+    for i, j, k in itertools.product(range(5), repeat=3):
+        rst = abscissae[[i, j, k]]
+        J = [(evaluate(cell, rst + h)[0] - evaluate(cell, rst - h)[0]) / 2 for h in np.eye(3)]
+        total += weights[i] * weights[j] * weights[k] * np.linalg.det(J)
+    return total
+
+
+@pytest.fixture
+def vtk():
+    """What VTK finds in a VTKHDF file and in its cells."""
+    return SimpleNamespace(
+        version=(vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion()),
+        read=read,
+        times=times,
+        steps=steps,
+        evaluate=evaluate,
+        volume=volume,
+    )

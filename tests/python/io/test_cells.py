@@ -1,26 +1,40 @@
 import numpy as np
 import pytest
-from vtkmodules.vtkCommonDataModel import vtkGenericCell
+from vtkmodules.vtkCommonDataModel import vtkGenericCell, vtkLagrangeHexahedron
 
 from umform.errors import InvalidValue, NotFinite, WrongCellType
-from umform.io.cells import CELL_TYPES, cell_type, from_vtk, to_vtk
+from umform.io.cells import CELL_TYPES, LAGRANGE_TYPES, cell_type, from_vtk, to_vtk
 
 
-@pytest.mark.parametrize("name", CELL_TYPES)
-def test_nodes_lie_where_vtk_has_them(name, nodes):
-    kind = cell_type(name)
-    X = nodes[name]
+@pytest.mark.parametrize("kind", [*CELL_TYPES.values(), *LAGRANGE_TYPES.values()], ids=lambda kind: str(kind.vtk_type))
+def test_nodes_lie_where_vtk_has_them(kind, nodes):
+    X = nodes[kind.name]
     grid = to_vtk(kind, X, [range(kind.nodes)])
     cell = vtkGenericCell.InstantiateCell(kind.vtk_type)
-    expected = np.reshape(
-        [cell.GetParametricCoords()[i] for i in range(3 * cell.GetNumberOfPoints())], (-1, 3)
-    )
+    if kind.degrees:
+        cell.SetOrder(*kind.degrees)
+        cell.GetPoints().SetNumberOfPoints(kind.nodes)
+        cell.GetPointIds().SetNumberOfIds(kind.nodes)
+    expected = np.reshape([cell.GetParametricCoords()[i] for i in range(3 * cell.GetNumberOfPoints())], (-1, 3))
     assert sorted(kind.vtk_nodes) == list(range(cell.GetNumberOfPoints()))
     np.testing.assert_allclose((grid.points[grid.connectivity[0]] + 1) / 2, expected)
 
 
-def test_there_and_back(sheet):
-    kind = cell_type(sheet.cells)
+def test_nodes_of_lagrange_cells_have_the_numbers_of_vtk(nodes):
+    kind = cell_type("hex18", lagrange=True)
+    cell = vtkLagrangeHexahedron()
+    cell.SetOrder(*kind.degrees)
+    ijk = ((nodes["hex18"] + 1) / 2 * kind.degrees).round().astype(int).tolist()
+    assert [kind.vtk_nodes[cell.PointIndexFromIJK(*node)] for node in ijk] == list(range(18))
+
+
+def test_lagrange_is_the_same_for_cells_without_such_a_twin():
+    assert cell_type("hex8", lagrange=True) is cell_type("hex8")
+
+
+@pytest.mark.parametrize("lagrange", [False, True])
+def test_there_and_back(sheet, lagrange):
+    kind = cell_type(sheet.cells, lagrange=lagrange)
     grid = to_vtk(kind, sheet.points, sheet.connectivity)
     np.testing.assert_array_equal(grid.points[: len(sheet.points)], sheet.points)
     np.testing.assert_array_equal(from_vtk(kind, grid.points, grid.connectivity), sheet.connectivity)

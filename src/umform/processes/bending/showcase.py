@@ -122,3 +122,52 @@ def demo(
             _run, tasks, [_cost(case) for case in cases], processes=processes, tick=partial(bar, name)
         )
     return Outcome(finished, [*_write_tables(folder, finished), *write_page(folder, finished, finished[pictured])])
+
+
+def _cell(element: str) -> str:
+    return catalogue_element(element).cell
+
+
+def _run(task: tuple[FreeBending, Path | None]) -> Bending:
+    """One case, as far as it goes; with its fields in a file if there is a path for them."""
+    case, fields = task
+    try:
+        run = free_bending(case, frames=_FRAMES if fields else 1, progress=False)
+    except NoConvergence as error:
+        run = measured(case, error.result, error)  # type: ignore[attr-defined]
+    if fields and run.result:
+        run.result.write(fields)
+    return run.detached()
+
+
+def _cost(case: FreeBending) -> float:
+    """About how long a case takes, in any unit: points times the square of the modes and degrees of freedom."""
+    heavy = {"hex8": 1.0, "hex18": 9.0}[_cell(case.element)]
+    return case.mesh[0] * case.mesh[1] * case.steps * heavy * case.thickness_points
+
+
+def _most_telling(cases: Sequence[FreeBending]) -> FreeBending:
+    """The case whose fields are kept: the one nearest to the continuum, that is of order 3, else the last."""
+    return max(reversed(cases), key=lambda case: (case.thickness_order, case.tie_E33, case.element == _ELEMENTS[0]))
+
+
+def _write_tables(folder: Path, runs: Sequence[Bending]) -> list[Path]:
+    """The curves as CSV; settings and measures as JSON."""
+    curves, record = folder / "free_bending.csv", folder / "free_bending.json"
+    write_csv(
+        curves,
+        {
+            "run": [run.case.name for run in runs for _ in run.u],
+            "step": np.concatenate([run.step for run in runs]),
+            "u": np.concatenate([run.u for run in runs]),
+            "F": np.concatenate([run.F for run in runs]),
+        },
+    )
+    content: dict[str, Any] = {
+        "note": RECONSTRUCTION,
+        "settings": runs[0].case.problem(),
+        "versions": versions(),
+        "runs": [run.record() for run in runs],
+    }
+    write_json(record, content)
+    return [curves, record]

@@ -1,0 +1,112 @@
+"""Figures and page of the example: what is seen, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from umform.plotting import save
+from umform.processes.bending import table
+from umform.processes.bending.case import Bending
+from umform.processes.bending.figure import curves, shapes
+from umform.processes.bending.parameters import RECONSTRUCTION
+from umform.report import parts
+from umform.report.versions import versions
+
+_LEAD = "A strip is pushed over a rigid cylinder and released: solid-shell elements, finite plasticity, exact contact geometry."
+
+_READING = (
+    "Full lines are the elements of the paper, dashed lines the same elements with a cubic thickness strain that is "
+    "tied at the nodes. Thin lines are the release; where they end, the force is zero and the strip has sprung back. "
+    "The forces are those of the half strip."
+)
+_CONTINUUM = (
+    "Diamonds and the bar at the end are fine continuum meshes (quadratic bricks); the bar spans what two of them "
+    "give, since the plastic hinge localises and the last value depends on the mesh."
+)
+_CONTACT = (
+    "While the strip slides over the cylinder, the place of contact moves towards the hinge and the lever arm "
+    "shortens. With contact checked at the nodes it can only do so by a whole element at a time: the force stays flat "
+    "while the strip lies on a node, and climbs a stair when the next one takes over. Contact points inside of the "
+    "elements make the stairs smaller and more: n x n Gauss points let the lever arm shorten in n steps an element. "
+    "J, the largest |dF|/F within any 0.1 mm, and the rms deviation from a smooth fit (the polynomial of degree 4 of "
+    "least squares), both for u > 2 mm, measure it. Finer meshes have smaller stairs with any rule."
+)
+_LOCKING = (
+    "With the elements of the paper the force climbs to nearly twice that of the continuum. This is no "
+    "hardening, since the material has none, but locking. Where the strip is bent sharply with curvature k, "
+    "incompressible plastic flow asks for the thickness strain E33 = ((1 + k z)^-2 - 1) / 2, and the elements have one "
+    "that is linear in z. The mismatch is a change of volume, against which the bulk modulus stands; it grows with "
+    "the curvature, resists the hinge and spreads it. Refinement in the surface does not cure it, nor do 18 nodes, "
+    "for it is a matter of the thickness direction. A cubic thickness strain can meet the condition, and tying it at "
+    "the nodes takes away the thinning that tilted directors feign in mid-element: with both, the 8-node element "
+    "follows the continuum with one element through the thickness. This needs two elements or more over the width."
+)
+
+
+def write_page(folder: Path, runs: Sequence[Bending], pictured: Bending) -> list[Path]:
+    """Write free_bending.png, .svg and report.html; return all paths, with that of the fields of the pictured run."""
+    picture = curves(runs)
+    files = [save(picture, folder / f"free_bending.{suffix}") for suffix in ("png", "svg")]
+    compared = _compared(runs, pictured)
+    content = [
+        *_failures(runs),
+        parts.note(RECONSTRUCTION),
+        parts.heading("Force over displacement"),
+        parts.figure(picture, _caption(runs)),
+        parts.heading("What is seen"),
+        *map(parts.paragraph, _explanations(runs)),
+        parts.heading("Numbers"),
+        parts.table(table.header(runs), table.rows(runs)),
+        parts.paragraph("Forces in N at displacements in mm."),
+        parts.heading("Deformed strip"),
+        parts.figure(
+            shapes(compared),
+            "The whole strip at the end of the stroke, in true proportion; the second half is a mirror image.",
+        ),
+        parts.heading("Settings"),
+        parts.paragraph("Lengths in mm, forces in N, stresses in MPa."),
+        parts.pairs(_settings(runs)),
+        parts.heading("Versions"),
+        parts.pairs(versions() | {"solver used": ", ".join(sorted({run.solver for run in runs}))}),
+    ]
+    page = parts.write_html(folder / "report.html", "Free bending of a strip over a cylinder", _LEAD, content)
+    return [*files, folder / "free_bending.vtkhdf", page]
+
+
+def _compared(runs: Sequence[Bending], pictured: Bending) -> list[Bending]:
+    """The pictured run, behind its twin with the element of the paper if there is one."""
+    case = pictured.case
+    twins = [
+        run
+        for run in runs
+        if run is not pictured
+        and run.case.is_paper_element
+        and (run.case.element, run.case.mesh, run.case.contact) == (case.element, case.mesh, case.contact)
+    ]
+    return [*twins[:1], pictured]
+
+
+def _failures(runs: Sequence[Bending]) -> Iterator[str]:
+    for run in runs:
+        for message in (run.failure, *run.warnings):
+            if message:
+                yield parts.note(f"{run.case.name}: {message}", bad=True)
+
+
+def _caption(runs: Sequence[Bending]) -> str:
+    return f"{_READING} {_CONTINUUM}" if runs[0].case.is_example else _READING
+
+
+def _explanations(runs: Sequence[Bending]) -> Iterator[str]:
+    if len({run.case.contact for run in runs}) > 1:
+        yield _CONTACT
+    if runs[0].case.is_example and any(run.case.is_paper_element for run in runs):
+        yield _LOCKING
+
+
+def _settings(runs: Sequence[Bending]) -> dict[str, object]:
+    names = {"tool_x": "x of the axis of the cylinder", "tool_z": "z of the axis of the cylinder"}
+    shared = {names.get(key, key.replace("_", " ")): value for key, value in runs[0].case.problem().items()}
+    points = {f"{run.case.thickness_points} {run.case.thickness_rule}" for run in runs}
+    return shared | {"thickness points": ", ".join(sorted(points))}

@@ -1,0 +1,82 @@
+"""The report of any result: curves, last shape, end values, settings, versions, warnings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from umform.boundary import Control
+from umform.plotting import plot_history, plot_shape
+from umform.report import parts
+from umform.report.versions import versions
+
+if TYPE_CHECKING:
+    from umform.model import Model
+    from umform.results import Result
+
+
+def write_report(result: Result, path: str | Path) -> Path:
+    """Write one self-contained page about a result.
+
+    Parameters
+    ----------
+    result : Result
+        A result with a history.
+    path : str or Path
+        The page to write, ending in .html.
+
+    Returns
+    -------
+    Path
+        The page.
+    """
+    model = result.model
+    title = f"{model.element.name}: {len(model.mesh.connectivity)} elements, {len(result) - 1} increments"
+    lead = f"{result.summary()['iterations']} Newton iterations in {result.seconds:.1f} s"
+    return parts.write_html(path, title, lead, _parts(result))
+
+
+def _parts(result: Result) -> Iterator[str]:
+    for message in result.warnings:
+        yield parts.note(message, bad=True)
+    yield parts.heading("Curves")
+    for control in result.model.controls:
+        yield parts.figure(*_curve(result, control))
+    yield parts.heading("Shape")
+    yield parts.figure(plot_shape(result), "The sheet in its last state, in true proportion.")
+    yield parts.heading("History")
+    ends = sorted({0, *(number for number, row in enumerate(result.rows) if _ends_step(result, number, row))})
+    columns = [name for name in result.columns() if name != "step"]
+    header = ["", *(f"start of step {int(result.rows[1]['step'])}" if n == 0 and len(result) > 1 else f"end of step {int(result.rows[n]['step'])}" for n in ends)]
+    yield parts.table(header, [[name, *(f"{result.rows[n][name]:.6g}" for n in ends)] for name in columns])
+    yield parts.heading("Settings")
+    yield parts.pairs(settings(result.model))
+    yield parts.heading("Versions")
+    yield parts.pairs(versions())
+
+
+def _curve(result: Result, control: Control) -> tuple[Any, str]:
+    force = f"{control.name}_force"
+    return plot_history(result, control.name, [force]), f"{force} over {control.name}, all converged increments."
+
+
+def _ends_step(result: Result, number: int, row: dict[str, float]) -> bool:
+    following = result.rows[number + 1]["step"] if number + 1 < len(result) else None
+    return following != row["step"] and row["step"] > 0
+
+
+def settings(model: Model) -> dict[str, object]:
+    """What a model is made of, in words."""
+    options = ", ".join(f"{name}={value}" for name, value in model.element.options.items())
+    rows: dict[str, object] = {
+        "mesh": model.mesh,
+        "element": f"{model.element.name} ({options})" if options else model.element.name,
+        "thickness points": f"{model.thickness_points} {model.thickness_rule}",
+        "material": model.material,
+        "degrees of freedom": f"{len(model.free)} free of {model.u.size}",
+    }
+    for contact in model.contacts:
+        rule = "nodes" if contact.points == "nodes" else f"{contact.points} x {contact.points} Gauss points a facet"
+        rows[f"contact {contact.name}"] = f"{contact.tool}, penalty {contact.penalty:g}, {rule}"
+    return rows

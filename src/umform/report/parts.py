@@ -1,0 +1,68 @@
+"""The parts of a page: headings, paragraphs, tables, figures as HTML, and the page that holds them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from datetime import datetime
+from html import escape
+from importlib.resources import files
+from pathlib import Path
+from string import Template
+
+from matplotlib.figure import Figure
+
+import umform
+from umform.io.atomic import PendingFile
+from umform.plotting import inline_svg
+
+
+def heading(text: str) -> str:
+    """A heading."""
+    return f"<h2>{escape(text)}</h2>"
+
+
+def paragraph(text: str) -> str:
+    """A paragraph of plain text."""
+    return f"<p>{escape(text)}</p>"
+
+
+def note(text: str, *, bad: bool = False) -> str:
+    """A remark that must not be overlooked; lines stay as they are in a bad one."""
+    if bad:
+        return f'<pre class="note bad">{escape(text)}</pre>'
+    return f'<p class="note">{escape(text)}</p>'
+
+
+def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table whose first column names the rows."""
+    head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
+    body = "\n".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
+    return f'<div class="wide"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody></table></div>'
+
+
+def pairs(values: Mapping[str, object]) -> str:
+    """Names and values, one a row."""
+    rows = "\n".join(
+        f"<tr><th>{escape(name)}</th><td>{escape(str(value))}</td></tr>" for name, value in values.items()
+    )
+    return f'<div class="wide"><table class="pairs">\n{rows}\n</table></div>'
+
+
+def figure(picture: Figure, caption: str) -> str:
+    """A picture with its caption."""
+    return f"<figure><div>{inline_svg(picture)}</div><figcaption>{escape(caption)}</figcaption></figure>"
+
+
+def write_html(path: str | Path, title: str, lead: str, parts: Iterable[str]) -> Path:
+    """Write a page that needs nothing but itself, whole or not at all."""
+    template = Template(files("umform.report").joinpath("page.html").read_text(encoding="utf-8"))
+    text = template.substitute(
+        title=escape(title),
+        lead=escape(lead),
+        body="\n".join(parts),
+        version=escape(umform.__version__),
+        date=f"{datetime.now():%Y-%m-%d}",
+    )
+    with PendingFile(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+    return Path(path)

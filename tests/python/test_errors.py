@@ -1,0 +1,79 @@
+"""Errors: each public class has an id of its own, answers its five questions, and crosses process boundaries."""
+
+from __future__ import annotations
+
+import copy
+import inspect
+import pickle
+
+import pytest
+
+import umform
+from umform import errors
+from umform.errors import UmformError
+
+CLASSES = [
+    value for _, value in inspect.getmembers(errors, inspect.isclass) if issubclass(value, UmformError)
+]
+QUESTIONS = {
+    "where": "cell 3, nodes [1, 2]",
+    "value": (1.5, "two"),
+    "cause": "two nodes exchanged",
+    "remedy": "exchange them back",
+}
+every_class = pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.__name__)
+
+
+def test_the_list_of_classes_is_complete():
+    assert len(CLASSES) >= 17
+    assert umform.UmformError is UmformError
+
+
+def test_every_class_has_an_id_of_its_own():
+    ids = [kind.id for kind in CLASSES]
+    assert len(set(ids)) == len(ids)
+
+
+@every_class
+def test_a_message_answers_what_where_value_cause_remedy(kind):
+    lines = str(kind("a cell is folded", **QUESTIONS)).splitlines()
+    assert lines[0] == f"a cell is folded [{kind.id}]"
+    assert [line.split(":")[0].strip() for line in lines[1:]] == list(QUESTIONS)
+    for line, answer in zip(lines[1:], QUESTIONS.values(), strict=True):
+        assert line.endswith(str(answer))
+
+
+@every_class
+def test_questions_without_an_answer_are_left_out(kind):
+    assert str(kind("a cell is folded")) == f"a cell is folded [{kind.id}]"
+    assert str(kind("no", value=0)) == f"no [{kind.id}]\n  value:  0"
+
+
+@every_class
+@pytest.mark.parametrize("carry", [lambda e: pickle.loads(pickle.dumps(e)), copy.copy, copy.deepcopy])
+def test_an_error_survives_pickling_and_copying(kind, carry):
+    error = kind("a cell is folded", **QUESTIONS)
+    twin = carry(error)
+    assert type(twin) is kind
+    assert str(twin) == str(error)
+    assert {name: getattr(twin, name) for name in ("what", *QUESTIONS)} == {"what": "a cell is folded"} | QUESTIONS
+
+
+@every_class
+def test_every_class_is_raised_and_caught_as_the_base(kind):
+    with pytest.raises(UmformError, match="a cell is folded"):
+        raise kind("a cell is folded")
+
+
+@pytest.mark.parametrize(
+    ("kind", "builtin"),
+    [(errors.InvalidValue, ValueError), (errors.UnknownSet, KeyError), (errors.FileProblem, OSError)],
+)
+def test_kin_of_builtin_errors_are_caught_as_such(kind, builtin):
+    assert issubclass(kind, builtin)
+
+
+@every_class
+def test_every_class_has_a_sentence_of_documentation(kind):
+    assert kind.__doc__
+    assert kind.__doc__ != UmformError.__doc__ or kind is UmformError
