@@ -112,3 +112,15 @@ def pinched_hemisphere(cells: int, element: str | uf.Element, **options) -> tupl
     model.fix(at_B[:1], "z")
     loads = [model.force(at_B, (-0.25, 0, 0), "B"), model.force(at_A, (0, 0.25, 0), "A")]
     return model, loads, at_A, at_B
+
+
+def free_bending(cells: tuple[int, int], element: str | uf.Element, points: int | str, **options) -> tuple[uf.Model, object]:
+    """The free bending example (reference/free_bending.csv says what is known of it): model, control of the punch."""
+    cell = element.cell if isinstance(element, uf.Element) else uf.elements.element(element).cell
+    mesh = uf.mesh.strip(60, 10, 1, cells, cell=cell)
+    model = uf.Model(mesh, element, material=STEEL, **{"thickness_points": 5, **options})
+    model.symmetry("x0", "x")
+    model.fix(np.intersect1d(mesh.nodes("x0_lower"), mesh.nodes("y0")), "y")
+    punch = model.prescribe("x0_lower", "z", "punch")
+    model.contact("lower", uf.Cylinder((25, 0, -20.5), "y", 20.0), penalty=100.0, points=points, name="cylinder")
+    return model, punch
