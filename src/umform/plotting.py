@@ -157,7 +157,7 @@ def draw_shape(
     """Draw the faces that look at the observer into axes, the near ones last; returns what a colour bar needs."""
     if values is not None and values not in shape.values:
         raise InvalidValue("the shape has no such field", value=values, remedy=f"one of {', '.join(shape.values)}")
-    towards, across, up = _camera(*view)
+    towards, across, up = camera(*view)
     corners = shape.points[shape.quads]
     normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     seen = np.flatnonzero(normals @ towards > 0.0)
@@ -179,7 +179,7 @@ def draw_shape(
     return faces
 
 
-def _camera(azimuth: float, elevation: float) -> tuple[Floats, Floats, Floats]:
+def camera(azimuth: float, elevation: float) -> tuple[Floats, Floats, Floats]:
     """Unit vectors towards the observer, to the right and upwards in the picture."""
     a, e = np.radians(azimuth), np.radians(elevation)
     towards = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])

@@ -13,7 +13,7 @@ umform numbers the lower face first and then the upper one, each counter-clockwi
 
 VTK has no cell with 18 nodes that all its readers understand: a ``VTK_LAGRANGE_HEXAHEDRON`` of the degrees
 (2, 2, 1) needs an active cell attribute ``HigherOrderDegrees``, which VTKHDF files pass on since VTK 9.7
-only; older readers warn and build a wrong cell. An ``hex18`` cell is therefore written as a
+only; older readers warn, build a wrong cell and may crash over it. An ``hex18`` cell is therefore written as a
 ``VTK_TRIQUADRATIC_HEXAHEDRON`` with 27 nodes, of which the nodes 18 to 26, the middle layer, are the means of
 the lower and upper ones. Since ``hex18`` interpolates linearly through the thickness, the cell with 27 nodes
 is the same function, of position and of every field. The points of the middle layer come after all the

@@ -47,7 +47,7 @@ class VtkHdfSeries:
     Cells ``hex18`` are stored as VTK cells with 27 nodes, and their point fields with the means in the middle
     layer; both are exact, see `umform.io.cells`. The points of the mesh keep their numbers. With `lagrange`
     the cells keep their 18 nodes and the file has no points but those of the mesh: two thirds of the points
-    for one layer of cells. No VTK before 9.7 reads such a file rightly.
+    for one layer of cells. VTK before 9.7 misreads such cells, and may crash over them.
 
     Parameters
     ----------

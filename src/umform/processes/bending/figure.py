@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
-from umform.plotting import COLOURS, INK, draw_shape, house_style
+from umform.plotting import COLOURS, INK, camera, draw_shape, house_style
 from umform.processes.bending.case import Bending
 from umform.processes.bending.parameters import FreeBending
 
@@ -19,6 +19,9 @@ BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = COLOURS
 CONTINUUM = {2.0: 20.1, 5.0: 21.6, 10.0: 23.2}
 #: The same at the end, where the hinge localises and the force depends on the mesh.
 CONTINUUM_END = (15.0, 21.0, 23.0)
+
+#: Field and point of view (azimuth, elevation) of the deformed strips.
+_FIELD, _VIEW = "plastic_strain_max", (-82.0, 26.0)
 
 _CONTACT_COLOURS = {"nodes": VERMILION, "2x2": BLUE, "3x3": BLUE, "5x5": GREEN}
 
@@ -84,20 +87,32 @@ def _variant_label(case: FreeBending) -> str:
 
 
 def shapes(runs: Sequence[Bending]) -> Figure:
-    """Whole deformed strips with their tool, seen from the side and coloured by the plastic strain."""
-    field = "plastic_strain_max"
-    top = max(float(run.shape.values[field].max()) for run in runs)
+    """Whole deformed strips on their tools, side by side, coloured by the plastic strain."""
+    top = max(float(run.shape.values[_FIELD].max()) for run in runs)
     with house_style():
-        figure = Figure(figsize=(8.4, 0.4 + 2.6 * len(runs)), layout="constrained")
-        grid = figure.subplots(len(runs), 1, squeeze=False)[:, 0]
+        figure = Figure(figsize=(4.6 * len(runs) + 0.4, 4.6), layout="constrained")
+        grid = figure.subplots(1, len(runs), sharex=True, sharey=True, squeeze=False)[0]
         for axes, run in zip(grid, runs, strict=True):
-            case, whole = run.case, run.shape.mirrored(axis=0)
-            x, _, z = case.centre
-            drawn = draw_shape(axes, whole, field, (-72.0, 14.0), (0.0, top))
-            for side in (-x, x):
-                axes.add_patch(Circle((side, z), case.radius, facecolor="#eeeeee", edgecolor="#bbbbbb", zorder=0))
-            axes.set_title(case.name)
-        bar = figure.colorbar(drawn, ax=grid, shrink=0.6, aspect=25, pad=0.02)
-        bar.set_label("largest plastic strain in the element")
+            for side in (-1.0, 1.0):
+                _draw_tool(axes, run.case, side)
+            drawn = draw_shape(axes, run.shape.mirrored(axis=0), _FIELD, _VIEW, (0.0, top))
+            axes.set_title(run.case.name, loc="center")
+        bar = figure.colorbar(drawn, ax=grid, orientation="horizontal", shrink=0.5, aspect=40, pad=0.02)
+        bar.set_label("largest plastic strain in an element")
         bar.outline.set_visible(False)
     return figure
+
+
+def _draw_tool(axes: Axes, case: FreeBending, side: float) -> None:
+    """Upper half of a cylinder: its face towards the observer and its mantle."""
+    towards, across, up = camera(*_VIEW)
+    x, _, z = case.centre
+    angles = np.linspace(0.0, np.pi, 61)
+    ring = np.stack([side * x + case.radius * np.cos(angles), 0.0 * angles, z + case.radius * np.sin(angles)], axis=1)
+    front, back = (ring + [0.0, y, 0.0] for y in (-0.2 * case.width, 1.2 * case.width))
+    mantle = np.stack([front[:-1], front[1:], back[1:], back[:-1]], axis=1)
+    outwards = mantle.mean(axis=1) - [side * x, 0.5 * case.width, z]
+    flat = np.stack([across, up], axis=1)
+    visible = list(mantle[outwards @ towards > 0.0] @ flat)
+    axes.add_collection(PolyCollection(visible, facecolors="#d9dde1", edgecolors="#d9dde1", linewidths=0.3))
+    axes.add_collection(PolyCollection([front @ flat], facecolors="#eceff1", edgecolors="#c3c9ce", linewidths=0.6))

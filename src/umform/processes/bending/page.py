@@ -22,21 +22,22 @@ _READING = (
 )
 _CONTINUUM = (
     "Diamonds and the bar at the end are fine continuum meshes (quadratic bricks); the bar spans what two of them "
-    "give, since the plastic hinge localises and the last value depends on the mesh."
+    "give, since the plastic hinge localises and the last value depends on the mesh. They bend nearly in plane strain, "
+    "as meshes with two elements over the width do; a single one bends almost in plane stress and stays below."
 )
 _CONTACT = (
     "While the strip slides over the cylinder, the place of contact moves towards the hinge and the lever arm "
     "shortens. With contact checked at the nodes it can only do so by a whole element at a time: the force stays flat "
     "while the strip lies on a node, and climbs a stair when the next one takes over. Contact points inside of the "
-    "elements make the stairs smaller and more: n x n Gauss points let the lever arm shorten in n steps an element. "
+    "elements make the stairs smaller and more: n × n Gauss points let the lever arm shorten in n steps an element. "
     "J, the largest |dF|/F within any 0.1 mm, and the rms deviation from a smooth fit (the polynomial of degree 4 of "
     "least squares), both for u > 2 mm, measure it. Finer meshes have smaller stairs with any rule."
 )
 _LOCKING = (
     "With the elements of the paper the force climbs to nearly twice that of the continuum. This is no "
     "hardening, since the material has none, but locking. Where the strip is bent sharply with curvature k, "
-    "incompressible plastic flow asks for the thickness strain E33 = ((1 + k z)^-2 - 1) / 2, and the elements have one "
-    "that is linear in z. The mismatch is a change of volume, against which the bulk modulus stands; it grows with "
+    "incompressible plastic flow asks for the thickness strain E₃₃ = ((1 + kz)⁻² − 1)/2, and the elements have one "
+    "that is linear in the thickness coordinate z. The mismatch is a change of volume, against which the bulk modulus stands; it grows with "
     "the curvature, resists the hinge and spreads it. Refinement in the surface does not cure it, nor do 18 nodes, "
     "for it is a matter of the thickness direction. A cubic thickness strain can meet the condition, and tying it at "
     "the nodes takes away the thinning that tilted directors feign in mid-element: with both, the 8-node element "
@@ -107,6 +108,12 @@ def _explanations(runs: Sequence[Bending]) -> Iterator[str]:
 
 def _settings(runs: Sequence[Bending]) -> dict[str, object]:
     names = {"tool_x": "x of the axis of the cylinder", "tool_z": "z of the axis of the cylinder"}
-    shared = {names.get(key, key.replace("_", " ")): value for key, value in runs[0].case.problem().items()}
-    points = {f"{run.case.thickness_points} {run.case.thickness_rule}" for run in runs}
+    shared = {names.get(key, key.replace("_", " ")): _plain(value) for key, value in runs[0].case.problem().items()}
+    points = {f"{run.case.thickness_points} ({run.case.thickness_rule})" for run in runs}
     return shared | {"thickness points": ", ".join(sorted(points))}
+
+
+def _plain(value: object) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:g}" if isinstance(value, float) else str(value)
