@@ -21,7 +21,7 @@ from umform.errors import (
     WrongNodeOrder,
 )
 from umform.mesh import FACES, Mesh, graded, grid, plate, strip
-from umform.mesh_quality import jacobians
+from umform.mesh.quality import jacobians
 
 CELLS = ("hex8", "hex18")
 

@@ -1,4 +1,4 @@
-"""Meshes of solid-shells: points, cells, named sets of nodes and faces; structured generators; files.
+"""The mesh: points, cells, named sets of nodes and faces.
 
 Cells are ``hex8`` (4 nodes on the lower face, then 4 on the upper one) and ``hex18`` (9 and 9: corners, mid-sides,
 centre). Their six faces are called lower, upper, r0, r1, s0, s1: the natural coordinate that is constant there.
@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import EmptySet, InvalidValue, NotFinite, UnknownSet, WrongCellType
-from umform.mesh_quality import check_cells
+from umform.mesh.quality import check_cells
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int32]
@@ -217,138 +216,3 @@ def _unknown(kind: str, name: str, known: Sequence[str]) -> UnknownSet:
         cause="a slip of the pen, or a set lost in the mesh file",
         remedy="known sets: " + (", ".join(sorted(set(known))) or "none"),
     )
-
-
-def graded(length: float, cells: int, ratio: float = 1.0) -> Floats:
-    """Grid lines from 0 to ``length``; the last of the ``cells`` intervals is ``ratio`` times the first one."""
-    if cells < 1 or not length > 0 or not ratio > 0:
-        raise InvalidValue("a grid needs a positive length, number of cells and ratio", value=(length, cells, ratio))
-    steps = ratio ** (np.arange(cells) / max(cells - 1, 1))
-    return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()]) * length
-
-
-def grid(x: ArrayLike, y: ArrayLike, z: ArrayLike, cell: str = "hex8") -> Mesh:
-    """Structured mesh from grid lines.
-
-    Parameters
-    ----------
-    x, y, z : array_like
-        Increasing positions of the element borders; z through the thickness, one element a layer.
-    cell : {"hex8", "hex18"}
-        Cell type.
-
-    Returns
-    -------
-    Mesh
-        With node and face sets x0, x1, y0, y1, lower, upper, and node sets x0_lower, x0_upper, ... for their edges.
-    """
-    lines = [np.asarray(values, dtype=float) for values in (x, y, z)]
-    for name, values in zip("xyz", lines, strict=True):
-        if values.ndim != 1 or len(values) < 2 or not (np.diff(values) > 0).all():
-            raise InvalidValue("grid lines must increase", where=name, value=values)
-    if cell not in ("hex8", "hex18"):
-        raise WrongCellType("unknown cell type", value=cell, remedy="hex8 or hex18")
-    per_cell = 1 if cell == "hex8" else 2
-    if per_cell == 2:
-        for axis in (0, 1):
-            middles = 0.5 * (lines[axis][1:] + lines[axis][:-1])
-            lines[axis] = np.sort(np.concatenate([lines[axis], middles]))
-    nx, ny, nz = (len(values) for values in lines)
-    points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3)
-    number = np.arange(nx * ny * nz, dtype=np.int32).reshape(nx, ny, nz)
-
-    offsets = ((FACE_NODES[: 4 if per_cell == 1 else 9] + 1) / 2 * per_cell).astype(int)
-    ix, iy, iz = (
-        a.ravel()
-        for a in np.meshgrid(
-            np.arange(0, nx - 1, per_cell), np.arange(0, ny - 1, per_cell), np.arange(nz - 1), indexing="ij"
-        )
-    )
-    cells = np.stack([number[ix + dx, iy + dy, iz + dz] for dz in (0, 1) for dx, dy in offsets], axis=1)
-
-    planes = {
-        "x0": number[0],
-        "x1": number[-1],
-        "y0": number[:, 0],
-        "y1": number[:, -1],
-        "lower": number[..., 0],
-        "upper": number[..., -1],
-    }
-    sets = {name: ids.ravel() for name, ids in planes.items()}
-    for name in ("x0", "x1", "y0", "y1"):
-        for side in ("lower", "upper"):
-            sets[f"{name}_{side}"] = np.intersect1d(sets[name], sets[side])
-    where = {
-        "x0": (ix == 0, 2),
-        "x1": (ix == ix.max(), 3),
-        "y0": (iy == 0, 4),
-        "y1": (iy == iy.max(), 5),
-        "lower": (iz == 0, 0),
-        "upper": (iz == iz.max(), 1),
-    }
-    faces = {
-        name: np.stack([np.flatnonzero(hit), np.full(hit.sum(), face)], axis=1) for name, (hit, face) in where.items()
-    }
-    return Mesh(points, {cell: cells}, sets, faces)
-
-
-def strip(
-    length: float,
-    width: float,
-    thickness: float,
-    cells: tuple[int, int],
-    *,
-    cell: str = "hex8",
-    layers: int = 1,
-    grading: tuple[float, float] = (1.0, 1.0),
-) -> Mesh:
-    """Flat strip or plate: x from 0 to length, y from 0 to width, mid-surface at z = 0.
-
-    Parameters
-    ----------
-    length, width, thickness : float
-        Dimensions.
-    cells : tuple of int
-        Number of elements along x and y.
-    cell : {"hex8", "hex18"}
-        Cell type.
-    layers : int
-        Elements stacked through the thickness.
-    grading : tuple of float
-        Size of the last element over that of the first one, along x and y.
-    """
-    return grid(
-        graded(length, cells[0], grading[0]),
-        graded(width, cells[1], grading[1]),
-        graded(thickness, layers) - 0.5 * thickness,
-        cell,
-    )
-
-
-#: A plate is a wide strip.
-plate = strip
-
-
-def read(path: str | Path) -> Mesh:
-    """Read a mesh of hexahedra from any file that meshio knows, or from a VTKHDF file written by umform.
-
-    Named groups of nodes become node sets. The outer lower and upper faces become the sets ``lower`` and ``upper``;
-    choose others by a predicate, for instance ``lambda x, y, z: x < 1e-9``.
-    """
-    from umform.io.meshes import read_mesh_arrays
-
-    points, cells, point_sets, _ = read_mesh_arrays(path)
-    connectivity = next(iter(cells.values()), np.empty((0, 8), dtype=np.int32))
-    return Mesh(points, cells, point_sets, _outer_faces(connectivity))
-
-
-def _outer_faces(cells: NDArray[np.integer]) -> dict[str, Ids]:
-    """Lower and upper faces that no other cell shares."""
-    half = cells.shape[1] // 2
-    lower, upper = np.sort(cells[:, :half], axis=1), np.sort(cells[:, half:], axis=1)
-    outer = {}
-    for name, number, mine, others in (("lower", 0, lower, upper), ("upper", 1, upper, lower)):
-        shared = {row.tobytes() for row in others}
-        ids = np.array([k for k, row in enumerate(mine) if row.tobytes() not in shared], dtype=np.int32)
-        outer[name] = np.stack([ids, np.full(len(ids), number, dtype=np.int32)], axis=1)
-    return outer
