@@ -68,7 +68,7 @@ class Contact:
                 where=f"contact {name}",
                 value=penalty,
                 cause="a sign or a missing value",
-                remedy="the allowed penetration is pressure / penalty: 10 to 100 times E / edge length of the part is stiff",
+                remedy="choose it from the penetration that you allow: penalty = expected pressure / penetration",
             )
         at_nodes = points == "nodes"
         if not at_nodes and (not isinstance(points, int) or not 1 <= points <= 10):

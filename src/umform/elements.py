@@ -221,6 +221,13 @@ def _build(
             )
         if thickness > 0 and thickness_modes_count not in (1, 4, 9):
             raise InvalidValue("the number of thickness modes must be 1, 4 or 9", value=thickness_modes_count)
+        if thickness_modes_count == 9 and cell == "hex8":
+            raise InvalidValue(
+                f"{name} cannot tell nine thickness modes apart",
+                value=9,
+                cause="at 2 x 2 Gauss points r² and s² are constants",
+                remedy="take 4, or an element with 18 nodes",
+            )
         if membrane == 0 and membrane_modes_count != 0:
             raise InvalidValue(f"{name} has no enhanced membrane strain", remedy="take EAS3DEAS")
         if membrane > 0 and membrane_modes_count not in (4, 5, 7):
@@ -279,7 +286,7 @@ def element(
     name : str or Element
         A name of :data:`CATALOGUE`, or an element of your own (then without options).
     thickness_modes : {1, 4, 9}, optional
-        Number of enhanced modes of E_33 linear in t; default 4 (8 nodes) or 9 (18 nodes).
+        Number of enhanced modes of E_33 linear in t; default 4 (8 nodes) or 9 (18 nodes, there only).
     thickness_order : {1, 2, 3, 4}, optional
         Order of the thickness strain in t; 1 is the paper, 3 with ``tie_E33`` is for sharp bends.
     membrane_modes : {4, 5, 7}, optional

@@ -7,10 +7,11 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 import numpy as np
+from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
@@ -29,7 +30,7 @@ Floats = NDArray[np.float64]
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 INK = "#222222"
 
-_STYLE = {
+_STYLE: Any = {
     "font.size": 9.0,
     "axes.titlesize": 10.0,
     "axes.titleweight": "bold",
@@ -40,7 +41,7 @@ _STYLE = {
     "axes.labelcolor": INK,
     "axes.grid": True,
     "axes.axisbelow": True,
-    "axes.prop_cycle": mpl.cycler(color=COLOURS),
+    "axes.prop_cycle": cycler(color=COLOURS),
     "grid.color": "#e4e4e4",
     "grid.linewidth": 0.7,
     "xtick.color": "#555555",
@@ -116,7 +117,7 @@ def plot_shape(
     values: str | None = None,
     path: str | Path | None = None,
     *,
-    view: tuple[float, float] = (-65.0, 22.0),
+    view: tuple[float, float] = (-115.0, 28.0),
 ) -> Figure:
     """Picture of the deformed sheet, coloured by a field.
 

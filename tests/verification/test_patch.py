@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.boundary import traction_forces
 
 from .cases import extruded, linear_solution, record, stiffness
-from umform.boundary import traction_forces
 
 PLATE = record("patch_test_plate.json")
 POINTS = np.array(list(PLATE["points_xy"].values()))
@@ -27,10 +27,7 @@ STRAIN = 1e-3
 #: of the reference, where 1e-10 can be asked of everything that passes.
 THICKNESS = 10 * PLATE["thickness"]
 
-EIGHT = ("DISP3D", "DISP3DEAS", "ANS3DEAS", "EAS3DEAS")
-NINE = ("DISP9K3D", "DISP9K3DEAS", "MI9K3DEAS")
-
-# Elements by what they do. Each pair is (error of the displacements, error of the energy), 0 where exact: errors of the
+# Each pair is (error of the displacements, error of the energy), 0 where exact: errors of the
 # displacements relative to the largest displacement of the field, errors of the energy relative to the exact one.
 EXACT = (0.0, 0.0)
 
@@ -48,10 +45,10 @@ WHO_PASSES_WHAT = {
     ("DISP9K3DEAS", 1): (EXACT, (4.7e-4, 1.1e-2), EXACT, EXACT, EXACT),
     ("DISP9K3DEAS", 4): (EXACT, EXACT, EXACT, EXACT, EXACT),
     ("DISP9K3DEAS", 9): (EXACT, EXACT, EXACT, EXACT, EXACT),
-    ("MI9K3DEAS", 1): ((8.9e-3, -6.1e-4), (8.0e-4, 1.1e-2), EXACT, EXACT, EXACT),
+    ("MI9K3DEAS", 1): ((8.9e-3, -6.1e-4), (6.8e-4, 1.1e-2), EXACT, EXACT, EXACT),
     ("MI9K3DEAS", 4): ((8.9e-3, -6.1e-4), (1.9e-4, -3.6e-4), EXACT, EXACT, EXACT),
     ("MI9K3DEAS", 9): ((8.9e-3, -6.1e-4), (2.0e-4, -3.7e-4), EXACT, EXACT, EXACT),
-    ("MI9K3DEAS with E_12 compatible", 1): (EXACT, (8.0e-4, 1.1e-2), EXACT, EXACT, EXACT),
+    ("MI9K3DEAS with E_12 compatible", 1): (EXACT, (7.3e-4, 1.1e-2), EXACT, EXACT, EXACT),
     ("MI9K3DEAS with E_12 compatible", 4): (EXACT, EXACT, EXACT, EXACT, EXACT),
     ("MI9K3DEAS with E_12 compatible", 9): (EXACT, EXACT, EXACT, EXACT, EXACT),
 }
@@ -124,7 +121,6 @@ def bending_field(X: np.ndarray) -> np.ndarray:
 def patch_error(model: uf.Model, field: str, thickness: float = THICKNESS) -> tuple[float, float]:
     """Errors of displacements and energy, relative to the largest displacement and to the exact energy."""
     X = model.mesh.points
-    lower = X[X[:, 2] < 0]
     area = float(traction_forces(model.mesh, "lower", (0, 0, 1)).sum())
     loads: np.ndarray | float = 0.0
     if field == "bending":
@@ -137,7 +133,6 @@ def patch_error(model: uf.Model, field: str, thickness: float = THICKNESS) -> tu
         S = MATERIAL.lambda_ * np.trace(A) * np.eye(3) + 2 * MATERIAL.mu * A
         loads = traction_forces(model.mesh, "upper", S[:, 2]) - traction_forces(model.mesh, "lower", S[:, 2])
         twice_energy = float(np.tensordot(S, A)) * area * thickness
-    assert len(lower) < len(X)
     u = linear_solution(model, exact, loads)
     forces = model.evaluate(np.zeros(u.size), u.ravel()).predictor
     return float(np.abs(u - exact).max() / np.abs(exact).max()), float(forces @ u.ravel()) / twice_energy - 1
@@ -203,7 +198,7 @@ def test_single_thickness_mode_on_the_plate_of_the_reference():
     assert error / PLATE["expected_uz_bending"]["1"] == pytest.approx(0.0026, rel=0.05)
 
 
-@pytest.mark.parametrize("name", [*EIGHT, *NINE, "MI9K3DEAS with E_12 compatible"])
+@pytest.mark.parametrize("name", dict.fromkeys(name for name, _ in WHO_PASSES_WHAT))
 def test_six_zero_modes(name):
     """A free distorted element has its six rigid motions and no other mode without energy."""
     modes = [m for n, m in WHO_PASSES_WHAT if n == name]
@@ -220,7 +215,7 @@ def test_six_zero_modes(name):
 
 
 @pytest.mark.parametrize("name", ["DISP3DEAS", "ANS3DEAS", "EAS3DEAS"])
-def test_nine_thickness_modes_need_nine_points(name):
+def test_nine_thickness_modes_need_18_nodes(name):
     """With 2 x 2 Gauss points r² is a constant: nine modes are dependent, and the element says so."""
     with pytest.raises(uf.errors.InvalidValue):
         model_on(distorted_plate, name, thickness_modes=9)

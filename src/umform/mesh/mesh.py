@@ -124,7 +124,8 @@ class Mesh:
         return np.asarray(self.cells[self.cell], dtype=np.int32)
 
     def __repr__(self) -> str:
-        return f"Mesh({len(self.points)} points, {len(self.connectivity)} {self.cell}, sets: {', '.join(self.sets) or 'none'})"
+        sets = ", ".join(self.sets) or "none"
+        return f"Mesh({len(self.points)} points, {len(self.connectivity)} {self.cell}, sets: {sets})"
 
     def nodes(self, selector: Selector) -> Ids:
         """Node ids of a set: by name, by a predicate of x, y, z, or the ids themselves.
@@ -158,7 +159,7 @@ class Mesh:
         return ids
 
     def face_set(self, selector: Selector) -> Ids:
-        """Faces of a set as rows (cell, face number): by name, by a predicate that all nodes of the face meet, or rows."""
+        """Faces of a set as rows (cell, face number): by name, by a predicate met by all nodes of a face, or rows."""
         if isinstance(selector, str):
             if selector not in self.faces:
                 raise _unknown("face", selector, list(self.faces))

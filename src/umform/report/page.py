@@ -46,10 +46,7 @@ def _parts(result: Result) -> Iterator[str]:
     yield parts.heading("Shape")
     yield parts.figure(plot_shape(result), "The sheet in its last state, in true proportion.")
     yield parts.heading("History")
-    ends = sorted({0, *(number for number, row in enumerate(result.rows) if _ends_step(result, number, row))})
-    columns = [name for name in result.columns() if name != "step"]
-    header = ["", *(f"start of step {int(result.rows[1]['step'])}" if n == 0 and len(result) > 1 else f"end of step {int(result.rows[n]['step'])}" for n in ends)]
-    yield parts.table(header, [[name, *(f"{result.rows[n][name]:.6g}" for n in ends)] for name in columns])
+    yield _end_values(result)
     yield parts.heading("Settings")
     yield parts.pairs(settings(result.model))
     yield parts.heading("Versions")
@@ -61,9 +58,12 @@ def _curve(result: Result, control: Control) -> tuple[Any, str]:
     return plot_history(result, control.name, [force]), f"{force} over {control.name}, all converged increments."
 
 
-def _ends_step(result: Result, number: int, row: dict[str, float]) -> bool:
-    following = result.rows[number + 1]["step"] if number + 1 < len(result) else None
-    return following != row["step"] and row["step"] > 0
+def _end_values(result: Result) -> str:
+    """All columns of the history at the start and at the end of each step."""
+    ends = {int(row["step"]): row for row in result.rows}
+    columns = [name for name in result.columns() if name != "step"]
+    header = ["", *("start" if step == 0 else f"end of step {step}" for step in ends)]
+    return parts.table(header, [[name, *(f"{row[name]:.6g}" for row in ends.values())] for name in columns])
 
 
 def settings(model: Model) -> dict[str, object]:

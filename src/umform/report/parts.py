@@ -42,9 +42,7 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 def pairs(values: Mapping[str, object]) -> str:
     """Names and values, one a row."""
-    rows = "\n".join(
-        f"<tr><th>{escape(name)}</th><td>{escape(str(value))}</td></tr>" for name, value in values.items()
-    )
+    rows = "\n".join(f"<tr><th>{escape(name)}</th><td>{escape(str(value))}</td></tr>" for name, value in values.items())
     return f'<div class="wide"><table class="pairs">\n{rows}\n</table></div>'
 
 

@@ -41,7 +41,7 @@ class Bending:
     u, F : ndarray
         Displacement (downwards) and force (half strip, full width) of each converged state.
     shape : Shape
-        Deformed strip at the end of the stroke, or at the last converged state.
+        Deformed strip at the end of the stroke, or in the last state kept on the way there.
     solver : str
         Sparse solver that was used.
     iterations : int
@@ -123,9 +123,7 @@ class Bending:
         return replace(self, result=None)
 
 
-def free_bending(
-    case: FreeBending | None = None, *, frames: int = 1, progress: bool | None = None
-) -> Bending:
+def free_bending(case: FreeBending | None = None, *, frames: int = 1, progress: bool | None = None) -> Bending:
     """Bend a strip over a cylinder and release it.
 
     Parameters

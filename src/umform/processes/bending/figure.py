@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -60,18 +61,17 @@ def _draw_panel(axes: Axes, group: Sequence[Bending]) -> None:
     others = iter((ORANGE, SKY, PURPLE))
     for run in group:
         case = run.case
-        if case.is_paper_element:
-            colour, dash = _CONTACT_COLOURS.get(case.contact_name) or next(others, INK), "-"
-            label = _contact_label(case)
-        else:
-            colour, dash = INK, (0, (5, 2))
-            label = f"{_contact_label(case)}, {_variant_label(case)}"
+        paper = case.is_paper_element
+        colour = (_CONTACT_COLOURS.get(case.contact_name) or next(others, INK)) if paper else INK
+        label = _contact_label(case) if paper else f"{_contact_label(case)}, {_variant_label(case)}"
+        dash: Any = "-" if paper else (0, (5, 2))
         bent = run.step < 2
         back = np.flatnonzero(bent)[-1]
         axes.plot(run.u[bent], run.F[bent], color=colour, linestyle=dash, label=label, linewidth=1.2)
         axes.plot(run.u[back:], run.F[back:], color=colour, linestyle=dash, linewidth=0.8, alpha=0.8)
     if all(run.case.is_example for run in group):
-        axes.plot(list(CONTINUUM), list(CONTINUUM.values()), "D", color=INK, mfc="white", ms=5, zorder=5, label="continuum")
+        marks: dict[str, Any] = {"color": INK, "markerfacecolor": "white", "markersize": 5, "zorder": 5}
+        axes.plot(list(CONTINUUM), list(CONTINUUM.values()), "D", label="continuum", **marks)
         u, low, high = CONTINUUM_END
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
         axes.errorbar([u], [middle], yerr=[half], color=INK, capsize=4, capthick=1.4, elinewidth=1.4, zorder=5)
@@ -90,7 +90,7 @@ def shapes(runs: Sequence[Bending]) -> Figure:
     """Whole deformed strips on their tools, side by side, coloured by the plastic strain."""
     top = max(float(run.shape.values[_FIELD].max()) for run in runs)
     with house_style():
-        figure = Figure(figsize=(4.6 * len(runs) + 0.4, 4.6), layout="constrained")
+        figure = Figure(figsize=(4.6 * len(runs) + 0.4, 4.1), layout="constrained")
         grid = figure.subplots(1, len(runs), sharex=True, sharey=True, squeeze=False)[0]
         for axes, run in zip(grid, runs, strict=True):
             for side in (-1.0, 1.0):
@@ -109,7 +109,8 @@ def _draw_tool(axes: Axes, case: FreeBending, side: float) -> None:
     x, _, z = case.centre
     angles = np.linspace(0.0, np.pi, 61)
     ring = np.stack([side * x + case.radius * np.cos(angles), 0.0 * angles, z + case.radius * np.sin(angles)], axis=1)
-    front, back = (ring + [0.0, y, 0.0] for y in (-0.2 * case.width, 1.2 * case.width))
+    across_strip = case.width * np.array([0.0, 1.0, 0.0])
+    front, back = ring - 0.2 * across_strip, ring + 1.2 * across_strip
     mantle = np.stack([front[:-1], front[1:], back[1:], back[:-1]], axis=1)
     outwards = mantle.mean(axis=1) - [side * x, 0.5 * case.width, z]
     flat = np.stack([across, up], axis=1)

@@ -13,7 +13,10 @@ from umform.processes.bending.parameters import RECONSTRUCTION
 from umform.report import parts
 from umform.report.versions import versions
 
-_LEAD = "A strip is pushed over a rigid cylinder and released: solid-shell elements, finite plasticity, exact contact geometry."
+_LEAD = (
+    "Solid-shell elements at finite plastic strain, in frictionless contact with the exact geometry of a rigid "
+    "cylinder."
+)
 
 _READING = (
     "Full lines are the elements of the paper, dashed lines the same elements with a cubic thickness strain that is "
@@ -34,14 +37,15 @@ _CONTACT = (
     "least squares), both for u > 2 mm, measure it. Finer meshes have smaller stairs with any rule."
 )
 _LOCKING = (
-    "With the elements of the paper the force climbs to nearly twice that of the continuum. This is no "
-    "hardening, since the material has none, but locking. Where the strip is bent sharply with curvature k, "
-    "incompressible plastic flow asks for the thickness strain E₃₃ = ((1 + kz)⁻² − 1)/2, and the elements have one "
-    "that is linear in the thickness coordinate z. The mismatch is a change of volume, against which the bulk modulus stands; it grows with "
-    "the curvature, resists the hinge and spreads it. Refinement in the surface does not cure it, nor do 18 nodes, "
-    "for it is a matter of the thickness direction. A cubic thickness strain can meet the condition, and tying it at "
-    "the nodes takes away the thinning that tilted directors feign in mid-element: with both, the 8-node element "
-    "follows the continuum with one element through the thickness. This needs two elements or more over the width."
+    "With the elements of the paper the force climbs to nearly twice that of the continuum. This is no hardening, "
+    "since the material has none, but locking. Where the strip is bent sharply with curvature k, incompressible "
+    "plastic flow asks for the thickness strain E₃₃ = ((1 + kz)⁻² − 1)/2, and the elements have one that is "
+    "linear in the thickness coordinate z. The mismatch is a change of volume, against which the bulk modulus "
+    "stands; it grows with the curvature, resists the hinge and spreads it. Refinement in the surface does not "
+    "cure it, nor do 18 nodes, for it is a matter of the thickness direction. A cubic thickness strain can meet "
+    "the condition, and tying it at the nodes takes away the thinning that tilted directors feign in mid-element: "
+    "with both, the 8-node element follows the continuum with one element through the thickness. This needs two "
+    "elements or more over the width."
 )
 
 
@@ -108,7 +112,9 @@ def _explanations(runs: Sequence[Bending]) -> Iterator[str]:
 
 def _settings(runs: Sequence[Bending]) -> dict[str, object]:
     names = {"tool_x": "x of the axis of the cylinder", "tool_z": "z of the axis of the cylinder"}
-    shared = {names.get(key, key.replace("_", " ")): _plain(value) for key, value in runs[0].case.problem().items()}
+    shared: dict[str, object] = {
+        names.get(key, key.replace("_", " ")): _plain(value) for key, value in runs[0].case.problem().items()
+    }
     points = {f"{run.case.thickness_points} ({run.case.thickness_rule})" for run in runs}
     return shared | {"thickness points": ", ".join(sorted(points))}
 

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from umform.elements import element as catalogue_element
-from umform.errors import NoConvergence
+from umform.errors import InvalidValue, NoConvergence
+from umform.io.atomic import PendingFile, write_problem
 from umform.io.tables import write_csv, write_json
 from umform.processes.bending.case import Bending, free_bending, measured
 from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
@@ -25,7 +26,8 @@ _ELEMENTS = ("ANS3DEAS", "MI9K3DEAS")
 _LEAST_POINTS = {"hex8": 2, "hex18": 3}
 #: What meets sharp bends: cubic thickness strain, tied at the nodes.
 _SHARP = {"thickness_order": 3, "tie_E33": True, "thickness_points": 8}
-_FRAMES = 60
+#: States of a run that go to the file of fields; states that others keep, to have a shape should they end early.
+_FRAMES_WRITTEN, _FRAMES_KEPT = 60, 10
 
 
 @dataclass(frozen=True)
@@ -45,9 +47,7 @@ class Selection:
                 for element in [e for e in _ELEMENTS if mesh in _MESHES[_cell(e)]] or _ELEMENTS
             ]
         return [
-            (element, mesh)
-            for element in self.elements or _ELEMENTS
-            for mesh in self.meshes or _MESHES[_cell(element)]
+            (element, mesh) for element in self.elements or _ELEMENTS for mesh in self.meshes or _MESHES[_cell(element)]
         ]
 
     def runs(self, base: FreeBending, *, sharp: bool = True) -> list[FreeBending]:
@@ -111,15 +111,21 @@ def demo(
     from umform.processes.bending.page import write_page  # matplotlib takes time to load; the workers do without
 
     cases = list(runs) if runs is not None else Selection().runs(FreeBending())
-    folder = Path(out)
-    folder.mkdir(parents=True, exist_ok=True)
+    if not cases:
+        raise InvalidValue("there is no case to run", value=runs)
+    folder = _writable(Path(out))
     pictured = cases.index(_most_telling(cases))
     tasks = [(case, folder / "free_bending.vtkhdf" if n == pictured else None) for n, case in enumerate(cases)]
-    with progress_bar(progress) as bar:
-        name = f"{len(cases)} runs" if len(cases) > 1 else cases[0].name
+    alone = len(cases) == 1
+    with progress_bar(False if alone else progress) as bar:
+        name = f"{len(cases)} runs"
         bar(name, 0.0)
         finished = run_all(
-            _run, tasks, [_cost(case) for case in cases], processes=processes, tick=partial(bar, name)
+            partial(_run, progress=progress if alone else False),
+            tasks,
+            [_cost(case) for case in cases],
+            processes=processes,
+            tick=partial(bar, name),
         )
     return Outcome(finished, [*_write_tables(folder, finished), *write_page(folder, finished, finished[pictured])])
 
@@ -128,11 +134,23 @@ def _cell(element: str) -> str:
     return catalogue_element(element).cell
 
 
-def _run(task: tuple[FreeBending, Path | None]) -> Bending:
+def _writable(folder: Path) -> Path:
+    """Make a folder, and find out whether files can be written there before time is spent on them."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise write_problem(folder, error) from error
+    probe = PendingFile(folder / "report.html")
+    probe.__enter__()
+    probe.discard()
+    return folder
+
+
+def _run(task: tuple[FreeBending, Path | None], progress: bool | None) -> Bending:
     """One case, as far as it goes; with its fields in a file if there is a path for them."""
     case, fields = task
     try:
-        run = free_bending(case, frames=_FRAMES if fields else 1, progress=False)
+        run = free_bending(case, frames=_FRAMES_WRITTEN if fields else _FRAMES_KEPT, progress=progress)
     except NoConvergence as error:
         run = measured(case, error.result, error)  # type: ignore[attr-defined]
     if fields and run.result:
@@ -141,7 +159,7 @@ def _run(task: tuple[FreeBending, Path | None]) -> Bending:
 
 
 def _cost(case: FreeBending) -> float:
-    """About how long a case takes, in any unit: points times the square of the modes and degrees of freedom."""
+    """About how long a case takes, in any unit."""
     heavy = {"hex8": 1.0, "hex18": 9.0}[_cell(case.element)]
     return case.mesh[0] * case.mesh[1] * case.steps * heavy * case.thickness_points
 

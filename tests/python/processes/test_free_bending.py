@@ -1,0 +1,96 @@
+import numpy as np
+import pytest
+
+from umform.errors import InvalidValue, NoConvergence
+from umform.processes import FreeBending, free_bending
+from umform.processes.bending import case as case_module
+from umform.processes.bending.case import build, measured
+from umform.steps import Move, solve
+
+
+def test_forces_of_the_reference_in_a_few_steps():
+    run = free_bending(FreeBending(steps=60), progress=False)
+    assert run.forces == pytest.approx([18.793, 21.760, 27.890, 33.513], rel=2e-3)
+    assert run.zero_force == pytest.approx(14.655, rel=1e-4)
+    assert abs(run.F[-1]) < 1e-5 * run.F.max()
+    assert run.solver in ("banded", "pardiso")
+    assert run.failure == ""
+    assert run.shape.points[:, 2].min() < -15.0
+
+
+def test_step_doubling_at_the_first_mark():
+    coarse, fine = (
+        free_bending(FreeBending(stroke=2.0, steps=steps, unload=False), progress=False) for steps in (10, 40)
+    )
+    assert coarse.forces[-1] == pytest.approx(18.79, rel=2e-3)
+    assert coarse.forces[-1] == pytest.approx(fine.forces[-1], rel=1e-3)
+    assert coarse.zero_force is None
+
+
+def test_more_contact_points_make_a_smoother_curve():
+    runs = [
+        free_bending(FreeBending(contact=contact, steps=100, unload=False), progress=False)
+        for contact in ("nodes", 2, 5)
+    ]
+    jumps, deviations = [run.jump for run in runs], [run.roughness for run in runs]
+    assert jumps[0] > 2 * jumps[1] > 2 * jumps[2]
+    assert deviations[0] > 2 * deviations[1] > 4 * deviations[2]
+
+
+def test_hardening_stiffens():
+    soft, hard = (
+        free_bending(FreeBending(hardening=modulus, stroke=3.0, steps=15, unload=False), progress=False)
+        for modulus in (0.0, 5000.0)
+    )
+    assert hard.F[-1] > 1.01 * soft.F[-1]
+
+
+def test_tool_follows_radius_and_thickness():
+    assert FreeBending().centre == (25.0, 0.0, -20.5)
+    assert FreeBending(radius=10.0, thickness=2.0).centre == (25.0, 0.0, -11.0)
+    assert FreeBending(tool_z=-30.0).centre == (25.0, 0.0, -30.0)
+
+
+def test_names_and_likeness_to_the_example():
+    case = FreeBending(mesh=(48, 2), thickness_order=3, tie_E33=True, steps=10, solver="superlu")
+    assert case.name == "ANS3DEAS 48x2 2x2 order 3 tied"
+    assert FreeBending(contact="nodes").name == "ANS3DEAS 24x1 nodes"
+    assert case.is_example
+    assert not FreeBending(radius=19.0).is_example
+    assert not FreeBending(hardening=500.0).is_example
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"stroke": 0.0}, {"element": "FOO"}, {"penalty": -1.0}, {"contact": 11}, {"thickness_order": 5}]
+)
+def test_wrong_parameters_are_refused(wrong):
+    with pytest.raises(InvalidValue):
+        free_bending(FreeBending(**wrong), progress=False)
+
+
+def test_a_case_that_ends_early_keeps_what_it_reached(monkeypatch):
+    case = FreeBending(steps=20, unload=False)
+
+    def stop_half_way(model, steps, **options):
+        punch = model.controls[0]
+        error = NoConvergence("stopped", where="half way")
+        error.result = solve(model, [Move(punch, to=-7.5, steps=10)], progress=False)
+        raise error
+
+    monkeypatch.setattr(case_module, "solve", stop_half_way)
+    with pytest.raises(NoConvergence) as caught:
+        free_bending(case)
+    run = measured(case, caught.value.result, caught.value)
+    assert run.u[-1] == pytest.approx(7.5)
+    assert run.forces[1] is not None
+    assert run.forces[2:] == [None, None]
+    assert run.zero_force is None
+    assert "half way" in run.failure
+
+
+def test_model_of_the_case():
+    model, punch = build(FreeBending(mesh=(6, 2), element="MI9K3DEAS", contact=3))
+    assert punch.name == "punch"
+    assert len(punch.dofs) == 5
+    assert model.mesh.cell == "hex18"
+    assert np.flatnonzero(model._fixed[1::3]).size == 1

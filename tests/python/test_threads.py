@@ -1,0 +1,53 @@
+"""Any number of threads gives the same bits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import umform
+from umform.steps import Move, solve
+
+
+@pytest.fixture(autouse=True)
+def threads_as_before():
+    before = umform.threads()
+    yield
+    umform.set_threads(before)
+
+
+def test_the_number_of_threads_is_what_was_set():
+    for count in (1, 3, 2):
+        umform.set_threads(count)
+        assert umform.threads() == count
+
+
+@pytest.mark.parametrize("element", ["DISP3D", "EAS3DEAS", "MI9K3DEAS"])
+def test_one_evaluation_is_bitwise_the_same(build, rng, element):
+    """More elements and facets than are worth a team of threads."""
+    case = build.free_bending((24, 4), element)
+    assert len(case.model.mesh.connectivity) > 64
+    case.punch.value = -0.1
+    u = 0.02 * rng.normal(size=case.model.u.size)
+
+    def evaluate(count):
+        umform.set_threads(count)
+        evaluation = case.model.evaluate(u, np.ones(u.size))
+        return evaluation.residual, evaluation.values, evaluation.predictor, evaluation.force_scale
+
+    expected = evaluate(1)
+    assert case.contact.active().any()
+    for count in (2, 3, 7):
+        for a, b in zip(evaluate(count), expected, strict=True):
+            np.testing.assert_array_equal(a, b)
+
+
+def test_a_run_is_bitwise_the_same(build):
+    def run(count):
+        umform.set_threads(count)
+        case = build.free_bending((24, 4))
+        result = solve(case.model, Move(case.punch, -1.5, steps=3), frames=0, solver="superlu")
+        return case.model.u, case.model.block.state, result["punch_force"], result["tool_fz"], result["iterations"]
+
+    for a, b in zip(run(1), run(2), strict=True):
+        np.testing.assert_array_equal(a, b)

@@ -1,0 +1,133 @@
+"""Free bending of a strip over a cylinder, the example of the project: forces, springback, smoothness of the contact.
+
+The geometry is a reconstruction (see reference/free_bending.csv).
+"""
+
+from __future__ import annotations
+
+import csv
+from functools import cache
+
+import numpy as np
+import pytest
+
+import umform as uf
+
+from .cases import REFERENCE, free_bending
+
+#: What is recommended for sharp bends.
+RECOMMENDED = {"thickness_order": 3, "tie_E33": True, "thickness_points": 8}
+
+with (REFERENCE / "free_bending.csv").open() as file:
+    ROWS = list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+class Run:
+    """Displacement of the punch and force on the way down, and the displacement at zero force after the way back."""
+
+    def __init__(self, cells: tuple[int, int], element: str, points: int | str, steps: int, **options) -> None:
+        model, punch = free_bending(cells, element, points, **options)
+        result = uf.solve(model, [uf.Move(punch, to=-15.0, steps=steps), uf.Release(punch)], frames=0)
+        down = result["step"] <= 1
+        self.u, self.F = -result["punch"][down], -result["punch_force"][down]
+        self.u_unloaded, self.F_unloaded = -result["punch"][-1], -result["punch_force"][-1]
+        self.on_tool = -result["cylinder_fz"][down]
+
+    def force(self, u: float) -> float:
+        return float(np.interp(u, self.u, self.F))
+
+    def jump(self) -> float:
+        """J: the largest change of the force within 0.1 mm, relative to the force, for u > 2."""
+        u = self.u[(self.u > 2) & (self.u <= 14.9)]
+        before, after = (np.interp(u + d, self.u, self.F) for d in (0.0, 0.1))
+        return float(np.max(np.abs(after - before) / before))
+
+    def roughness(self) -> float:
+        """Root mean square of the deviation from a smooth curve (a polynomial of degree 6), relative, for u > 2."""
+        u, F = self.u[self.u > 2], self.F[self.u > 2]
+        smooth = np.polynomial.Polynomial.fit(u, F, 6)(u)
+        return float(np.sqrt(np.mean((F / smooth - 1) ** 2)))
+
+
+@cache
+def run(cells: tuple[int, int], element: str, points: int | str, steps: int = 300, recommended: bool = False) -> Run:
+    return Run(cells, element, points, steps, **(RECOMMENDED if recommended else {}))
+
+
+def run_of(row: dict[str, str]) -> Run:
+    nx, ny = row["cells"].split("x")
+    points = row["contact_points"]
+    return run((int(nx), int(ny)), row["element"], int(points) if points.isdigit() else points, 300, row["recommended"] == "1")
+
+
+def as_parameter(row: dict[str, str]):
+    marks = [pytest.mark.long] if row["recommended"] == "1" else []
+    return pytest.param(row, marks=marks, id=f"{row['cells']} {row['element']} {row['contact_points']}")
+
+
+@pytest.mark.parametrize("row", [as_parameter(row) for row in ROWS])
+def test_forces_of_the_table(row):
+    found = run_of(row)
+    tolerance = 0.01 if row["recommended"] == "1" else 0.005
+    for u in (2, 5, 10, 15):
+        assert found.force(u) == pytest.approx(float(row[f"F{u}"]), rel=tolerance)
+
+
+@pytest.mark.parametrize("row", [as_parameter(row) for row in ROWS if row["u_unloaded"]])
+def test_displacement_at_zero_force(row):
+    found = run_of(row)
+    assert found.F_unloaded == pytest.approx(0.0, abs=1e-5)
+    assert found.u_unloaded == pytest.approx(float(row["u_unloaded"]), rel=0.005)
+    springback = 15 - found.u_unloaded
+    assert 0.2 < springback < 0.4
+
+
+@pytest.mark.parametrize("steps", [150, 600])
+def test_number_of_steps_changes_little(steps):
+    other, usual = run((24, 1), "ANS3DEAS", 2, steps), run((24, 1), "ANS3DEAS", 2)
+    assert other.force(15) == pytest.approx(usual.force(15), rel=0.0005)
+    assert other.u_unloaded == pytest.approx(usual.u_unloaded, rel=0.0005)
+
+
+def test_tool_and_punch_are_in_equilibrium():
+    found = run((24, 1), "ANS3DEAS", 2)
+    assert found.on_tool == pytest.approx(found.F, abs=1e-6 * found.F.max())
+
+
+def test_more_contact_points_smooth_the_curve():
+    """Nodes are rougher than 2 x 2 points, and these than 5 x 5, by the jumps and by the deviation from a smooth curve."""
+    nodes, two, five = (run((24, 1), "ANS3DEAS", points) for points in ("nodes", 2, 5))
+    assert nodes.jump() > 3 * two.jump()
+    assert two.jump() > 1.3 * five.jump()
+    assert nodes.roughness() > 3 * two.roughness() > 9 * five.roughness()
+
+
+def test_nodal_contact_climbs_stairs():
+    """Five times a line of nodes takes over from the next one; the fourth stair, for one, is higher than 12 %."""
+    found = run((24, 1), "ANS3DEAS", "nodes")
+    u = np.linspace(2, 14.5, 1000)
+    rise = np.interp(u + 0.5, found.u, found.F) / np.interp(u, found.u, found.F) - 1
+    steep = rise > 0.08
+    assert (np.diff(steep.astype(int)) == 1).sum() + steep[0] >= 3
+    assert 0.10 < rise.max() < 0.16
+
+
+@pytest.mark.parametrize("points", [2, pytest.param(3, id="3")])
+def test_18_nodes_need_three_contact_points(points):
+    """Faces with 9 nodes: 2 x 2 points are as jumpy as nodes, 3 x 3 are the least."""
+    jump = run((12, 1), "MI9K3DEAS", points).jump()
+    assert jump > 0.05 if points == 2 else jump < 0.035
+
+
+@pytest.mark.long
+def test_paper_elements_are_too_stiff_in_the_hinge():
+    """Order 1 in the sharp hinge: 75 % over the fine continuum meshes (23 N) at the end; order 3 with tying meets them."""
+    paper, better = run((48, 2), "ANS3DEAS", 2), run((48, 2), "ANS3DEAS", 2, recommended=True)
+    assert paper.force(15) == pytest.approx(40.52, rel=0.005)
+    assert better.force(10) == pytest.approx(23.2, rel=0.03)
+
+
+@pytest.mark.long
+def test_one_element_over_the_width_tilts():
+    """A warning: with the recommended setting one bilinear element over the width collapses."""
+    assert run((24, 1), "ANS3DEAS", 2, recommended=True).force(15) == pytest.approx(10.9, rel=0.02)
