@@ -245,6 +245,9 @@ def _show(outcome: Outcome, out: Path) -> None:
     console.print(table)
     console.print(RECONSTRUCTION)
     console.print(f"Written to {out}: {', '.join(file.name for file in outcome.files)}", soft_wrap=True)
+    for run in outcome.runs:
+        for warning in run.warnings:
+            typer.echo(f"umform: {run.case.name}: {warning}", err=True)
     failed = [run for run in outcome.runs if run.failure]
     for run in failed:
         typer.echo(f"umform: {run.case.name}: {run.failure}", err=True)

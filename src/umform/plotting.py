@@ -137,7 +137,7 @@ def plot_shape(
     if values is None:
         values = next((name for name in ("plastic_strain_max", "thickness_change") if name in shape.values), None)
     with house_style():
-        figure = Figure(figsize=(7.2, 3.2), layout="constrained")
+        figure = Figure(figsize=(7.2, 3.2), layout="compressed")
         drawn = draw_shape(figure.add_subplot(), shape, values, view)
         if values is not None:
             bar = figure.colorbar(drawn, ax=figure.axes, shrink=0.7, aspect=25, pad=0.02)

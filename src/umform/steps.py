@@ -269,11 +269,12 @@ def _release(run: _Run, step: Release, number: int, frames: int) -> None:
     largest, resolution = abs(start_value) / 20.0, 1e-6 * abs(start_value)
     before: tuple[float, float] | None = None  # value and force of the state before the present one
     bound: float | None = None  # a value where the force is known to be zero or beyond
+    finest = resolution  # of the way to the bound: where the force changes sign, only its zero counts
     taken: float | None = None
     failures = 0
     while True:
         saved, value = model.snapshot(), control.value
-        target = _next_release(value, force, before, bound, size, resolution)
+        target = _next_release(value, force, before, bound, size, finest)
         if target * start_value < 0.0:
             target = 0.0
         time = start_time + 1.0 - target / start_value
@@ -288,7 +289,7 @@ def _release(run: _Run, step: Release, number: int, frames: int) -> None:
         zero = abs(force_there) <= step.tolerance * scale
         lifted = bool(model.contacts) and zero and not model.active_set().any()
         if (force_there * force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
-            bound = target
+            bound, finest = target, resolution if lifted else 0.0
             model.restore(saved)
             model.evaluate(model.u)
             run.last_du, taken = None, None

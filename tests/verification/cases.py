@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -85,7 +84,10 @@ def extruded(points_xy: Floats, quads: NDArray[np.int_], thickness: float, cell:
 
 
 def hemisphere(cells: int, cell: str = "hex8", *, radius: float = 10.0, thickness: float = 0.04) -> uf.Mesh:
-    """Quarter of a hemisphere with an 18 degree hole: x0 the rim of the hole, x1 the equator, y0 in y = 0, y1 in x = 0."""
+    """Quarter of a hemisphere with an 18 degree hole.
+
+    Sets: x0 the rim of the hole, x1 the equator, y0 in the plane y = 0, y1 in the plane x = 0.
+    """
 
     def onto_sphere(X: Floats) -> Floats:
         polar, azimuth, r = np.radians(18 + 72 * X[:, 0]), 0.5 * np.pi * X[:, 1], radius + X[:, 2]
@@ -114,7 +116,9 @@ def pinched_hemisphere(cells: int, element: str | uf.Element, **options) -> tupl
     return model, loads, at_A, at_B
 
 
-def free_bending(cells: tuple[int, int], element: str | uf.Element, points: int | str, **options) -> tuple[uf.Model, object]:
+def free_bending(
+    cells: tuple[int, int], element: str | uf.Element, points: int | str, **options
+) -> tuple[uf.Model, object]:
     """The free bending example (reference/free_bending.csv says what is known of it): model, control of the punch."""
     cell = element.cell if isinstance(element, uf.Element) else uf.elements.element(element).cell
     mesh = uf.mesh.strip(60, 10, 1, cells, cell=cell)

@@ -57,7 +57,8 @@ def run(cells: tuple[int, int], element: str, points: int | str, steps: int = 30
 def run_of(row: dict[str, str]) -> Run:
     nx, ny = row["cells"].split("x")
     points = row["contact_points"]
-    return run((int(nx), int(ny)), row["element"], int(points) if points.isdigit() else points, 300, row["recommended"] == "1")
+    number = int(points) if points.isdigit() else points
+    return run((int(nx), int(ny)), row["element"], number, recommended=row["recommended"] == "1")
 
 
 def as_parameter(row: dict[str, str]):
@@ -95,7 +96,7 @@ def test_tool_and_punch_are_in_equilibrium():
 
 
 def test_more_contact_points_smooth_the_curve():
-    """Nodes are rougher than 2 x 2 points, and these than 5 x 5, by the jumps and by the deviation from a smooth curve."""
+    """Nodes are rougher than 2 x 2 points, and these than 5 x 5, by jumps and by deviation from a smooth curve."""
     nodes, two, five = (run((24, 1), "ANS3DEAS", points) for points in ("nodes", 2, 5))
     assert nodes.jump() > 3 * two.jump()
     assert two.jump() > 1.3 * five.jump()
@@ -103,25 +104,26 @@ def test_more_contact_points_smooth_the_curve():
 
 
 def test_nodal_contact_climbs_stairs():
-    """Five times a line of nodes takes over from the next one; the fourth stair, for one, is higher than 12 %."""
+    """Whenever a line of nodes takes over from the next one: four times after u = 2, each time by 12 to 14 %."""
     found = run((24, 1), "ANS3DEAS", "nodes")
-    u = np.linspace(2, 14.5, 1000)
+    u = np.linspace(2, 14.5, 1001)
     rise = np.interp(u + 0.5, found.u, found.F) / np.interp(u, found.u, found.F) - 1
-    steep = rise > 0.08
-    assert (np.diff(steep.astype(int)) == 1).sum() + steep[0] >= 3
-    assert 0.10 < rise.max() < 0.16
+    stairs = np.flatnonzero(np.diff((rise > 0.08).astype(int)) == 1)
+    assert len(stairs) == 4
+    for first in stairs:
+        assert 0.12 < rise[first : first + 50].max() < 0.14
 
 
-@pytest.mark.parametrize("points", [2, pytest.param(3, id="3")])
-def test_18_nodes_need_three_contact_points(points):
-    """Faces with 9 nodes: 2 x 2 points are as jumpy as nodes, 3 x 3 are the least."""
-    jump = run((12, 1), "MI9K3DEAS", points).jump()
-    assert jump > 0.05 if points == 2 else jump < 0.035
+def test_18_nodes_need_three_contact_points():
+    """Faces with 9 nodes: 2 x 2 points are as jumpy as the nodes of the 8-node mesh, 3 x 3 are the least."""
+    two, three = (run((12, 1), "MI9K3DEAS", points) for points in (2, 3))
+    assert two.jump() > run((24, 1), "ANS3DEAS", "nodes").jump()
+    assert three.jump() < 0.5 * two.jump()
 
 
 @pytest.mark.long
 def test_paper_elements_are_too_stiff_in_the_hinge():
-    """Order 1 in the sharp hinge: 75 % over the fine continuum meshes (23 N) at the end; order 3 with tying meets them."""
+    """Order 1 ends 75 % over the fine continuum meshes (23 N); order 3 with tying meets them."""
     paper, better = run((48, 2), "ANS3DEAS", 2), run((48, 2), "ANS3DEAS", 2, recommended=True)
     assert paper.force(15) == pytest.approx(40.52, rel=0.005)
     assert better.force(10) == pytest.approx(23.2, rel=0.03)

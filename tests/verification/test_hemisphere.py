@@ -13,8 +13,8 @@ import umform as uf
 
 from .cases import linear_solution, pinched_hemisphere, table
 
-#: MacNeal & Harder, A proposed standard set of problems to test finite element accuracy, Finite Elem. Anal. Des. 1 (1985)
-#: 3-20: the hemisphere with the hole. (0.0924 is the value of the closed hemisphere.)
+#: MacNeal & Harder, A proposed standard set of problems to test finite element accuracy, Finite Elem. Anal. Des. 1
+#: (1985) 3-20: the hemisphere with the hole. (0.0924 is the value of the closed hemisphere.)
 LINEAR = 0.0940
 
 
@@ -74,7 +74,9 @@ def test_elements_agree_on_a_fine_mesh():
 
 
 @pytest.mark.parametrize(
-    ("cells", "element", "options"), [(32, "ANS3DEAS", {"tie_E33": True}), (16, "MI9K3DEAS", {})], ids=["ANS3DEAS", "MI9K3DEAS"]
+    ("cells", "element", "options"),
+    [(32, "ANS3DEAS", {"tie_E33": True}), (16, "MI9K3DEAS", {})],
+    ids=["ANS3DEAS", "MI9K3DEAS"],
 )
 def test_full_load(cells, element, options):
     """Within 2 % of the reference at the end and half-way there."""
@@ -87,7 +89,9 @@ def test_full_load(cells, element, options):
 
 @pytest.mark.long
 @pytest.mark.parametrize(
-    ("cells", "element", "options"), [(32, "ANS3DEAS", {"tie_E33": True}), (16, "MI9K3DEAS", {})], ids=["ANS3DEAS", "MI9K3DEAS"]
+    ("cells", "element", "options"),
+    [(32, "ANS3DEAS", {"tie_E33": True}), (16, "MI9K3DEAS", {})],
+    ids=["ANS3DEAS", "MI9K3DEAS"],
 )
 def test_whole_curve(cells, element, options):
     """All 20 points, errors relative to the last value."""

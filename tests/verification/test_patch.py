@@ -23,8 +23,8 @@ E, NU = PLATE["E"], PLATE["nu"]
 MATERIAL = uf.SVK(E=E, nu=NU)
 STRAIN = 1e-3
 
-#: The round-off of a plate solution grows as (length / thickness)^4: the table is for a plate ten times as thick as that
-#: of the reference, where 1e-10 can be asked of everything that passes.
+#: Round-off grows steeply with length / thickness: the table is for a plate ten times as thick as that of the
+#: reference, where 1e-10 can be asked of everything that passes.
 THICKNESS = 10 * PLATE["thickness"]
 
 # Each pair is (error of the displacements, error of the energy), 0 where exact: errors of the

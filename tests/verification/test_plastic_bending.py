@@ -1,8 +1,8 @@
 """Pure plastic bending in plane strain of one element: locking in sharp bends (docs/theory, section 2.8).
 
-All nodes are prescribed: they lie on circles, the directors keep the length h, and the stretch of the mid-line is chosen
-such that the axial force vanishes. What is left to the element are its enhanced strains. The moment is that of virtual
-work, M = sum f . dx/d(angle), over the exact moment of a perfectly plastic plate in plane strain,
+All nodes are prescribed: they lie on circles, the directors keep the length h, and the stretch of the mid-line
+is chosen such that the axial force vanishes. What is left to the element are its enhanced strains. The moment is
+that of virtual work, M = sum f . dx/d(angle), over the exact moment of a perfectly plastic plate in plane strain,
 (2 / sqrt 3) y0 b h² / 4 (Hill 1950), and over the factor 1.0115 by which 8 Gauss points overrate it.
 """
 

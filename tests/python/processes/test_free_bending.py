@@ -94,3 +94,18 @@ def test_model_of_the_case():
     assert len(punch.dofs) == 5
     assert model.mesh.cell == "hex18"
     assert np.flatnonzero(model._fixed[1::3]).size == 1
+
+
+@pytest.mark.parametrize(
+    ("setting", "word"),
+    [
+        ({"thickness_order": 3, "tie_E33": True}, "tilt"),
+        ({"element": "MI9K3DEAS", "contact": 2}, "jumpy"),
+        ({"contact": 1}, None),
+    ],
+)
+def test_settings_that_mislead_are_said(setting, word):
+    case = FreeBending(mesh=(6, 1), stroke=0.2, steps=2, unload=False, **setting)
+    warnings = free_bending(case, progress=False).warnings
+    assert len(warnings) == (1 if word else 0)
+    assert all(word in warning for warning in warnings)

@@ -26,7 +26,7 @@ _READING = (
 _CONTINUUM = (
     "Diamonds and the bar at the end are fine continuum meshes (quadratic bricks); the bar spans what two of them "
     "give, since the plastic hinge localises and the last value depends on the mesh. They bend nearly in plane strain, "
-    "as meshes with two elements over the width do; a single one bends almost in plane stress and stays below."
+    "as meshes with two elements over the width do; a single bilinear one bends almost in plane stress."
 )
 _CONTACT = (
     "While the strip slides over the cylinder, the place of contact moves towards the hinge and the lever arm "
@@ -37,15 +37,15 @@ _CONTACT = (
     "least squares), both for u > 2 mm, measure it. Finer meshes have smaller stairs with any rule."
 )
 _LOCKING = (
-    "With the elements of the paper the force climbs to nearly twice that of the continuum. This is no hardening, "
-    "since the material has none, but locking. Where the strip is bent sharply with curvature k, incompressible "
-    "plastic flow asks for the thickness strain E₃₃ = ((1 + kz)⁻² − 1)/2, and the elements have one that is "
-    "linear in the thickness coordinate z. The mismatch is a change of volume, against which the bulk modulus "
-    "stands; it grows with the curvature, resists the hinge and spreads it. Refinement in the surface does not "
-    "cure it, nor do 18 nodes, for it is a matter of the thickness direction. A cubic thickness strain can meet "
-    "the condition, and tying it at the nodes takes away the thinning that tilted directors feign in mid-element: "
-    "with both, the 8-node element follows the continuum with one element through the thickness. This needs two "
-    "elements or more over the width."
+    "With the elements of the paper the force climbs far above that of the continuum, on the fine meshes to "
+    "nearly twice. This is no hardening, since the material has none, but locking. Where the strip is bent "
+    "sharply with curvature k, incompressible plastic flow asks for the thickness strain E₃₃ = ((1 + kz)⁻² − "
+    "1)/2, and the elements have one that is linear in the thickness coordinate z. The mismatch is a change of "
+    "volume, against which the bulk modulus stands; it grows with the curvature, resists the hinge and spreads "
+    "it. Refinement in the surface does not cure it, nor do 18 nodes, for it is a matter of the thickness "
+    "direction. A cubic thickness strain can meet the condition, and tying it at the nodes takes away the "
+    "thinning that tilted directors feign in mid-element: with both, the 8-node element follows the continuum "
+    "with one element through the thickness. This needs two elements or more over the width."
 )
 
 
