@@ -178,6 +178,11 @@ class Newton:
         self._pattern: Pattern | None = None
         self.callbacks: list[Callable[[Iteration], None]] = []
 
+    @property
+    def solver(self) -> str:
+        """Name of the sparse solver that the system gets."""
+        return self._ready_solver().name
+
     def solve(self, extrapolation: Floats | None = None) -> Converged:
         """Find the equilibrium at the present loads, supports and tools, starting from the converged state.
 

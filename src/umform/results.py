@@ -50,6 +50,7 @@ class Result:
         self.frames: list[Frame] = []
         self.iterations: list[list[Iteration]] = []
         self.warnings: list[str] = []
+        self.solver = ""
         self.seconds = 0.0
 
     def add(self, residual: Floats, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
@@ -172,6 +173,7 @@ class Result:
         return {
             "increments": len(self.rows) - 1,
             "iterations": int(sum(row["iterations"] for row in self.rows)),
+            "solver": self.solver,
             "seconds": self.seconds,
             "warnings": list(self.warnings),
         }

@@ -163,6 +163,7 @@ def solve(
     sequence = [steps] if isinstance(steps, Move | Release) else list(steps)
     run = _Run(model, Newton(model, options, solver), Result(model))
     start = clock.perf_counter()
+    run.result.solver = run.newton.solver
     run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
     with progress_bar(progress) as tick:
         run.tick = tick

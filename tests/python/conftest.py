@@ -165,9 +165,7 @@ def bar(element="ANS3DEAS", material=None, area=0.2, **options):
 def cantilever(load=0.5, cells=(6, 1), element="ANS3DEAS", material=None):
     """An elastic strip clamped at x0 with a dead force at its tip that bends it far."""
     cell = "hex18" if "9K" in element else "hex8"
-    model = Model(
-        strip(10.0, 1.0, 0.1, cells, cell=cell), element, material=material or mt.SVK(E=1.2e6, nu=0.0)
-    )
+    model = Model(strip(10.0, 1.0, 0.1, cells, cell=cell), element, material=material or mt.SVK(E=1.2e6, nu=0.0))
     model.fix("x0")
     tip = model.line_load("x1", "lower", (0.0, 0.0, 2.0 * load), "tip")
     return model, tip

@@ -41,9 +41,13 @@ TOOLS = {
 }
 
 
+def lifted(z):
+    return lambda x: x + np.array([0.0, 0.0, z])
+
+
 def plate(cell, build, amount=0.1):
     """A plate of 2 x 1.5 x 0.2 whose lower face is z = 0, with distorted cells."""
-    return build.jittered(strip(2.0, 1.5, 0.2, (3, 2), cell=cell), amount).transformed(lambda x: x + (0, 0, 0.1))
+    return build.jittered(strip(2.0, 1.5, 0.2, (3, 2), cell=cell), amount).transformed(lifted(0.1))
 
 
 def contact_of(mesh, tool, points, penalty=50.0, cell="hex8", faces="lower"):
@@ -74,7 +78,7 @@ def test_tangent_is_the_derivative_of_the_force(build, rng, name, cell, points):
         contact.block.locate(u)
         shift[2] += middle_of_a_void(contact.block.gaps)
     contact.place(0.0)
-    f, K = full(u)
+    _, K = full(u)
     assert 0.3 < contact.active().mean() < 0.7
     assert np.abs(contact.block.gaps).min() > 1e-5  # away from the kink
     np.testing.assert_allclose(K, K.T, atol=1e-13 * np.abs(K).max())
@@ -101,7 +105,7 @@ def test_a_turned_and_shifted_tool_sees_a_turned_and_shifted_sheet(build, rng, n
     np.testing.assert_allclose(contact.resultant()[0], rotation.as_matrix() @ force, atol=1e-12)
 
 
-# Uniform pressure ----------------------------------------------------------------------------------------------------------
+# Uniform pressure -------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("cell", ["hex8", "hex18"])
@@ -154,9 +158,7 @@ def test_nodal_rule_has_the_tributary_areas_of_the_shape_functions(cell, parts):
 )  # one point on a 9-node facet would hold its centre only
 def test_under_a_uniform_traction_the_gap_is_pressure_over_penalty_everywhere(cell, points):
     """In equilibrium, not prescribed: a compressed block on a plane between sliding walls."""
-    mesh = strip(2.0, 1.5, 0.5, (3, 2), cell=cell, grading=(1.5, 1.0)).transformed(
-        lambda x: x + (0, 0, 0.25)
-    )
+    mesh = strip(2.0, 1.5, 0.5, (3, 2), cell=cell, grading=(1.5, 1.0)).transformed(lifted(0.25))
     model, contact = contact_of(mesh, Plane((0.0, 0.0, 1e-3)), points, penalty=400.0, cell=cell)
     for face, normal in (("x0", "x"), ("x1", "x"), ("y0", "y"), ("y1", "y")):
         model.symmetry(face, normal=normal)
@@ -174,7 +176,7 @@ def test_under_a_uniform_traction_the_gap_is_pressure_over_penalty_everywhere(ce
     assert (np.delete(pressure, on_faces) == 0).all()
 
 
-# Resultants ----------------------------------------------------------------------------------------------------------------
+# Resultants -------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("element", "points"), [("ANS3DEAS", 2), ("ANS3DEAS", "nodes"), ("MI9K3DEAS", 3)])
@@ -249,7 +251,7 @@ def test_tools_that_follow_several_controls_add_their_ways(build):
     np.testing.assert_allclose(case.contact.at_points().gap, expected, atol=1e-13)
 
 
-# Refusals ------------------------------------------------------------------------------------------------------------------
+# Refusals ---------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("penalty", [0.0, -1.0, math.nan, math.inf])

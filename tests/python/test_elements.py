@@ -23,7 +23,7 @@ def options_of(name):
 
 
 VARIANTS = [
-    pytest.param(name, options, id=f"{name}-{'tied' if options['tie_E33'] else 'free'}-{options.get('thickness_order', 0)}")
+    pytest.param(name, options, id="-".join([name, *(f"{key}-{value}" for key, value in options.items())]))
     for name in CATALOGUE
     for options in options_of(name)
 ] + [
@@ -145,9 +145,7 @@ def test_internal_work_is_the_work_of_the_nodal_forces(build, materials, name):
     one = build.one_element(name, materials["neo-hooke"])
     a, b = one.displacement(0.5), one.displacement(0.5)
     angle, weight = 2 * np.pi * np.arange(24) / 24, 2 * np.pi / 24
-    work = [
-        one(np.cos(t) * a + np.sin(t) * b)[1] @ (-np.sin(t) * a + np.cos(t) * b) * weight for t in angle
-    ]
+    work = [one(np.cos(t) * a + np.sin(t) * b)[1] @ (-np.sin(t) * a + np.cos(t) * b) * weight for t in angle]
     assert abs(sum(work)) < 1e-8 * sum(abs(w) for w in work)
 
 
@@ -196,7 +194,7 @@ def test_a_strain_outside_of_the_domain_names_the_cell(build, materials):
         one.block.element(0, squeezed)
 
 
-# The catalogue -----------------------------------------------------------------------------------------------------------
+# The catalogue ----------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", CATALOGUE)

@@ -12,9 +12,7 @@ import umform
 from umform import errors
 from umform.errors import UmformError
 
-CLASSES = [
-    value for _, value in inspect.getmembers(errors, inspect.isclass) if issubclass(value, UmformError)
-]
+CLASSES = [value for _, value in inspect.getmembers(errors, inspect.isclass) if issubclass(value, UmformError)]
 QUESTIONS = {
     "where": "cell 3, nodes [1, 2]",
     "value": (1.5, "two"),

@@ -126,7 +126,7 @@ def test_reactions_carry_the_load(build, load):
     np.testing.assert_allclose(balance, 0.0, atol=1e-8)
 
 
-# Follower pressure ---------------------------------------------------------------------------------------------------------
+# Follower pressure ------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("cell", CELLS)
@@ -223,7 +223,7 @@ def test_a_strip_under_pressure_converges_quadratically(cell, element):
         np.testing.assert_allclose(residual.reshape(-1, 3).sum(axis=0), 0.004 * area, atol=1e-9)
 
 
-# Refusals ------------------------------------------------------------------------------------------------------------------
+# Refusals ---------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture

@@ -178,7 +178,7 @@ def test_moves_that_make_no_sense_are_refused(build, arguments):
         Move(pull, **arguments)
 
 
-# Release -------------------------------------------------------------------------------------------------------------------
+# Release ----------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("increment", [None, 1e-4])
@@ -220,9 +220,7 @@ def test_release_of_a_bent_strip_ends_at_lift_off(build, element, points):
     assert result["tool_active"][-2] > 0
     if result["tool_active"][-1] == 0:
         assert abs(result["punch"][-1] - result["punch"][-2]) <= 3e-6 * 6.0
-    np.testing.assert_array_equal(
-        case.model.evaluate(case.model.u).residual.shape, case.model.u.shape
-    )
+    np.testing.assert_array_equal(case.model.evaluate(case.model.u).residual.shape, case.model.u.shape)
 
 
 def test_lift_off_of_a_pressed_block_is_where_it_touched(build):
@@ -252,7 +250,7 @@ def test_there_must_be_something_to_release(build):
         solve(model, Release(pull), frames=0)
 
 
-# Failure -------------------------------------------------------------------------------------------------------------------
+# Failure ----------------------------------------------------------------------------------------------------
 
 
 def test_no_convergence_carries_the_result_and_leaves_the_last_converged_state(build):

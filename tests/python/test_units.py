@@ -37,8 +37,6 @@ def test_other_units_take_the_same_iterations_to_the_same_numbers(build, units, 
     stress = force / L**2
     one, other = result.frames[-1], expected.frames[-1]
     largest = np.abs(other.cells["stress_cauchy"]).max()
-    np.testing.assert_allclose(
-        one.cells["stress_cauchy"] / stress, other.cells["stress_cauchy"], atol=1e-6 * largest
-    )
+    np.testing.assert_allclose(one.cells["stress_cauchy"] / stress, other.cells["stress_cauchy"], atol=1e-6 * largest)
     np.testing.assert_allclose(one.cells["plastic_strain_max"], other.cells["plastic_strain_max"], atol=1e-9)
     np.testing.assert_allclose(one.points["thickness_change"], other.points["thickness_change"], atol=1e-8)

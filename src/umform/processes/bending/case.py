@@ -19,7 +19,6 @@ from umform.processes.bending.measures import at_marks, jump, roughness
 from umform.processes.bending.parameters import FreeBending
 from umform.results import Result
 from umform.shape import Shape
-from umform.solvers import make_solver
 from umform.steps import Move, Release, solve
 from umform.surfaces import Cylinder
 
@@ -189,7 +188,7 @@ def measured(case: FreeBending, result: Result, failure: NoConvergence | None = 
         u=-result["punch"],
         F=-result["punch_force"],
         shape=Shape.of(result, bent[-1]),
-        solver=make_solver(result.model.pattern, case.solver).name,
+        solver=result.solver,
         iterations=int(result["iterations"].sum()),
         seconds=result.seconds,
         warnings=(*_cautions(case, result.model.mesh.cell), *result.warnings),
