@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.polynomial import Legendre
 from numpy.typing import NDArray
 
 from umform import _core
@@ -48,6 +49,11 @@ class Term:
     c: int = 0
     factor: float = 1.0
 
+    def __call__(self, r: NDArray[np.float64], s: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Value at natural coordinates."""
+        legendre: NDArray[np.float64] = Legendre.basis(self.c)(t)
+        return self.factor * r**self.a * s**self.b * legendre
+
     def mean(self) -> float:
         """Mean over the parent cube. eq. (2.12)"""
         if self.c > 0 or self.a % 2 or self.b % 2:
@@ -82,8 +88,8 @@ ANS_THICKNESS = {
 # Enhanced modes ----------------------------------------------------------------------------------------------
 
 
-def thickness_modes(count: int, order: int) -> tuple[Mode, ...]:
-    """Modes of E_33: t times 1, 4 or 9 polynomials in the surface, then P_2(t) ... P_order(t).
+def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode, ...]:
+    """Modes of E_33: t times 1, 4 or 9 polynomials in the surface, then P_2(t) ... P_order(t) times as many again.
 
     Parameters
     ----------
@@ -92,14 +98,23 @@ def thickness_modes(count: int, order: int) -> tuple[Mode, ...]:
         test pass; nine are the full biquadratic set.
     order : {1, 2, 3, 4}
         Highest Legendre polynomial in t.
+    order_count : {1, 4, 9}
+        Number of polynomials in the surface that go with P_2 ... P_order. One is enough for 8 nodes, where more change
+        nothing that was measured; 18 nodes need nine in a sharp bend (docs/theory, 2.9).
     """
+    if order_count not in (1, 4, 9):
+        raise InvalidValue("the number of modes of higher order must be 1, 4 or 9", value=order_count)
     if count not in (0, 1, 4, 9):
         raise InvalidValue("the number of thickness modes must be 0, 1, 4 or 9", value=count)
     if order not in (1, 2, 3, 4):
         raise InvalidValue("the thickness order must be 1, 2, 3 or 4", value=order)
-    side = math.isqrt(count)
-    linear = tuple((Term("33", a, b, 1),) for b in range(side) for a in range(side))
-    return linear + tuple((Term("33", 0, 0, p),) for p in range(2, order + 1))
+    counts = {1: count} | dict.fromkeys(range(2, order + 1), order_count)
+    return tuple(
+        (Term("33", a, b, p),)
+        for p, modes in counts.items()
+        for b in range(math.isqrt(modes))
+        for a in range(math.isqrt(modes))
+    )
 
 
 def membrane_modes(count: int) -> tuple[Mode, ...]:
@@ -184,6 +199,29 @@ class Element:
         """Number of nodes: 8 or 18."""
         return {"hex8": 8, "hex18": 18}[self.cell]
 
+    def check_modes(self, t: NDArray[np.float64]) -> None:
+        """Refuse modes that are linearly dependent at the Gauss points, for the thickness points ``t``.
+
+        Raises
+        ------
+        InvalidValue
+            If the parameters of the modes could not be told apart.
+        """
+        x = _core.gauss(self.surface_points)[0]
+        r, s, layers = (grid.ravel() for grid in np.meshgrid(x, x, t, indexing="ij"))
+        values = np.zeros((len(COMPONENTS), len(r), len(self.modes)))
+        for k, mode in enumerate(self.modes):
+            for term in mode:
+                values[COMPONENTS.index(term.component), :, k] += term(r, s, layers)
+        if self.modes and np.linalg.matrix_rank(values.reshape(-1, len(self.modes)), tol=1e-10) < len(self.modes):
+            raise InvalidValue(
+                "the enhanced modes are linearly dependent at the Gauss points",
+                where=self.name,
+                value=f"{len(self.modes)} modes, {self.surface_points} x {self.surface_points} x {len(t)} points",
+                cause="two modes alike, or more of them than the points can see",
+                remedy="take modes out, or more thickness points",
+            )
+
     def technology(self) -> _core.Technology:
         """The element as the kernels take it."""
         index = COMPONENTS.index
@@ -207,6 +245,7 @@ def _build(
     def make(
         thickness_modes_count: int = thickness,
         thickness_order: int = 1,
+        order_modes_count: int = 9 if cell == "hex18" else 1,
         membrane_modes_count: int = membrane,
         tie_E33: bool = False,
         compatible_E12: bool = False,
@@ -221,7 +260,7 @@ def _build(
             )
         if thickness > 0 and thickness_modes_count not in (1, 4, 9):
             raise InvalidValue("the number of thickness modes must be 1, 4 or 9", value=thickness_modes_count)
-        if thickness_modes_count == 9 and cell == "hex8":
+        if 9 in (thickness_modes_count, order_modes_count) and cell == "hex8":
             raise InvalidValue(
                 f"{name} cannot tell nine thickness modes apart",
                 value=9,
@@ -235,7 +274,7 @@ def _build(
         rows = tuple(row for row in tying if not (compatible_E12 and row.component == "12"))
         modes = membrane_modes(membrane_modes_count)
         if thickness > 0:
-            modes += thickness_modes(thickness_modes_count, thickness_order)
+            modes += thickness_modes(thickness_modes_count, thickness_order, order_modes_count)
         return Element(
             name=name,
             cell=cell,
@@ -247,6 +286,7 @@ def _build(
             options={
                 "thickness_modes": thickness_modes_count,
                 "thickness_order": thickness_order,
+                "order_modes": order_modes_count,
                 "membrane_modes": membrane_modes_count,
                 "tie_E33": tie_E33,
                 "compatible_E12": compatible_E12,
@@ -275,6 +315,7 @@ def element(
     *,
     thickness_modes: int | None = None,
     thickness_order: int | None = None,
+    order_modes: int | None = None,
     membrane_modes: int | None = None,
     tie_E33: bool | None = None,
     compatible_E12: bool | None = None,
@@ -289,6 +330,8 @@ def element(
         Number of enhanced modes of E_33 linear in t; default 4 (8 nodes) or 9 (18 nodes, there only).
     thickness_order : {1, 2, 3, 4}, optional
         Order of the thickness strain in t; 1 is the paper, 3 with ``tie_E33`` is for sharp bends.
+    order_modes : {1, 4, 9}, optional
+        Number of polynomials in the surface that go with each order above 1; default 1 (8 nodes) or 9 (18 nodes).
     membrane_modes : {4, 5, 7}, optional
         Number of enhanced in-plane modes of EAS3DEAS; default 7.
     tie_E33 : bool, optional
@@ -304,6 +347,7 @@ def element(
     options = {
         "thickness_modes_count": thickness_modes,
         "thickness_order": thickness_order,
+        "order_modes_count": order_modes,
         "membrane_modes_count": membrane_modes,
         "tie_E33": tie_E33,
         "compatible_E12": compatible_E12,

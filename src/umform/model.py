@@ -77,7 +77,8 @@ class Model:
     thickness_rule : {"gauss", "lobatto", "split"}
         Where they lie.
     **options
-        Options of the element: thickness_modes, thickness_order, membrane_modes, tie_E33, compatible_E12.
+        Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
+        compatible_E12.
 
     Raises
     ------
@@ -124,6 +125,7 @@ class Model:
                 remedy=f"thickness_points={least} or more",
             )
         t, w = make_thickness_rule(self.thickness_points, thickness_rule)
+        self.element.check_modes(t)
         self.block = _core.shell_block(
             self.element.technology(), self.element.surface_points, t, w, material.law(), mesh.connectivity, mesh.points
         )

@@ -339,7 +339,11 @@ class Newton:
     @staticmethod
     def _check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:
         if evaluation.failed >= 0:
-            raise Failed(f"cell {evaluation.failed} is strained beyond the domain of its material law", iterations)
+            raise Failed(
+                f"cell {evaluation.failed} is strained beyond the domain of its material law "
+                "(or so far that its enhanced parameters cannot be eliminated)",
+                iterations,
+            )
 
     @staticmethod
     def _detect_chatter(seen: list[bytes], active: NDArray[np.bool_], iterations: list[Iteration]) -> None:

@@ -217,7 +217,7 @@ def test_every_entry_of_the_catalogue_is_cited_and_has_its_nodes(name):
         ("EAS3DEAS", {}, 11),
         ("EAS3DEAS", {"membrane_modes": 5, "thickness_order": 2}, 10),
         ("MI9K3DEAS", {}, 9),
-        ("MI9K3DEAS", {"thickness_modes": 4, "thickness_order": 4}, 7),
+        ("MI9K3DEAS", {"thickness_modes": 4}, 4),
     ],
 )
 def test_number_of_enhanced_modes(name, options, modes):

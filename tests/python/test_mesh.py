@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from umform import _core, mesh
+from umform import _core
 from umform.errors import (
     EmptySet,
     FoldedElement,
@@ -302,4 +302,3 @@ def test_distorted_but_valid_cells_are_accepted(build, cell):
 def test_all_refusals_of_the_mesh_are_mesh_errors_or_invalid_values():
     for error in (InvertedElement, FoldedElement, WrongNodeOrder, WrongCellType, UnknownSet, EmptySet):
         assert issubclass(error, MeshError)
-    assert mesh.read is not None

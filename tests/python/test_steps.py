@@ -70,8 +70,7 @@ def test_a_move_follows_functions_and_several_controls(build):
 
 def test_a_load_driven_step_meets_the_closed_form(build):
     """Uniaxial neo-Hooke with nu = 0: the nominal stress of the stretch that a load of 50 makes."""
-    model, _ = build.bar(material=mt.NeoHooke(E=100.0, nu=0.0))
-    free = Model(model.mesh, material=mt.NeoHooke(E=100.0, nu=0.0))
+    free = Model(build.bar()[0].mesh, material=mt.NeoHooke(E=100.0, nu=0.0))
     for face, normal in (("x0", "x"), ("y0", "y"), ("lower", "z")):
         free.symmetry(face, normal=normal)
     load = free.traction("x1", (1.0, 0.0, 0.0), "load")
@@ -220,7 +219,6 @@ def test_release_of_a_bent_strip_ends_at_lift_off(build, element, points):
     assert result["tool_active"][-2] > 0
     if result["tool_active"][-1] == 0:
         assert abs(result["punch"][-1] - result["punch"][-2]) <= 3e-6 * 6.0
-    np.testing.assert_array_equal(case.model.evaluate(case.model.u).residual.shape, case.model.u.shape)
 
 
 def test_lift_off_of_a_pressed_block_is_where_it_touched(build):

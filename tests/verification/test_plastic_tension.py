@@ -1,9 +1,9 @@
 """A bar pulled homogeneously far into plastic flow: what the number of enhanced membrane modes costs in iterations.
 
-In a converged plastic state every point lies on the yield surface up to round-off. A tangent taken there is a
-patchwork: some points count as plastic, the others as elastic, by chance. An increment predicted with it is not
-homogeneous, and the more membrane modes an element has, the further it follows the patchwork. Steps that start from
-the extrapolated last increment never use this tangent. With them all elements take the same iterations.
+In a converged plastic state every point lies on the yield surface up to round-off. If that decided what is plastic in
+the first tangent of an increment, the tangent would be a patchwork; an increment predicted with it is not homogeneous,
+and the more membrane modes an element has, the further it follows the patchwork. The law therefore has a margin of 1e-10
+of the yield stress, and all elements take the same iterations.
 """
 
 from __future__ import annotations
@@ -63,10 +63,7 @@ def test_extrapolated_steps_take_the_same_iterations():
         assert list(iterations[name]) == list(iterations["ANS3DEAS"])
 
 
-@pytest.mark.xfail(
-    reason="the tangent at a converged plastic state is a patchwork of elastic and plastic points", strict=True
-)
 def test_steps_from_the_tangent_take_the_same_iterations():
-    """Now 97 for ANS3DEAS, 151, 161 and 364 (with cut increments) for 4, 5 and 7 modes."""
+    """Without the margin in the yield check: 97 for ANS3DEAS, 151, 161 and 364 (increments cut) for 4, 5 and 7 modes."""
     iterations = {name: pull(name, extrapolate=False)["iterations"].sum() for name in ELEMENTS}
     assert max(iterations.values()) <= 1.1 * iterations["ANS3DEAS"]

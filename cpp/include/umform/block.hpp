@@ -18,7 +18,8 @@ struct Target {
     double* Kdu = nullptr;       // ... and K du
 };
 
-/// Outcome of `evaluate`: the first element whose strain left the domain of its law (or -1), and sum |f_e|^2, the scale
+/// Outcome of `evaluate`: the first element whose strain left the domain of its law or whose
+/// enhanced parameters cannot be eliminated (or -1), and sum |f_e|^2, the scale
 /// of the forces that a residual is measured against.
 struct Outcome {
     int failed = -1;
@@ -174,7 +175,8 @@ class ShellBlockOf final : public ShellBlock {
     void element(int e, const double* u, double* K, double* f) override {
         prepare_workspaces();
         Workspace& w = workspaces_[0];
-        if (!compute(e, u, w)) throw std::domain_error("the element is outside of the domain of its law");
+        if (!compute(e, u, w))
+            throw std::domain_error("the element is outside of the domain of its law, or Kaa is singular");
         for (int a = 0; a < Nodes; ++a)
             for (int k = 0; k < 3; ++k) {
                 const int i = k * Nodes + a;

@@ -38,7 +38,9 @@ struct J2 {
         const double q_trial = std::sqrt(1.5) * 2.0 * mu * norm;
         const double eqps = state[6];
         YieldStress y = yield_stress(hardening, eqps);
-        const bool plastic = q_trial > y.value;
+        // A converged plastic point lies on the yield surface up to round-off. Without this margin chance would make it
+        // plastic or elastic in the first tangent of an increment, and the patchwork wakes the modes of the elements.
+        const bool plastic = q_trial > y.value * (1.0 + 1e-10);
         double dgam = 0.0;
         if (plastic) dgam = plastic_increment(q_trial, eqps, y);
         const double b = plastic ? 3.0 * mu * dgam / q_trial : 0.0;
