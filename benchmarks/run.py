@@ -64,16 +64,19 @@ def main() -> None:
     model.block = Timed(model.block, kernels, ("evaluate", "recover", "commit"))  # type: ignore[assignment]
     contact.block = Timed(contact.block, kernels, ("evaluate",))  # type: ignore[assignment]
     make = newton.make_solver
-    newton.make_solver = lambda *a: Timed(make(*a), solver, ("factor", "solve"))  # type: ignore[assignment]
+    newton.make_solver = lambda *a: Timed(make(*a), solver, ("factor", "solve"))
 
     start = time.perf_counter()
-    result = uf.solve(model, [uf.Move(punch, to=-15.0, steps=300), uf.Release(punch)], solver=arguments.solver, frames=0)
+    steps = [uf.Move(punch, to=-15.0, steps=300), uf.Release(punch)]
+    result = uf.solve(model, steps, solver=arguments.solver, frames=0)
     total = time.perf_counter() - start
     iterations = int(result["iterations"].sum())
     rest = total - kernels.seconds - solver.seconds
     print(f"{len(result) - 1} increments, {iterations} iterations, {total:.2f} s on one thread")
     for name, seconds in (("kernels", kernels.seconds), ("solver", solver.seconds), ("Python", rest)):
-        print(f"{name:<10}{seconds:8.3f} s{100 * seconds / total:7.1f} %{1e3 * seconds / iterations:9.3f} ms an iteration")
+        print(
+            f"{name:<10}{seconds:8.3f} s{100 * seconds / total:7.1f} %{1e3 * seconds / iterations:9.3f} ms an iteration"
+        )
 
 
 if __name__ == "__main__":

@@ -16,9 +16,9 @@ def missing():
     """Yield one sentence for each thing that is missing."""
     found = ".".join(str(n) for n in sys.version_info[:3])
     if sys.version_info[:2] < OLDEST:
-        yield (
-            "Python {}.{} or newer: {} is Python {}. Name another one: make PYTHON=/path/to/python3.11"
-        ).format(*OLDEST, sys.executable, found)
+        yield ("Python {}.{} or newer: {} is Python {}. Name another one: make PYTHON=/path/to/python3.11").format(
+            *OLDEST, sys.executable, found
+        )
         return
     if importlib.util.find_spec("ensurepip") is None:
         yield "Python's venv with pip. On Debian and Ubuntu: apt install python3-venv"

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from numbers import Integral
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from umform import _core
-from umform.boundary import Control
+from umform.boundary import Control, vector3
 from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh, Selector
 from umform.surfaces import Surface
@@ -71,7 +72,7 @@ class Contact:
                 remedy="choose it from the penetration that you allow: penalty = expected pressure / penetration",
             )
         at_nodes = points == "nodes"
-        if not at_nodes and (not isinstance(points, int) or not 1 <= points <= 10):
+        if not at_nodes and (not isinstance(points, Integral) or not 1 <= int(points) <= 10):
             raise InvalidValue(
                 "contact points per direction must be 1 to 10, or 'nodes'", where=f"contact {name}", value=points
             )
@@ -85,7 +86,7 @@ class Contact:
         self.name = name
         self.tool = tool
         self.penalty = float(penalty)
-        self.points: int | str = points
+        self.points: int | str = "nodes" if at_nodes else int(points)
         self.facets: Ids = mesh.facets(faces)
         self.block = _core.contact_block(
             self.facets, mesh.points, 1 if at_nodes else int(points), at_nodes, tool.kernel()
@@ -102,23 +103,16 @@ class Contact:
             shift += control.value * np.asarray(control.direction)
         if self.motion is not None:
             answer = self.motion(time)
-            if isinstance(answer, tuple):
-                shift = shift + np.asarray(answer[0], dtype=float)
-                rotation = Rotation.from_rotvec(np.asarray(answer[1], dtype=float)).as_matrix()
-            else:
-                shift = shift + np.asarray(answer, dtype=float)
-        if shift.shape != (3,) or not np.isfinite(shift).all():
-            raise InvalidValue(
-                "a tool motion must return three finite numbers",
-                where=f"contact {self.name}, time {time:g}",
-                value=shift,
-            )
+            translation, turn = answer if isinstance(answer, tuple) and len(answer) == 2 else (answer, np.zeros(3))
+            where = f"motion of contact {self.name} at time {time:g}"
+            shift += vector3(translation, where)
+            rotation = Rotation.from_rotvec(vector3(turn, where)).as_matrix()
         centre = self.reference_point
         self.block.set_pose(np.ascontiguousarray(rotation), centre + shift - rotation @ centre)
 
     def active(self) -> NDArray[np.bool_]:
         """Which points penetrate, of the last evaluation."""
-        return self.block.gaps < 0.0
+        return self.block.gaps <= 0.0
 
     def at_points(self) -> ContactPoints:
         """Gap, pressure and the rest at the contact points, of the last evaluation."""

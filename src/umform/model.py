@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -16,7 +17,7 @@ from umform.elements import element as catalogue_element
 from umform.elements import thickness_rule as make_thickness_rule
 from umform.errors import InvalidValue, WrongCellType
 from umform.materials import Material
-from umform.mesh import Mesh, Selector
+from umform.mesh import Ids, Mesh, Selector
 from umform.model_checks import check_model
 from umform.solvers import Pattern
 from umform.surfaces import Direction, Surface, unit_vector
@@ -143,7 +144,9 @@ class Model:
         """Hold nodes in one or more of the directions x, y, z."""
         ids = self.mesh.nodes(nodes)
         for direction in directions:
-            self._fixed[3 * ids + self._direction(direction)] = True
+            dofs = 3 * ids + self._direction(direction)
+            self._refuse_twice(dofs, direction, {c.name: c.dofs for c in self._of(Prescribed)}, "fix or symmetry")
+            self._fixed[dofs] = True
         self._assembled = None
 
     def symmetry(self, nodes: Selector, normal: str) -> None:
@@ -154,16 +157,20 @@ class Model:
         """Prescribe the displacement of nodes in a direction; steps move the value of the control returned."""
         dofs = (3 * self.mesh.nodes(nodes) + self._direction(direction)).astype(np.int32)
         taken = {"fix or symmetry": np.flatnonzero(self._fixed)} | {c.name: c.dofs for c in self._of(Prescribed)}
+        self._refuse_twice(dofs, direction, taken, name or "this one")
+        return self._add(Prescribed(name or self._name("displacement"), dofs=dofs))
+
+    @staticmethod
+    def _refuse_twice(dofs: Ids, direction: str, taken: Mapping[str, Ids], by: str) -> None:
         for other, theirs in taken.items():
             shared = np.intersect1d(dofs, theirs)
             if len(shared):
                 raise InvalidValue(
                     "a displacement is prescribed twice",
                     where=f"node {shared[0] // 3}, direction {direction}",
-                    value=f"by {other} and by {name or 'this one'}",
+                    value=f"by {other} and by {by}",
                     remedy="take the node out of one of the sets",
                 )
-        return self._add(Prescribed(name or self._name("displacement"), dofs=dofs))
 
     # Loads ---------------------------------------------------------------------------------------------------
 

@@ -44,7 +44,7 @@ def check_model(model: Model) -> None:
                 cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
                 remedy="move the tool so that it just touches the sheet, or turn its normal",
             )
-        touching = at.gap <= 1e-6 * thickness
+        touching = at.gap <= 0.0
         if touching.any():
             rows.append(_motion_along(mesh.points, at.x[touching], at.normal[touching]))
     matrix = np.concatenate([row for row in rows if len(row)]) if any(len(row) for row in rows) else np.zeros((1, 6))
@@ -55,7 +55,7 @@ def check_model(model: Model) -> None:
             f"the sheet can move as a rigid whole in {6 - rank} way{'s' if rank < 5 else ''}",
             value=_describe_motion(directions[-1]),
             cause="too few supports, or a tool that does not touch the sheet yet",
-            remedy="hold the sheet with fix(), symmetry() or prescribe(), or start with a tool in touch",
+            remedy="hold the sheet with fix(), symmetry() or prescribe(), or let a tool overlap it by a hair",
         )
 
 

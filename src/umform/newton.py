@@ -26,6 +26,9 @@ log = logging.getLogger("umform.newton")
 
 Floats = NDArray[np.float64]
 
+#: Each trial is at least a quarter of the one before: thin sheets, whose energy is a narrow bent valley, creep else.
+_LINE_SEARCH_TRIALS = 3
+
 
 class Evaluation(Protocol):
     """What Newton reads of an evaluation."""
@@ -271,7 +274,7 @@ class Newton:
         system, free = self.system, self.system.free
         s = 1.0
         slope = float(r @ du[free])
-        for _ in range(5):
+        for _ in range(_LINE_SEARCH_TRIALS):
             system.recover(du, s)
             trial = u + s * du
             evaluation = system.evaluate(trial)
@@ -283,11 +286,8 @@ class Newton:
             # Evaluation is pure: put the parameters back and evaluate at u again, and nothing of the trial is left.
             system.undo_recover()
             system.evaluate(u)
-            s = (
-                max(0.1 * s, min(0.5 * s, s * slope / (slope - along)))
-                if np.isfinite(along) and slope != along
-                else 0.5 * s
-            )
+            secant = s * slope / (slope - along) if np.isfinite(along) and slope != along else 0.5 * s
+            s = min(max(secant, 0.25 * s), 0.5 * s)
         else:
             system.recover(du, s)
             trial = u + s * du

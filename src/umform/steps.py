@@ -222,13 +222,16 @@ def _move(run: _Run, step: Move, number: int, frames: int) -> None:
     every = max(1, round(step.steps / frames)) if frames > 0 else 0
     count = 0
     while fraction < 1.0 - 1e-9 * nominal:
-        size = min(size, 1.0 - fraction)
-        target = 1.0 if fraction + size > 1.0 - 1e-9 * nominal else fraction + size
+        passed = fraction / nominal
+        next_mark = (math.floor(passed + 1e-9) + 1) * nominal
+        on_mark = abs(passed - round(passed)) < 1e-9  # off the nominal marks, after a cut, the next one is met again
+        advance = min(size, (1.0 if on_mark else next_mark) - fraction)
+        target = 1.0 if fraction + advance > 1.0 - 1e-9 * nominal else fraction + advance
         extrapolation = None if last_size is None else (target - fraction) / last_size
         try:
             converged = _increment(run, path(target), controls, start_time + target, extrapolation)
         except Failed as failure:
-            size *= 0.5
+            size = 0.5 * (target - fraction)
             easy = 0
             last_size = None
             if failure.chattering:
@@ -246,9 +249,6 @@ def _move(run: _Run, step: Move, number: int, frames: int) -> None:
         if easy >= 3 and size < step.grow * nominal * (1 - 1e-12):
             size = min(2.0 * size, step.grow * nominal)
             easy = 0
-        if size < nominal:  # meet the nominal marks again after a cut
-            mark = (np.floor(fraction / nominal + 1e-9) + 1) * nominal
-            size = min(size, mark - fraction) if mark - fraction > 1e-9 * nominal else size
         last = fraction >= 1.0 - 1e-9 * nominal
         run.result.add(
             converged.residual, converged.iterations, step=number, frame=bool(every) and (count % every == 0 or last)
@@ -272,7 +272,7 @@ def _release(run: _Run, step: Release, number: int, frames: int) -> None:
     bound: float | None = None  # a value where the force is known to be zero or beyond
     finest = resolution  # of the way to the bound: where the force changes sign, only its zero counts
     taken: float | None = None
-    failures = 0
+    failures = attempts = 0
     while True:
         saved, value = model.snapshot(), control.value
         target = _next_release(value, force, before, bound, size, finest)
@@ -290,7 +290,11 @@ def _release(run: _Run, step: Release, number: int, frames: int) -> None:
         zero = abs(force_there) <= step.tolerance * scale
         lifted = bool(model.contacts) and zero and not model.active_set().any()
         if (force_there * force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
-            bound, finest = target, resolution if lifted else 0.0
+            bound, finest, attempts = target, resolution if lifted else 0.0, attempts + 1
+            if attempts > 50:
+                raise _no_convergence(
+                    Failed("the zero of the force cannot be closed in", []), number, [control], [target], step
+                )
             model.restore(saved)
             model.evaluate(model.u)
             run.last_du, taken = None, None

@@ -287,7 +287,7 @@ def test_the_remedy_against_a_wrong_node_order_cures_the_mesh(cell, cause):
     with pytest.raises(WrongNodeOrder) as caught:
         Mesh(points, {cell: wild})
     # A clockwise numbering is a counter-clockwise one with the faces exchanged: volumes cannot tell them apart.
-    assert caught.value.cause == cause.replace("faces numbered clockwise", "upper face first")
+    assert cause in caught.value.cause
     order = [int(number) for number in re.findall(r"\d+", caught.value.remedy.split("[:,")[1])]
     cured = Mesh(points, {cell: wild[:, order]})
     assert (jacobians(cured.points, cured.connectivity) > 0).all()

@@ -2,8 +2,8 @@
 
 In a converged plastic state every point lies on the yield surface up to round-off. If that decided what is plastic in
 the first tangent of an increment, the tangent would be a patchwork; an increment predicted with it is not homogeneous,
-and the more membrane modes an element has, the further it follows the patchwork. The law therefore has a margin of 1e-10
-of the yield stress, and all elements take the same iterations.
+and the more membrane modes an element has, the further it follows the patchwork. The law therefore has a margin of
+1e-10 of the yield stress, and all elements take the same iterations.
 """
 
 from __future__ import annotations
@@ -64,6 +64,6 @@ def test_extrapolated_steps_take_the_same_iterations():
 
 
 def test_steps_from_the_tangent_take_the_same_iterations():
-    """Without the margin in the yield check: 97 for ANS3DEAS, 151, 161 and 364 (increments cut) for 4, 5 and 7 modes."""
+    """Without the margin of the yield check: 97 for ANS3DEAS, 151, 161 and 364 for 4, 5 and 7 modes."""
     iterations = {name: pull(name, extrapolate=False)["iterations"].sum() for name in ELEMENTS}
     assert max(iterations.values()) <= 1.1 * iterations["ANS3DEAS"]

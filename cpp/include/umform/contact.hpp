@@ -75,14 +75,15 @@ class ContactBlockOf final : public ContactBlock {
         for (int q = 0; q < points(); ++q) to_space(q);
     }
 
-    /// f_a = penalty int g~ n N_a,  K_ab = penalty int N_a N_b (n n^T + g~ H) over the points with g < 0. eqs. (4.9), (4.10)
+    /// f_a = penalty int g~ n N_a,  K_ab = penalty int N_a N_b (n n^T + g~ H) over the points with g <= 0 (a tool that just
+    /// touches can hold). eqs. (4.9), (4.10)
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         locate(u);
         const int per_facet = static_cast<int>(N_.size());
         for_each_by_colour(colours_, part_.size(), [&](int e, int) {
             scale_[e] = 0.0;
             bool active = false;
-            for (int q = 0; q < per_facet; ++q) active = active || g_[e * per_facet + q] < 0.0;
+            for (int q = 0; q < per_facet; ++q) active = active || g_[e * per_facet + q] <= 0.0;
             if (!active) return;
             alignas(64) std::array<double, static_cast<std::size_t>(size) * size> K{};
             std::array<double, size> f{};
@@ -157,7 +158,7 @@ class ContactBlockOf final : public ContactBlock {
 
     void add_point(int q, const Values& N, double* K, double* f) const {
         const double g = g_[q];
-        if (g >= 0.0) return;
+        if (g > 0.0) return;
         const double weight = penalty * area_[q];
         const double *n = n_.data() + 3 * q, *H = H_.data() + 9 * q;
         for (int k = 0; k < 3; ++k)

@@ -179,6 +179,14 @@ class Mesh:
             raise EmptySet(
                 "a set selects no face", value=selector if isinstance(selector, str) else "predicate or list"
             )
+        bad = (rows < 0).any(axis=1) | (rows[:, 0] >= len(self.connectivity)) | (rows[:, 1] >= len(FACES))
+        if bad.any():
+            raise InvalidValue(
+                "a face is a pair (cell, number of the face)",
+                value=rows[bad][0].tolist(),
+                where=f"mesh of {len(self.connectivity)} cells",
+                remedy="faces are numbered " + ", ".join(f"{k} {name}" for k, name in enumerate(FACES)),
+            )
         return rows
 
     def facets(self, selector: Selector) -> Ids:

@@ -28,10 +28,8 @@ def _other_orders(nodes: int) -> dict[str, Ids]:
     """Node orders that are met in the wild, as permutations into ours."""
     half = nodes // 2
     lower, upper = np.arange(half), np.arange(half, nodes)
-    clockwise = np.array([0, 3, 2, 1] if nodes == 8 else [0, 3, 2, 1, 7, 6, 5, 4, 8])
     orders = {
-        "upper face first": np.concatenate([upper, lower]),
-        "faces numbered clockwise": np.concatenate([lower[clockwise], upper[clockwise]]),
+        "upper face first, or faces numbered clockwise": np.concatenate([upper, lower]),
     }
     if nodes == 8:
         orders["nodes numbered line by line"] = np.array([0, 1, 3, 2, 4, 5, 7, 6])

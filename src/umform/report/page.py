@@ -33,7 +33,9 @@ def write_report(result: Result, path: str | Path) -> Path:
     """
     model = result.model
     title = f"{model.element.name}: {len(model.mesh.connectivity)} elements, {len(result) - 1} increments"
-    lead = f"{result.summary()['iterations']} Newton iterations in {result.seconds:.1f} s, sparse solver {result.solver}"
+    lead = (
+        f"{result.summary()['iterations']} Newton iterations in {result.seconds:.1f} s, sparse solver {result.solver}"
+    )
     return parts.write_html(path, title, lead, _parts(result))
 
 

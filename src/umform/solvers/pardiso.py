@@ -77,11 +77,10 @@ class Pardiso:
             code = self._handle.call(_FACTOR, self._matrix)
         self._check(code, "factorise")
         handle = self._handle
-        pivots, diagonal = handle.pivots()
-        weakest = vanishing_pivot(pivots, diagonal)
+        # PARDISO does not always give the pivots of unsymmetric matrices; there the residual is checked after each solve.
+        weakest = vanishing_pivot(*handle.pivots()) if self._pattern.symmetric else None
         if weakest is not None or handle.perturbed_pivots:
-            known = weakest is not None and self._pattern.symmetric
-            raise singular(self.name, int(handle.order[weakest]) if known else None)
+            raise singular(self.name, None if weakest is None else int(handle.order[weakest]))
         self._factored = True
         return Factorisation(handle.negative_pivots if self._pattern.symmetric else None, handle.fill)
 
@@ -167,7 +166,7 @@ class _Handle:
 
     def pivots(self) -> tuple[FloatArray, FloatArray]:
         """Return the pivots and the diagonal of the matrix, both in the order of elimination."""
-        pivots, diagonal = np.empty(len(self.order)), np.empty(len(self.order))
+        pivots, diagonal = np.zeros(len(self.order)), np.zeros(len(self.order))
         self._library.pardiso_getdiag(
             _address(self._memory), _address(pivots), _address(diagonal), _integer(1), _integer(0)
         )
