@@ -25,7 +25,7 @@ unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
+.PHONY: help env dev demo test test-cpp test-python test-long verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
         format bench clean
 
 help:  ## show this help
@@ -86,6 +86,9 @@ test-python: dev  ## tests of the installed package
 
 test-long: dev  ## the long verification runs
 	@$(BIN)/pytest -q -m long $(ARGS)
+
+verification: dev  ## all verification cases, the long ones too; writes the table of docs/verification.md
+	@UMFORM_VERIFICATION_PAGE=docs/verification.md $(BIN)/pytest -q tests/verification $(ARGS)
 
 # ---- style ----
 

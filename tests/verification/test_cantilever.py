@@ -47,11 +47,12 @@ def end_shear_curve(cells: int, element: str = "ANS3DEAS", steps: int = 20, **op
 @pytest.mark.parametrize(
     ("cells", "element", "tolerance"), [(16, "ANS3DEAS", 0.01), (32, "ANS3DEAS", 0.002), (8, "MI9K3DEAS", 0.002)]
 )
-def test_end_shear(cells, element, tolerance):
+def test_end_shear(cells, element, tolerance, book):
     """The whole curve, errors relative to its last value, 6.698 for the deflection."""
     reference = table("sze_end_shear.csv")
     tip = end_shear_curve(cells, element)
     assert reference["w_tip"][-1] == 6.698
+    book("cantilever, end shear", f"{element}, {cells} elements", "deflection of the tip", 6.698, tip[-1, 2])
     assert tip[:, 2] == pytest.approx(reference["w_tip"][1:], abs=tolerance * reference["w_tip"][-1])
     assert -tip[:, 0] == pytest.approx(reference["minus_u_tip"][1:], abs=tolerance * reference["minus_u_tip"][-1])
 
@@ -110,9 +111,17 @@ def rolled_up(cells: int, element: str, turn: float = 2 * pi, thickness: float =
     [(64, "ANS3DEAS", {}), (16, "MI9K3DEAS", {}), (64, "ANS3DEAS", {"tie_E33": True})],
     ids=["ANS3DEAS", "MI9K3DEAS", "ANS3DEAS, E_33 tied"],
 )
-def test_roll_up_to_a_full_circle(cells, element, options):
+def test_roll_up_to_a_full_circle(cells, element, options, book):
     """The closed form is that of a thin beam; (k h)² = 0.4 % is what it neglects."""
     rotation, distance = rolled_up(cells, element, **options)
+    tied = ", E_33 tied" if options else ""
+    book(
+        "cantilever, rolled to a circle",
+        f"{element}{tied}, {cells} elements",
+        "rotation of the end / 2 pi",
+        1.0,
+        rotation,
+    )
     assert rotation == pytest.approx(1.0, abs=0.004)
     assert distance < 0.004
 

@@ -67,9 +67,12 @@ def as_parameter(row: dict[str, str]):
 
 
 @pytest.mark.parametrize("row", [as_parameter(row) for row in ROWS])
-def test_forces_of_the_table(row):
+def test_forces_of_the_table(row, book):
     found = run_of(row)
     tolerance = 0.01 if row["recommended"] == "1" else 0.005
+    name = f"{row['element']} {row['cells']}, contact {row['contact_points']}"
+    name += ", order 3, E_33 tied, 8 points" if row["recommended"] == "1" else ""
+    book("free bending (reconstruction)", name, "force at u = 15, N", float(row["F15"]), found.force(15))
     for u in (2, 5, 10, 15):
         assert found.force(u) == pytest.approx(float(row[f"F{u}"]), rel=tolerance)
 
