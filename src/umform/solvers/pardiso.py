@@ -77,7 +77,7 @@ class Pardiso:
             code = self._handle.call(_FACTOR, self._matrix)
         self._check(code, "factorise")
         handle = self._handle
-        # PARDISO does not always give the pivots of unsymmetric matrices; there the residual is checked after each solve.
+        # PARDISO does not always give the pivots of unsymmetric matrices; there the residual of each solve is checked.
         weakest = vanishing_pivot(*handle.pivots()) if self._pattern.symmetric else None
         if weakest is not None or handle.perturbed_pivots:
             raise singular(self.name, None if weakest is None else int(handle.order[weakest]))
