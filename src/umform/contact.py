@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from numbers import Integral
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,7 +71,7 @@ class Contact:
                 remedy="choose it from the penetration that you allow: penalty = expected pressure / penetration",
             )
         at_nodes = points == "nodes"
-        if not at_nodes and (not isinstance(points, Integral) or not 1 <= int(points) <= 10):
+        if not at_nodes and (isinstance(points, str) or points not in range(1, 11)):
             raise InvalidValue(
                 "contact points per direction must be 1 to 10, or 'nodes'", where=f"contact {name}", value=points
             )

@@ -156,7 +156,8 @@ class Model:
     def prescribe(self, nodes: Selector, direction: str, name: str = "") -> Prescribed:
         """Prescribe the displacement of nodes in a direction; steps move the value of the control returned."""
         dofs = (3 * self.mesh.nodes(nodes) + self._direction(direction)).astype(np.int32)
-        taken = {"fix or symmetry": np.flatnonzero(self._fixed)} | {c.name: c.dofs for c in self._of(Prescribed)}
+        taken = {c.name: c.dofs for c in self._of(Prescribed)}
+        taken["fix or symmetry"] = np.flatnonzero(self._fixed).astype(np.int32)
         self._refuse_twice(dofs, direction, taken, name or "this one")
         return self._add(Prescribed(name or self._name("displacement"), dofs=dofs))
 
