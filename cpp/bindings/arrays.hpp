@@ -26,6 +26,13 @@ nb::object to_numpy(std::vector<T> values, std::initializer_list<std::size_t> sh
 
 inline std::vector<double> to_vector(const Input& array) { return {array.data(), array.data() + array.size()}; }
 
+/// Copies an array that a user's function has returned; its shape has been checked in Python.
+inline void copy_result(nb::handle result, double* out, std::size_t size) {
+    const auto array = nb::cast<Input>(result);
+    if (array.size() != size) throw std::invalid_argument("a function has returned an array of another size");
+    std::copy_n(array.data(), size, out);
+}
+
 inline umform::Connectivity to_connectivity(const InputIds& ids) {
     return {static_cast<int>(ids.shape(1)), {ids.data(), ids.data() + ids.size()}};
 }

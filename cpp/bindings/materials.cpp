@@ -28,13 +28,6 @@ nb::object respond(const Material& material, const Input& E, const Input& state)
                           to_numpy(std::move(trial), {n, size}));
 }
 
-void copy_result(nb::handle result, double* out, std::size_t size) {
-    const auto array = nb::cast<Input>(result);
-    if (array.size() != size)
-        throw std::invalid_argument("a law must return S (n, 6), CC (n, 6, 6) and state (n, size)");
-    std::copy_n(array.data(), size, out);
-}
-
 /// A Python function (E (n, 6), state (n, size)) -> (S, CC, new state), called once for each element.
 std::shared_ptr<Material> material_from_function(nb::callable function, std::vector<double> initial) {
     const std::size_t size = initial.size();

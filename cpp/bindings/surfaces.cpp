@@ -15,13 +15,6 @@ std::shared_ptr<Surface> surface(Shape shape) {
     return std::make_shared<SurfaceOf<Shape>>(shape);
 }
 
-void copy_result(nb::handle result, double* out, std::size_t size) {
-    const auto array = nb::cast<nb::ndarray<const double, nb::c_contig, nb::device::cpu>>(result);
-    if (array.size() != size)
-        throw std::invalid_argument("a surface function must return g (n,), n (n, 3) and H (n, 3, 3)");
-    std::copy_n(array.data(), size, out);
-}
-
 /// A Python function x (n, 3) -> (g, n, H), called once for all contact points of a pair.
 std::shared_ptr<Surface> surface_from_function(nb::callable function) {
     return std::make_shared<SurfaceFromFunction>(

@@ -70,7 +70,7 @@ class Contact:
                 cause="a sign or a missing value",
                 remedy="choose it from the penetration that you allow: penalty = expected pressure / penetration",
             )
-        at_nodes = points == "nodes"
+        at_nodes = isinstance(points, str) and points == "nodes"
         if not at_nodes and (isinstance(points, str) or points not in range(1, 11)):
             raise InvalidValue(
                 "contact points per direction must be 1 to 10, or 'nodes'", where=f"contact {name}", value=points

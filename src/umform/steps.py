@@ -278,6 +278,9 @@ def _release(run: _Run, step: Release, number: int, frames: int) -> None:
         target = _next_release(value, force, before, bound, size, finest)
         if target * start_value < 0.0:
             target = 0.0
+        if target == value or attempts > 50:  # the force jumps over zero
+            jump = Failed("the zero of the force cannot be closed in", [])
+            raise _no_convergence(jump, number, [control], [target], step)
         time = start_time + 1.0 - target / start_value
         try:
             converged = _increment(run, [target], [control], time, None if taken is None else (target - value) / taken)
@@ -291,10 +294,6 @@ def _release(run: _Run, step: Release, number: int, frames: int) -> None:
         lifted = bool(model.contacts) and zero and not model.active_set().any()
         if (force_there * force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
             bound, finest, attempts = target, resolution if lifted else 0.0, attempts + 1
-            if attempts > 50:
-                raise _no_convergence(
-                    Failed("the zero of the force cannot be closed in", []), number, [control], [target], step
-                )
             model.restore(saved)
             model.evaluate(model.u)
             run.last_du, taken = None, None

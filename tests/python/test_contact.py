@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from umform import boundary, fields
 from umform import materials as mt
-from umform.errors import InvalidValue, NoConvergence, NotFinite
+from umform.errors import InvalidValue, NoConvergence, NotFinite, RigidBodyMotion
 from umform.mesh import strip
 from umform.model import Model
 from umform.newton import NewtonOptions
@@ -176,6 +176,39 @@ def test_under_a_uniform_traction_the_gap_is_pressure_over_penalty_everywhere(ce
     assert (np.delete(pressure, on_faces) == 0).all()
 
 
+def standing(gap, element, points):
+    """A block of thickness 0.5 between two planes of symmetry that a tool below it alone holds, a gap apart."""
+    mesh = strip(2.0, 1.5, 0.5, (3, 2), cell="hex18" if "9K" in element else "hex8").transformed(lifted(0.25))
+    model = Model(mesh, element, material=ELASTIC)
+    model.symmetry("x0", "x")
+    model.symmetry("y0", "y")
+    contact = model.contact("lower", Plane((0.0, 0.0, -gap)), penalty=400.0, points=points)
+    return model, contact, model.traction("upper", (0.0, 0.0, -1.0))
+
+
+STANDING = [("ANS3DEAS", 2), ("ANS3DEAS", "nodes"), ("MI9K3DEAS", 3), ("MI9K3DEAS", "nodes")]
+
+
+@pytest.mark.parametrize(("element", "points"), STANDING)
+def test_a_tool_that_just_touches_holds_a_load_driven_block(element, points):
+    model, contact, load = standing(0.0, element, points)
+    model.evaluate(model.u)
+    assert (contact.at_points().gap == 0.0).all()
+    assert contact.active().all()
+    solve(model, Move(load, 8.0, steps=2), options=NewtonOptions(residual=1e-13), frames=0)
+    np.testing.assert_allclose(contact.at_points().gap, -8.0 / 400.0, rtol=1e-10)
+    np.testing.assert_allclose(contact.resultant()[0], [0.0, 0.0, -24.0], atol=1e-9)
+
+
+@pytest.mark.parametrize(("element", "points"), STANDING)
+def test_a_tool_a_hair_away_holds_nothing(element, points):
+    model, _, load = standing(1e-9 * 0.5, element, points)
+    with pytest.raises(RigidBodyMotion) as caught:
+        solve(model, Move(load, 8.0, steps=2), frames=0)
+    assert caught.value.value == "free: translation z"
+    standing(-1e-9 * 0.5, element, points)[0].check()
+
+
 # Resultants -------------------------------------------------------------------------------------------------
 
 
@@ -266,6 +299,14 @@ def test_contact_points_out_of_range_are_refused(build, points):
         contact_of(plate("hex8", build), Plane(), points)
 
 
+@pytest.mark.parametrize("points", [np.int64(3), np.int32(3)])
+def test_contact_points_may_be_an_integer_of_numpy(build, points):
+    _, contact = contact_of(plate("hex8", build), Plane(), points)
+    assert type(contact.points) is int
+    assert contact.points == 3
+    assert contact.block.gaps.size == 9 * len(contact.facets)
+
+
 def test_a_tool_must_be_a_surface_and_a_name_is_given_once(build):
     mesh = plate("hex8", build)
     with pytest.raises(InvalidValue, match="must be a surface"):
@@ -281,12 +322,48 @@ def test_lateral_faces_cannot_touch_a_tool(build):
         contact_of(plate("hex8", build), Plane(), 2, faces="x0")
 
 
-@pytest.mark.parametrize("motion", [lambda time: np.array([0.0, math.nan, 0.0]), lambda time: np.zeros(2)])
-def test_a_motion_must_be_three_finite_numbers(build, motion):
+@pytest.mark.parametrize(
+    ("answer", "error", "message"),
+    [
+        (np.zeros(2), InvalidValue, "three components"),
+        ((0.0, 0.0), InvalidValue, "three components"),
+        (np.zeros((3, 1)), InvalidValue, "three components"),
+        (0.0, InvalidValue, "three components"),
+        ((np.zeros(2), np.zeros(3)), InvalidValue, "three components"),
+        ((np.zeros(3), np.zeros(2)), InvalidValue, "three components"),
+        ((np.zeros(3), np.zeros(3), np.zeros(3)), InvalidValue, "three components"),
+        (np.array([0.0, math.nan, 0.0]), NotFinite, "must be finite"),
+        ((np.array([0.0, math.inf, 0.0]), np.zeros(3)), NotFinite, "must be finite"),
+        ((np.zeros(3), np.array([0.0, 0.0, math.nan])), NotFinite, "must be finite"),
+    ],
+)
+def test_a_motion_must_be_three_finite_numbers_or_two_times_three(build, answer, error, message):
     model, contact = contact_of(plate("hex8", build), Plane(), 2)
-    model.set_motion(contact, motion)
-    with pytest.raises((InvalidValue, ValueError)):
+    model.set_motion(contact, lambda time: answer)
+    model.time = 0.5
+    with pytest.raises(error, match=message) as caught:
         model.evaluate(model.u)
+    assert type(caught.value) is error
+    assert caught.value.where == "motion of contact tool1 at time 0.5"
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        np.array([0.0, 0.0, -0.25]),
+        (0.0, 0.0, -0.25),
+        [0, 0, -0.25],
+        (np.array([0.0, 0.0, -0.25]), np.zeros(3)),
+        ((0.0, 0.0, -0.25), (0.0, 0.0, 2.0)),
+        (np.array([0.0, 0.0, 0.25]), np.array([math.pi, 0.0, 0.0])),
+    ],
+)
+def test_a_motion_is_a_translation_with_or_without_a_rotation_vector(build, answer):
+    """The last one turns the plane upside down and its normal with it."""
+    model, contact = contact_of(plate("hex8", build), Plane(), 2)
+    model.set_motion(contact, lambda time: answer)
+    model.evaluate(model.u)
+    np.testing.assert_allclose(contact.at_points().gap, 0.25, atol=1e-15)
 
 
 def pushed_on(build, function):

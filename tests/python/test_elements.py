@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from umform import elements
+from umform import materials as mt
 from umform.elements import CATALOGUE, Element, Term, Tying, element, thickness_rule
 from umform.errors import InvalidValue
+from umform.mesh import strip
+from umform.model import Model
 
 LAWS = ("svk", "neo-hooke", "neo-hooke-power", "j2")
 ENHANCED = [name for name in CATALOGUE if name.endswith("EAS")]
@@ -31,7 +35,12 @@ VARIANTS = [
     pytest.param("EAS3DEAS", {"membrane_modes": 5}, id="EAS3DEAS-5-modes"),
     pytest.param("ANS3DEAS", {"thickness_modes": 1}, id="ANS3DEAS-1-mode"),
     pytest.param("ANS3DEAS", {"thickness_order": 4}, id="ANS3DEAS-order-4"),
+    pytest.param("ANS3DEAS", {"thickness_order": 3, "order_modes": 4}, id="ANS3DEAS-order-3-times-4"),
     pytest.param("MI9K3DEAS", {"thickness_modes": 4}, id="MI9K3DEAS-4-modes"),
+    pytest.param("MI9K3DEAS", {"thickness_order": 3, "order_modes": 1}, id="MI9K3DEAS-order-3-times-1"),
+    pytest.param(
+        "MI9K3DEAS", {"thickness_order": 3, "order_modes": 9, "tie_E33": True}, id="MI9K3DEAS-order-3-times-9-tied"
+    ),
     pytest.param("MI9K3DEAS", {"compatible_E12": True}, id="MI9K3DEAS-compatible-E12"),
 ]  # fmt: skip
 
@@ -224,6 +233,34 @@ def test_number_of_enhanced_modes(name, options, modes):
     assert len(element(name, **options).modes) == modes
 
 
+@pytest.mark.parametrize(("name", "linear"), [("ANS3DEAS", 4), ("MI9K3DEAS", 9), ("DISP9K3DEAS", 9)])
+@pytest.mark.parametrize("order", [1, 2, 3, 4])
+@pytest.mark.parametrize("order_modes", [1, 4, 9])
+def test_higher_orders_in_the_thickness_come_with_as_many_modes_as_asked(name, linear, order, order_modes):
+    options = {"thickness_order": order, "order_modes": order_modes}
+    if name == "ANS3DEAS" and order_modes == 9:
+        with pytest.raises(InvalidValue, match="cannot tell nine"):
+            element(name, **options)
+        return
+    made = element(name, **options)
+    orders = [term.c for mode in made.modes for term in mode]
+    assert [orders.count(c) for c in range(order + 1)] == [0, linear, *([order_modes] * (order - 1))]
+    assert len(made.modes) == linear + (order - 1) * order_modes
+    assert made.options["order_modes"] == order_modes
+    made.check_modes(thickness_rule(order + 1)[0])
+
+
+@pytest.mark.parametrize(("name", "modes"), [("ANS3DEAS", 6), ("EAS3DEAS", 13), ("MI9K3DEAS", 27), ("DISP9K3DEAS", 27)])
+def test_higher_orders_vary_in_the_surface_of_18_nodes_by_default(name, modes):
+    assert len(element(name, thickness_order=3).modes) == modes
+
+
+@pytest.mark.parametrize("order_modes", [0, 2, 3, 16])
+def test_unknown_numbers_of_modes_of_higher_order_are_refused(order_modes):
+    with pytest.raises(InvalidValue, match="higher order must be 1, 4 or 9"):
+        element("MI9K3DEAS", thickness_order=2, order_modes=order_modes)
+
+
 @pytest.mark.parametrize(
     ("name", "options"),
     [
@@ -264,6 +301,60 @@ def test_an_element_of_ones_own_equals_its_sister_in_the_catalogue(build, materi
     one, other = build.one_element(mine, materials["svk"]), build.one_element("ANS3DEAS", materials["svk"])
     u = one.displacement()
     np.testing.assert_array_equal(one(u)[0], other(u)[0])
+
+
+LINEAR = (Term("33", c=1),)
+
+
+@pytest.mark.parametrize(
+    ("parts", "message"),
+    [
+        ({"cell": "hex20"}, "hex8 or hex18"),
+        ({"tying": (Tying("31", (0.0,), (0.0,)),)}, "one component"),
+        ({"tying": (Tying("13", (0.0,), (-1.0, 1.0)), Tying("13", (-1.0, 1.0), (0.0,)))}, "one component"),
+        ({"tying": (Tying("13", (-1.0, -1.0), (0.0,)),)}, "must be distinct"),
+        ({"tying": (Tying("13", (0.0,), (1.0, 0.0, 1.0)),)}, "must be distinct"),
+        ({"tying": (Tying("13", (), (0.0,)),)}, "must be distinct"),
+        ({"modes": (LINEAR, (Term("44", c=1),))}, "known components"),
+        ({"modes": (LINEAR, ())}, "known components"),
+        ({"modes": ((Term("33"),),)}, "mean"),
+        ({"modes": (LINEAR, (Term("11", 2),))}, "mean"),
+        ({"modes": ((Term("11", 2, 2), Term("11", factor=-1.0)),)}, "mean"),
+        ({"modes": ((Term("11", 2), Term("22", factor=-1 / 3)),)}, "mean"),  # zero only over both components
+    ],
+)
+def test_elements_that_are_none_are_refused(parts, message):
+    with pytest.raises(InvalidValue, match=message) as caught:
+        Element(**({"name": "MINE", "cell": "hex8"} | parts))
+    assert caught.value.where == "MINE"
+
+
+def test_a_mode_may_be_freed_of_its_mean_by_another_term():
+    Element("MINE", "hex18", modes=((Term("11", 2), Term("11", factor=-1 / 3)), (Term("33", 2, 0, 2),)))
+
+
+def model_of(made, **options):
+    return Model(strip(1.0, 1.0, 0.1, (1, 1), cell=made.cell), made, material=mt.SVK(E=1.0, nu=0.0), **options)
+
+
+def test_modes_that_the_gauss_points_cannot_tell_apart_are_refused_by_the_model():
+    """At 2 x 2 points r² and s² are constants: five of the nine modes repeat the others."""
+    made = replace(element("ANS3DEAS"), modes=elements.thickness_modes(9, 1))
+    with pytest.raises(InvalidValue, match="linearly dependent") as caught:
+        model_of(made)
+    assert caught.value.where == "ANS3DEAS"
+    assert "9 modes, 2 x 2 x 2 points" in caught.value.value
+    model_of(replace(made, modes=elements.thickness_modes(4, 1)))
+    model_of(replace(element("MI9K3DEAS"), modes=elements.thickness_modes(9, 1)))
+
+
+def test_a_mode_given_twice_and_an_order_without_its_points_are_refused_by_the_model():
+    with pytest.raises(InvalidValue, match="linearly dependent"):
+        model_of(Element("MINE", "hex8", modes=(LINEAR, (Term("33", c=1, factor=-2.0),))))
+    cubic = Element("MINE", "hex8", modes=(LINEAR, (Term("33", c=3),)))
+    with pytest.raises(InvalidValue, match="linearly dependent"):
+        model_of(cubic, thickness_points=3)  # P_3 vanishes at its own Gauss points
+    model_of(cubic, thickness_points=4)
 
 
 @pytest.mark.parametrize("rule", ["gauss", "lobatto", "split"])

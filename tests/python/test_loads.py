@@ -270,6 +270,26 @@ def test_a_displacement_is_prescribed_once(model):
     assert f"node {model.mesh.nodes('x0')[0]}," in caught.value.where
 
 
+@pytest.mark.parametrize("hold", ["fix", "symmetry"])
+def test_a_prescribed_displacement_cannot_be_held_too(model, hold):
+    model.prescribe("x1", "z", "pull")
+    with pytest.raises(InvalidValue, match="prescribed twice") as caught:
+        getattr(model, hold)("x1_lower", "z")
+    assert caught.value.value == "by pull and by fix or symmetry"
+    assert caught.value.where == f"node {model.mesh.nodes('x1_lower')[0]}, direction z"
+    model.fix("x1_lower", "xy")  # the other directions are free to be held
+
+
+def test_a_held_displacement_cannot_be_prescribed_too(model):
+    model.fix("x1_lower", "xz")
+    with pytest.raises(InvalidValue, match="prescribed twice") as caught:
+        model.prescribe("x1", "z", "pull")
+    assert caught.value.value == "by fix or symmetry and by pull"
+    assert caught.value.where == f"node {model.mesh.nodes('x1_lower')[0]}, direction z"
+    assert not model.controls
+    model.prescribe("x1", "y", "pull")
+
+
 def test_names_of_controls_are_unique(model):
     model.force("x1", VECTOR, "pull")
     with pytest.raises(InvalidValue, match="same name"):

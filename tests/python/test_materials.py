@@ -299,6 +299,31 @@ def test_response_changes_neither_strain_nor_history():
         np.testing.assert_array_equal(a, b)
 
 
+@pytest.mark.parametrize("name", ["perfect", "linear", "voce", "swift"])
+def test_a_point_on_the_yield_surface_is_elastic_until_it_is_strained(name, rng):
+    """Round-off must not make it plastic; nor must 1e-12 of its yield stress, which a lower eqps stands for."""
+    hardening = HARDENING[name]
+    law = mt.J2(kappa=KAPPA, mu=MU, hardening=hardening).law()
+    elastic = mt.J2(kappa=KAPPA, mu=MU, hardening=mt.Perfect(1e9)).law()
+    E = 0.03 * rng.normal(size=(100, 6))
+    _, CC_plastic, state = law.respond(E, np.tile(law.initial(), (100, 1)))
+    assert (state[:, 6] > 0).all()
+    S_elastic, CC_elastic, _ = elastic.respond(E, state)
+    assert (np.abs(CC_elastic - CC_plastic).max(axis=(1, 2)) > 0.1 * MU).all()
+    y, slope = np.transpose([hardening.curve()(eqps) for eqps in state[:, 6]])
+    for share in [0.0] if name == "perfect" else [0.0, 1e-12]:
+        history = state.copy()
+        if share:
+            history[:, 6] -= share * y / slope
+        S, CC, new = law.respond(E, history)
+        np.testing.assert_array_equal(CC, CC_elastic)
+        np.testing.assert_array_equal(S, S_elastic)
+        np.testing.assert_array_equal(new, history)
+    if name != "perfect":  # beyond round-off it is plastic
+        history[:, 6] = state[:, 6] - 1e-8 * y / slope
+        assert (law.respond(E, history)[2][:, 6] > history[:, 6]).all()
+
+
 TENSION = mt.J2(kappa=175000.0, mu=80770.0, hardening=mt.Linear(160.0, 500.0))
 
 

@@ -150,6 +150,18 @@ def test_lateral_faces_are_no_facets():
         strip(1, 1, 0.1, (1, 1)).facets("x0")
 
 
+@pytest.mark.parametrize("cell", CELLS)
+@pytest.mark.parametrize("row", [(99, 0), (6, 1), (-1, 0), (0, 9), (0, 6), (0, -1)])
+def test_faces_that_do_not_exist_are_refused(cell, row):
+    made = strip(6.0, 4.0, 0.6, (3, 2), cell=cell)
+    for select in (made.facets, made.face_set):
+        with pytest.raises(InvalidValue, match="a pair") as caught:
+            select([(0, 0), row])
+        assert caught.value.value == list(row)
+        assert "6 cells" in caught.value.where
+        assert "0 lower, 1 upper" in caught.value.remedy
+
+
 def test_unknown_sets_are_answered_with_the_known_ones():
     made = strip(6.0, 4.0, 0.6, (3, 2))
     with pytest.raises(UnknownSet) as caught:

@@ -188,6 +188,22 @@ def test_line_search_reaches_the_same_solution(build, element):
     np.testing.assert_allclose(searched.block.alpha, plain.block.alpha, atol=1e-9)
 
 
+def test_line_search_of_a_thin_strip_does_not_creep():
+    """All of a large load at once on a strip as thin as a hundredth of its length: its energy is a narrow valley."""
+
+    def run(line_search):
+        model = Model(strip(10.0, 1.0, 0.1, (6, 1)), "ANS3DEAS", material=mt.SVK(E=1.2e6, nu=0.0))
+        model.fix("x0")
+        tip = model.line_load("x1", "lower", (0.0, 0.0, 1.0))
+        options = NewtonOptions(line_search=line_search, max_iterations=40)
+        result = solve(model, Move(tip, 4.0, steps=1, cuts=0), options=options, frames=0)
+        return model.u, [it.step_length for it in result.iterations[-1]]
+
+    (searched, lengths), (plain, _) = run(True), run(False)
+    assert min(lengths) < 1.0
+    np.testing.assert_allclose(searched, plain, atol=1e-7)
+
+
 class Scalar:
     """A system of one unknown: residual and slope are functions of x, the active set a function of x."""
 
@@ -317,6 +333,20 @@ def test_a_singular_tangent_fails():
     with pytest.raises(Failed):
         Newton(system).solve()
     assert system.calls[-1] == "revert"
+
+
+@pytest.mark.parametrize("error", [RuntimeError("broken"), KeyboardInterrupt("stop")])
+def test_whatever_ends_the_iterations_the_system_is_reverted(error):
+    def residual(x):
+        if system.calls.count("evaluate") > 3:
+            raise error
+        return math.exp(-x)
+
+    system = Scalar(residual, lambda x: -math.exp(-x))
+    with pytest.raises(type(error)) as caught:
+        Newton(system).solve()
+    assert caught.value is error
+    assert system.calls[-2:] == ["evaluate", "revert"]
 
 
 @pytest.mark.parametrize(

@@ -14,8 +14,10 @@ from umform.mesh import strip
 from umform.model import Model
 from umform.newton import Newton, NewtonOptions
 from umform.results import Result
+from umform.solvers import pardiso
 from umform.steps import Move, Release, solve
-from umform.surfaces import Plane
+from umform.surfaces import Plane, UserSurface
+from umform.user_law import UserLaw
 
 J2 = mt.J2(kappa=175000.0, mu=80770.0, hardening=mt.Linear(160.0, 500.0))
 TIGHT = NewtonOptions(residual=1e-12)
@@ -136,6 +138,34 @@ def test_a_cut_is_counted_from_the_nominal_increment(build, failing):
     assert calls == [0.5, 0.25, 0.125, 0.0625]
 
 
+@pytest.mark.parametrize(
+    ("fail", "grow", "expected"),
+    [
+        ((2, 3), 1.0, [0.25, 0.375, 0.5, 0.625, 0.75, 1.0]),
+        ((2, 3, 4), 1.0, [0.25, 0.3125, 0.375, 0.4375, 0.5, 0.625, 0.75, 1.0]),
+        ((2, 3), 2.0, [0.25, 0.375, 0.5, 0.625, 0.75, 1.0]),
+    ],
+)
+def test_after_a_cut_the_nominal_marks_are_met_again_and_the_increments_grow_back(build, failing, fail, grow, expected):
+    """The second increment fails with the extrapolation and then from the tangent; one more failure cuts it again."""
+    model, pull = build.bar()
+    calls = failing(*fail)
+    result = solve(model, Move(pull, 0.1, steps=4, grow=grow), frames=0)
+    assert len(calls) == len(expected) + len(fail)
+    np.testing.assert_allclose(result["time"][1:], expected, atol=1e-14)
+    np.testing.assert_allclose(result["pull"], 0.1 * result["time"], atol=1e-15)
+    assert result["time"][-1] - result["time"][-2] == pytest.approx(0.25)  # the nominal size
+
+
+def test_a_cut_on_the_way_to_a_mark_is_one_of_that_way(build, failing):
+    """Back at its nominal size, an increment shortened to meet a mark fails: half of what was tried comes next."""
+    model, pull = build.bar()
+    calls = failing(2, 3, 7, 8)
+    result = solve(model, Move(pull, 0.1, steps=4), frames=0)
+    assert calls[:10] == pytest.approx([0.25, 0.5, 0.5, 0.375, 0.5, 0.625, 0.75, 0.75, 0.6875, 0.75])
+    np.testing.assert_allclose(result["time"][5:], [0.6875, 0.75, 0.8125, 0.9375, 1.0], atol=1e-14)
+
+
 def test_increments_grow_up_to_their_limit_while_newton_is_at_ease(build):
     model, pull = build.bar()
     result = solve(model, Move(pull, 0.2, steps=40, grow=4.0), frames=0)
@@ -193,6 +223,41 @@ def test_release_finds_the_permanent_set_of_a_bar(build, increment):
     assert (np.diff(result["time"]) > 0).all()
 
 
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-9])
+@pytest.mark.parametrize("increment", [1e-4, 1e-3, 5e-3, 1e-2])
+def test_release_that_crosses_zero_closes_in_on_it(build, monkeypatch, increment, tolerance):
+    """Without contact there is no lift-off: only the zero of the force ends the step, however large the increment."""
+    model, pull = build.bar(material=J2)
+    crossings, restore = [], Model.restore
+
+    def counted(self, snapshot):
+        crossings.append(snapshot.time)
+        restore(self, snapshot)
+
+    monkeypatch.setattr(Model, "restore", counted)
+    step = Release(pull, increment=increment, tolerance=tolerance)
+    result = solve(model, [Move(pull, 0.2, steps=10), step], frames=0)
+    assert crossings
+    assert abs(result["pull_force"][-1]) <= tolerance * result["pull_force"].max()
+    assert (result["pull_force"][10:-1] > 0).all()
+    assert pull.value == pytest.approx(math.exp(0.1811284) - 1, abs=2e-7)
+    assert (np.diff(result["time"]) > 0).all()
+
+
+@pytest.mark.timeout(60)
+def test_release_of_a_force_that_jumps_over_zero_is_given_up(build, monkeypatch):
+    model, pull = build.bar()
+    force = Model.conjugate_force
+    monkeypatch.setattr(
+        Model, "conjugate_force", lambda self, *at: force(self, *at) + (1.0 if pull.value > 0.0123 else -1e4)
+    )
+    with pytest.raises(NoConvergence) as caught:
+        solve(model, [Move(pull, 0.05, steps=2), Release(pull)], frames=0)
+    assert "cannot be closed in" in caught.value.cause
+    assert pull.value == pytest.approx(0.0123, abs=1e-6)
+    np.testing.assert_array_equal(model.u[pull.dofs], pull.value)
+
+
 def test_release_of_an_elastic_bar_goes_back_to_where_it_came_from(build):
     model, pull = build.bar()
     solve(model, [Move(pull, 0.2, steps=4), Release(pull)], frames=0)
@@ -248,6 +313,28 @@ def test_there_must_be_something_to_release(build):
         solve(model, Release(pull), frames=0)
 
 
+# The solver -------------------------------------------------------------------------------------------------
+
+needs_mkl = pytest.mark.skipif(not pardiso.available(), reason="MKL is not installed")
+
+
+@pytest.mark.parametrize("name", ["superlu", "banded", pytest.param("pardiso", marks=needs_mkl)])
+def test_the_result_names_the_solver(build, name):
+    model, pull = build.bar()
+    result = solve(model, Move(pull, 0.1, steps=2), solver=name, frames=0)
+    assert result.solver == result.summary()["solver"] == name
+
+
+def test_the_result_names_the_solver_that_was_taken_by_default(build):
+    model, pull = build.bar()
+    assert solve(model, Move(pull, 0.1, steps=1), frames=0).solver == "banded"
+    model = Model(strip(1.0, 1.0, 0.1, (2, 2)), material=J2)
+    model.fix("x0")
+    pressure = model.pressure("lower")
+    expected = "pardiso" if pardiso.available() else "superlu"
+    assert solve(model, Move(pressure, 1e-3, steps=1), frames=0).solver == expected  # an unsymmetric tangent
+
+
 # Failure ----------------------------------------------------------------------------------------------------
 
 
@@ -273,6 +360,64 @@ def test_no_convergence_carries_the_result_and_leaves_the_last_converged_state(b
     fresh, control = build.bar()
     expected = solve(fresh, Move(control, 0.5 * reached, steps=4), frames=0)
     assert again["pull_force"][-1] == pytest.approx(expected["pull_force"][-1], rel=1e-7)
+
+
+@pytest.mark.parametrize("place", ["target", "motion", "tool", "law", "callback"])
+def test_an_interrupt_carries_the_result_and_leaves_the_last_converged_state(monkeypatch, place):
+    """Out of any function of the user, in the third increment; all but the target of the move are in its middle."""
+    interrupt, armed, calls = KeyboardInterrupt("stop"), {place}, []
+
+    def hook(here, time):
+        if here in armed and time > 0.6:
+            calls.append(here)
+            if len(calls) == 2 or here == "target":
+                raise interrupt
+
+    def law(E, state):
+        hook("law", model.time)
+        return mt.NeoHooke(E=210e3, nu=0.3).law().respond(E, state)
+
+    def tool(x):
+        hook("tool", model.time)
+        return x[:, 2] + 0.25, np.tile([0.0, 0.0, 1.0], (len(x), 1)), np.zeros((len(x), 3, 3))
+
+    def motion(time):
+        hook("motion", time)
+        return np.zeros(3)
+
+    def target(fraction):
+        hook("target", fraction)
+        return -0.04 * fraction
+
+    model = Model(strip(1.0, 1.0, 0.5, (2, 2)), material=UserLaw(law))
+    model.symmetry("x0", "x")
+    model.symmetry("y0", "y")
+    press = model.prescribe("upper", "z", "press")
+    model.set_motion(model.contact("lower", UserSurface(tool), penalty=1e6, name="die"), motion)
+    start = Newton.__init__
+
+    def with_callback(self, *arguments):
+        start(self, *arguments)
+        self.callbacks.append(lambda record: hook("callback", model.time))
+
+    monkeypatch.setattr(Newton, "__init__", with_callback)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        solve(model, Move(press, target, steps=4), options=TIGHT, frames=0)
+    assert caught.value is interrupt
+    result = interrupt.result
+    np.testing.assert_allclose(result["time"], [0.0, 0.25, 0.5])
+    assert result.seconds > 0
+    assert result.solver
+    assert model.time == 0.5
+    assert press.value == result["press"][-1] == -0.02
+    np.testing.assert_array_equal(model.u[press.dofs], -0.02)
+    armed.clear()
+    residual = model.evaluate(model.u).residual
+    assert model.conjugate_force(press, residual) == result["press_force"][-1]
+    assert np.abs(residual[model.free]).max() < 1e-9 * abs(result["press_force"][-1])
+    rest = solve(model, Move(press, -0.04, steps=2), options=TIGHT, frames=0)
+    assert rest["press"][-1] == -0.04
+    assert rest["press_force"][-1] < result["press_force"][-1] < -100
 
 
 def test_chattering_is_a_warning_of_the_result(build, monkeypatch):
