@@ -138,7 +138,7 @@ class ShellBlockOf final : public ShellBlock {
         prepare_workspaces();
         for_each_by_colour(colours_, part_.size(), [&](int e, int thread) {
             Workspace& w = workspaces_[thread];
-            failed_[e] = compute(e, u, w) ? 0 : 1;
+            failed_[e] = compute(e, u, w, trial_of(e)) ? 0 : 1;
             if (failed_[e] != 0) return;
             double sum = 0.0;
             for (const double value : w.f) sum += value * value;
@@ -193,11 +193,13 @@ class ShellBlockOf final : public ShellBlock {
         prepare_workspaces();
         Workspace& w = workspaces_[0];
         typename Element::Nodal X, local_u;
+        std::vector<double> scratch(static_cast<std::size_t>(points()) * material_->state_size());  // trial stays as it is
         for (int e = 0; e < part_.size(); ++e) {
             gather<Nodes>(part_, e, X_.data(), X.data());
             gather<Nodes>(part_, e, u, local_u.data());
-            element_.strains(X, local_u, alpha_.data() + static_cast<std::size_t>(e) * element_.modes(), w);
-            respond(e, w);
+            const double* alpha = alpha_.data() + static_cast<std::size_t>(e) * element_.modes();
+            if (!element_.strains(X, local_u, alpha, w) || !respond(e, w, scratch.data()))
+                throw std::domain_error("an element is outside of the domain of its law");
             for (int q = 0; q < points(); ++q) {
                 const std::size_t at = static_cast<std::size_t>(e) * points() + q;
                 std::copy(w.E[q].begin(), w.E[q].end(), out.E + 6 * at);
@@ -224,20 +226,24 @@ class ShellBlockOf final : public ShellBlock {
         while (static_cast<int>(workspaces_.size()) < thread_count()) workspaces_.push_back(element_.workspace());
     }
 
-    bool respond(int e, Workspace& w) {
+    /// Asks the material at the points of an element; `trial` takes the new history.
+    bool respond(int e, Workspace& w, double* trial) {
         const int q = points();
         const std::size_t first = static_cast<std::size_t>(e) * q * material_->state_size();
-        return material_->respond(q, w.E.data(), state_.data() + first, w.S.data(), w.CC.data(), trial_.data() + first)
-               == q;
+        return material_->respond(q, w.E.data(), state_.data() + first, w.S.data(), w.CC.data(), trial) == q;
     }
 
-    bool compute(int e, const double* u, Workspace& w) {
+    double* trial_of(int e) {
+        return trial_.data() + static_cast<std::size_t>(e) * points() * material_->state_size();
+    }
+
+    bool compute(int e, const double* u, Workspace& w, double* trial) {
         typename Element::Nodal X, local_u;
         gather<Nodes>(part_, e, X_.data(), X.data());
         gather<Nodes>(part_, e, u, local_u.data());
         if (!element_.strains(X, local_u, alpha_.data() + static_cast<std::size_t>(e) * element_.modes(), w))
             return false;
-        if (!respond(e, w)) return false;
+        if (!respond(e, w, trial)) return false;
         element_.integrate(w);
         return element_.condense(w);
     }

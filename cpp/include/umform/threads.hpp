@@ -1,6 +1,7 @@
 // Number of threads of all kernels, and the loop over colours that gives the same sums for any number of them.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <vector>
@@ -29,17 +30,20 @@ inline int thread_index() {
 }
 
 /// Calls work(element, thread) for every element, colour after colour. Small sets run on one thread: starting a team
-/// costs more than it brings. The first exception (a user's function may throw) ends the loop and is thrown again outside
+/// costs more than it brings. The first exception (a user's function may throw) ends the work and is thrown again outside
 /// of the team.
 template <class Work>
 void for_each_by_colour(const std::vector<std::vector<std::int32_t>>& colours, int size, const Work& work) {
     constexpr int worth_a_team = 64;
     [[maybe_unused]] const int threads = size < worth_a_team ? 1 : thread_count();
     std::exception_ptr thrown;
+    std::atomic<bool> stopped{false};
     const auto guarded = [&](std::int32_t element, int thread) {
+        if (stopped.load(std::memory_order_relaxed)) return;
         try {
             work(element, thread);
         } catch (...) {
+            stopped = true;
 #pragma omp critical
             if (!thrown) thrown = std::current_exception();
         }
