@@ -48,13 +48,28 @@ std::unique_ptr<PressureBlock> pressure_block(const InputIds& facets, const Inpu
     throw std::invalid_argument("a facet has 4 or 9 nodes");
 }
 
+void require(bool right, const char* what) {
+    if (!right) throw std::invalid_argument(what);
+}
+
+template <class Block>
+const double* nodal(const Block& block, const Input& values) {
+    require(values.size() == block.dofs(), "an array over the degrees of freedom has another length than the model");
+    return values.data();
+}
+
 /// Adds the share of a block to f and values (and K du to Kdu); returns (first failed element or -1, sum |f_e|^2).
 template <class Block>
 std::pair<int, double> evaluate(Block& block, const Input& u, const Scatter& scatter, Output f, Output values,
                                 std::optional<Input> du, std::optional<Output> Kdu) {
-    const Target target{f.data(), values.data(), du ? du->data() : nullptr, Kdu ? Kdu->data() : nullptr};
+    require(f.size() == block.dofs() && (!Kdu || Kdu->size() == block.dofs()),
+            "f or Kdu has another length than the model");
+    require(values.size() == scatter.entries, "values has another length than the pattern");
+    require(du.has_value() == Kdu.has_value(), "du and Kdu belong together");
+    const double* position = nodal(block, u);
+    const Target target{f.data(), values.data(), du ? nodal(block, *du) : nullptr, Kdu ? Kdu->data() : nullptr};
     const nb::gil_scoped_release release;
-    const Outcome outcome = block.evaluate(u.data(), scatter, target);
+    const Outcome outcome = block.evaluate(position, scatter, target);
     return {outcome.failed, outcome.force_scale_squared};
 }
 
@@ -72,7 +87,7 @@ void bind_common(nb::class_<Block>& type) {
 nb::object point_fields(ShellBlock& block, const Input& u) {
     const std::size_t elements = block.connectivity().size(), points = block.points(), count = elements * points;
     std::vector<double> E(6 * count), S(6 * count), frame(9 * count), F(9 * count), dV(count);
-    block.fields(u.data(), {E.data(), S.data(), frame.data(), F.data(), dV.data()});
+    block.fields(nodal(block, u), {E.data(), S.data(), frame.data(), F.data(), dV.data()});
     return nb::make_tuple(to_numpy(std::move(E), {elements, points, 6}), to_numpy(std::move(S), {elements, points, 6}),
                           to_numpy(std::move(frame), {elements, points, 3, 3}),
                           to_numpy(std::move(F), {elements, points, 3, 3}),
@@ -82,7 +97,8 @@ nb::object point_fields(ShellBlock& block, const Input& u) {
 nb::object element_matrix(ShellBlock& block, int e, const Input& u) {
     const std::size_t size = 3 * block.connectivity().nodes;
     std::vector<double> K(size * size), f(size);
-    block.element(e, u.data(), K.data(), f.data());
+    require(e >= 0 && e < block.connectivity().size(), "there is no such element");
+    block.element(e, nodal(block, u), K.data(), f.data());
     return nb::make_tuple(to_numpy(std::move(K), {size, size}), to_numpy(std::move(f), {size}));
 }
 
@@ -104,7 +120,7 @@ void bind_blocks(nb::module_& m) {
         .def_prop_ro("modes", &ShellBlock::modes)
         .def_prop_ro("state_size", &ShellBlock::state_size)
         .def(
-            "recover", [](ShellBlock& b, const Input& du, double s) { b.recover(du.data(), s); }, nb::arg("du"),
+            "recover", [](ShellBlock& b, const Input& du, double s) { b.recover(nodal(b, du), s); }, nb::arg("du"),
             nb::arg("s"), nb::sig("def recover(self, du: NDArray[float64], s: float) -> None"),
             "Update the enhanced parameters after u += s du.")
         .def("undo_recover", &ShellBlock::undo_recover, "Take the last recover back.")
@@ -155,13 +171,14 @@ void bind_blocks(nb::module_& m) {
         .def(
             "set_pose",
             [](ContactBlock& b, const Input& Q, const Input& c) {
+                require(Q.size() == 9 && c.size() == 3, "a pose is a matrix Q (3, 3) and a vector c (3,)");
                 std::copy_n(Q.data(), 9, b.pose.Q.a.begin());
                 std::copy_n(c.data(), 3, b.pose.c.begin());
             },
             nb::arg("Q"), nb::arg("c"), nb::sig("def set_pose(self, Q: NDArray[float64], c: NDArray[float64]) -> None"),
             "Place the tool: x = Q X + c.")
         .def(
-            "locate", [](ContactBlock& b, const Input& u) { b.locate(u.data()); }, nb::arg("u"),
+            "locate", [](ContactBlock& b, const Input& u) { b.locate(nodal(b, u)); }, nb::arg("u"),
             nb::sig("def locate(self, u: NDArray[float64]) -> None"),
             "Move the contact points to X + u and measure the gaps.")
         .def_prop_ro("points", &ContactBlock::points)

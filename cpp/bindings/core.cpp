@@ -12,9 +12,10 @@ NB_MODULE(_core, m) {
     bind_blocks(m);
     m.def("threads", [] { return umform::thread_count(); }, "Number of threads that the kernels use.");
     m.def(
-        "set_threads", [](int count) {
+        "set_threads",
+        [](int count) {
             if (count < 1) throw std::invalid_argument("at least one thread");
             umform::thread_count() = count;
-        }, nb::arg("count"),
-        "Set the number of threads that the kernels use.");
+        },
+        nb::arg("count"), "Set the number of threads that the kernels use.");
 }

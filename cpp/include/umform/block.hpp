@@ -72,6 +72,7 @@ class ShellBlock {
   public:
     virtual ~ShellBlock() = default;
     virtual const Connectivity& connectivity() const = 0;
+    virtual std::size_t dofs() const = 0;  // length of u and f
     virtual int points() const = 0;
     virtual int modes() const = 0;
     virtual int state_size() const = 0;
@@ -130,6 +131,7 @@ class ShellBlockOf final : public ShellBlock {
     }
 
     const Connectivity& connectivity() const override { return part_; }
+    std::size_t dofs() const override { return X_.size(); }
     int points() const override { return element_.points(); }
     int modes() const override { return element_.modes(); }
     int state_size() const override { return material_->state_size(); }
@@ -175,7 +177,8 @@ class ShellBlockOf final : public ShellBlock {
     void element(int e, const double* u, double* K, double* f) override {
         prepare_workspaces();
         Workspace& w = workspaces_[0];
-        if (!compute(e, u, w))
+        std::vector<double> scratch(static_cast<std::size_t>(points()) * material_->state_size());
+        if (!compute(e, u, w, scratch.data()))
             throw std::domain_error("the element is outside of the domain of its law, or Kaa is singular");
         for (int a = 0; a < Nodes; ++a)
             for (int k = 0; k < 3; ++k) {
@@ -193,7 +196,8 @@ class ShellBlockOf final : public ShellBlock {
         prepare_workspaces();
         Workspace& w = workspaces_[0];
         typename Element::Nodal X, local_u;
-        std::vector<double> scratch(static_cast<std::size_t>(points()) * material_->state_size());  // trial stays as it is
+        std::vector<double> scratch(static_cast<std::size_t>(points())
+                                    * material_->state_size());  // trial stays as it is
         for (int e = 0; e < part_.size(); ++e) {
             gather<Nodes>(part_, e, X_.data(), X.data());
             gather<Nodes>(part_, e, u, local_u.data());
@@ -233,9 +237,7 @@ class ShellBlockOf final : public ShellBlock {
         return material_->respond(q, w.E.data(), state_.data() + first, w.S.data(), w.CC.data(), trial) == q;
     }
 
-    double* trial_of(int e) {
-        return trial_.data() + static_cast<std::size_t>(e) * points() * material_->state_size();
-    }
+    double* trial_of(int e) { return trial_.data() + static_cast<std::size_t>(e) * points() * material_->state_size(); }
 
     bool compute(int e, const double* u, Workspace& w, double* trial) {
         typename Element::Nodal X, local_u;

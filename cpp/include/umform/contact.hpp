@@ -22,6 +22,7 @@ class ContactBlock {
   public:
     virtual ~ContactBlock() = default;
     virtual const Connectivity& connectivity() const = 0;
+    virtual std::size_t dofs() const = 0;  // length of u and f
     virtual Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) = 0;
     /// Moves the contact points to x = X + u and asks the tool for gap, normal and Hessian there.
     virtual void locate(const double* u) = 0;
@@ -57,6 +58,7 @@ class ContactBlockOf final : public ContactBlock {
     }
 
     const Connectivity& connectivity() const override { return part_; }
+    std::size_t dofs() const override { return X_.size(); }
 
     void locate(const double* u) override {
         const int per_facet = static_cast<int>(N_.size());

@@ -75,7 +75,8 @@ inline Pattern make_pattern(std::vector<std::int32_t> equation, const std::vecto
 /// i = direction * nodes + node. Symmetric: the upper triangle by rows; else the whole matrix by rows.
 struct Scatter {
     bool symmetric = true;
-    int size = 0;  // rows of an element matrix
+    int size = 0;             // rows of an element matrix
+    std::size_t entries = 0;  // of the pattern
     std::vector<std::int32_t> position;
 
     std::size_t stride() const { return static_cast<std::size_t>(symmetric ? size * (size + 1) / 2 : size * size); }
@@ -93,6 +94,7 @@ inline Scatter make_scatter(const Pattern& pattern, const Connectivity& part) {
     Scatter scatter;
     scatter.symmetric = pattern.symmetric;
     scatter.size = 3 * part.nodes;
+    scatter.entries = pattern.indices.size();
     scatter.position.reserve(scatter.stride() * part.size());
     std::vector<int> row(scatter.size);
     for (int e = 0; e < part.size(); ++e) {

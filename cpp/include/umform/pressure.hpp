@@ -9,6 +9,7 @@ class PressureBlock {
   public:
     virtual ~PressureBlock() = default;
     virtual const Connectivity& connectivity() const = 0;
+    virtual std::size_t dofs() const = 0;  // length of u and f
     virtual Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) = 0;
     double pressure = 0.0;  // against the outward normal of the face
 };
@@ -31,6 +32,7 @@ class PressureBlockOf final : public PressureBlock {
     }
 
     const Connectivity& connectivity() const override { return part_; }
+    std::size_t dofs() const override { return X_.size(); }
 
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         if (scatter.symmetric) throw std::invalid_argument("a follower pressure needs an unsymmetric pattern");
