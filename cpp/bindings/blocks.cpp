@@ -181,6 +181,16 @@ void bind_blocks(nb::module_& m) {
             "locate", [](ContactBlock& b, const Input& u) { b.locate(nodal(b, u)); }, nb::arg("u"),
             nb::sig("def locate(self, u: NDArray[float64]) -> None"),
             "Move the contact points to X + u and measure the gaps.")
+        .def_prop_ro(
+            "shape_values",
+            [](const ContactBlock& b) {
+                const std::size_t nodes = b.connectivity().nodes;
+                std::vector<double> values = b.shape_values();
+                const std::size_t points = values.size() / nodes;
+                return to_numpy(std::move(values), {points, nodes});
+            },
+            nb::sig("def shape_values(self) -> NDArray[float64]"),
+            "Shape functions at the points of a facet (points, nodes).")
         .def_prop_ro("points", &ContactBlock::points)
         .def_prop_ro(
             "positions", [](const ContactBlock& b) { return to_numpy(b.positions(), {b.gaps().size(), 3}); },

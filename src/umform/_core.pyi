@@ -207,6 +207,10 @@ class ContactBlock:
         """Move the contact points to X + u and measure the gaps."""
 
     @property
+    def shape_values(self) -> NDArray[float64]:
+        """Shape functions at the points of a facet (points, nodes)."""
+
+    @property
     def points(self) -> int: ...
 
     @property

@@ -87,10 +87,14 @@ class Contact:
         self.penalty = float(penalty)
         self.points: int | str = "nodes" if at_nodes else int(points)
         self.facets: Ids = mesh.facets(faces)
+        #: Nodes of all cells that bear a facet, those of the far face too.
+        self.nodes: Ids = np.unique(mesh.connectivity[mesh.face_set(faces)[:, 0]])
+        self._kernel = tool.kernel()
         self.block = _core.contact_block(
-            self.facets, mesh.points, 1 if at_nodes else int(points), at_nodes, tool.kernel()
+            self.facets, mesh.points, 1 if at_nodes else int(points), at_nodes, self._kernel
         )
         self.block.penalty = self.penalty
+        self.pose: tuple[Floats, Floats] = (np.eye(3), np.zeros(3))
         self.translations: list[ToolMotion] = []
         self.motion: Motion | None = None
         self.reference_point = np.zeros(3)
@@ -107,7 +111,8 @@ class Contact:
             shift += vector3(translation, where)
             rotation = Rotation.from_rotvec(vector3(turn, where)).as_matrix()
         centre = self.reference_point
-        self.block.set_pose(np.ascontiguousarray(rotation), centre + shift - rotation @ centre)
+        self.pose = np.ascontiguousarray(rotation), centre + shift - rotation @ centre
+        self.block.set_pose(*self.pose)
 
     def active(self) -> NDArray[np.bool_]:
         """Which points penetrate, of the last evaluation."""
@@ -131,23 +136,27 @@ class Contact:
         arm = at.x - (np.zeros(3) if about is None else np.asarray(about, dtype=float))
         return forces.sum(axis=0), np.cross(arm, forces).sum(axis=0)
 
-    def nodal_pressure(self, nodes: int) -> Floats:
-        """Pressure averaged to the nodes of the facets, weighted by area; zero elsewhere; shape (nodes,)."""
+    def at_nodes(self, u: Floats, mesh: Mesh) -> tuple[Floats, Floats]:
+        """Pressure and gap at the nodes of the facets; zero and NaN at other nodes; two arrays of shape (nodes,).
+
+        The pressure is the average of that at the contact points, weighted by N_a and their areas; the gap is measured
+        at the nodes themselves.
+        """
         at = self.at_points()
-        per_facet = len(at.gap) // len(self.facets)
-        if self.points == "nodes":
-            weight = at.area.reshape(len(self.facets), per_facet)
-            share = (at.pressure * at.area).reshape(len(self.facets), per_facet)
-        else:
-            weight = np.repeat(
-                at.area.reshape(len(self.facets), per_facet).sum(axis=1)[:, None], self.facets.shape[1], axis=1
-            )
-            share = np.repeat(
-                (at.pressure * at.area).reshape(len(self.facets), per_facet).sum(axis=1)[:, None],
-                self.facets.shape[1],
-                axis=1,
-            )
-        total, area = np.zeros(nodes), np.zeros(nodes)
+        N = self.block.shape_values
+        weight = N[None, :, :] * at.area.reshape(len(self.facets), -1, 1)  # [facet][point][node]
+        share = np.einsum("eqa,eq->ea", weight, at.pressure.reshape(len(self.facets), -1))
+        count = len(mesh.points)
+        total, area = np.zeros(count), np.zeros(count)
         np.add.at(total, self.facets.ravel(), share.ravel())
-        np.add.at(area, self.facets.ravel(), weight.ravel())
-        return np.divide(total, area, out=np.zeros(nodes), where=area > 0)
+        np.add.at(area, self.facets.ravel(), weight.sum(axis=1).ravel())
+        pressure = np.divide(total, area, out=np.zeros(count), where=area > 0)
+        gap = np.full(count, np.nan)
+        nodes = np.unique(self.facets)
+        gap[nodes] = self.gap((mesh.points + u.reshape(-1, 3))[nodes])
+        return pressure, gap
+
+    def gap(self, x: Floats) -> Floats:
+        """Signed distance of positions (n, 3) to the tool where it stands now; shape (n,)."""
+        rotation, shift = self.pose
+        return self._kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0]

@@ -100,7 +100,7 @@ def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode,
         Highest Legendre polynomial in t.
     order_count : {1, 4, 9}
         Number of polynomials in the surface that go with P_2 ... P_order. One is enough for 8 nodes, where more change
-        nothing that was measured; 18 nodes need nine in a sharp bend (docs/theory, 2.9).
+        nothing that was measured; 18 nodes need nine in a sharp bend (docs/theory, 2.8).
     """
     if order_count not in (1, 4, 9):
         raise InvalidValue("the number of modes of higher order must be 1, 4 or 9", value=order_count)
@@ -118,7 +118,7 @@ def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode,
 
 
 def membrane_modes(count: int) -> tuple[Mode, ...]:
-    """Modes of the in-plane strains: 4, 5 or 7 (Simo & Rifai 1990; Andelfinger & Ramm 1993)."""
+    """Modes of the in-plane strains: 4 or 5 (Simo & Rifai 1990), or 7 (Andelfinger & Ramm 1993)."""
     four: tuple[Mode, ...] = ((Term("11", 1),), (Term("22", 0, 1),), (Term("12", 1),), (Term("12", 0, 1),))
     coupled: Mode = (Term("11", 1, 1), Term("22", 1, 1, factor=-1.0), Term("12", 2), Term("12", 0, 2, factor=-1.0))
     modes: dict[int, tuple[Mode, ...]] = {
@@ -154,7 +154,7 @@ class Element:
     thickness_order : int
         Highest order in t of the enhanced thickness strain (0: none); it needs order + 1 thickness points.
     citation : str
-        Where it comes from (keys of references.bib).
+        Where it comes from (a key of references.bib).
     """
 
     name: str
@@ -300,13 +300,13 @@ _MITC9 = MITC9_MEMBRANE + MITC9_IN_PLANE_SHEAR + MITC9_SHEAR
 
 #: The catalogue: name -> factory.
 CATALOGUE: dict[str, Callable[..., Element]] = {
-    "DISP3D": _build("DISP3D", "hex8", (), "Hauptmann1998", thickness=0),
-    "DISP3DEAS": _build("DISP3DEAS", "hex8", (), "Hauptmann1998", thickness=4),
-    "ANS3DEAS": _build("ANS3DEAS", "hex8", ANS_SHEAR, "Hauptmann1998", thickness=4),
-    "EAS3DEAS": _build("EAS3DEAS", "hex8", ANS_SHEAR, "Hauptmann2001", thickness=4, membrane=7),
-    "DISP9K3D": _build("DISP9K3D", "hex18", (), "Hauptmann2001", thickness=0),
-    "DISP9K3DEAS": _build("DISP9K3DEAS", "hex18", (), "Hauptmann2001", thickness=9),
-    "MI9K3DEAS": _build("MI9K3DEAS", "hex18", _MITC9, "Hauptmann2001", thickness=9),
+    "DISP3D": _build("DISP3D", "hex8", (), "HauptmannSchweizerhof1998", thickness=0),
+    "DISP3DEAS": _build("DISP3DEAS", "hex8", (), "HauptmannSchweizerhof1998", thickness=4),
+    "ANS3DEAS": _build("ANS3DEAS", "hex8", ANS_SHEAR, "HauptmannSchweizerhof1998", thickness=4),
+    "EAS3DEAS": _build("EAS3DEAS", "hex8", ANS_SHEAR, "HarnauSchweizerhof2002", thickness=4, membrane=7),
+    "DISP9K3D": _build("DISP9K3D", "hex18", (), "HauptmannEtAl2001", thickness=0),
+    "DISP9K3DEAS": _build("DISP9K3DEAS", "hex18", (), "HauptmannEtAl2001", thickness=9),
+    "MI9K3DEAS": _build("MI9K3DEAS", "hex18", _MITC9, "HauptmannEtAl2001", thickness=9),
 }
 
 

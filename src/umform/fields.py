@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
+from umform.materials import J2
 from umform.model import Model
 
 Floats = NDArray[np.float64]
@@ -81,7 +82,7 @@ def point_fields(model: Model) -> PointFields:
     """Fields at the Gauss points of the converged state of a model."""
     E, S, frame, F, volume = model.block.point_fields(model.u)
     state = model.block.state
-    eqps = state[..., 6] if state.shape[-1] == 7 else None
+    eqps = state[..., 6] if isinstance(model.material, J2) else None
     return PointFields(E, S, frame, F, volume, eqps)
 
 
@@ -121,13 +122,25 @@ def _thickness(model: Model, x: Floats) -> Floats:
     return total / np.maximum(count, 1.0)
 
 
-def contact_pressure(model: Model) -> Floats:
-    """Contact pressure at the nodes of all contact faces, averaged by area; shape (n,)."""
-    pressure = np.zeros(len(model.mesh.points))
+def contact_at_nodes(model: Model) -> tuple[Floats, Floats]:
+    """Contact pressure (sum over the contacts) and gap (to the nearest tool, NaN off the contact faces) at the nodes.
+
+    Returns
+    -------
+    pressure, gap : ndarray, shape (n,)
+    """
+    pressure, gap = np.zeros(len(model.mesh.points)), np.full(len(model.mesh.points), np.nan)
     for contact in model.contacts:
         contact.block.locate(model.u)
-        pressure += contact.nodal_pressure(len(pressure))
-    return pressure
+        here, distance = contact.at_nodes(model.u, model.mesh)
+        pressure += here
+        gap = np.fmin(gap, distance)
+    return pressure, gap
+
+
+def contact_pressure(model: Model) -> Floats:
+    """Contact pressure at the nodes of all contact faces; shape (n,)."""
+    return contact_at_nodes(model)[0]
 
 
 def _tensor(voigt: Floats) -> Floats:

@@ -35,12 +35,21 @@ def check_model(model: Model) -> None:
         contact.place(model.time)
         contact.block.locate(model.u)
         at = contact.at_points()
-        deepest = int(np.argmin(at.gap))
-        if at.gap[deepest] < -0.5 * thickness:
+        undefined = ~(np.isfinite(at.gap) & np.isfinite(at.normal).all(axis=1))
+        if undefined.any():
+            raise ToolSwallowsSheet(
+                "the gap to a tool has no normal at a contact point",
+                where=f"contact {contact.name}, x = {np.round(at.x[undefined][0], 6)}",
+                cause="the point lies on the axis or the centre of the tool",
+                remedy="move the tool so that it just touches the sheet",
+            )
+        gap = contact.gap((mesh.points + model.u.reshape(-1, 3))[contact.nodes])  # the far face tells a wrong side
+        deepest = int(np.argmin(gap))
+        if gap[deepest] < -0.5 * thickness:
             raise ToolSwallowsSheet(
                 "a tool overlaps the sheet before anything has moved",
-                where=f"contact {contact.name}, x = {np.round(at.x[deepest], 6)}",
-                value=f"gap {at.gap[deepest]:.4g}, thickness {thickness:.4g}",
+                where=f"contact {contact.name}, node {contact.nodes[deepest]}",
+                value=f"gap {gap[deepest]:.4g}, thickness {thickness:.4g}",
                 cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
                 remedy="move the tool so that it just touches the sheet, or turn its normal",
             )
@@ -53,7 +62,7 @@ def check_model(model: Model) -> None:
     if rank < 6:
         raise RigidBodyMotion(
             f"the sheet can move as a rigid whole in {6 - rank} way{'s' if rank < 5 else ''}",
-            value=_describe_motion(directions[-1]),
+            value="free: " + "; ".join(_describe_motion(motion) for motion in directions[rank:]),
             cause="too few supports, or a tool that does not touch the sheet yet",
             remedy="hold the sheet with fix(), symmetry() or prescribe(), or let a tool overlap it by a hair",
         )
@@ -77,4 +86,4 @@ def _describe_motion(mode: Floats) -> str:
         "rotation about z",
     )
     strong = np.abs(mode) > 0.3 * np.abs(mode).max()
-    return "free: " + " with ".join(name for name, hit in zip(names, strong, strict=True) if hit)
+    return " with ".join(name for name, hit in zip(names, strong, strict=True) if hit)

@@ -41,7 +41,7 @@ class Result:
     The history has one row for each increment: ``step``, ``time``, each control and its ``<name>_force``, for each
     contact the force ``<name>_fx``, ``_fy``, ``_fz`` and moment about the origin ``_mx``, ``_my``, ``_mz`` of the sheet
     on the tool, the largest penetration ``<name>_penetration`` and the number of ``<name>_active`` points, and the
-    number of ``iterations``.
+    number of ``iterations``. ``events`` says what happened (lift-off), ``warnings`` what to look at.
     """
 
     def __init__(self, model: Model) -> None:
@@ -49,6 +49,7 @@ class Result:
         self.rows: list[dict[str, float]] = []
         self.frames: list[Frame] = []
         self.iterations: list[list[Iteration]] = []
+        self.events: list[str] = []
         self.warnings: list[str] = []
         self.solver = ""
         self.seconds = 0.0
@@ -66,7 +67,7 @@ class Result:
             row |= {f"{contact.name}_m{axis}": float(value) for axis, value in zip("xyz", moment, strict=True)}
             gaps = contact.block.gaps
             row[f"{contact.name}_penetration"] = float(max(-gaps.min(), 0.0))
-            row[f"{contact.name}_active"] = int((gaps < 0).sum())
+            row[f"{contact.name}_active"] = int(contact.active().sum())
         row["iterations"] = len(iterations)
         self.rows.append(row)
         self.iterations.append(iterations)
@@ -79,6 +80,11 @@ class Result:
         )
         if frame:
             self.frames.append(self._frame(residual))
+
+    def note(self, message: str) -> None:
+        """Keep an event, lift-off for instance, and log it."""
+        self.events.append(message)
+        log.info(message)
 
     def warn(self, message: str) -> None:
         """Keep a warning and log it."""
@@ -102,7 +108,7 @@ class Result:
             "thickness_change": fields.thickness_change(model),
         }
         if model.contacts:
-            points["contact_pressure"] = fields.contact_pressure(model)
+            points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model)
         return Frame(len(self.rows) - 1, model.time, points, cells)
 
     def __len__(self) -> int:
@@ -151,7 +157,7 @@ class Result:
             mesh = self.model.mesh
             with VtkHdfSeries(path, mesh.points, mesh.cell, mesh.connectivity, lagrange=lagrange) as series:
                 for frame in self.frames:
-                    series.append(float(frame.number), frame.points, frame.cells)
+                    series.append(frame.time, frame.points, frame.cells)
         else:
             raise InvalidValue("results are written to .csv (history) or .vtkhdf (fields)", value=path.name)
         return path
@@ -175,5 +181,6 @@ class Result:
             "iterations": int(sum(row["iterations"] for row in self.rows)),
             "solver": self.solver,
             "seconds": self.seconds,
+            "events": list(self.events),
             "warnings": list(self.warnings),
         }

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.boundary import Control
-from umform.errors import InvalidValue, NoConvergence
+from umform.errors import InvalidValue, NoConvergence, NotFinite
 from umform.model import Model
 from umform.newton import Converged, Failed, Iteration, Newton, NewtonOptions
 from umform.results import Result
@@ -47,13 +47,15 @@ class Move:
     grow: float = 1.0
 
     def __post_init__(self) -> None:
-        if self.steps < 1:
-            raise InvalidValue("a step needs at least one increment", value=self.steps)
+        if not isinstance(self.steps, int) or self.steps < 1:
+            raise InvalidValue("a step needs a whole number of increments, one at least", value=self.steps)
+        if not isinstance(self.cuts, int) or self.cuts < 0:
+            raise InvalidValue("cuts must be 0 or more", value=self.cuts)
         if not self.grow >= 1:
             raise InvalidValue("grow must be 1 or more", value=self.grow)
         for target in self.targets():
-            if not callable(target) and not np.isfinite(target):
-                raise InvalidValue("a control cannot be moved there", value=target)
+            if not callable(target) and not (np.isscalar(target) and np.isrealobj(target) and np.isfinite(target)):
+                raise InvalidValue("a control is moved to a finite number or along a function", value=target)
         if len(self.targets()) != len(self.moved()):
             raise InvalidValue(
                 "give one target for each control", value=f"{len(self.moved())} controls, {len(self.targets())} targets"
@@ -72,10 +74,15 @@ class Move:
         starts = [control.value for control in self.moved()]
 
         def at(fraction: float) -> list[float]:
-            return [
+            values = [
                 float(target(fraction)) if callable(target) else start + fraction * (target - start)
                 for start, target in zip(starts, self.targets(), strict=True)
             ]
+            for control, value in zip(self.moved(), values, strict=True):
+                if not math.isfinite(value):
+                    where = f"fraction {fraction:g} of the step"
+                    raise NotFinite(f"the function that moves {control.name} is not finite", where=where, value=value)
+            return values
 
         return at
 
@@ -98,6 +105,12 @@ class Release:
     control: Control
     increment: float | None = None
     tolerance: float = 1e-6
+
+    def __post_init__(self) -> None:
+        if self.increment is not None and not self.increment > 0:
+            raise InvalidValue("the increment of a release must be positive", value=self.increment)
+        if not self.tolerance > 0:
+            raise InvalidValue("the tolerance of a release must be positive", value=self.tolerance)
 
 
 Step = Move | Release
@@ -159,8 +172,20 @@ def solve(
     """
     from umform.progress import progress_bar
 
-    model.check()
     sequence = [steps] if isinstance(steps, Move | Release) else list(steps)
+    for number, step in enumerate(sequence, start=1):
+        if not isinstance(step, Move | Release):
+            raise InvalidValue("a step is a Move or a Release", where=f"step {number}", value=step)
+        for control in step.moved() if isinstance(step, Move) else [step.control]:
+            if control not in model.controls:
+                raise InvalidValue(
+                    "a step moves a control that the model does not have",
+                    where=f"step {number}",
+                    value=control,
+                    cause="it belongs to another model",
+                    remedy="use what prescribe(), force(), pressure() or drive() of this model returned",
+                )
+    model.check()
     run = _Run(model, Newton(model, options, solver), Result(model))
     start = clock.perf_counter()
     run.result.solver = run.newton.solver
@@ -260,12 +285,12 @@ def _release(run: _Run, step: Release, number: int, frames: int) -> None:
     """Secant on force against displacement from saved states; lift-off is bracketed to 1e-6 of the value. eq. (5.14)"""
     model, control = run.model, step.control
     start_time, start_value = model.time, control.value
-    force = model.conjugate_force(control, model.evaluate(model.u).residual)
+    evaluation = model.evaluate(model.u)
+    force = model.conjugate_force(control, evaluation.residual)
     scale = abs(force)
-    if start_value == 0.0 or scale == 0.0:
-        raise InvalidValue(
-            "there is nothing to release", where=control.name, value=f"value {start_value:g}, force {force:g}"
-        )
+    if start_value == 0.0 or scale <= 1e-9 * evaluation.force_scale:
+        run.result.note(f"step {number}: nothing to release, the force of {control.name} is zero")
+        return
     size = -math.copysign(step.increment or abs(start_value) / 1000.0, start_value)
     largest, resolution = abs(start_value) / 20.0, 1e-6 * abs(start_value)
     before: tuple[float, float] | None = None  # value and force of the state before the present one
@@ -274,7 +299,7 @@ def _release(run: _Run, step: Release, number: int, frames: int) -> None:
     taken: float | None = None
     failures = attempts = 0
     while True:
-        saved, value = model.snapshot(), control.value
+        saved, value, touching = model.snapshot(), control.value, bool(model.active_set().any())
         target = _next_release(value, force, before, bound, size, finest)
         if target * start_value < 0.0:
             target = 0.0
@@ -291,7 +316,7 @@ def _release(run: _Run, step: Release, number: int, frames: int) -> None:
             continue
         force_there = model.conjugate_force(control, converged.residual)
         zero = abs(force_there) <= step.tolerance * scale
-        lifted = bool(model.contacts) and zero and not model.active_set().any()
+        lifted = touching and zero and not model.active_set().any()
         if (force_there * force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
             bound, finest, attempts = target, resolution if lifted else 0.0, attempts + 1
             model.restore(saved)
@@ -306,6 +331,8 @@ def _release(run: _Run, step: Release, number: int, frames: int) -> None:
         run.result.add(converged.residual, converged.iterations, step=number, frame=frames > 0 and done)
         run.tick(f"step {number}: release", 1.0 if done else 1.0 - min(1.0, abs(force) / scale))
         if done:
+            how = "contact has lifted off" if lifted else "the force is zero" if zero else "the way back is complete"
+            run.result.note(f"step {number}: {how} at {control.name} = {control.value:.6g}")
             return
         if bound is None and abs(2.0 * size) <= largest and len(converged.iterations) <= 8:
             size *= 2.0
@@ -320,7 +347,7 @@ def _next_release(
     sign = 1.0 if bound > value else -1.0
     if abs(bound - value) <= 2.5 * resolution:
         return bound
-    if before is None:  # crossed zero: the size is that of the secant
+    if before is None or before[0] == value:  # crossed zero: the size is that of the secant
         return value + size if abs(size) < abs(bound - value) else 0.5 * (value + bound)
     slope = (force - before[1]) / (value - before[0])
     zero = value - force / slope if slope != 0.0 else bound

@@ -135,6 +135,7 @@ def test_frames_hold_reactions_and_fields(build):
         "reaction": (nodes, 3),
         "thickness_change": (nodes,),
         "contact_pressure": (nodes,),
+        "contact_gap": (nodes,),
     }
     assert all(len(values) == cells for values in frame.cells.values())
     assert "plastic_strain_max" in frame.cells

@@ -14,7 +14,7 @@ from umform.errors import InvalidValue, NotFinite, RigidBodyMotion, ToolSwallows
 from umform.mesh import Mesh, strip
 from umform.model import Model
 from umform.steps import Move, solve
-from umform.surfaces import Plane
+from umform.surfaces import Plane, Sphere
 
 LAW = mt.NeoHooke(E=1000.0, nu=0.3)
 CELLS = ("hex8", "hex18")
@@ -378,15 +378,30 @@ def test_a_tool_in_touch_holds_the_sheet_and_one_at_a_distance_does_not(model):
 
 def test_a_tool_on_the_wrong_side_is_refused(model):
     model.fix("x0")
-    model.contact("lower", Plane((0, 0, -T / 2), "-z"), penalty=100.0, name="right")
+    model.contact("lower", Plane((0, 0, -T / 2)), penalty=100.0, name="right")
     model.check()
-    model.contact("upper", Plane((0, 0, -T / 2)), penalty=100.0, name="from below")
+    model.contact("upper", Plane((0, 0, T / 2), "-z"), penalty=100.0, name="from above")
     model.check()
     model.contact("lower", Plane((0, 0, 0.6 * T)), penalty=100.0, name="die")
     with pytest.raises(ToolSwallowsSheet) as caught:
         solve(model, [], frames=0)
     assert "die" in caught.value.where
     assert "gap" in caught.value.value
+
+
+def test_a_tool_that_touches_with_its_normal_into_the_sheet_is_refused(model):
+    """All gaps of the contact points are zero; the far face tells."""
+    model.fix("x0")
+    model.contact("lower", Plane((0, 0, -T / 2), "-z"), penalty=100.0)
+    with pytest.raises(ToolSwallowsSheet):
+        model.check()
+
+
+def test_a_contact_point_on_the_axis_of_a_tool_is_refused(model):
+    model.fix("x0")
+    model.contact("lower", Sphere((0, 0, -T / 2), 0.1 * T), penalty=100.0, points="nodes")
+    with pytest.raises(ToolSwallowsSheet, match="no normal"):
+        model.check()
 
 
 def test_a_model_without_a_free_degree_of_freedom_is_refused(model):

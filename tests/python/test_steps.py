@@ -309,8 +309,29 @@ def test_a_tool_is_released_too(build):
 
 def test_there_must_be_something_to_release(build):
     model, pull = build.bar()
-    with pytest.raises(InvalidValue, match="nothing to release"):
-        solve(model, Release(pull), frames=0)
+    result = solve(model, Release(pull), frames=0)
+    assert len(result) == 1
+    assert "nothing to release" in result.events[0]
+
+
+def test_lift_off_and_zero_force_are_told_apart(build):
+    """Also when a tool stands by that the bar never touches."""
+    model, pull = build.bar()
+    model.contact("lower", Plane((0, 0, -100.0)), penalty=100.0)
+    result = solve(model, [Move(pull, 0.2, steps=10), Release(pull)], frames=0)
+    assert abs(result[f"{pull.name}_force"][-1]) <= 1e-6 * abs(result[f"{pull.name}_force"]).max()
+    assert "the force is zero" in result.events[-1]
+
+    case = build.free_bending((8, 1))
+    result = solve(case.model, [Move(case.punch, -5.0, steps=10), Release(case.punch)], frames=0)
+    assert "contact has lifted off" in result.events[-1]
+
+
+def test_a_control_of_another_model_is_refused(build):
+    model, _ = build.bar()
+    _, other = build.bar()
+    with pytest.raises(InvalidValue, match="does not have"):
+        solve(model, Move(other, 0.1), frames=0)
 
 
 # The solver -------------------------------------------------------------------------------------------------

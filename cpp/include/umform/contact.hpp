@@ -31,6 +31,8 @@ class ContactBlock {
     double penalty = 0.0;
 
     int points() const { return static_cast<int>(g_.size()); }
+    /// Shape functions at the contact points of a facet, [point][node].
+    virtual std::vector<double> shape_values() const = 0;
     const std::vector<double>& positions() const { return x_; }
     const std::vector<double>& gaps() const { return g_; }
     const std::vector<double>& normals() const { return n_; }
@@ -59,6 +61,12 @@ class ContactBlockOf final : public ContactBlock {
 
     const Connectivity& connectivity() const override { return part_; }
     std::size_t dofs() const override { return X_.size(); }
+
+    std::vector<double> shape_values() const override {
+        std::vector<double> values;
+        for (const Values& N : N_) values.insert(values.end(), N.begin(), N.end());
+        return values;
+    }
 
     void locate(const double* u) override {
         const int per_facet = static_cast<int>(N_.size());

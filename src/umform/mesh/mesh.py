@@ -86,6 +86,8 @@ class Mesh:
                 remedy="give cells={'hex8': ids} or cells={'hex18': ids}",
             )
         name, raw = next(iter(self.cells.items()))
+        if not np.issubdtype(np.asarray(raw).dtype, np.integer):
+            raise InvalidValue("node ids of cells must be integers", value=np.asarray(raw).dtype)
         cells = np.ascontiguousarray(raw, dtype=np.int32)
         nodes = 8 if name == "hex8" else 18
         if cells.ndim != 2 or cells.shape[1] != nodes or len(cells) == 0:
@@ -111,6 +113,14 @@ class Mesh:
         object.__setattr__(
             self, "faces", {key: np.asarray(rows, dtype=np.int32).reshape(-1, 2) for key, rows in self.faces.items()}
         )
+        unused = np.setdiff1d(np.arange(len(points)), cells)
+        if len(unused):
+            raise InvalidValue(
+                "a node belongs to no cell",
+                where=f"node {unused[0]} (one of {len(unused)})",
+                cause="left over from a mesh generator: nothing would hold it",
+                remedy="take unused nodes out of the mesh, umform.mesh.read does so",
+            )
         check_cells(points, cells)
 
     @property
@@ -145,7 +155,7 @@ class Mesh:
         elif callable(selector):
             ids = np.flatnonzero(np.asarray(selector(*self.points.T), dtype=bool)).astype(np.int32)
         else:
-            ids = np.unique(np.asarray(selector, dtype=np.int32))
+            ids = np.unique(_as_ids(selector, len(self.points)))
         if len(ids) == 0:
             raise EmptySet(
                 "a set selects no node",
@@ -216,6 +226,19 @@ class Mesh:
     def _face_nodes(self, face: Ids) -> Ids:
         ids: Ids = self.connectivity[face[0]][_nodes_of_faces(self.cell)[face[1]]]
         return ids
+
+
+def _as_ids(selector: ArrayLike, count: int) -> Ids:
+    """Ids from integers or from a mask over all `count` items; anything else is refused."""
+    array = np.asarray(selector)
+    if array.dtype == bool and array.shape == (count,):
+        return np.flatnonzero(array).astype(np.int32)
+    if array.size and not np.issubdtype(array.dtype, np.integer):
+        raise InvalidValue(
+            "a set is a name, a predicate of x, y, z, integer ids, or a mask over all nodes",
+            value=f"{array.dtype} of shape {array.shape}",
+        )
+    return array.astype(np.int32)
 
 
 def _unknown(kind: str, name: str, known: Sequence[str]) -> UnknownSet:

@@ -23,7 +23,7 @@ struct LinearVoce {
     }
 };
 
-/// y = K (e0 + e)^n.
+/// y = K (e0 + e)^n. eq. (3.31)
 struct Swift {
     double strength, offset, exponent;
 
@@ -33,7 +33,7 @@ struct Swift {
     }
 };
 
-/// Linear between the points of a table, constant behind its end.
+/// Linear between the points of a table, constant behind its end. eq. (3.32)
 struct Tabulated {
     std::vector<double> eqps, stress;
 

@@ -1,0 +1,184 @@
+"""What the parameters of free bending may be; a value that does not fit is refused with its likely cause and remedy."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from numbers import Integral, Real
+from typing import Any
+
+from umform.errors import InvalidValue, NotFinite
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What a parameter must be.
+
+    Attributes
+    ----------
+    fits : callable
+        Says whether a value fits.
+    what : str
+        What is wrong if it does not.
+    cause, remedy : str
+        Why it is likely so, and what to do about it.
+    """
+
+    fits: Callable[[Any], bool]
+    what: str
+    cause: str
+    remedy: str
+
+
+def _whole(value: object, least: int, most: float = math.inf) -> bool:
+    return isinstance(value, Integral) and not isinstance(value, bool) and least <= int(value) <= most
+
+
+def _number(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _positive(value: Any) -> bool:
+    return _number(value) and value > 0
+
+
+def _two_counts(value: Any) -> bool:
+    return isinstance(value, tuple | list) and len(value) == 2 and all(_whole(count, 1) for count in value)
+
+
+def _length(what: str, usual: str) -> Rule:
+    return Rule(_positive, f"{what} must be positive and finite", "a sign, or a missing value", f"in mm, such as {usual}")
+
+
+def _stress(what: str, usual: str) -> Rule:
+    return Rule(
+        _positive, f"{what} must be positive and finite", "a sign, or a missing value", f"in MPa, such as {usual}"
+    )
+
+
+#: One rule a parameter; element and solver are looked up where the catalogues are.
+RULES: dict[str, Rule] = {
+    "length": _length("the length of the half strip", "60"),
+    "width": _length("the width of the strip", "10"),
+    "thickness": _length("the thickness of the strip", "1"),
+    "radius": _length("the radius of the cylinder", "20"),
+    "tool_x": Rule(
+        _number,
+        "the x of the axis of the cylinder must be a finite number",
+        "a missing value",
+        "in mm, such as 25; the strip begins at 0",
+    ),
+    "tool_z": Rule(
+        lambda value: value is None or _number(value),
+        "the z of the axis of the cylinder must be a finite number",
+        "a missing value",
+        "leave it out: then the cylinder touches the strip",
+    ),
+    "kappa": _stress("the bulk modulus", "175000"),
+    "mu": _stress("the shear modulus", "80770"),
+    "yield_stress": _stress("the yield stress", "160"),
+    "hardening": Rule(
+        lambda value: _number(value) and value >= 0,
+        "the hardening modulus must be finite and not negative",
+        "softening needs a length scale that this law does not have",
+        "0 is perfect plasticity",
+    ),
+    "penalty": Rule(
+        _positive,
+        "the penalty must be positive and finite",
+        "a sign, or a missing value",
+        "choose it from the penetration that you allow: expected pressure / penetration, such as 100",
+    ),
+    "stroke": Rule(
+        _positive,
+        "the stroke must be positive and finite",
+        "a sign: the stroke counts downwards",
+        "in mm, such as 15",
+    ),
+    "steps": Rule(
+        lambda value: _whole(value, 1),
+        "the number of increments must be a whole number from 1",
+        "zero or a sign",
+        "such as 300; with fewer than 60 the forces are coarse",
+    ),
+    "mesh": Rule(
+        _two_counts,
+        "a mesh has one element or more along and across the strip",
+        "zero, or one of the two numbers is missing",
+        "such as 24x1",
+    ),
+    "contact": Rule(
+        lambda value: value == "nodes" if isinstance(value, str) else _whole(value, 1, 10),
+        "contact points per direction must be 1 to 10, or nodes",
+        "more points than there are rules for, or all points of a facet instead of those of one direction",
+        "such as 2, 5 or nodes",
+    ),
+    "thickness_points": Rule(
+        lambda value: _whole(value, 2, 15),
+        "the number of thickness points must lie between 2 and 15",
+        "there are no rules with fewer or more points",
+        "such as 5, or 8 with a cubic thickness strain",
+    ),
+    "thickness_rule": Rule(
+        lambda value: value in ("gauss", "lobatto", "split"),
+        "unknown thickness rule",
+        "a slip of the pen",
+        "gauss, lobatto or split",
+    ),
+    "thickness_order": Rule(
+        lambda value: _whole(value, 1, 4),
+        "the order of the thickness strain must be 1 to 4",
+        "there are no modes of other orders",
+        "1 is the paper, 3 is for sharp bends",
+    ),
+}
+
+
+def check_parameters(values: Mapping[str, Any]) -> None:
+    """Refuse parameters of free bending that do not fit, each by itself and then together.
+
+    Parameters
+    ----------
+    values : mapping
+        Names and values.
+
+    Raises
+    ------
+    NotFinite
+        If a number is NaN or infinite.
+    InvalidValue
+        If a value does not fit; ``where`` is the name of the parameter.
+    """
+    for name, rule in RULES.items():
+        value = values[name]
+        if not rule.fits(value):
+            kind = NotFinite if isinstance(value, float) and not math.isfinite(value) else InvalidValue
+            raise kind(rule.what, where=name, value=_shown(value), cause=rule.cause, remedy=rule.remedy)
+    _check_thickness(values["thickness_points"], values["thickness_order"], values["thickness_rule"])
+
+
+def _check_thickness(points: int, order: int, rule: str) -> None:
+    if points <= order:
+        raise InvalidValue(
+            f"thickness order {order} needs at least {order + 1} thickness points",
+            where="thickness_points",
+            value=points,
+            cause="fewer points cannot see the highest mode",
+            remedy=f"thickness_points={order + 1} or more",
+        )
+    if rule == "split" and points % 2:
+        raise InvalidValue(
+            "the split rule needs an even number of thickness points",
+            where="thickness_points",
+            value=points,
+            cause="it puts as many points into one half of the thickness as into the other",
+            remedy=f"thickness_points={points - 1 if points == 15 else points + 1}",
+        )
+
+
+def _shown(value: object) -> str:
+    """A value as it is written by hand: a mesh as 24x1."""
+    if isinstance(value, tuple | list):
+        return "x".join(map(str, value))
+    return str(value)
