@@ -25,7 +25,7 @@ unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
+.PHONY: help env dev demo test test-cpp test-python test-long test-pardiso verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
         format bench clean
 
 help:  ## show this help
@@ -86,6 +86,24 @@ test-python: dev  ## tests of the installed package
 
 test-long: dev  ## the long verification runs
 	@$(BIN)/pytest -q -m long $(ARGS)
+
+BENDING := tests/verification/test_free_bending.py
+PARDISO_TESTS := tests/python/solvers tests/python/test_threads.py '$(BENDING)::test_forces_of_the_table[12x1 MI9K3DEAS 3]' \
+    $(BENDING)::test_auto_takes_pardiso_for_18_nodes \
+    $(BENDING)::test_threads_beside_pardiso_give_the_same_bits
+
+# The extra goes into .venv, where `auto` may choose PARDISO from then on: .ci/run calls this after `make test`.
+test-pardiso: dev  ## put MKL into .venv; tests of solvers, threads and a bend with PARDISO
+	$(SAY) 'Putting MKL (the extra "pardiso", some 200 MB) into $(VENV); "make clean" takes it out again'
+	@$(BIN)/python tools/requirements.py pardiso > $(BUILD)/pardiso.txt
+	@$(PIP) install -r $(BUILD)/pardiso.txt > $(BUILD)/pardiso.log 2>&1 || { \
+	    grep -q 'No matching distribution' $(BUILD)/pardiso.log && ! grep -q Retrying $(BUILD)/pardiso.log; } \
+	    || { cat $(BUILD)/pardiso.log; exit 1; }
+	@if $(PIP) show mkl > /dev/null 2>&1; then \
+	    printf '\033[1m==>\033[0m %s\n' 'Testing with PARDISO: solvers, threads, free bending of 12 x 1 elements with 18 nodes' && \
+	    $(BIN)/python -c 'import umform.solvers as s; raise SystemExit(0 if s.available()["pardiso"] else "MKL is not found")' && \
+	    $(BIN)/pytest -q $(PARDISO_TESTS) $(ARGS); \
+	else echo 'PyPI has no MKL for this platform: PARDISO is not tested here'; fi
 
 verification: dev  ## all verification cases, the long ones too; writes the table of docs/verification.md
 	@UMFORM_VERIFICATION_PAGE=docs/verification.md $(BIN)/pytest -q tests/verification $(ARGS)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from umform import errors
 
 if TYPE_CHECKING:
-    from umform import elements, mesh, processes
+    from umform import elements, fields, mesh, processes
     from umform._core import set_threads, threads
     from umform.elements import Element, Term, Tying
     from umform.errors import UmformError
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from umform.results import Result
     from umform.steps import Move, Release, solve
     from umform.surfaces import Cylinder, Plane, Sphere, UserSurface, check_surface
+    from umform.user_law import UserLaw, check_law
 
 __version__ = "0.1.0"
 
@@ -55,8 +56,9 @@ _HOME = {
     "umform.results": ("Result",),
     "umform.steps": ("Move", "Release", "solve"),
     "umform.surfaces": ("Cylinder", "Plane", "Sphere", "UserSurface", "check_surface"),
+    "umform.user_law": ("UserLaw", "check_law"),
 }
-_MODULES = ("elements", "mesh", "processes")
+_MODULES = ("elements", "fields", "mesh", "processes")
 _HOME_OF = {name: module for module, names in _HOME.items() for name in names}
 
 __all__ = [
@@ -82,11 +84,14 @@ __all__ = [
     "Term",
     "Tying",
     "UmformError",
+    "UserLaw",
     "UserSurface",
     "Voce",
+    "check_law",
     "check_surface",
     "elements",
     "errors",
+    "fields",
     "mesh",
     "processes",
     "set_threads",

@@ -376,8 +376,8 @@ def thickness_rule(points: int, rule: str = "gauss") -> tuple[NDArray[np.float64
     rule : {"gauss", "lobatto", "split"}
         ``split`` puts points/2 Gauss points into each half, exact for the kink of the stress at the mid-surface.
     """
-    if not 2 <= points <= 15:
-        raise InvalidValue("the number of thickness points must lie between 2 and 15", value=points)
+    if points not in range(2, 16):
+        raise InvalidValue("the number of thickness points must be a whole number from 2 to 15", value=points)
     if rule not in ("gauss", "lobatto", "split"):
         raise InvalidValue("unknown thickness rule", value=rule, remedy="gauss, lobatto or split")
     if rule == "split" and points % 2:

@@ -289,6 +289,13 @@ class J2(Elastic):
         hardening: Hardening,
     ) -> None:
         super().__init__(E, nu, kappa=kappa, mu=mu)
+        if not callable(getattr(hardening, "curve", None)) or isinstance(hardening, type):
+            raise InvalidValue(
+                "hardening must be a hardening curve",
+                where="J2",
+                value=hardening,
+                remedy="Perfect(160.0) or another of Linear, Voce, LinearVoce, Swift, Table",
+            )
         object.__setattr__(self, "hardening", hardening)
 
     thickness_points = 5

@@ -23,6 +23,8 @@ from umform.solvers import Pattern
 from umform.surfaces import Direction, Surface, unit_vector
 
 Floats = NDArray[np.float64]
+#: Columns of every history.
+_COLUMNS = ("step", "time", "iterations")
 _C = TypeVar("_C", bound=Control)
 
 
@@ -106,7 +108,7 @@ class Model:
                 f"{self.element.name} stands on {self.element.cell} cells, the mesh has {mesh.cell}",
                 remedy=f"make the mesh with cell={self.element.cell!r}, or take an element for {mesh.cell}",
             )
-        if not isinstance(material, Material):
+        if not isinstance(material, Material) or isinstance(material, type):
             raise InvalidValue(
                 "material must be a material law",
                 value=type(material).__name__,
@@ -350,8 +352,8 @@ class Model:
         return [control for control in self.controls if isinstance(control, kind)]
 
     def _add(self, control: _C) -> _C:
-        if any(other.name == control.name for other in self.controls):
-            raise InvalidValue("two controls have the same name", value=control.name)
+        if any(other.name == control.name for other in self.controls) or control.name in _COLUMNS:
+            raise InvalidValue("the name of a control is taken", value=control.name, remedy="give it another name")
         self.controls.append(control)
         self._assembled = None
         return control

@@ -65,7 +65,13 @@ def save(figure: Figure, path: str | Path) -> Path:
     """Write a figure as PNG, SVG or PDF, whole or not at all."""
     path = Path(path)
     if path.suffix not in _FORMATS:
-        raise InvalidValue("a picture is saved as PNG, SVG or PDF", value=path.name, remedy="end it in .png or .svg")
+        raise InvalidValue(
+            "a picture is saved as PNG, SVG or PDF",
+            where="picture",
+            value=str(path),
+            cause="the end of the name says which",
+            remedy="end it in .png or .svg",
+        )
     with house_style(), PendingFile(path) as temporary:
         undated = {"CreationDate": None} if path.suffix == ".pdf" else {}
         figure.savefig(temporary, dpi=200, metadata={"Date": None} if path.suffix == ".svg" else undated)

@@ -18,6 +18,7 @@ from umform.newton import Iteration
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from umform.contact import ContactPoints
     from umform.model import Model
 
 log = logging.getLogger("umform")
@@ -27,12 +28,13 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Frame:
-    """Fields of one converged state: values at points (n, ...) and cells (m, ...)."""
+    """Fields of one converged state: values at points (n, ...) and cells (m, ...), and each contact at its points."""
 
     number: int
     time: float
     points: dict[str, Floats]
     cells: dict[str, Floats]
+    contacts: dict[str, ContactPoints]
 
 
 class Result:
@@ -109,7 +111,8 @@ class Result:
         }
         if model.contacts:
             points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model)
-        return Frame(len(self.rows) - 1, model.time, points, cells)
+        contacts = {contact.name: contact.at_points() for contact in model.contacts}
+        return Frame(len(self.rows) - 1, model.time, points, cells, contacts)
 
     def __len__(self) -> int:
         return len(self.rows)

@@ -292,8 +292,9 @@ def test_a_held_displacement_cannot_be_prescribed_too(model):
 
 def test_names_of_controls_are_unique(model):
     model.force("x1", VECTOR, "pull")
-    with pytest.raises(InvalidValue, match="same name"):
-        model.traction("upper", VECTOR, "pull")
+    for taken in ("pull", "time"):
+        with pytest.raises(InvalidValue, match="name of a control is taken"):
+            model.traction("upper", VECTOR, taken)
     assert [model.force("x1", VECTOR).name for _ in range(3)] == ["force", "force2", "force3"]
 
 

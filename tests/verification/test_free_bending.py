@@ -12,8 +12,11 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.solvers import available
 
 from .cases import REFERENCE, free_bending
+
+needs_pardiso = pytest.mark.skipif(not available()["pardiso"], reason="MKL is not installed")
 
 #: What is recommended for sharp bends.
 RECOMMENDED = {"thickness_order": 3, "tie_E33": True, "thickness_points": 8}
@@ -28,6 +31,7 @@ class Run:
     def __init__(self, cells: tuple[int, int], element: str, points: int | str, steps: int, **options) -> None:
         model, punch = free_bending(cells, element, points, **options)
         result = uf.solve(model, [uf.Move(punch, to=-15.0, steps=steps), uf.Release(punch)], frames=0)
+        self.solver = result.solver
         down = result["step"] <= 1
         self.u, self.F = -result["punch"][down], -result["punch_force"][down]
         self.u_unloaded, self.F_unloaded = -result["punch"][-1], -result["punch_force"][-1]
@@ -61,12 +65,11 @@ def run_of(row: dict[str, str]) -> Run:
     return run((int(nx), int(ny)), row["element"], number, recommended=row["recommended"] == "1")
 
 
-def as_parameter(row: dict[str, str]):
-    marks = [pytest.mark.long] if row["recommended"] == "1" else []
-    return pytest.param(row, marks=marks, id=f"{row['cells']} {row['element']} {row['contact_points']}")
+def name_of(row: dict[str, str]) -> str:
+    return f"{row['cells']} {row['element']} {row['contact_points']}"
 
 
-@pytest.mark.parametrize("row", [as_parameter(row) for row in ROWS])
+@pytest.mark.parametrize("row", ROWS, ids=name_of)
 def test_forces_of_the_table(row, book):
     found = run_of(row)
     tolerance = 0.01 if row["recommended"] == "1" else 0.005
@@ -77,7 +80,7 @@ def test_forces_of_the_table(row, book):
         assert found.force(u) == pytest.approx(float(row[f"F{u}"]), rel=tolerance)
 
 
-@pytest.mark.parametrize("row", [as_parameter(row) for row in ROWS if row["u_unloaded"]])
+@pytest.mark.parametrize("row", [row for row in ROWS if row["u_unloaded"]], ids=name_of)
 def test_displacement_at_zero_force(row):
     found = run_of(row)
     assert found.F_unloaded == pytest.approx(0.0, abs=1e-5)
@@ -122,6 +125,32 @@ def test_18_nodes_need_three_contact_points():
     two, three = (run((12, 1), "MI9K3DEAS", points) for points in (2, 3))
     assert two.jump() > run((24, 1), "ANS3DEAS", "nodes").jump()
     assert three.jump() < 0.5 * two.jump()
+
+
+@needs_pardiso
+def test_auto_takes_pardiso_for_18_nodes():
+    """So the row 12x1 MI9K3DEAS of the table is one of PARDISO where MKL is installed."""
+    assert run((12, 1), "MI9K3DEAS", 3).solver == "pardiso"
+
+
+@needs_pardiso
+def test_threads_beside_pardiso_give_the_same_bits():
+    """MKL and the kernels share a pool of threads; what the kernels add up does not depend on its size."""
+    model, punch = free_bending((48, 2), "ANS3DEAS", 2, **RECOMMENDED)
+    result = uf.solve(model, uf.Move(punch, to=-1.0, steps=4), frames=0, solver="pardiso")
+    assert result.solver == "pardiso"
+    u = model.u + 1e-3 * np.random.default_rng(1).normal(size=model.u.size)  # off equilibrium, in flow and contact
+    before, found = uf.threads(), []
+    try:
+        for count in (1, 2):
+            uf.set_threads(count)
+            evaluation = model.evaluate(u)
+            found.append((evaluation.residual, evaluation.values, evaluation.force_scale))
+    finally:
+        uf.set_threads(before)
+    assert model.active_set().any()
+    for one, two in zip(*found, strict=True):
+        np.testing.assert_array_equal(one, two)
 
 
 @pytest.mark.long

@@ -34,7 +34,7 @@ inline int thread_index() {
 /// of the team.
 template <class Work>
 void for_each_by_colour(const std::vector<std::vector<std::int32_t>>& colours, int size, const Work& work) {
-    constexpr int worth_a_team = 64;
+    constexpr int worth_a_team = 256;
     [[maybe_unused]] const int threads = size < worth_a_team ? 1 : thread_count();
     std::exception_ptr thrown;
     std::atomic<bool> stopped{false};

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import os
 import secrets
@@ -89,7 +90,16 @@ class PendingFile:
         self.temporary.unlink(missing_ok=True)
 
 
-def write_problem(path: Path, error: OSError) -> FileProblem:
+#: What an operating system says that is no matter of the path alone: cause and remedy.
+_SYSTEM = {
+    errno.ENOSPC: ("the disk is full", "free some space, or choose another disk"),
+    errno.EDQUOT: ("your share of the disk is used up", "free some space, or choose another disk"),
+    errno.EROFS: ("the disk can only be read", "choose a directory that you may write to"),
+    errno.ENAMETOOLONG: ("the name is too long", "shorten it"),
+}
+
+
+def write_problem(path: Path, error: OSError, what: str = "the file cannot be written") -> FileProblem:
     """Say why a file cannot be written.
 
     Parameters
@@ -98,28 +108,50 @@ def write_problem(path: Path, error: OSError) -> FileProblem:
         The target.
     error : OSError
         What the operating system said.
+    what : str, optional
+        What is wrong, in one sentence.
 
     Returns
     -------
     FileProblem
         The error to raise, with cause and remedy.
     """
-    if isinstance(error, FileNotFoundError):
+    place = _nearest(path)
+    if isinstance(error, FileNotFoundError) and place == path.parent:
+        cause = f"{place} takes no new files: it is a directory of the system, or was removed meanwhile"
+        remedy = "choose another path"
+    elif isinstance(error, FileNotFoundError):
         cause = f"the directory {path.parent} does not exist"
         remedy = "create the directory or choose another path"
     elif isinstance(error, NotADirectoryError):
-        cause = f"{path.parent} is a file, not a directory"
+        cause = f"{place} is a file, not a directory"
         remedy = "choose another path"
+    elif isinstance(error, FileExistsError):
+        cause = "there is a file of this name"
+        remedy = "choose another name, or move the file away"
     elif isinstance(error, PermissionError):
-        cause = f"no permission to write in {path.parent}"
+        cause = f"no permission to write in {place}"
         remedy = "choose a directory that you may write to"
     elif isinstance(error, IsADirectoryError):
         cause = "there is a directory of this name"
-        remedy = "add a file name to the path"
+        remedy = "choose another name, or move the directory away"
     else:
-        cause = error.strerror or str(error)
-        remedy = "check the free space of the disk and the length of the path"
-    return FileProblem("the file cannot be written", where=str(path), cause=cause, remedy=remedy)
+        known = _SYSTEM.get(error.errno or 0)
+        said = error.strerror or str(error) or type(error).__name__
+        cause = f"{known[0]} ({said})" if known else said
+        remedy = known[1] if known else "check the disk, or choose another path"
+    return FileProblem(what, where=str(path), cause=cause, remedy=remedy)
+
+
+def _nearest(path: Path) -> Path:
+    """The nearest of the directories above a path that is there."""
+    for place in path.parents:
+        try:
+            if place.exists():
+                return place
+        except OSError:  # it must not be looked into
+            continue
+    return path.parent
 
 
 class UntilDiskFull(io.FileIO):

@@ -11,8 +11,11 @@ from umform.mesh.mesh import FACE_NODES, Floats, Mesh
 
 def graded(length: float, cells: int, ratio: float = 1.0) -> Floats:
     """Grid lines from 0 to ``length``; the last of the ``cells`` intervals is ``ratio`` times the first one."""
-    if cells < 1 or not length > 0 or not ratio > 0:
-        raise InvalidValue("a grid needs a positive length, number of cells and ratio", value=(length, cells, ratio))
+    if not isinstance(cells, int) or cells < 1 or not 0 < length < np.inf or not 0 < ratio < np.inf:
+        raise InvalidValue(
+            "a grid needs a positive length, a whole number of cells and a positive ratio of sizes",
+            value=f"length {length}, cells {cells}, ratio {ratio}",
+        )
     steps = ratio ** (np.arange(cells) / max(cells - 1, 1))
     return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()]) * length
 
@@ -107,6 +110,8 @@ def strip(
     grading : tuple of float
         Size of the last element over that of the first one, along x and y.
     """
+    if not isinstance(cells, tuple | list) or len(cells) != 2:
+        raise InvalidValue("cells are two numbers, along x and y", value=cells, remedy="cells=(24, 1)")
     return grid(
         graded(length, cells[0], grading[0]),
         graded(width, cells[1], grading[1]),

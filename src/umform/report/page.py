@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from umform.boundary import Control
 from umform.plotting import plot_history, plot_shape
 from umform.report import parts
+from umform.report.repeats import counted
 from umform.report.versions import versions
 
 if TYPE_CHECKING:
@@ -30,7 +31,13 @@ def write_report(result: Result, path: str | Path) -> Path:
     -------
     Path
         The page.
+
+    Raises
+    ------
+    InvalidValue
+        If the name does not end in .html.
     """
+    parts.check_name(path)
     model = result.model
     title = f"{model.element.name}: {len(model.mesh.connectivity)} elements, {len(result) - 1} increments"
     lead = (
@@ -40,7 +47,7 @@ def write_report(result: Result, path: str | Path) -> Path:
 
 
 def _parts(result: Result) -> Iterator[str]:
-    for message in result.warnings:
+    for message in counted(result.warnings):
         yield parts.note(message, bad=True)
     yield parts.heading("Curves")
     for control in result.model.controls:

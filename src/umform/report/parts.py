@@ -12,6 +12,7 @@ from string import Template
 from matplotlib.figure import Figure
 
 import umform
+from umform.errors import InvalidValue
 from umform.io.atomic import PendingFile
 from umform.plotting import inline_svg
 
@@ -51,8 +52,21 @@ def figure(picture: Figure, caption: str) -> str:
     return f"<figure><div>{inline_svg(picture)}</div><figcaption>{escape(caption)}</figcaption></figure>"
 
 
+def check_name(path: str | Path) -> None:
+    """Refuse a page whose name does not end in .html."""
+    if Path(path).suffix != ".html":
+        raise InvalidValue(
+            "a report is a page of HTML",
+            where="report",
+            value=str(path),
+            cause="a name without .html would open as something else",
+            remedy="end it in .html",
+        )
+
+
 def write_html(path: str | Path, title: str, lead: str, parts: Iterable[str]) -> Path:
-    """Write a page that needs nothing but itself, whole or not at all."""
+    """Write a page that needs nothing but itself, whole or not at all; its name ends in .html."""
+    check_name(path)
     template = Template(files("umform.report").joinpath("page.html").read_text(encoding="utf-8"))
     text = template.substitute(
         title=escape(title),

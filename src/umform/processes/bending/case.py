@@ -12,11 +12,13 @@ from numpy.typing import NDArray
 from umform import mesh
 from umform.boundary import Prescribed
 from umform.elements import element as catalogue_element
-from umform.errors import InvalidValue, NoConvergence
+from umform.errors import UmformError
 from umform.materials import J2, Linear, Perfect
 from umform.model import Model
 from umform.processes.bending.measures import at_marks, jump, roughness
 from umform.processes.bending.parameters import FreeBending
+from umform.newton import Newton, NewtonOptions
+from umform.report.repeats import counted
 from umform.results import Result
 from umform.shape import Shape
 from umform.steps import Move, Release, solve
@@ -40,8 +42,8 @@ class Bending:
         Step of each converged state: 0 at the start, 1 bending, 2 release.
     u, F : ndarray
         Displacement (downwards) and force (half strip, full width) of each converged state.
-    shape : Shape
-        Deformed strip at the end of the stroke, or in the last state kept on the way there.
+    shape : Shape or None
+        Deformed strip at the end of the stroke, or in the last state kept on the way there; None without any state.
     solver : str
         Sparse solver that was used.
     iterations : int
@@ -60,7 +62,7 @@ class Bending:
     step: NDArray[np.int64]
     u: Floats
     F: Floats
-    shape: Shape
+    shape: Shape | None
     solver: str
     iterations: int
     seconds: float
@@ -114,7 +116,7 @@ class Bending:
             "solver": self.solver,
             "iterations": self.iterations,
             "seconds": self.seconds,
-            "warnings": self.warnings,
+            "warnings": counted(self.warnings),
             "failure": self.failure,
         }
 
@@ -151,25 +153,50 @@ def free_bending(case: FreeBending | None = None, *, frames: int = 1, progress: 
     model, punch = build(case)
     down = Move(punch, to=-case.stroke, steps=case.steps)
     steps: list[Move | Release] = [down, Release(punch)] if case.unload else [down]
-    return measured(case, solve(model, steps, solver=case.solver, frames=max(1, frames), progress=progress))
+    options = NewtonOptions(line_search=case.line_search)
+    result = solve(model, steps, solver=case.solver, options=options, frames=max(1, frames), progress=progress)
+    return measured(case, result)
+
+
+def check(case: FreeBending) -> None:
+    """Build the model of a case and look at it, so that nothing but the solution itself can fail later.
+
+    Raises
+    ------
+    UmformError
+        If element, mesh, tool or solver do not fit; ``where`` is the parameter, or begins with the name of the case.
+    """
+    model, _ = build(case)
+    try:
+        model.check()
+    except UmformError as error:
+        error.where = f"{case.name}, {error.where}" if error.where else case.name
+        raise
+    try:
+        _ = Newton(model, solver=case.solver).solver
+    except UmformError as error:
+        error.where = error.where or "solver"
+        raise
 
 
 def build(case: FreeBending) -> tuple[Model, Prescribed]:
     """Model of a case, and the control that pushes the strip down."""
-    if not case.stroke > 0:
-        raise InvalidValue("the stroke must be positive", value=case.stroke, remedy="the strip is pushed downwards")
-    cell = catalogue_element(case.element).cell
+    cell = cell_of(case.element)
     half_strip = mesh.strip(case.length, case.width, case.thickness, case.mesh, cell=cell)
     curve = Linear(case.yield_stress, case.hardening) if case.hardening else Perfect(case.yield_stress)
-    model = Model(
-        half_strip,
-        case.element,
-        material=J2(kappa=case.kappa, mu=case.mu, hardening=curve),
-        thickness_points=case.thickness_points,
-        thickness_rule=case.thickness_rule,
-        thickness_order=case.thickness_order,
-        tie_E33=case.tie_E33,
-    )
+    try:
+        model = Model(
+            half_strip,
+            case.element,
+            material=J2(kappa=case.kappa, mu=case.mu, hardening=curve),
+            thickness_points=case.thickness_points,
+            thickness_rule=case.thickness_rule,
+            thickness_order=case.thickness_order,
+            tie_E33=case.tie_E33,
+        )
+    except UmformError as error:
+        error.where = error.where or case.name
+        raise
     model.symmetry("x0", normal="x")
     punch = model.prescribe("x0_lower", "z", name="punch")
     model.fix(np.intersect1d(half_strip.nodes("x0_lower"), half_strip.nodes("y0_lower")), "y")
@@ -178,7 +205,38 @@ def build(case: FreeBending) -> tuple[Model, Prescribed]:
     return model, punch
 
 
-def measured(case: FreeBending, result: Result, failure: NoConvergence | None = None) -> Bending:
+def cell_of(name: str) -> str:
+    """The cell that an element of the catalogue stands on."""
+    try:
+        return catalogue_element(name).cell
+    except UmformError as error:
+        error.where = error.where or "element"
+        raise
+
+
+def failed(case: FreeBending, error: Exception) -> Bending:
+    """What is left of a case that was ended by an exception: all that was reached, if it is there."""
+    result: Result | None = getattr(error, "result", None)
+    if result is not None and len(result) and result.frames:
+        return measured(case, result, error)
+    nothing = np.zeros(0)
+    return Bending(
+        case, nothing.astype(np.int64), nothing, nothing, None, "", 0, 0.0, failure=_failure(error)
+    )
+
+
+def _failure(error: Exception | None) -> str:
+    if error is None:
+        return ""
+    if isinstance(error, UmformError):
+        return str(error)
+    return (
+        f"an error that nobody expected: {type(error).__name__}: {error}\n"
+        "  remedy: report it, with the command and what it prints with -vv"
+    )
+
+
+def measured(case: FreeBending, result: Result, failure: Exception | None = None) -> Bending:
     """Measures of a result, complete or ended by a failure."""
     step = result["step"].astype(np.int64)
     bent = [number for number, frame in enumerate(result.frames) if step[frame.number] < 2]
@@ -192,7 +250,7 @@ def measured(case: FreeBending, result: Result, failure: NoConvergence | None = 
         iterations=int(result["iterations"].sum()),
         seconds=result.seconds,
         warnings=(*_cautions(case, result.model.mesh.cell), *result.warnings),
-        failure=str(failure) if failure else "",
+        failure=_failure(failure),
         result=result,
     )
 

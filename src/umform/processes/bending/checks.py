@@ -48,7 +48,9 @@ def _two_counts(value: Any) -> bool:
 
 
 def _length(what: str, usual: str) -> Rule:
-    return Rule(_positive, f"{what} must be positive and finite", "a sign, or a missing value", f"in mm, such as {usual}")
+    return Rule(
+        _positive, f"{what} must be positive and finite", "a sign, or a missing value", f"in mm, such as {usual}"
+    )
 
 
 def _stress(what: str, usual: str) -> Rule:

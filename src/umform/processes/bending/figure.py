@@ -66,7 +66,7 @@ def _draw_panel(axes: Axes, group: Sequence[Bending]) -> None:
         label = _contact_label(case) if paper else f"{_contact_label(case)}, {_variant_label(case)}"
         dash: Any = "-" if paper else (0, (5, 2))
         bent = run.step < 2
-        back = np.flatnonzero(bent)[-1]
+        back = max(int(bent.sum()) - 1, 0)  # the release starts at the end of the stroke
         axes.plot(run.u[bent], run.F[bent], color=colour, linestyle=dash, label=label, linewidth=1.2)
         axes.plot(run.u[back:], run.F[back:], color=colour, linestyle=dash, linewidth=0.8, alpha=0.8)
     if all(run.case.is_example for run in group):
@@ -87,15 +87,16 @@ def _variant_label(case: FreeBending) -> str:
 
 
 def shapes(runs: Sequence[Bending]) -> Figure:
-    """Whole deformed strips on their tools, side by side, coloured by the plastic strain."""
-    top = max(float(run.shape.values[_FIELD].max()) for run in runs)
+    """Whole deformed strips on their tools, side by side, coloured by the plastic strain; one at least has a shape."""
+    pictures = [(run, run.shape) for run in runs if run.shape is not None]
+    top = max(float(shape.values[_FIELD].max()) for _, shape in pictures)
     with house_style():
-        figure = Figure(figsize=(4.6 * len(runs) + 0.4, 4.1), layout="constrained")
-        grid = figure.subplots(1, len(runs), sharex=True, sharey=True, squeeze=False)[0]
-        for axes, run in zip(grid, runs, strict=True):
+        figure = Figure(figsize=(4.6 * len(pictures) + 0.4, 4.1), layout="constrained")
+        grid = figure.subplots(1, len(pictures), sharex=True, sharey=True, squeeze=False)[0]
+        for axes, (run, shape) in zip(grid, pictures, strict=True):
             for side in (-1.0, 1.0):
                 _draw_tool(axes, run.case, side)
-            drawn = draw_shape(axes, run.shape.mirrored(axis=0), _FIELD, _VIEW, (0.0, top))
+            drawn = draw_shape(axes, shape.mirrored(axis=0), _FIELD, _VIEW, (0.0, top))
             axes.set_title(run.case.name, loc="center")
         bar = figure.colorbar(drawn, ax=grid, orientation="horizontal", shrink=0.5, aspect=40, pad=0.02)
         bar.set_label("largest plastic strain in an element")

@@ -14,6 +14,8 @@ SMOOTH_DEGREE = 4
 
 def at_marks(u: Floats, F: Floats, marks: tuple[float, ...]) -> list[float | None]:
     """Forces at given displacements, interpolated linearly; None beyond the end of the curve."""
+    if not u.size:
+        return [None] * len(marks)
     reached = u[-1] * (1.0 + 1e-9)
     return [float(np.interp(mark, u, F)) if mark <= reached else None for mark in marks]
 
@@ -29,6 +31,8 @@ def jump(u: Floats, F: Floats, start: float, window: float) -> float | None:
     float or None
         None if the curve is shorter than one window beyond the start.
     """
+    if not u.size:
+        return None
     tiny = 1e-9 * window
     begins = u[(u >= start - tiny) & (u <= u[-1] - window + tiny)]
     largest = None

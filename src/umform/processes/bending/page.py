@@ -11,6 +11,7 @@ from umform.processes.bending.case import Bending
 from umform.processes.bending.figure import curves, shapes
 from umform.processes.bending.parameters import RECONSTRUCTION
 from umform.report import parts
+from umform.report.repeats import counted
 from umform.report.versions import versions
 
 _LEAD = (
@@ -50,10 +51,9 @@ _LOCKING = (
 
 
 def write_page(folder: Path, runs: Sequence[Bending], pictured: Bending) -> list[Path]:
-    """Write free_bending.png, .svg and report.html; return all paths, with that of the fields of the pictured run."""
+    """Write free_bending.png, .svg and report.html; return their paths."""
     picture = curves(runs)
     files = [save(picture, folder / f"free_bending.{suffix}") for suffix in ("png", "svg")]
-    compared = _compared(runs, pictured)
     content = [
         *_failures(runs),
         parts.note(RECONSTRUCTION),
@@ -64,19 +64,24 @@ def write_page(folder: Path, runs: Sequence[Bending], pictured: Bending) -> list
         parts.heading("Numbers"),
         parts.table(table.header(runs), table.rows(runs)),
         parts.paragraph("Forces in N at displacements in mm."),
-        parts.heading("Deformed strip"),
-        parts.figure(
-            shapes(compared),
-            "The whole strip at the end of the stroke, in true proportion; the second half is a mirror image.",
-        ),
+        *_deformed(_compared(runs, pictured)),
         parts.heading("Settings"),
         parts.paragraph("Lengths in mm, forces in N, stresses in MPa."),
         parts.pairs(_settings(runs)),
         parts.heading("Versions"),
-        parts.pairs(versions() | {"solver used": ", ".join(sorted({run.solver for run in runs}))}),
+        parts.pairs(versions() | {"solver used": ", ".join(sorted({run.solver for run in runs} - {""}))}),
     ]
     page = parts.write_html(folder / "report.html", "Free bending of a strip over a cylinder", _LEAD, content)
-    return [*files, folder / "free_bending.vtkhdf", page]
+    return [*files, page]
+
+
+def _deformed(runs: Sequence[Bending]) -> Iterator[str]:
+    if not any(run.shape for run in runs):
+        return
+    yield parts.heading("Deformed strip")
+    yield parts.figure(
+        shapes(runs), "The whole strip at the end of the stroke, in true proportion; the second half is a mirror image."
+    )
 
 
 def _compared(runs: Sequence[Bending], pictured: Bending) -> list[Bending]:
@@ -94,7 +99,7 @@ def _compared(runs: Sequence[Bending], pictured: Bending) -> list[Bending]:
 
 def _failures(runs: Sequence[Bending]) -> Iterator[str]:
     for run in runs:
-        for message in (run.failure, *run.warnings):
+        for message in (run.failure, *counted(run.warnings)):
             if message:
                 yield parts.note(f"{run.case.name}: {message}", bad=True)
 

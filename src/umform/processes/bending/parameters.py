@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import Any
+
+from umform.processes.bending.checks import check_parameters
 
 #: What the numbers of this example rest on; said wherever they are shown.
 RECONSTRUCTION = (
@@ -58,6 +60,13 @@ class FreeBending:
         Tie the thickness strain at the nodes of the mid-surface.
     solver : str
         Sparse solver.
+    line_search : bool
+        Shorten increments of Newton's method that do not bring the residual down.
+
+    Raises
+    ------
+    InvalidValue
+        If a value does not fit; ``where`` is the name of the parameter.
 
     Notes
     -----
@@ -87,6 +96,10 @@ class FreeBending:
     thickness_order: int = 1
     tie_E33: bool = False
     solver: str = "auto"
+    line_search: bool = False
+
+    def __post_init__(self) -> None:
+        check_parameters({field.name: getattr(self, field.name) for field in fields(self)})
 
     @property
     def centre(self) -> tuple[float, float, float]:
@@ -143,6 +156,6 @@ class FreeBending:
     @property
     def is_example(self) -> bool:
         """Whether strip, cylinder, material and stroke are those of the example, so that its references hold."""
-        numerical = ("steps", "unload", "solver")
+        numerical = ("steps", "unload", "solver", "line_search")
         mine, example = self.problem(), FreeBending().problem()
         return all(mine[key] == example[key] for key in mine if key not in numerical)

@@ -27,6 +27,7 @@ def run_all(
     tasks: Sequence[Task],
     costs: Sequence[float],
     *,
+    on_failure: Callable[[Task, Exception], Answer],
     processes: int | None = None,
     tick: Callable[[float], None] = lambda fraction: None,
 ) -> list[Answer]:
@@ -40,6 +41,8 @@ def run_all(
         A function of a module.
     tasks, costs : sequence
         What it is called with, and how long this will take, in any unit.
+    on_failure : callable
+        Makes the answer for a task whose call raised an exception; the other tasks go on.
     processes : int, optional
         How many at a time; default: as many as this process may use processors, at most one a task. With one,
         everything happens here.
@@ -52,7 +55,10 @@ def run_all(
     if count <= 1:
         with _one_kernel_thread():
             for number in order:
-                answers[number] = function(tasks[number])
+                try:
+                    answers[number] = function(tasks[number])
+                except Exception as error:
+                    answers[number] = on_failure(tasks[number], error)
                 tick(sum(costs[done] for done in answers) / sum(costs))
         return [answers[number] for number in range(len(tasks))]
 
@@ -65,17 +71,25 @@ def run_all(
         futures = {pool.submit(function, tasks[number]): number for number in order}
         try:
             for future in as_completed(futures):
-                answers[futures[future]] = future.result()
+                number = futures[future]
+                try:
+                    answers[number] = future.result()
+                except BrokenProcessPool:  # it takes along all tasks that are not done
+                    answers[number] = on_failure(tasks[number], _died())
+                except Exception as error:
+                    answers[number] = on_failure(tasks[number], error)
                 tick(sum(costs[done] for done in answers) / sum(costs))
-        except BrokenProcessPool as error:
-            raise SolveError(
-                "a process that computes runs has died",
-                cause="it was killed, perhaps for want of memory",
-                remedy="use fewer processes",
-            ) from error
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
     return [answers[number] for number in range(len(tasks))]
+
+
+def _died() -> SolveError:
+    return SolveError(
+        "a process that computes runs has died, this run or one beside it",
+        cause="it was killed, perhaps for want of memory",
+        remedy="run again with fewer: processes=1",
+    )
 
 
 def _processors() -> int:

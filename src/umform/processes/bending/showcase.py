@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -10,13 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from umform.elements import element as catalogue_element
-from umform.errors import InvalidValue, NoConvergence
-from umform.io.atomic import PendingFile, write_problem
+from umform.errors import InvalidValue, UmformError
 from umform.io.tables import write_csv, write_json
-from umform.processes.bending.case import Bending, free_bending, measured
+from umform.processes.bending.case import Bending, cell_of, check, failed, free_bending
 from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
 from umform.processes.bending.pool import run_all
+from umform.processes.bending.staging import staging
 from umform.progress import progress_bar
 from umform.report.versions import versions
 
@@ -28,6 +28,12 @@ _LEAST_POINTS = {"hex8": 2, "hex18": 3}
 _SHARP = {"thickness_order": 3, "tie_E33": True, "thickness_points": 8}
 #: States of a run that go to the file of fields; states that others keep, to have a shape should they end early.
 _FRAMES_WRITTEN, _FRAMES_KEPT = 60, 10
+
+
+_DATA = ("free_bending.csv", "free_bending.json", "free_bending.vtkhdf")
+_PAGE = ("free_bending.png", "free_bending.svg", "report.html")
+
+log = logging.getLogger("umform.processes")
 
 
 @dataclass(frozen=True)
@@ -44,10 +50,10 @@ class Selection:
             return [
                 (element, mesh)
                 for mesh in self.meshes
-                for element in [e for e in _ELEMENTS if mesh in _MESHES[_cell(e)]] or _ELEMENTS
+                for element in [e for e in _ELEMENTS if mesh in _MESHES[cell_of(e)]] or _ELEMENTS
             ]
         return [
-            (element, mesh) for element in self.elements or _ELEMENTS for mesh in self.meshes or _MESHES[_cell(element)]
+            (element, mesh) for element in self.elements or _ELEMENTS for mesh in self.meshes or _MESHES[cell_of(element)]
         ]
 
     def runs(self, base: FreeBending, *, sharp: bool = True) -> list[FreeBending]:
@@ -62,7 +68,7 @@ class Selection:
         """
         cases = []
         for element, mesh in self.pairs():
-            cell = _cell(element)
+            cell = cell_of(element)
             least = _LEAST_POINTS[cell]
             contacts = self.contacts or ("nodes", least, 5)
             on_mesh = replace(base, element=element, mesh=mesh)
@@ -95,7 +101,8 @@ def demo(
     Parameters
     ----------
     out : str or Path
-        Folder for free_bending.csv, .json, .png, .svg, .vtkhdf and report.html; made if it is missing.
+        Folder for free_bending.csv, .json, .png, .svg, .vtkhdf and report.html; made if it is missing. The files get
+        their names when all runs have ended; the fields are missing if there are none.
     runs : sequence of FreeBending, optional
         Other cases than the 14 of the example.
     processes : int, optional
@@ -106,44 +113,48 @@ def demo(
     Returns
     -------
     Outcome
-        The runs, in the order of the cases, and the files. A run that could not be continued says so in ``failure``.
+        The runs, in the order of the cases, and the files. A run that failed, whatever the reason, says so in
+        ``failure``.
+
+    Raises
+    ------
+    UmformError
+        Before the first run: a case that cannot be built, a folder that cannot be written.
     """
     from umform.processes.bending.page import write_page  # matplotlib takes time to load; the workers do without
 
     cases = list(runs) if runs is not None else Selection().runs(FreeBending())
     if not cases:
         raise InvalidValue("there is no case to run", value=runs)
-    folder = _writable(Path(out))
-    pictured = cases.index(_most_telling(cases))
-    tasks = [(case, folder / "free_bending.vtkhdf" if n == pictured else None) for n, case in enumerate(cases)]
-    alone = len(cases) == 1
-    with progress_bar(False if alone else progress) as bar:
-        name = f"{len(cases)} runs"
-        bar(name, 0.0)
-        finished = run_all(
-            partial(_run, progress=progress if alone else False),
-            tasks,
-            [_cost(case) for case in cases],
-            processes=processes,
-            tick=partial(bar, name),
+    if processes is not None and processes < 1:
+        raise InvalidValue(
+            "the number of processes must be 1 or more",
+            where="processes",
+            value=processes,
+            cause="zero or a sign",
+            remedy="leave it out: then there are as many as processors",
         )
-    return Outcome(finished, [*_write_tables(folder, finished), *write_page(folder, finished, finished[pictured])])
-
-
-def _cell(element: str) -> str:
-    return catalogue_element(element).cell
-
-
-def _writable(folder: Path) -> Path:
-    """Make a folder, and find out whether files can be written there before time is spent on them."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise write_problem(folder, error) from error
-    probe = PendingFile(folder / "report.html")
-    probe.__enter__()
-    probe.discard()
-    return folder
+    for case in cases:
+        check(case)
+    pictured = cases.index(_most_telling(cases))
+    alone = len(cases) == 1
+    with staging(out, [*_DATA, *_PAGE]) as stage:
+        fields = stage.waiting / "free_bending.vtkhdf"
+        with progress_bar(False if alone else progress) as bar:
+            name = f"{len(cases)} runs"
+            bar(name, 0.0)
+            finished = run_all(
+                partial(_run, progress=progress if alone else False),
+                [(case, fields if n == pictured else None) for n, case in enumerate(cases)],
+                [_cost(case) for case in cases],
+                on_failure=_given_up,
+                processes=processes,
+                tick=partial(bar, name),
+            )
+        _write_tables(stage.waiting, finished)
+        files = stage.commit(_DATA)  # a picture that fails does not take the numbers along
+        write_page(stage.waiting, finished, finished[pictured])
+        return Outcome(finished, [*files, *stage.commit(_PAGE)])
 
 
 def _run(task: tuple[FreeBending, Path | None], progress: bool | None) -> Bending:
@@ -151,16 +162,27 @@ def _run(task: tuple[FreeBending, Path | None], progress: bool | None) -> Bendin
     case, fields = task
     try:
         run = free_bending(case, frames=_FRAMES_WRITTEN if fields else _FRAMES_KEPT, progress=progress)
-    except NoConvergence as error:
-        run = measured(case, error.result, error)  # type: ignore[attr-defined]
+    except Exception as error:
+        run = _given_up(task, error)
     if fields and run.result:
-        run.result.write(fields)
+        try:
+            run.result.write(fields)
+        except UmformError as error:
+            run = replace(run, failure="\n".join(filter(None, (run.failure, str(error)))))
     return run.detached()
+
+
+def _given_up(task: tuple[FreeBending, Path | None], error: Exception) -> Bending:
+    """What is left of a run that an exception ended."""
+    case, _ = task
+    if not isinstance(error, UmformError):
+        log.info("%s: %s", case.name, error, exc_info=error)
+    return failed(case, error)
 
 
 def _cost(case: FreeBending) -> float:
     """About how long a case takes, in any unit."""
-    heavy = {"hex8": 1.0, "hex18": 9.0}[_cell(case.element)]
+    heavy = {"hex8": 1.0, "hex18": 9.0}[cell_of(case.element)]
     return case.mesh[0] * case.mesh[1] * case.steps * heavy * case.thickness_points
 
 

@@ -76,7 +76,7 @@ def staging(out: str | Path, names: Sequence[str]) -> Iterator[Staging]:
             remedy="name a folder; a dot is the current one",
         )
     folder = Path(out)
-    missing = [place for place in (folder, *folder.parents) if not place.exists()]
+    missing = [place for place in (folder, *folder.parents) if not _is_there(place)]
     waiting: Path | None = None
     try:
         waiting = _prepare(folder, names)
@@ -91,6 +91,13 @@ def staging(out: str | Path, names: Sequence[str]) -> Iterator[Staging]:
         for place in missing:
             with suppress(OSError):  # it holds files, or was never made
                 place.rmdir()
+
+
+def _is_there(place: Path) -> bool:
+    try:
+        return place.exists()
+    except OSError:  # a name that is too long, a folder that must not be looked into
+        return False
 
 
 def _prepare(folder: Path, names: Sequence[str]) -> Path:
