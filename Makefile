@@ -94,7 +94,7 @@ PARDISO_TESTS := tests/python/solvers tests/python/test_threads.py '$(BENDING)::
 
 # The extra goes into .venv, where `auto` may choose PARDISO from then on: .ci/run calls this after `make test`.
 test-pardiso: dev  ## put MKL into .venv; tests of solvers, threads and a bend with PARDISO
-	$(SAY) 'Putting MKL (the extra "pardiso", some 200 MB) into $(VENV); "make clean" takes it out again'
+	$(SAY) 'Putting MKL (the extra "pardiso", some 700 MB) into $(VENV); "make clean" takes it out again'
 	@$(BIN)/python tools/requirements.py pardiso > $(BUILD)/pardiso.txt
 	@$(PIP) install -r $(BUILD)/pardiso.txt > $(BUILD)/pardiso.log 2>&1 || { \
 	    grep -q 'No matching distribution' $(BUILD)/pardiso.log && ! grep -q Retrying $(BUILD)/pardiso.log; } \
@@ -103,7 +103,7 @@ test-pardiso: dev  ## put MKL into .venv; tests of solvers, threads and a bend w
 	    printf '\033[1m==>\033[0m %s\n' 'Testing with PARDISO: solvers, threads, free bending of 12 x 1 elements with 18 nodes' && \
 	    $(BIN)/python -c 'import umform.solvers as s; raise SystemExit(0 if s.available()["pardiso"] else "MKL is not found")' && \
 	    $(BIN)/pytest -q $(PARDISO_TESTS) $(ARGS); \
-	else echo 'PyPI has no MKL for this platform: PARDISO is not tested here'; fi
+	else echo 'There is no wheel of MKL for this platform: PARDISO is not tested here'; fi
 
 verification: dev  ## all verification cases, the long ones too; writes the table of docs/verification.md
 	@UMFORM_VERIFICATION_PAGE=docs/verification.md $(BIN)/pytest -q tests/verification $(ARGS)

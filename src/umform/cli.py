@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import sys
 import traceback
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -31,10 +30,12 @@ class Commands(TyperGroup):
             return super().invoke(ctx)
         except UmformError as error:
             _show_traceback(ctx)
-            typer.echo(f"umform: {error}", err=True)
+            from umform.processes.bending.options import message
+
+            typer.echo(f"umform: {message(error)}", err=True)
             raise typer.Exit(1) from error
         except KeyboardInterrupt as error:
-            typer.echo("\numform: interrupted; files that were complete are kept", err=True)
+            typer.echo("\numform: interrupted; the runs are given up, files of before stay as they were", err=True)
             raise typer.Exit(INTERRUPTED) from error
         except Exception as error:
             if type(error).__module__.split(".")[0] in ("typer", "click"):
@@ -140,9 +141,9 @@ Default = FreeBending
 
 @demos.command("free-bending", epilog=RECONSTRUCTION)
 def free_bending(
-    out: Annotated[Path, typer.Option(help="Folder for tables, pictures, fields and report.")] = Path(
-        "results/free-bending"
-    ),
+    out: Annotated[
+        str, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")
+    ] = "results/free-bending",
     mesh: Annotated[list[str] | None, _option("Elements along and across, as 24x1; may be repeated.", _RUNS)] = None,
     element: Annotated[list[str] | None, _option("Element of the catalogue; may be repeated.", _RUNS)] = None,
     contact: Annotated[
@@ -167,6 +168,9 @@ def free_bending(
     steps: Annotated[int, _option("Increments up to the stroke.", _SOLUTION)] = Default.steps,
     unload: Annotated[bool, _option("Release to zero force.", _SOLUTION)] = Default.unload,
     solver: Annotated[str, _option("auto, banded, pardiso or superlu.", _SOLUTION)] = Default.solver,
+    line_search: Annotated[
+        bool, _option("Shorten Newton's increments that go too far.", _SOLUTION, "--line-search/--no-line-search")
+    ] = Default.line_search,
     processes: Annotated[int | None, _option("Runs at a time; default: the processors.", _SOLUTION)] = None,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -178,12 +182,13 @@ def free_bending(
     What is said of mesh, element and contact selects runs; a thickness option replaces the cubic ones; all other
     options hold for all runs.
     """
+    from umform.processes.bending.options import read_contact, read_mesh
     from umform.processes.bending.showcase import Selection, demo
 
     selection = Selection(
-        meshes=tuple(_parsed_mesh(text) for text in mesh or ()),
+        meshes=tuple(read_mesh(text) for text in mesh or ()),
         elements=tuple(element or ()),
-        contacts=tuple(_parsed_contact(text) for text in contact or ()),
+        contacts=tuple(read_contact(text) for text in contact or ()),
     )
     through = {
         "thickness_points": thickness_points,
@@ -208,33 +213,20 @@ def free_bending(
         steps=steps,
         unload=unload,
         solver=solver,
+        line_search=line_search,
         **given,
     )
     _show(demo(out, selection.runs(base, sharp=not given), processes=processes), out)
 
 
-def _parsed_mesh(text: str) -> tuple[int, int]:
-    along, _, across = text.lower().partition("x")
-    if not (along.isdecimal() and across.isdecimal()):
-        raise typer.BadParameter(f"{text!r} is no mesh: write the elements along and across the strip, such as 24x1")
-    return int(along), int(across)
-
-
-def _parsed_contact(text: str) -> int | str:
-    first, _, second = text.lower().partition("x")
-    if first == "nodes" and not second:
-        return "nodes"
-    if not first.isdecimal() or second not in ("", first):
-        raise typer.BadParameter(f"{text!r} is no contact rule: write nodes, or points per direction such as 5")
-    return int(first)
-
-
-def _show(outcome: Outcome, out: Path) -> None:
+def _show(outcome: Outcome, out: str) -> None:
     """Print the table, where the files are, and what went wrong."""
     from rich import box
     from rich.table import Table
 
+    from umform.processes.bending.options import as_typed
     from umform.processes.bending.table import header, rows
+    from umform.report.repeats import counted
 
     table = Table(title="Free bending of a strip over a cylinder", box=box.SIMPLE_HEAD)
     for number, name in enumerate(header(outcome.runs)):
@@ -246,11 +238,11 @@ def _show(outcome: Outcome, out: Path) -> None:
     console.print(RECONSTRUCTION)
     console.print(f"Written to {out}: {', '.join(file.name for file in outcome.files)}", soft_wrap=True)
     for run in outcome.runs:
-        for warning in run.warnings:
+        for warning in counted(run.warnings):
             typer.echo(f"umform: {run.case.name}: {warning}", err=True)
     failed = [run for run in outcome.runs if run.failure]
     for run in failed:
-        typer.echo(f"umform: {run.case.name}: {run.failure}", err=True)
+        typer.echo(f"umform: {run.case.name}: {as_typed(run.failure)}", err=True)
     if failed:
         typer.echo(f"  what was reached before is in {out}", err=True)
         raise typer.Exit(1)

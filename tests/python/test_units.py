@@ -2,8 +2,8 @@
 
 The promise: the same number of iterations in all increments, on the way down and on the way back, and each column of
 the history and each field of the frames the same to 1e-8 of its largest value. What is measured is below 2e-10 for
-forces (Newton leaves a residual of up to 1e-9 of the forces inside) and below 2e-11 for all else; the secant of the
-release starts from those forces, and its path moves by 1e-11.
+forces, moments and penetrations (Newton leaves a residual of up to 1e-9 of the forces inside) and below 2e-11 for all
+else; the secant of the release starts from those forces, and its path moves by 1e-11.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def unit(name, force, length):
 
 
 def assert_same(name, found, expected):
-    """To 1e-8 of the largest value; what is zero throughout is zero in all units."""
+    """To 1e-8 of the largest value; what is zero, or NaN where it has no meaning, is so in all units."""
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8 * np.nanmax(np.abs(expected)), err_msg=name)
 
 

@@ -134,7 +134,7 @@ def write_problem(path: Path, error: OSError, what: str = "the file cannot be wr
         remedy = "choose a directory that you may write to"
     elif isinstance(error, IsADirectoryError):
         cause = "there is a directory of this name"
-        remedy = "choose another name, or move the directory away"
+        remedy = "add a file name to the path, or choose another name"
     else:
         known = _SYSTEM.get(error.errno or 0)
         said = error.strerror or str(error) or type(error).__name__

@@ -4,13 +4,15 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import pytest
 from typer.testing import CliRunner
 
 import umform
 from umform import cli
-from umform.errors import InvalidValue
+from umform.errors import InvalidValue, NoConvergence
+from umform.processes.bending import case as case_module
 from umform.processes.bending import showcase
 
 RUN = ["--mesh", "24x1", "--contact", "2", "--steps", "30", "--stroke", "2", "--no-unload"]
@@ -52,8 +54,8 @@ def test_a_restricted_run_gives_the_force_of_the_reference(tmp_path):
         (["--element", "FOO"], 1, "unknown element"),
         (["--penalty", "-1", "--mesh", "24x1"], 1, "penalty must be positive"),
         (["--thickness-order", "3", "--thickness-points", "3", "--contact", "2"], 1, "needs at least 4"),
-        (["--mesh", "24"], 2, "24x1"),
-        (["--contact", "2x3"], 2, "nodes"),
+        (["--mesh", "24"], 1, "24x1"),
+        (["--contact", "2x3"], 1, "nodes"),
         (["--steps", "many"], 2, "Usage"),
         (["--nonsense"], 2, "nonsense"),
     ],
@@ -70,6 +72,83 @@ def test_errors_in_other_processes_are_messages_too(tmp_path):
     assert run.exit_code == 1
     assert "yield" in run.stderr
     assert "Traceback" not in run.output
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [
+        ("--mesh", "0x1"),
+        ("--mesh", "abc"),
+        ("--mesh", "24"),
+        ("--element", "FOO"),
+        ("--contact", "11"),
+        ("--contact", "2x"),
+        ("--contact", "nodesx"),
+        ("--yield-stress", "-1"),
+        ("--kappa", "0"),
+        ("--hardening", "-1"),
+        ("--radius", "nan"),
+        ("--length", "inf"),
+        ("--tool-z", "nan"),
+        ("--steps", "0"),
+        ("--thickness-points", "16"),
+        ("--thickness-order", "5"),
+        ("--thickness-rule", "simpson"),
+        ("--penalty", "-1"),
+        ("--stroke", "0"),
+        ("--solver", "magic"),
+        ("--processes", "0"),
+        ("--processes", "-3"),
+    ],
+)
+def test_a_wrong_value_is_refused_with_its_option_and_leaves_no_folder(option, value, tmp_path):
+    run = umform_cli("demo", "free-bending", "--out", tmp_path / "deep" / "out", option, value)
+    assert run.exit_code == 1
+    assert f"where:  {option}" in run.stderr
+    assert value in run.stderr.split("value:")[1].splitlines()[0]
+    assert "remedy:" in run.stderr
+    assert "Warning" not in run.output
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_remedy_names_options():
+    run = umform_cli("demo", "free-bending", "--thickness-order", "3", "--thickness-points", "3")
+    assert "remedy: --thickness-points 4 or more" in run.stderr
+
+
+@pytest.mark.parametrize(
+    ("out", "cause"), [("", "empty"), ("file", "there is a file of this name"), ("file/a/b", "file is a file")]
+)
+def test_a_folder_that_cannot_be_is_refused(out, cause, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_text("")
+    run = umform_cli("demo", "free-bending", "--out", out, *RUN)
+    assert run.exit_code == 1
+    assert cause in run.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_failed_runs_and_repeated_warnings_are_shown(monkeypatch, tmp_path):
+    def fails(case, **options):
+        if case.contact == "nodes":
+            raise NoConvergence("stopped", remedy="take line_search=True")
+        run = case_module.free_bending(case, **options)
+        return replace(run, warnings=tuple(f"step 1, time 0.{n}: it chatters" for n in range(1, 4)))
+
+    monkeypatch.setattr(showcase, "free_bending", fails)
+    contacts = ["--contact", "nodes", "--line-search"]
+    run = umform_cli("demo", "free-bending", "--out", tmp_path, "--processes", "1", *RUN, *contacts)
+    assert run.exit_code == 1
+    assert run.stderr.count("it chatters") == 1
+    assert "3 times" in run.stderr
+    assert "take --line-search" in run.stderr
+    assert (tmp_path / "report.html").read_text().count("it chatters") == 1
+    record = json.loads((tmp_path / "free_bending.json").read_text())
+    assert record["settings"]["line_search"] is True
+    assert {row["run"]: len(row["warnings"]) for row in record["runs"]} == {
+        "ANS3DEAS 24x1 2x2": 1,
+        "ANS3DEAS 24x1 nodes": 0,
+    }
 
 
 def broken(*arguments, **options):
@@ -118,6 +197,7 @@ def test_ctrl_c_ends_all_processes(tmp_path):
     assert process.returncode == 130
     assert "interrupted" in errors
     assert "Traceback" not in errors
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_log_of_increments(tmp_path):

@@ -1,5 +1,6 @@
 import os
 import stat
+from pathlib import Path
 
 import pytest
 
@@ -56,6 +57,7 @@ def test_permissions_follow_the_umask(tmp_path):
         ("file/a.txt", "is a file, not a directory"),
         ("folder", "directory of this name"),
         ("x" * 300, "long"),
+        ("file/a/b.txt", "file is a file, not a directory"),
     ],
 )
 def test_causes(tmp_path, path, cause):
@@ -88,3 +90,10 @@ def test_failing_rename_leaves_nothing(tmp_path):
     with pytest.raises(FileProblem), PendingFile(target):
         target.mkdir()
     assert names(tmp_path) == ["a.txt"]
+
+
+@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="no such folder here")
+def test_a_folder_of_the_system():
+    with pytest.raises(FileProblem) as info, PendingFile("/proc/x.txt"):
+        pass
+    assert "takes no new files" in info.value.cause or "no permission" in info.value.cause

@@ -109,3 +109,43 @@ def test_settings_that_mislead_are_said(setting, word):
     warnings = free_bending(case, progress=False).warnings
     assert len(warnings) == (1 if word else 0)
     assert all(word in warning for warning in warnings)
+
+
+@pytest.fixture(scope="module")
+def full():
+    """The runs of the example on its coarse mesh, with all their increments; seconds in all."""
+    return {contact: free_bending(FreeBending(contact=contact), progress=False) for contact in ("nodes", 2, 5)}
+
+
+def test_smoothness_of_the_example(full):
+    jumps, deviations = [run.jump for run in full.values()], [run.roughness for run in full.values()]
+    assert jumps == pytest.approx([0.0596, 0.0136, 0.0090], rel=0.02)
+    assert deviations == pytest.approx([0.0306, 0.0075, 0.0018], rel=0.03)
+    assert jumps[0] > jumps[1] > jumps[2]
+    assert deviations[0] > deviations[1] > deviations[2]
+
+
+def test_forces_of_the_example(full):
+    assert full[2].forces == pytest.approx([18.793, 21.761, 27.890, 33.514], rel=5e-3)
+    assert full[2].zero_force == pytest.approx(14.656, rel=5e-3)
+
+
+def test_line_search_comes_to_the_same_forces():
+    with_it, without = (
+        free_bending(FreeBending(steps=10, stroke=2.0, unload=False, line_search=choice), progress=False)
+        for choice in (True, False)
+    )
+    assert with_it.forces == pytest.approx(without.forces, rel=1e-6)
+    assert with_it.case.is_example == without.case.is_example
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("length", float("inf")), ("mesh", (0, 1)), ("mesh", (3,)), ("contact", "node"), ("steps", 2.5), ("mu", "x")],
+)
+def test_a_wrong_parameter_is_named(field, value):
+    with pytest.raises(InvalidValue) as caught:
+        FreeBending(**{field: value})
+    assert caught.value.where == field
+    assert caught.value.cause
+    assert caught.value.remedy

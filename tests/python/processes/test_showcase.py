@@ -1,14 +1,19 @@
 import csv
 import json
+import os
+from dataclasses import replace
+from pathlib import Path
 
 import h5py
 import pytest
 
-from umform.errors import FileProblem, NoConvergence
-from umform.processes import FreeBending, demo
-from umform.processes.bending import showcase
+from umform.errors import FileProblem, MeshError, NoConvergence, SolveError, UmformError
+from umform.processes import FreeBending, demo, free_bending
+from umform.processes.bending import page, showcase
 from umform.processes.bending.case import build
+from umform.processes.bending.pool import run_all
 from umform.processes.bending.showcase import Selection
+from umform.results import Result
 from umform.steps import Move, solve
 
 BASE = FreeBending(steps=20, mesh=(12, 1))
@@ -125,3 +130,101 @@ def test_a_folder_that_is_a_file_is_refused_before_the_run(tmp_path):
     (tmp_path / "out").write_text("")
     with pytest.raises(FileProblem):
         demo(tmp_path / "out", [BASE], progress=False)
+
+
+def fails_with(error, *, only="nodes"):
+    def run(case, **options):
+        if case.contact == only or only is None:
+            raise error
+        return free_bending(case, **options)
+
+    return run
+
+
+@pytest.mark.parametrize("error", [ZeroDivisionError("a bug"), MeshError("folded"), MemoryError(), SolveError("no")])
+@pytest.mark.parametrize("contacts", [("nodes", 2), (2, "nodes")])
+def test_a_run_that_fails_leaves_the_others_alone(error, contacts, tmp_path, monkeypatch):
+    monkeypatch.setattr(showcase, "free_bending", fails_with(error))
+    outcome = demo(tmp_path, [replace(BASE, contact=c) for c in contacts], processes=1, progress=False)
+    by_contact = {run.case.contact: run for run in outcome.runs}
+    assert by_contact[2].failure == ""
+    assert by_contact[2].zero_force is not None
+    assert str(error) in by_contact["nodes"].failure
+    assert by_contact["nodes"].forces == [None] * 4
+    assert by_contact["nodes"].jump is None
+    pictured = contacts[-1] == 2  # without a special case the last run is the pictured one
+    assert {path.name for path in tmp_path.iterdir()} == FILES - (set() if pictured else {"free_bending.vtkhdf"})
+    assert {path.name for path in outcome.files} == {path.name for path in tmp_path.iterdir()}
+
+
+def test_all_runs_fail_and_an_old_file_does_not_pass_for_a_new_one(tmp_path, monkeypatch):
+    (tmp_path / "free_bending.vtkhdf").write_text("old")
+    monkeypatch.setattr(showcase, "free_bending", fails_with(ZeroDivisionError("a bug"), only=None))
+    outcome = demo(tmp_path, [BASE], processes=1, progress=False)
+    assert {path.name for path in tmp_path.iterdir()} == FILES - {"free_bending.vtkhdf"}
+    assert "a bug" in (tmp_path / "report.html").read_text()
+    assert outcome.runs[0].zero_force is None
+
+
+def test_nothing_is_left_when_the_demo_is_given_up(tmp_path, monkeypatch):
+    monkeypatch.setattr(showcase, "free_bending", fails_with(KeyboardInterrupt()))
+    with pytest.raises(KeyboardInterrupt):
+        demo(tmp_path / "a" / "b", [BASE, replace(BASE, contact="nodes")], processes=1, progress=False)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_picture_that_fails_leaves_the_numbers(tmp_path, monkeypatch):
+    def no_page(*arguments):
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(page, "write_page", no_page)
+    with pytest.raises(ZeroDivisionError):
+        demo(tmp_path, [BASE], progress=False)
+    assert {path.name for path in tmp_path.iterdir()} == {
+        name for name in FILES if name.startswith("free_bending.")
+    } - {
+        "free_bending.png",
+        "free_bending.svg",
+    }
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"element": "MI9K3DEAZ"}, {"element": "DISP3D", "thickness_order": 3}, {"tool_z": -15.0}, {"solver": "x"}]
+)
+def test_a_case_that_cannot_be_built_is_refused_before_the_first_run(wrong, tmp_path, monkeypatch):
+    monkeypatch.setattr(showcase, "free_bending", fails_with(AssertionError(), only=None))
+    with pytest.raises(UmformError):
+        demo(tmp_path / "out", [BASE, replace(BASE, **wrong)], processes=1, progress=False)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_process_that_dies_is_the_failure_of_its_runs():
+    assert run_all(die, [1, 2], [1.0, 1.0], on_failure=lambda task, error: (task, type(error)), processes=2) == [
+        (1, SolveError),
+        (2, SolveError),
+    ]
+
+
+def die(task):
+    os._exit(1)
+
+
+@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="no such folder here")
+@pytest.mark.parametrize("out", ["/proc/x", "/proc/x/y/z"])
+def test_a_folder_of_the_system_is_refused(out):
+    with pytest.raises(FileProblem) as caught:
+        demo(out, [BASE], progress=False)
+    assert "/proc" in caught.value.cause
+    assert "not exist" not in caught.value.cause
+
+
+@pytest.mark.parametrize("error", [FileProblem("the disk is full"), ZeroDivisionError("a bug")])
+def test_fields_that_cannot_be_written_do_not_take_the_curve_along(error, tmp_path, monkeypatch):
+    def no_fields(*arguments, **options):
+        raise error
+
+    monkeypatch.setattr(Result, "write", no_fields)
+    outcome = demo(tmp_path, [BASE], progress=False)
+    assert str(error) in outcome.runs[0].failure
+    assert outcome.runs[0].forces[-1] is not None
+    assert {path.name for path in tmp_path.iterdir()} == FILES - {"free_bending.vtkhdf"}

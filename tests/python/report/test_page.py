@@ -4,6 +4,7 @@ from html.parser import HTMLParser
 import pytest
 
 import umform as uf
+from umform.errors import InvalidValue
 from umform.processes import FreeBending, free_bending
 
 
@@ -61,3 +62,10 @@ def test_words_of_the_user_are_escaped(result, tmp_path):
     path = result.report(tmp_path / "r.html")
     result.warnings.pop()
     assert "a &lt; b &amp; &lt;script&gt;" in path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", ["a.txt", "a", "a.html.gz"])
+def test_other_names_are_refused(name, result, tmp_path):
+    with pytest.raises(InvalidValue, match="html"):
+        result.report(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []

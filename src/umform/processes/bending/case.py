@@ -15,9 +15,9 @@ from umform.elements import element as catalogue_element
 from umform.errors import UmformError
 from umform.materials import J2, Linear, Perfect
 from umform.model import Model
+from umform.newton import Newton, NewtonOptions
 from umform.processes.bending.measures import at_marks, jump, roughness
 from umform.processes.bending.parameters import FreeBending
-from umform.newton import Newton, NewtonOptions
 from umform.report.repeats import counted
 from umform.results import Result
 from umform.shape import Shape
@@ -220,19 +220,18 @@ def failed(case: FreeBending, error: Exception) -> Bending:
     if result is not None and len(result) and result.frames:
         return measured(case, result, error)
     nothing = np.zeros(0)
-    return Bending(
-        case, nothing.astype(np.int64), nothing, nothing, None, "", 0, 0.0, failure=_failure(error)
-    )
+    return Bending(case, nothing.astype(np.int64), nothing, nothing, None, "", 0, 0.0, failure=failure_text(error))
 
 
-def _failure(error: Exception | None) -> str:
+def failure_text(error: Exception | None) -> str:
+    """What is said of an exception that ended a case; nothing without one."""
     if error is None:
         return ""
     if isinstance(error, UmformError):
         return str(error)
     return (
         f"an error that nobody expected: {type(error).__name__}: {error}\n"
-        "  remedy: report it, with the command and what it prints with -vv"
+        "  remedy: report it, with the command and what it prints with -v"
     )
 
 
@@ -250,7 +249,7 @@ def measured(case: FreeBending, result: Result, failure: Exception | None = None
         iterations=int(result["iterations"].sum()),
         seconds=result.seconds,
         warnings=(*_cautions(case, result.model.mesh.cell), *result.warnings),
-        failure=_failure(failure),
+        failure=failure_text(failure),
         result=result,
     )
 

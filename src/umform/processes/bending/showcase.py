@@ -13,7 +13,7 @@ import numpy as np
 
 from umform.errors import InvalidValue, UmformError
 from umform.io.tables import write_csv, write_json
-from umform.processes.bending.case import Bending, cell_of, check, failed, free_bending
+from umform.processes.bending.case import Bending, cell_of, check, failed, failure_text, free_bending
 from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
 from umform.processes.bending.pool import run_all
 from umform.processes.bending.staging import staging
@@ -53,7 +53,9 @@ class Selection:
                 for element in [e for e in _ELEMENTS if mesh in _MESHES[cell_of(e)]] or _ELEMENTS
             ]
         return [
-            (element, mesh) for element in self.elements or _ELEMENTS for mesh in self.meshes or _MESHES[cell_of(element)]
+            (element, mesh)
+            for element in self.elements or _ELEMENTS
+            for mesh in self.meshes or _MESHES[cell_of(element)]
         ]
 
     def runs(self, base: FreeBending, *, sharp: bool = True) -> list[FreeBending]:
@@ -167,8 +169,8 @@ def _run(task: tuple[FreeBending, Path | None], progress: bool | None) -> Bendin
     if fields and run.result:
         try:
             run.result.write(fields)
-        except UmformError as error:
-            run = replace(run, failure="\n".join(filter(None, (run.failure, str(error)))))
+        except Exception as error:
+            run = replace(run, failure="\n".join(filter(None, (run.failure, failure_text(error)))))
     return run.detached()
 
 

@@ -79,7 +79,7 @@ def staging(out: str | Path, names: Sequence[str]) -> Iterator[Staging]:
     missing = [place for place in (folder, *folder.parents) if not _is_there(place)]
     waiting: Path | None = None
     try:
-        waiting = _prepare(folder, names)
+        waiting = _prepare(folder, names, missing[-1] if missing else folder)
         yield Staging(folder, waiting)
     except FileProblem as problem:
         if waiting is not None:
@@ -100,12 +100,12 @@ def _is_there(place: Path) -> bool:
         return False
 
 
-def _prepare(folder: Path, names: Sequence[str]) -> Path:
-    """Make the folder, and find out whether files can be written there before time is spent on them."""
+def _prepare(folder: Path, names: Sequence[str], first: Path) -> Path:
+    """Make the folder, from its first missing part on, and try it before time is spent on its files."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise write_problem(folder, error, what="the folder cannot be made") from error
+        raise write_problem(first, error, what="the folder cannot be made") from error
     for name in names:
         if (folder / name).is_dir():
             raise write_problem(folder / name, IsADirectoryError())
