@@ -22,11 +22,19 @@ def check_model(model: Model) -> None:
     Raises
     ------
     RigidBodyMotion
-        If supports and tools in touch leave a rigid-body motion free.
+        If supports and tools in touch leave a rigid-body motion free, or a node belongs to no cell.
     ToolSwallowsSheet
         If a tool overlaps the sheet by more than half of its thickness.
     """
     mesh = model.mesh
+    unused = np.setdiff1d(np.arange(len(mesh.points)), mesh.connectivity)
+    if len(unused):
+        raise RigidBodyMotion(
+            "a node belongs to no cell, so nothing holds it",
+            where=f"node {unused[0]} (one of {len(unused)})",
+            cause="left over from a mesh generator",
+            remedy="take unused nodes out of the mesh; umform.mesh.read does so",
+        )
     half = len(mesh.connectivity[0]) // 2
     directors = mesh.points[mesh.connectivity[:, half:]] - mesh.points[mesh.connectivity[:, :half]]
     thickness = float(np.median(np.linalg.norm(directors, axis=-1)))

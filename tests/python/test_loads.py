@@ -405,6 +405,15 @@ def test_a_contact_point_on_the_axis_of_a_tool_is_refused(model):
         model.check()
 
 
+def test_a_node_without_a_cell_is_refused():
+    mesh = strip(4.0, 1.0, T, (2, 1))
+    stray = Mesh(np.vstack([mesh.points, [[9.0, 9.0, 9.0]]]), mesh.cells, mesh.sets, mesh.faces)
+    model = Model(stray, material=mt.SVK(E=1000.0, nu=0.3))
+    model.fix("x0")
+    with pytest.raises(RigidBodyMotion, match="belongs to no cell"):
+        model.check()
+
+
 def test_a_model_without_a_free_degree_of_freedom_is_refused(model):
     model.fix("x0")
     model.fix(lambda x, y, z: x > -1)

@@ -113,14 +113,6 @@ class Mesh:
         object.__setattr__(
             self, "faces", {key: np.asarray(rows, dtype=np.int32).reshape(-1, 2) for key, rows in self.faces.items()}
         )
-        unused = np.setdiff1d(np.arange(len(points)), cells)
-        if len(unused):
-            raise InvalidValue(
-                "a node belongs to no cell",
-                where=f"node {unused[0]} (one of {len(unused)})",
-                cause="left over from a mesh generator: nothing would hold it",
-                remedy="take unused nodes out of the mesh, umform.mesh.read does so",
-            )
         check_cells(points, cells)
 
     @property
