@@ -27,8 +27,9 @@ if TYPE_CHECKING:
     from umform.mesh import Mesh
     from umform.model import Model
     from umform.newton import NewtonOptions
+    from umform.release import Release
     from umform.results import Result
-    from umform.steps import Move, Release, solve
+    from umform.steps import Move, solve
     from umform.surfaces import Cylinder, Plane, Sphere, UserSurface, check_surface
     from umform.user_law import UserLaw, check_law
 
@@ -54,7 +55,8 @@ _HOME = {
     "umform.model": ("Model",),
     "umform.newton": ("NewtonOptions",),
     "umform.results": ("Result",),
-    "umform.steps": ("Move", "Release", "solve"),
+    "umform.release": ("Release",),
+    "umform.steps": ("Move", "solve"),
     "umform.surfaces": ("Cylinder", "Plane", "Sphere", "UserSurface", "check_surface"),
     "umform.user_law": ("UserLaw", "check_law"),
 }
