@@ -130,7 +130,18 @@ class Contact:
         )
 
     def resultant(self, about: Floats | None = None) -> tuple[Floats, Floats]:
-        """Force and moment (about a point, default the origin) of the sheet on the tool. eq. (4.17)"""
+        """Resultant of the contact pressure. eq. (4.17)
+
+        Parameters
+        ----------
+        about : array_like, shape (3,), optional
+            Point that the moment is about; default the origin.
+
+        Returns
+        -------
+        force, moment : ndarray, shape (3,)
+            Of the sheet on the tool, at the last evaluation.
+        """
         at = self.at_points()
         forces = -(at.pressure * at.area)[:, None] * at.normal
         arm = at.x - (np.zeros(3) if about is None else np.asarray(about, dtype=float))

@@ -143,7 +143,20 @@ class Model:
     # Supports ------------------------------------------------------------------------------------------------
 
     def fix(self, nodes: Selector, directions: str = "xyz") -> None:
-        """Hold nodes in one or more of the directions x, y, z."""
+        """Hold nodes in one or more of the directions x, y, z.
+
+        Parameters
+        ----------
+        nodes : str, callable or array_like
+            Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
+        directions : str
+            Letters of the directions, "xz" for instance.
+
+        Raises
+        ------
+        InvalidValue
+            If a direction is unknown, or a displacement is prescribed already.
+        """
         ids = self.mesh.nodes(nodes)
         for direction in directions:
             dofs = 3 * ids + self._direction(direction)
@@ -152,11 +165,39 @@ class Model:
         self._assembled = None
 
     def symmetry(self, nodes: Selector, normal: str) -> None:
-        """Symmetry plane: nodes stay in the plane with the normal x, y or z."""
+        """Symmetry plane: nodes stay in the plane with the normal x, y or z.
+
+        Parameters
+        ----------
+        nodes : str, callable or array_like
+            Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
+        normal : {"x", "y", "z"}
+            Normal of the plane.
+        """
         self.fix(nodes, normal)
 
     def prescribe(self, nodes: Selector, direction: str, name: str = "") -> Prescribed:
-        """Prescribe the displacement of nodes in a direction; steps move the value of the control returned."""
+        """Prescribe the displacement of nodes in a direction.
+
+        Parameters
+        ----------
+        nodes : str, callable or array_like
+            Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
+        direction : {"x", "y", "z"}
+            Direction.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        Prescribed
+            The control whose value (a length) steps move; its force is the sum of the reactions on the sheet.
+
+        Raises
+        ------
+        InvalidValue
+            If a displacement is prescribed already.
+        """
         dofs = (3 * self.mesh.nodes(nodes) + self._direction(direction)).astype(np.int32)
         taken = {c.name: c.dofs for c in self._of(Prescribed)}
         taken["fix or symmetry"] = np.flatnonzero(self._fixed).astype(np.int32)
@@ -178,23 +219,96 @@ class Model:
     # Loads ---------------------------------------------------------------------------------------------------
 
     def force(self, nodes: Selector, force: ArrayLike, name: str = "") -> Load:
-        """The same dead force on each node of a set, times the value of the control."""
+        """The same dead force on each node of a set.
+
+        Parameters
+        ----------
+        nodes : str, callable or array_like
+            Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
+        force : array_like, shape (3,)
+            Force on each node for the value 1 of the control.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        Load
+            The control whose value steps move.
+        """
         return self._load(boundary.nodal_forces(self.mesh, nodes, force), name or self._name("force"))
 
     def traction(self, faces: Selector, traction: ArrayLike, name: str = "") -> Load:
-        """Dead traction per reference area on faces, times the value of the control."""
+        """Dead traction on faces of the cells, lateral ones too.
+
+        Parameters
+        ----------
+        faces : str, callable or array_like
+            Name of a set, predicate of x, y, z, or rows (cell, face), see :meth:`umform.Mesh.face_set`.
+        traction : array_like, shape (3,)
+            Force per reference area for the value 1 of the control.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        Load
+            The control whose value steps move.
+        """
         return self._load(boundary.traction_forces(self.mesh, faces, traction), name or self._name("traction"))
 
     def line_load(self, faces: Selector, side: str, load: ArrayLike, name: str = "") -> Load:
-        """Dead load per reference length on the lower or upper edge of lateral faces, times the control."""
+        """Dead load on the lower or upper edge of lateral faces.
+
+        Parameters
+        ----------
+        faces : str, callable or array_like
+            Name of a set, predicate of x, y, z, or rows (cell, face), see :meth:`umform.Mesh.face_set`.
+        side : {"lower", "upper"}
+            Which edge of the faces.
+        load : array_like, shape (3,)
+            Force per reference length for the value 1 of the control.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        Load
+            The control whose value steps move.
+        """
         return self._load(boundary.edge_forces(self.mesh, faces, side, load), name or self._name("line_load"))
 
     def body_force(self, force: ArrayLike, name: str = "") -> Load:
-        """Dead force per reference volume, times the value of the control."""
+        """Dead force in the volume.
+
+        Parameters
+        ----------
+        force : array_like, shape (3,)
+            Force per reference volume for the value 1 of the control.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        Load
+            The control whose value steps move.
+        """
         return self._load(boundary.body_forces(self.mesh, force), name or self._name("body_force"))
 
     def pressure(self, faces: Selector, name: str = "") -> Pressure:
-        """Follower pressure on lower or upper faces, against their outward normal; the tangent becomes unsymmetric."""
+        """Follower pressure on lower or upper faces, against their outward normal; the tangent becomes unsymmetric.
+
+        Parameters
+        ----------
+        faces : str, callable or array_like
+            Name of a set, predicate of x, y, z, or rows (cell, face), see :meth:`umform.Mesh.face_set`.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        Pressure
+            The control whose value (force per current area) steps move.
+        """
         block = _core.pressure_block(self.mesh.facets(faces), self.mesh.points)
         return self._add(Pressure(name or self._name("pressure"), block=block))
 
@@ -227,13 +341,38 @@ class Model:
         return contact
 
     def drive(self, contact: Contact, direction: Direction, name: str = "") -> ToolMotion:
-        """Let steps move a tool along a direction."""
+        """Let steps move a tool along a direction.
+
+        Parameters
+        ----------
+        contact : Contact
+            The pair whose tool moves.
+        direction : str or array_like, shape (3,)
+            "z", "-x", ... or a vector.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        ToolMotion
+            The control whose value (a length) steps move; its force is that of the sheet on the tool along the direction.
+        """
         control = ToolMotion(name or self._name(contact.name), direction=unit_vector(direction, "drive"))
         contact.translations.append(control)
         return self._add(control)
 
     def set_motion(self, contact: Contact, motion: Motion, about: ArrayLike = (0.0, 0.0, 0.0)) -> None:
-        """Give a tool a motion in time: time -> translation, or (translation, rotation vector) about a point."""
+        """Give a tool a motion in time, in addition to what steps do to it.
+
+        Parameters
+        ----------
+        contact : Contact
+            The pair whose tool moves.
+        motion : callable
+            time -> translation (3,), or (translation (3,), rotation vector (3,)).
+        about : array_like, shape (3,)
+            Point of the tool that the rotation is about.
+        """
         contact.motion = motion
         contact.reference_point = boundary.vector3(about, "about")
 

@@ -166,13 +166,29 @@ class Result:
         return path
 
     def plot(self, x: str, y: str | list[str], path: str | Path | None = None) -> Figure:
-        """Draw columns of the history against each other; save as PNG or SVG with ``path``."""
+        """Draw columns of the history against each other.
+
+        Parameters
+        ----------
+        x : str
+            Column along the horizontal axis.
+        y : str or list of str
+            One or more columns.
+        path : str or Path, optional
+            Picture to write: .png, .svg or .pdf.
+        """
         from umform.plotting import plot_history
 
         return plot_history(self, x, [y] if isinstance(y, str) else y, path)
 
     def report(self, path: str | Path) -> Path:
-        """Write one self-contained HTML page: curves, last shape, history, settings, versions."""
+        """Write one self-contained HTML page: curves, last shape, history, settings, versions.
+
+        Parameters
+        ----------
+        path : str or Path
+            The page, ending in .html.
+        """
         from umform.report.page import write_report
 
         return write_report(self, path)

@@ -10,7 +10,21 @@ from umform.mesh.mesh import FACE_NODES, Floats, Mesh
 
 
 def graded(length: float, cells: int, ratio: float = 1.0) -> Floats:
-    """Grid lines from 0 to ``length``; the last of the ``cells`` intervals is ``ratio`` times the first one."""
+    """Grid lines from 0 to a length.
+
+    Parameters
+    ----------
+    length : float
+        Where the last line lies.
+    cells : int
+        Number of intervals.
+    ratio : float
+        Size of the last interval over that of the first one; they grow geometrically.
+
+    Returns
+    -------
+    ndarray, shape (cells + 1,)
+    """
     if not isinstance(cells, int) or cells < 1 or not 0 < length < np.inf or not 0 < ratio < np.inf:
         raise InvalidValue(
             "a grid needs a positive length, a whole number of cells and a positive ratio of sizes",

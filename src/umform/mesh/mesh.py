@@ -130,7 +130,18 @@ class Mesh:
         return f"Mesh({len(self.points)} points, {len(self.connectivity)} {self.cell}, sets: {sets})"
 
     def nodes(self, selector: Selector) -> Ids:
-        """Node ids of a set: by name, by a predicate of x, y, z, or the ids themselves.
+        """Node ids of a set.
+
+        Parameters
+        ----------
+        selector : str, callable or array_like
+            Name of a node or face set; predicate of the coordinates x, y, z (arrays of shape (n,)); node ids; or a mask
+            over all nodes.
+
+        Returns
+        -------
+        ndarray of int32
+            Sorted ids.
 
         Raises
         ------
@@ -161,7 +172,22 @@ class Mesh:
         return ids
 
     def face_set(self, selector: Selector) -> Ids:
-        """Faces of a set as rows (cell, face number): by name, by a predicate met by all nodes of a face, or rows."""
+        """Faces of a set as rows (cell, number of the face in :data:`FACES`).
+
+        Parameters
+        ----------
+        selector : str, callable or array_like
+            Name of a face set; predicate of the coordinates x, y, z that all nodes of a face must meet; or rows.
+
+        Returns
+        -------
+        ndarray of int32, shape (k, 2)
+
+        Raises
+        ------
+        UnknownSet, EmptySet, InvalidValue
+            If there is no such set, nothing is in it, or a row names no face.
+        """
         if isinstance(selector, str):
             if selector not in self.faces:
                 raise _unknown("face", selector, list(self.faces))
