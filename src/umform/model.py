@@ -355,7 +355,7 @@ class Model:
         Returns
         -------
         ToolMotion
-            The control whose value (a length) steps move; its force is that of the sheet on the tool along the direction.
+            The control whose value (a length) steps move; its force is that of the sheet on the tool along it.
         """
         control = ToolMotion(name or self._name(contact.name), direction=unit_vector(direction, "drive"))
         contact.translations.append(control)
