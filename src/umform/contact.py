@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from umform import _core
 from umform.boundary import Control, vector3
-from umform.errors import InvalidValue
+from umform.errors import InvalidPenalty, InvalidValue
 from umform.mesh import Ids, Mesh, Selector
 from umform.surfaces import Surface
 
@@ -63,7 +63,7 @@ class Contact:
         self, mesh: Mesh, faces: Selector, tool: Surface, penalty: float, points: int | str, name: str
     ) -> None:
         if not (np.isfinite(penalty) and penalty > 0):
-            raise InvalidValue(
+            raise InvalidPenalty(
                 "the penalty must be positive",
                 where=f"contact {name}",
                 value=penalty,

@@ -66,6 +66,12 @@ class NotFinite(InvalidValue):
     id = "value.not-finite"
 
 
+class InvalidPenalty(InvalidValue):
+    """A contact penalty that is not a positive number."""
+
+    id = "contact.penalty"
+
+
 class HardeningNotMonotone(InvalidValue):
     """A hardening table whose strain or stress does not increase."""
 

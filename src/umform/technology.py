@@ -1,0 +1,150 @@
+"""Element technology as data: tying rows, enhanced modes, and the element that they make."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.polynomial import Legendre
+from numpy.typing import NDArray
+
+from umform import _core
+from umform.errors import InvalidValue
+
+#: Voigt order of the strain components.
+COMPONENTS = ("11", "22", "33", "12", "23", "13")
+
+
+@dataclass(frozen=True)
+class Tying:
+    """One row of an assumed-strain rule.
+
+    The covariant component is sampled on the grid ``r`` x ``s`` and interpolated with the Lagrange polynomials of the
+    abscissae, at the mid-surface (t = 0) or, with ``at_layer``, at the t of the Gauss point.
+    """
+
+    component: str
+    r: tuple[float, ...]
+    s: tuple[float, ...]
+    at_layer: bool = False
+
+
+@dataclass(frozen=True)
+class Term:
+    """The term ``factor * r**a * s**b * P_c(t)`` of an enhanced mode in one covariant component (P_c: Legendre)."""
+
+    component: str
+    a: int = 0
+    b: int = 0
+    c: int = 0
+    factor: float = 1.0
+
+    def __call__(self, r: NDArray[np.float64], s: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Value at natural coordinates."""
+        legendre: NDArray[np.float64] = Legendre.basis(self.c)(t)
+        return self.factor * r**self.a * s**self.b * legendre
+
+    def mean(self) -> float:
+        """Mean over the parent cube. eq. (2.12)"""
+        if self.c > 0 or self.a % 2 or self.b % 2:
+            return 0.0
+        return self.factor / ((self.a + 1) * (self.b + 1))
+
+
+Mode = tuple[Term, ...]
+
+
+@dataclass(frozen=True)
+class Element:
+    """A solid-shell element as data.
+
+    Parameters
+    ----------
+    name : str
+        Name in the literature.
+    cell : {"hex8", "hex18"}
+        Cell type of the mesh.
+    tying : tuple of Tying
+        Assumed strains; components without a row are compatible.
+    modes : tuple of Mode
+        Enhanced strains.
+    surface_points : int
+        Gauss points per direction of the surface.
+    thickness_order : int
+        Highest order in t of the enhanced thickness strain (0: none); it needs order + 1 thickness points.
+    citation : str
+        Where it comes from (a key of references.bib).
+    """
+
+    name: str
+    cell: str
+    tying: tuple[Tying, ...] = ()
+    modes: tuple[Mode, ...] = ()
+    surface_points: int = 2
+    thickness_order: int = 0
+    citation: str = ""
+    options: dict[str, object] = field(default_factory=dict, compare=False)
+
+    def __post_init__(self) -> None:
+        if self.cell not in ("hex8", "hex18"):
+            raise InvalidValue("an element stands on hex8 or hex18 cells", where=self.name, value=self.cell)
+        tied = [row.component for row in self.tying]
+        for row in self.tying:
+            if row.component not in COMPONENTS or tied.count(row.component) > 1:
+                raise InvalidValue(
+                    "a tying row belongs to one component, and a component has one row",
+                    where=self.name,
+                    value=row.component,
+                    remedy="components: " + ", ".join(COMPONENTS),
+                )
+            if any(len(set(abscissae)) != len(abscissae) or not abscissae for abscissae in (row.r, row.s)):
+                raise InvalidValue("the abscissae of a tying row must be distinct", where=self.name, value=row)
+        for mode in self.modes:
+            if not mode or any(term.component not in COMPONENTS for term in mode):
+                raise InvalidValue("a mode is a tuple of terms in known components", where=self.name, value=mode)
+            for component in {term.component for term in mode}:
+                mean = sum(term.mean() for term in mode if term.component == component)
+                if abs(mean) > 1e-12:
+                    raise InvalidValue(
+                        "the mean of an enhanced mode over the element must vanish",
+                        where=self.name,
+                        value=f"{mode}: mean {mean:.3g}",
+                        cause="such a mode takes part in constant strain: the patch test is lost",
+                        remedy="odd powers of r or s, or Legendre order c > 0; or subtract the mean by another term",
+                    )
+
+    @property
+    def nodes(self) -> int:
+        """Number of nodes: 8 or 18."""
+        return {"hex8": 8, "hex18": 18}[self.cell]
+
+    def check_modes(self, t: NDArray[np.float64]) -> None:
+        """Refuse modes that are linearly dependent at the Gauss points, for the thickness points ``t``.
+
+        Raises
+        ------
+        InvalidValue
+            If the parameters of the modes could not be told apart.
+        """
+        x = _core.gauss(self.surface_points)[0]
+        r, s, layers = (grid.ravel() for grid in np.meshgrid(x, x, t, indexing="ij"))
+        values = np.zeros((len(COMPONENTS), len(r), len(self.modes)))
+        for k, mode in enumerate(self.modes):
+            for term in mode:
+                values[COMPONENTS.index(term.component), :, k] += term(r, s, layers)
+        if self.modes and np.linalg.matrix_rank(values.reshape(-1, len(self.modes)), tol=1e-10) < len(self.modes):
+            raise InvalidValue(
+                "the enhanced modes are linearly dependent at the Gauss points",
+                where=self.name,
+                value=f"{len(self.modes)} modes, {self.surface_points} x {self.surface_points} x {len(t)} points",
+                cause="two modes alike, or more of them than the points can see",
+                remedy="take modes out, or more thickness points",
+            )
+
+    def technology(self) -> _core.Technology:
+        """The element as the kernels take it."""
+        index = COMPONENTS.index
+        return _core.Technology(
+            [_core.Tying(index(row.component), list(row.r), list(row.s), row.at_layer) for row in self.tying],
+            [[_core.Term(index(t.component), t.factor, t.a, t.b, t.c) for t in mode] for mode in self.modes],
+        )
