@@ -67,6 +67,7 @@ demo: env  ## bend a strip over a cylinder; pictures and report in results/free-
 bench: env  ## time the kernels
 	@$(BIN)/python benchmarks/kernels.py $(ARGS)
 	@$(BIN)/python benchmarks/run.py
+	@$(BIN)/python benchmarks/sparse.py
 
 # ---- test ----
 

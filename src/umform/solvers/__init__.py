@@ -2,6 +2,7 @@
 
 ``auto`` takes the fastest one present: the banded Cholesky solver for symmetric matrices of narrow band (long
 strips), else PARDISO, else SuperLU. A solver of your own joins with `register`.
+The ratios in these files were measured on a machine with two cores; ``benchmarks/sparse.py`` prints those of yours.
 """
 
 from __future__ import annotations

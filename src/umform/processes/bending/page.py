@@ -45,8 +45,9 @@ _LOCKING = (
     "volume, against which the bulk modulus stands; it grows with the curvature, resists the hinge and spreads "
     "it. Refinement in the surface does not cure it, nor do 18 nodes, for it is a matter of the thickness "
     "direction. A cubic thickness strain can meet the condition, and tying it at the nodes takes away the "
-    "thinning that tilted directors feign in mid-element: with both, the 8-node element follows the continuum "
-    "with one element through the thickness. This needs two elements or more over the width."
+    "thinning that tilted directors feign in mid-element: with both, one element through the thickness "
+    "comes near to the continuum. (18 nodes need cubic terms that vary in the surface, too.) The hinge localises, "
+    "so that other meshes give up to a tenth more or less. This needs two elements or more over the width."
 )
 
 

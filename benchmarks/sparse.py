@@ -1,0 +1,62 @@
+"""How the sparse solvers compare: time of a factorisation with the analysis kept, as ratios to the fastest one.
+
+Tangents of flat sheets at rest. All solvers that are installed take turns, so that a shared machine troubles them alike.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+
+import numpy as np
+
+import umform as uf
+from umform.errors import UmformError
+from umform.solvers import available, make_solver
+
+#: Name, elements along and across, cell, repetitions.
+CASES = (
+    ("strip 24x1", (24, 1), "hex8", 50),
+    ("strip 48x2", (48, 2), "hex8", 30),
+    ("strip 24x2, 18 nodes", (24, 2), "hex18", 20),
+    ("sheet 20x20", (20, 20), "hex8", 10),
+    ("sheet 40x40", (40, 40), "hex8", 3),
+)
+
+
+def tangent(cells: tuple[int, int], cell: str) -> tuple[uf.Model, np.ndarray]:
+    """Model of a clamped sheet and the entries of its tangent at rest."""
+    mesh = uf.mesh.strip(length=float(cells[0]), width=float(cells[1]), thickness=0.5, cells=cells, cell=cell)
+    model = uf.Model(mesh, "ANS3DEAS" if cell == "hex8" else "MI9K3DEAS", material=uf.SVK(E=210e3, nu=0.3))
+    model.fix("x0")
+    return model, model.evaluate(np.zeros_like(model.u)).values
+
+
+def main() -> None:
+    """Run the benchmark."""
+    argparse.ArgumentParser(description=__doc__).parse_args()
+    names = [name for name, here in available().items() if here]
+    print(f"{'':<24}{'n':>8}" + "".join(f"{name:>10}" for name in names) + "   factorisation, fastest = 1")
+    for label, cells, cell, repeat in CASES:
+        model, values = tangent(cells, cell)
+        best = dict.fromkeys(names, np.inf)
+        solvers = {}
+        for name in names:
+            try:
+                solvers[name] = make_solver(model.pattern, name)
+            except UmformError:
+                continue  # the solver does not take this matrix: its column stays empty
+        for _ in range(repeat):
+            for name, solver in solvers.items():
+                start = time.perf_counter()
+                solver.factor(values)
+                best[name] = min(best[name], time.perf_counter() - start)
+        fastest = min(best.values())
+        ratios = "".join(
+            f"{best[name] / fastest:>10.1f}" if np.isfinite(best[name]) else f"{'-':>10}" for name in names
+        )
+        print(f"{label:<24}{model.pattern.n:>8}{ratios}")
+
+
+if __name__ == "__main__":
+    main()
