@@ -25,7 +25,7 @@ unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long test-pardiso verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
+.PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
         format bench clean
 
 help:  ## show this help
@@ -94,20 +94,23 @@ PARDISO_TESTS := tests/python/solvers tests/python/test_threads.py '$(BENDING)::
     $(BENDING)::test_threads_beside_pardiso_give_the_same_bits
 
 # The extra goes into .venv, where `auto` may choose PARDISO from then on: .ci/run calls this after `make test`.
-test-pardiso: dev  ## put MKL into .venv; tests of solvers, threads and a bend with PARDISO
+pardiso: dev  ## put MKL (the extra "pardiso", some 700 MB) into .venv; "make clean" takes it out again
 	$(SAY) 'Putting MKL (the extra "pardiso", some 700 MB) into $(VENV); "make clean" takes it out again'
 	@$(BIN)/python tools/requirements.py pardiso > $(BUILD)/pardiso.txt
 	@$(PIP) install -r $(BUILD)/pardiso.txt > $(BUILD)/pardiso.log 2>&1 || { \
 	    grep -q 'No matching distribution' $(BUILD)/pardiso.log && ! grep -q Retrying $(BUILD)/pardiso.log; } \
 	    || { cat $(BUILD)/pardiso.log; exit 1; }
+
+test-pardiso: pardiso  ## tests of solvers, threads and a bend with PARDISO
 	@if $(PIP) show mkl > /dev/null 2>&1; then \
 	    printf '\033[1m==>\033[0m %s\n' 'Testing with PARDISO: solvers, threads, free bending of 12 x 1 elements with 18 nodes' && \
 	    $(BIN)/python -c 'import umform.solvers as s; raise SystemExit(0 if s.available()["pardiso"] else "MKL is not found")' && \
 	    $(BIN)/pytest -q $(PARDISO_TESTS) $(ARGS); \
 	else echo 'There is no wheel of MKL for this platform: PARDISO is not tested here'; fi
 
-verification: dev  ## all verification cases, the long ones too; writes the table of docs/verification.md
-	@UMFORM_VERIFICATION_PAGE=docs/verification.md $(BIN)/pytest -q tests/verification $(ARGS)
+verification: pardiso  ## run the whole verification book and write docs/verification (some 20 minutes on 2 cores)
+	$(SAY) 'Running all cases of the verification book'
+	@$(BIN)/umform verify --all --out docs/verification $(ARGS)
 
 # ---- style ----
 

@@ -52,6 +52,8 @@ _STYLE: Any = {
 }
 
 _FORMATS = (".png", ".svg", ".pdf")
+#: Fields that a shape is coloured by unless another is wanted: the first that is there.
+_FAVOURITES = ("plastic_strain_max", "thickness_change", "displacement")
 
 
 @contextmanager
@@ -61,8 +63,8 @@ def house_style() -> Iterator[None]:
         yield
 
 
-def save(figure: Figure, path: str | Path) -> Path:
-    """Write a figure as PNG, SVG or PDF, whole or not at all."""
+def save(figure: Figure, path: str | Path, dpi: int = 200) -> Path:
+    """Write a figure as PNG (with so many dots an inch), SVG or PDF, whole or not at all."""
     path = Path(path)
     if path.suffix not in _FORMATS:
         raise InvalidValue(
@@ -74,7 +76,7 @@ def save(figure: Figure, path: str | Path) -> Path:
         )
     with house_style(), PendingFile(path) as temporary:
         undated = {"CreationDate": None} if path.suffix == ".pdf" else {}
-        figure.savefig(temporary, dpi=200, metadata={"Date": None} if path.suffix == ".svg" else undated)
+        figure.savefig(temporary, dpi=dpi, metadata={"Date": None} if path.suffix == ".svg" else undated)
     return path
 
 
@@ -141,7 +143,9 @@ def plot_shape(
     if not isinstance(shape, Shape):
         shape = Shape.of(shape)
     if values is None:
-        values = next((name for name in ("plastic_strain_max", "thickness_change") if name in shape.values), None)
+        values = next(
+            (name for name in ("plastic_strain_max", "thickness_change", "displacement") if name in shape.values), None
+        )
     with house_style():
         figure = Figure(figsize=(7.2, 3.2), layout="compressed")
         drawn = draw_shape(figure.add_subplot(), shape, values, view)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
+    from umform.mesh import Mesh
     from umform.results import Result
 
 Floats = NDArray[np.float64]
@@ -45,13 +46,19 @@ class Shape:
     def of(cls, result: Result, frame: int = -1) -> Shape:
         """Shape of a frame of a result, with its scalar fields; without any frame, the last converged state."""
         mesh = result.model.mesh
-        quads, owners = _outer_faces(mesh.connectivity.astype(np.int64))
         if not result.frames:
-            return cls(mesh.points + result.model.u.reshape(-1, 3), quads, {})
+            return cls.displaced(mesh, result.model.u.reshape(-1, 3))
+        quads, owners = _outer_faces(mesh.connectivity.astype(np.int64))
         kept = result.frames[frame]
         values = {name: field[owners] for name, field in kept.cells.items() if field.ndim == 1}
         values |= {name: field[quads].mean(axis=1) for name, field in kept.points.items() if field.ndim == 1}
         return cls(mesh.points + kept.points["displacement"], quads, values)
+
+    @classmethod
+    def displaced(cls, mesh: Mesh, u: Floats) -> Shape:
+        """Shape of a mesh under displacements (n, 3), with their size as the field ``displacement``."""
+        quads, _ = _outer_faces(mesh.connectivity.astype(np.int64))
+        return cls(mesh.points + u, quads, {"displacement": np.linalg.norm(u, axis=1)[quads].mean(axis=1)})
 
     def mirrored(self, axis: int) -> Shape:
         """The shape together with its mirror image at the plane through the origin normal to an axis."""

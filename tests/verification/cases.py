@@ -1,10 +1,6 @@
-"""Builders of the verification cases: meshes, models, linear solutions, and the reference data with their sources."""
+"""Builders of the verification cases: meshes, models, linear solutions."""
 
 from __future__ import annotations
-
-import csv
-import json
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,25 +8,14 @@ from scipy.sparse import csr_matrix, triu
 from scipy.sparse.linalg import spsolve
 
 import umform as uf
+from umform.verification.references import record, table
+
+__all__ = ["record", "table"]
 
 Floats = NDArray[np.float64]
 
-REFERENCE = Path(__file__).parent / "reference"
-
 #: The steel of the free bending example: N, mm, MPa, perfect plasticity.
 STEEL = uf.J2(kappa=175000, mu=80770, hardening=uf.Perfect(160.0))
-
-
-def table(name: str) -> dict[str, Floats]:
-    """Columns of a reference table; lines that begin with # name the source."""
-    with (REFERENCE / name).open() as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    return {column: np.array([float(row[column]) for row in rows]) for column in rows[0]}
-
-
-def record(name: str) -> dict:
-    """A reference file in JSON; its field "source" names the source."""
-    return json.loads((REFERENCE / name).read_text())
 
 
 # Linear problems: the tangent at u = 0 --------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from umform.errors import FileProblem, MeshError, NoConvergence, SolveError, Umf
 from umform.processes import FreeBending, demo, free_bending
 from umform.processes.bending import page, showcase
 from umform.processes.bending.case import build
-from umform.processes.bending.pool import run_all
+from umform.pool import run_all
 from umform.processes.bending.showcase import Selection
 from umform.results import Result
 from umform.steps import Move, solve

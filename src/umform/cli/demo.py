@@ -1,134 +1,19 @@
-"""The command line: ``umform demo free-bending``, ``umform elements``; what fails says so in a few lines."""
+"""``umform demo free-bending``: the example of the paper."""
 
 from __future__ import annotations
 
-import logging
-import sys
-import traceback
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from typer.core import TyperGroup
 
-import umform
-from umform.errors import UmformError
+from umform.cli.root import Debug, Verbose, app, console
 from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
 
 if TYPE_CHECKING:
-    from umform.elements import Element
     from umform.processes.bending.showcase import Outcome
 
-INTERRUPTED = 130
-
-
-class Commands(TyperGroup):
-    """The commands, with the one place where errors become messages and exit codes."""
-
-    def invoke(self, ctx: Any) -> Any:
-        """Run a command; print what goes wrong on standard error, and a traceback only with ``--debug``."""
-        try:
-            return super().invoke(ctx)
-        except UmformError as error:
-            _show_traceback(ctx)
-            from umform.processes.bending.options import message
-
-            typer.echo(f"umform: {message(error)}", err=True)
-            raise typer.Exit(1) from error
-        except KeyboardInterrupt as error:
-            typer.echo("\numform: interrupted; the runs are given up, files of before stay as they were", err=True)
-            raise typer.Exit(INTERRUPTED) from error
-        except Exception as error:
-            if type(error).__module__.split(".")[0] in ("typer", "click"):
-                raise  # usage errors and regular exits
-            _show_traceback(ctx)
-            typer.echo(f"umform: an error that nobody expected: {type(error).__name__}: {error}", err=True)
-            typer.echo("  remedy: report it, with the command and what it prints with --debug", err=True)
-            raise typer.Exit(1) from error
-
-
-def _show_traceback(ctx: Any) -> None:
-    if ctx.meta.get("debug"):
-        typer.echo(traceback.format_exc(), err=True)
-
-
-app = typer.Typer(
-    cls=Commands,
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    rich_markup_mode="markdown",
-    context_settings={"help_option_names": ["-h", "--help"]},
-    help=umform.__doc__,
-)
 demos = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", help="Run an example and show what comes out.")
 app.add_typer(demos, name="demo")
-
-
-def _print_version(wanted: bool) -> None:
-    if wanted:
-        typer.echo(f"umform {umform.__version__}")
-        raise typer.Exit
-
-
-def _log(count: int) -> int:
-    from umform.log import log_to_stderr
-
-    if count:
-        log_to_stderr(logging.INFO if count == 1 else logging.DEBUG)
-    return count
-
-
-def _remember_debug(ctx: typer.Context, wanted: bool) -> bool:
-    ctx.meta["debug"] = wanted or ctx.meta.get("debug", False)
-    return wanted
-
-
-Verbose = Annotated[
-    int, typer.Option("--verbose", "-v", count=True, callback=_log, help="Log each increment; -vv each iteration.")
-]
-Debug = Annotated[bool, typer.Option("--debug", callback=_remember_debug, help="Show the traceback of an error.")]
-Version = Annotated[
-    bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Show the version and exit.")
-]
-
-
-@app.callback()
-def _root(version: Version = False, verbose: Verbose = 0, debug: Debug = False) -> None:
-    pass
-
-
-_root.__doc__ = umform.__doc__
-
-
-@app.command()
-def elements() -> None:
-    """Show the catalogue of elements."""
-    from rich import box
-    from rich.table import Table
-
-    from umform.elements import CATALOGUE
-
-    table = Table("name", "nodes", "assumed strains", "enhanced modes", "source", box=box.SIMPLE_HEAD)
-    for name, make in CATALOGUE.items():
-        table.add_row(name, *_described(make()))
-    _console().print(table)
-
-
-def _described(element: Element) -> tuple[str, str, str, str]:
-    """Nodes, tied components, number of modes a component, source."""
-    tied = " ".join(dict.fromkeys(f"E{row.component}" for row in element.tying)) or "none"
-    counts: dict[str, int] = {}
-    for mode in element.modes:
-        component = "+".join(dict.fromkeys(f"E{term.component}" for term in mode))
-        counts[component] = counts.get(component, 0) + 1
-    enhanced = ", ".join(f"{count} {component}" for component, count in counts.items()) or "none"
-    return str(element.nodes), tied, enhanced, element.citation
-
-
-def _console() -> Any:
-    """Where tables go: as wide as the terminal, wide enough for all columns elsewhere."""
-    from rich.console import Console
-
-    return Console(width=None if sys.stdout.isatty() else 120, highlight=False)
 
 
 def _option(help_text: str, panel: str, *names: str) -> Any:
@@ -233,10 +118,10 @@ def _show(outcome: Outcome, out: str) -> None:
         table.add_column(name, justify="left" if number == 0 else "right", no_wrap=number > 0)
     for row in rows(outcome.runs):
         table.add_row(*row)
-    console = _console()
-    console.print(table)
-    console.print(RECONSTRUCTION)
-    console.print(f"Written to {out}: {', '.join(file.name for file in outcome.files)}", soft_wrap=True)
+    screen = console()
+    screen.print(table)
+    screen.print(RECONSTRUCTION)
+    screen.print(f"Written to {out}: {', '.join(file.name for file in outcome.files)}", soft_wrap=True)
     for run in outcome.runs:
         for warning in counted(run.warnings):
             typer.echo(f"umform: {run.case.name}: {warning}", err=True)
@@ -246,12 +131,3 @@ def _show(outcome: Outcome, out: str) -> None:
     if failed:
         typer.echo(f"  what was reached before is in {out}", err=True)
         raise typer.Exit(1)
-
-
-def main() -> None:
-    """Start the command line."""
-    app()
-
-
-if __name__ == "__main__":
-    main()

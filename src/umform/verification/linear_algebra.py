@@ -1,0 +1,44 @@
+"""Linear problems: one solution with the tangent at u = 0."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_matrix, triu
+
+from umform.model import Evaluation, Model
+from umform.solvers import make_solver
+
+Floats = NDArray[np.float64]
+
+
+def stiffness(model: Model, evaluation: Evaluation) -> csr_matrix:
+    """Tangent over the unknowns of the pattern, both triangles."""
+    pattern = model.pattern
+    K = csr_matrix((evaluation.values, pattern.indices, pattern.indptr), shape=(pattern.n, pattern.n))
+    return K + triu(K, 1).T if pattern.symmetric else K
+
+
+def linear_solution(model: Model, loads: Floats | float = 0.0, prescribed: Floats | float = 0.0) -> Floats:
+    """Small displacements K u = loads.
+
+    Parameters
+    ----------
+    model : Model
+        The model; its loads are not looked at, only the supports.
+    loads : ndarray, shape (3 n,)
+        Nodal forces.
+    prescribed : ndarray, shape (n, 3)
+        Displacements of the held degrees of freedom; those of the free ones are not looked at.
+
+    Returns
+    -------
+    ndarray, shape (n, 3)
+    """
+    u = np.where(model.constrained(), np.broadcast_to(prescribed, (model.u.size // 3, 3)).ravel(), 0.0)
+    evaluation = model.evaluate(np.zeros(u.size), u)
+    rhs = np.broadcast_to(loads, u.shape) - evaluation.predictor
+    solver = make_solver(model.pattern, "auto")
+    solver.factor(evaluation.values)
+    u[model.free] += solver.solve(rhs[model.free])
+    return u.reshape(-1, 3)

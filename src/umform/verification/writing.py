@@ -1,0 +1,151 @@
+"""The book as Markdown: a page for each case, and the summary that all pages hang on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from umform.io.atomic import PendingFile
+from umform.report.versions import versions
+from umform.verification.balance import BalanceRow
+from umform.verification.case import Case, Chapter
+from umform.verification.checks import Check, Verdict
+from umform.verification.page import Page, StudyRecord
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What is left of a page once it is written; can be sent from process to process.
+
+    Attributes
+    ----------
+    name : str
+        The case.
+    verdict : Verdict
+        Its verdict.
+    checks : tuple of Check
+        Its checks.
+    balances : tuple of BalanceRow
+        Balance of each nonlinear run.
+    studies : tuple of StudyRecord
+        Numbers of each element on each mesh.
+    seconds : float
+        How long it took.
+    failure : str
+        Why it has no page, or is cut short.
+    """
+
+    name: str
+    verdict: Verdict
+    checks: tuple[Check, ...] = ()
+    balances: tuple[BalanceRow, ...] = ()
+    studies: tuple[StudyRecord, ...] = ()
+    seconds: float = 0.0
+    failure: str = ""
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a file, whole or not at all."""
+    with PendingFile(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def page_text(page: Page) -> str:
+    """Markdown of a page."""
+    case = page.case
+    parts = [
+        f"# {case.title}",
+        f"Verdict: **{page.verdict.mark}** · made by `umform verify {case.name}`",
+        "## Problem",
+        case.problem.strip(),
+        "## Reference",
+        case.reference.strip(),
+        "## Checks",
+        markdown_table(
+            ("what", "reference", "found", "deviation", "expected within", "verdict"),
+            [check.cells() for check in page.checks],
+        ),
+        "## What came out",
+        *page.blocks,
+    ]
+    if page.balances:
+        parts += ["## Balance", _BALANCE, balancemarkdown_table(page.balances)]
+    return "\n\n".join(parts) + "\n\n[All cases](README.md)\n"
+
+
+_BALANCE = (
+    "External work against stored, dissipated and contact energy (largest drift over the largest energy); resultant "
+    "of all external forces and moments over the sum of their sizes; order of Newton's method (median over the "
+    "increments of the order of their last steps)."
+)
+
+
+def balancemarkdown_table(rows: Sequence[BalanceRow], with_case: bool = False) -> str:
+    """Balances as a table."""
+    columns = ("run", "increments", "iterations", "drift", "force", "moment", "order of Newton")
+    cells = [
+        (
+            f"[{row.case}]({row.case}.md): {row.run}" if with_case else row.run,
+            str(row.increments),
+            str(row.iterations),
+            f"{row.drift:.1e}",
+            f"{row.force:.1e}",
+            f"{row.moment:.1e}",
+            "-" if row.order is None else f"{row.order:.2f}",
+        )
+        for row in rows
+    ]
+    return markdown_table(columns, cells)
+
+
+def summary_text(chapters: Sequence[Chapter], outcomes: Mapping[str, Outcome]) -> str:
+    """Markdown of the summary: the verdict of every case, and the balances of all nonlinear runs."""
+    found = [outcome for outcome in outcomes.values() if not outcome.failure]
+    count = {verdict: sum(outcome.verdict is verdict for outcome in outcomes.values()) for verdict in Verdict}
+    parts = [
+        "# Verification book",
+        _INTRODUCTION,
+        f"**{len(outcomes)} cases: " + ", ".join(f"{number} {v.mark}" for v, number in count.items()) + f"**; "
+        f"{sum(len(outcome.checks) for outcome in found)} checks.",
+    ]
+    for chapter in chapters:
+        rows = [_summary_row(case, outcomes[case.name]) for case in chapter.cases if case.name in outcomes]
+        if rows:
+            parts += [
+                f"## {chapter.title}",
+                chapter.about,
+                markdown_table(("case", "verdict", "checks", "worst"), rows),
+            ]
+    balances = [row for outcome in found for row in outcome.balances]
+    if balances:
+        parts += ["## Balance of all nonlinear runs", _BALANCE, balancemarkdown_table(balances, with_case=True)]
+    made_with = {name: version for name, version in versions().items() if name != "platform"}
+    parts += ["Made with " + ", ".join(f"{name} {version}" for name, version in made_with.items()) + "."]
+    return "\n\n".join(parts) + "\n"
+
+
+_INTRODUCTION = """\
+Every number on these pages comes from a run: `make verification` runs all cases and writes all pages anew,
+`umform verify` lists the cases, `umform verify NAME` runs one. **Green**: all checks are within what is expected of the
+element on that mesh. **Amber**: a check misses by no more than is known, and the page says why. **Red**: it misses. An
+amber is not a green that was talked up: read the cause before you use that element there.
+
+[Which element should I take?](which-element.md) is drawn from these tables, [known defects](errata.md) are kept
+honest."""
+
+
+def _summary_row(case: Case, outcome: Outcome) -> tuple[str, ...]:
+    name = f"[{case.title}]({case.name}.md)"
+    if outcome.failure:
+        return name, Verdict.RED.mark, "-", outcome.failure.splitlines()[0]
+    green = sum(check.verdict is Verdict.GREEN for check in outcome.checks)
+    worst = max(outcome.checks, key=lambda check: (check.verdict, abs(check.deviation) / check.within), default=None)
+    said = "no check" if worst is None else f"{worst.what}: {worst.cells()[3]} ({worst.cells()[4]} expected)"
+    return name, outcome.verdict.mark, f"{green} of {len(outcome.checks)} green", said
+
+
+def markdown_table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table in Markdown."""
+    lines = [tuple(columns), ("---",) * len(columns), *rows]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)

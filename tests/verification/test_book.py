@@ -1,0 +1,20 @@
+"""Every case of the verification book on its short meshes: no red verdict, and a page that says something."""
+
+from __future__ import annotations
+
+import pytest
+
+from umform.verification.book import cases
+from umform.verification.checks import Verdict
+from umform.verification.page import Page
+from umform.verification.writing import page_text
+
+
+@pytest.mark.parametrize("name", cases())
+def test_short(name):
+    page = Page(cases()[name], short=True)
+    page.case.run(page)
+    assert page.checks
+    reds = [check.cells() for check in page.checks if check.verdict is Verdict.RED]
+    assert not reds
+    assert "| verdict |" in page_text(page)
