@@ -94,6 +94,16 @@ nb::object point_fields(ShellBlock& block, const Input& u) {
                           to_numpy(std::move(dV), {elements, points}));
 }
 
+nb::object energy(ShellBlock& block, const Input& u) {
+    const double* position = nodal(block, u);
+    Energy total;
+    {
+        const nb::gil_scoped_release release;
+        total = block.energy(position);
+    }
+    return nb::make_tuple(total.elastic, total.plastic);
+}
+
 nb::object element_matrix(ShellBlock& block, int e, const Input& u) {
     const std::size_t size = 3 * block.connectivity().nodes;
     std::vector<double> K(size * size), f(size);
@@ -156,6 +166,9 @@ void bind_blocks(nb::module_& m) {
             nb::sig(
                 "def point_fields(self, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64]]"),
             "E, S (elements, points, 6) in the local frame, the frame and F (elements, points, 3, 3), dV (elements, points).")
+        .def(
+            "energy", &energy, nb::arg("u"), nb::sig("def energy(self, u: NDArray[float64]) -> tuple[float, float]"),
+            "Elastic energy and plastic work of the block at the converged state u; NaN if the law does not know them.")
         .def("element", &element_matrix, nb::arg("e"), nb::arg("u"),
              nb::sig("def element(self, e: int, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]"),
              "Condensed K and f of one element.");

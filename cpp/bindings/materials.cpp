@@ -1,3 +1,4 @@
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/vector.h>
 
@@ -28,22 +29,56 @@ nb::object respond(const Material& material, const Input& E, const Input& state)
                           to_numpy(std::move(trial), {n, size}));
 }
 
+nb::object energy(const Material& material, const Input& E, const Input& state) {
+    const std::size_t n = E.shape(0);
+    if (E.ndim() != 2 || E.shape(1) != 6 || state.size() != n * material.state_size())
+        throw std::invalid_argument("E must have shape (n, 6) and state (n, state_size)");
+    std::vector<Energy> energies(n);
+    material.energy(static_cast<int>(n), reinterpret_cast<const Voigt*>(E.data()), state.data(), energies.data());
+    std::vector<double> elastic(n), plastic(n);
+    for (std::size_t q = 0; q < n; ++q) {
+        elastic[q] = energies[q].elastic;
+        plastic[q] = energies[q].plastic;
+    }
+    return nb::make_tuple(to_numpy(std::move(elastic), {n}), to_numpy(std::move(plastic), {n}));
+}
+
+/// Arguments of a user's function at n points: copies of E (n, 6) and state (n, size).
+nb::tuple point_arguments(std::size_t n, std::size_t size, const Voigt* E, const double* state) {
+    const auto* strain = reinterpret_cast<const double*>(E);
+    return nb::make_tuple(to_numpy(std::vector<double>(strain, strain + 6 * n), {n, 6}),
+                          to_numpy(std::vector<double>(state, state + size * n), {n, size}));
+}
+
+/// A Python function (E (n, 6), state (n, size)) -> (elastic (n,), plastic (n,)), called once for each element.
+MaterialFromFunction::EnergyFunction energy_from_function(nb::callable function, std::size_t size) {
+    return [function = std::move(function), size](int n, const Voigt* E, const double* state, Energy* energies) {
+        const nb::gil_scoped_acquire gil;
+        const std::size_t count = n;
+        const auto answer = nb::cast<nb::tuple>(function(*point_arguments(count, size, E, state)));
+        std::vector<double> elastic(count), plastic(count);
+        copy_result(answer[0], elastic.data(), count);
+        copy_result(answer[1], plastic.data(), count);
+        for (std::size_t q = 0; q < count; ++q) energies[q] = {elastic[q], plastic[q]};
+    };
+}
+
 /// A Python function (E (n, 6), state (n, size)) -> (S, CC, new state), called once for each element.
-std::shared_ptr<Material> material_from_function(nb::callable function, std::vector<double> initial) {
+std::shared_ptr<Material> material_from_function(nb::callable function, std::vector<double> initial,
+                                                 std::optional<nb::callable> energy) {
     const std::size_t size = initial.size();
     auto call = [function, size](int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial) {
         const nb::gil_scoped_acquire gil;
         const std::size_t count = n;
-        const auto* strain = reinterpret_cast<const double*>(E);
-        const auto answer =
-            nb::cast<nb::tuple>(function(to_numpy(std::vector<double>(strain, strain + 6 * count), {count, 6}),
-                                         to_numpy(std::vector<double>(state, state + size * count), {count, size})));
+        const auto answer = nb::cast<nb::tuple>(function(*point_arguments(count, size, E, state)));
         copy_result(answer[0], reinterpret_cast<double*>(S), 6 * count);
         copy_result(answer[1], reinterpret_cast<double*>(CC), 36 * count);
         copy_result(answer[2], trial, size * count);
         return n;
     };
-    return std::make_shared<MaterialFromFunction>(std::move(call), std::move(initial));
+    MaterialFromFunction::EnergyFunction energies;
+    if (energy) energies = energy_from_function(std::move(*energy), size);
+    return std::make_shared<MaterialFromFunction>(std::move(call), std::move(initial), std::move(energies));
 }
 
 }  // namespace
@@ -56,7 +91,8 @@ void bind_materials(nb::module_& m) {
                 return nb::make_tuple(yield_stress(h, eqps).value, yield_stress(h, eqps).slope);
             },
             nb::arg("eqps"), nb::sig("def __call__(self, eqps: float) -> tuple[float, float]"),
-            "Yield stress and its slope.");
+            "Yield stress and its slope.")
+        .def("work", &plastic_work, nb::arg("eqps"), "Integral of the yield stress from 0 to eqps.");
     m.def(
         "linear_voce",
         [](double y0, double modulus, double saturation, double rate) {
@@ -89,7 +125,12 @@ void bind_materials(nb::module_& m) {
             "respond", &respond, nb::arg("E"), nb::arg("state"),
             nb::sig(
                 "def respond(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]"),
-            "S (n, 6), CC (n, 6, 6) and the new history at n points.");
+            "S (n, 6), CC (n, 6, 6) and the new history at n points.")
+        .def(
+            "energy", &energy, nb::arg("E"), nb::arg("state"),
+            nb::sig(
+                "def energy(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]"),
+            "Elastic energy and plastic work per reference volume at n points, with the history that belongs to E; NaN where not known.");
     m.def(
         "saint_venant_kirchhoff", [](double lambda, double mu) { return material(SaintVenantKirchhoff{lambda, mu}); },
         nb::arg("lambda_"), nb::arg("mu"));
@@ -104,7 +145,8 @@ void bind_materials(nb::module_& m) {
         nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"));
     m.def(
         "material_from_function", &material_from_function, nb::arg("function"), nb::arg("initial"),
+        nb::arg("energy").none(),
         nb::sig(
-            "def material_from_function(function: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float]) -> Material"),
-        "A law from a function (E (n, 6), state (n, size)) -> (S (n, 6), CC (n, 6, 6), new state (n, size)).");
+            "def material_from_function(function: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float], energy: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64]]] | None) -> Material"),
+        "A law from a function (E (n, 6), state (n, size)) -> (S (n, 6), CC (n, 6, 6), new state (n, size)); its energy -> (elastic (n,), plastic (n,)).");
 }

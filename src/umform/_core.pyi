@@ -31,6 +31,9 @@ class Hardening:
     def __call__(self, eqps: float) -> tuple[float, float]:
         """Yield stress and its slope."""
 
+    def work(self, eqps: float) -> float:
+        """Integral of the yield stress from 0 to eqps."""
+
 def linear_voce(y0: float, modulus: float, saturation: float, rate: float) -> Hardening: ...
 
 def swift(strength: float, offset: float, exponent: float) -> Hardening: ...
@@ -51,6 +54,11 @@ class Material:
     def respond(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
         """S (n, 6), CC (n, 6, 6) and the new history at n points."""
 
+    def energy(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
+        """
+        Elastic energy and plastic work per reference volume at n points, with the history that belongs to E; NaN where not known.
+        """
+
 def saint_venant_kirchhoff(lambda_: float, mu: float) -> Material: ...
 
 def neo_hooke_logarithmic(lambda_: float, mu: float) -> Material: ...
@@ -59,9 +67,9 @@ def neo_hooke_power(mu: float, beta: float) -> Material: ...
 
 def j2(kappa: float, mu: float, hardening: Hardening) -> Material: ...
 
-def material_from_function(function: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float]) -> Material:
+def material_from_function(function: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float], energy: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64]]] | None) -> Material:
     """
-    A law from a function (E (n, 6), state (n, size)) -> (S (n, 6), CC (n, 6, 6), new state (n, size)).
+    A law from a function (E (n, 6), state (n, size)) -> (S (n, 6), CC (n, 6, 6), new state (n, size)); its energy -> (elastic (n,), plastic (n,)).
     """
 
 class Surface:
@@ -176,6 +184,11 @@ class ShellBlock:
     def point_fields(self, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64]]:
         """
         E, S (elements, points, 6) in the local frame, the frame and F (elements, points, 3, 3), dV (elements, points).
+        """
+
+    def energy(self, u: NDArray[float64]) -> tuple[float, float]:
+        """
+        Elastic energy and plastic work of the block at the converged state u; NaN if the law does not know them.
         """
 
     def element(self, e: int, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import fields
+from umform.balance import Balance, ExternalWork, drift
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
 from umform.newton import Iteration
@@ -42,8 +43,13 @@ class Result:
 
     The history has one row for each increment: ``step``, ``time``, each control and its ``<name>_force``, for each
     contact the force ``<name>_fx``, ``_fy``, ``_fz`` and moment about the origin ``_mx``, ``_my``, ``_mz`` of the sheet
-    on the tool, the largest penetration ``<name>_penetration`` and the number of ``<name>_active`` points, and the
+    on the tool, the largest penetration ``<name>_penetration`` and the number of ``<name>_active`` points, the
+    ``external_work`` and the ``elastic_energy``, ``plastic_work`` and ``contact_energy`` that it went into, and the
     number of ``iterations``. ``events`` says what happened (lift-off), ``warnings`` what to look at.
+
+    All energies of a model at rest are zero. A run that starts from a deformed or loaded state starts its external work
+    at the sum of the energies that it finds. Energies that a law does not know (one of the user, without an energy) are
+    NaN, and the external work then starts at zero.
     """
 
     def __init__(self, model: Model) -> None:
@@ -55,6 +61,7 @@ class Result:
         self.warnings: list[str] = []
         self.solver = ""
         self.seconds = 0.0
+        self._work = ExternalWork(model)
 
     def add(self, residual: Floats, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
         """Add the converged state of the model (of its last evaluation) to the history."""
@@ -70,6 +77,7 @@ class Result:
             gaps = contact.block.gaps
             row[f"{contact.name}_penetration"] = float(max(-gaps.min(), 0.0))
             row[f"{contact.name}_active"] = int(contact.active().sum())
+        row |= self._energy_columns(residual)
         row["iterations"] = len(iterations)
         self.rows.append(row)
         self.iterations.append(iterations)
@@ -82,6 +90,39 @@ class Result:
         )
         if frame:
             self.frames.append(self._frame(residual))
+
+    def _energy_columns(self, residual: Floats) -> dict[str, float]:
+        self._work.advance(residual)
+        energies = self._work.energies
+        return {
+            "external_work": self._work.value,
+            "elastic_energy": energies.elastic,
+            "plastic_work": energies.plastic,
+            "contact_energy": energies.contact,
+        }
+
+    def balance(self) -> Balance:
+        """Balance of energies, forces and moments of each row of the history.
+
+        Returns
+        -------
+        Balance
+            Energies, the drift of the external work from their sum, which falls with the square of the increments, and
+            the relative resultants of all external forces, which are as small as Newton's method has left them.
+        """
+        elastic, plastic, contact = (self[name] for name in ("elastic_energy", "plastic_work", "contact_energy"))
+        forces, moments = np.array(self._work.imbalances).T
+        return Balance(
+            step=self["step"],
+            time=self["time"],
+            external_work=self["external_work"],
+            elastic=elastic,
+            plastic=plastic,
+            contact=contact,
+            drift=drift(self["external_work"], elastic + plastic + contact),
+            force_imbalance=forces,
+            moment_imbalance=moments,
+        )
 
     def note(self, message: str) -> None:
         """Keep an event, lift-off for instance, and log it."""

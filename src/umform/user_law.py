@@ -17,6 +17,9 @@ Floats = NDArray[np.float64]
 #: Strain E (n, 6) and history (n, size) -> stress S (n, 6), tangent CC (n, 6, 6), new history (n, size).
 LawFunction = Callable[[Floats, Floats], tuple[ArrayLike, ArrayLike, ArrayLike]]
 
+#: Strain E (n, 6) and the history (n, size) that belongs to it -> elastic energy (n,), plastic work (n,).
+EnergyFunction = Callable[[Floats, Floats], tuple[ArrayLike, ArrayLike]]
+
 
 @dataclass(frozen=True)
 class UserLaw:
@@ -35,12 +38,17 @@ class UserLaw:
         Default number of points through the thickness.
     name : str
         For messages.
+    energy : callable, optional
+        Takes strain and history like ``function``, but the history that a converged step has left behind, and returns
+        energies per reference volume: what can be had back from the strain (n,), and what has been spent so far (n,).
+        Without it the energies of a run are not known, and are NaN.
     """
 
     function: LawFunction
     initial: tuple[float, ...] = ()
     thickness_points: int = 2
     name: str = "user law"
+    energy: EnergyFunction | None = None
 
     def __call__(self, E: Floats, state: Floats) -> tuple[Floats, Floats, Floats]:
         """Evaluate the function and check what it returns.
@@ -55,25 +63,47 @@ class UserLaw:
         answer = self.function(E, state)
         if not isinstance(answer, tuple) or len(answer) != 3:
             raise InvalidValue("a law must return three arrays: S, CC, state", where=self.name, value=type(answer))
-        shapes = ((len(E), 6), (len(E), 6, 6), (len(E), len(self.initial)))
-        arrays = []
-        for name, shape, values in zip(("S", "CC", "state"), shapes, answer, strict=True):
-            array = np.ascontiguousarray(values, dtype=float)
-            if array.shape != shape:
-                raise InvalidValue(f"{name} of a law must have shape {shape}", where=self.name, value=array.shape)
-            if not np.isfinite(array).all():
-                raise NotFinite(
-                    f"{name} of a law is not finite",
-                    where=self.name,
-                    cause="a root or logarithm outside of its domain: the strain has become too large",
-                    remedy="take smaller steps, or widen the domain of the law",
-                )
-            arrays.append(array)
-        return arrays[0], arrays[1], arrays[2]
+        S, CC, new = answer
+        return (
+            self._checked("S", S, (len(E), 6)),
+            self._checked("CC", CC, (len(E), 6, 6)),
+            self._checked("state", new, (len(E), len(self.initial))),
+        )
+
+    def _energies(self, E: Floats, state: Floats) -> tuple[Floats, Floats]:
+        """Evaluate the energy function and check what it returns."""
+        assert self.energy is not None
+        answer = self.energy(E, state)
+        if not isinstance(answer, tuple) or len(answer) != 2:
+            raise InvalidValue(
+                "the energy function of a law must return two arrays: elastic, plastic",
+                where=self.name,
+                value=type(answer),
+                remedy="an elastic law has no plastic work: return np.zeros(len(E)) for it",
+            )
+        elastic, plastic = answer
+        return (
+            self._checked("elastic energy", elastic, (len(E),)),
+            self._checked("plastic work", plastic, (len(E),)),
+        )
+
+    def _checked(self, name: str, values: ArrayLike, shape: tuple[int, ...]) -> Floats:
+        array = np.ascontiguousarray(values, dtype=float)
+        if array.shape != shape:
+            raise InvalidValue(f"{name} of a law must have shape {shape}", where=self.name, value=array.shape)
+        if not np.isfinite(array).all():
+            raise NotFinite(
+                f"{name} of a law is not finite",
+                where=self.name,
+                cause="a root or logarithm outside of its domain: the strain has become too large",
+                remedy="take smaller steps, or widen the domain of the law",
+            )
+        return array
 
     def law(self) -> _core.Material:
         """The law as the kernels take it."""
-        return _core.material_from_function(self, list(self.initial))
+        energies = None if self.energy is None else self._energies
+        return _core.material_from_function(self, list(self.initial), energies)
 
 
 def check_law(material: Material, E: ArrayLike, state: ArrayLike | None = None, step: float = 1e-6) -> float:

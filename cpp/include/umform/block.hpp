@@ -78,6 +78,9 @@ class ShellBlock {
     virtual int state_size() const = 0;
     virtual Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) = 0;
     virtual void fields(const double* u, const PointFields& fields) = 0;
+    /// Energies over the whole block with the converged history and parameters, which belong to u; the trial history stays
+    /// as it is. NaN where the law does not know them. eq. (5.30)
+    virtual Energy energy(const double* u) = 0;
     /// K, f of one element before its scatter, condensed; for tests and eigenvalues.
     virtual void element(int e, const double* u, double* K, double* f) = 0;
 
@@ -128,6 +131,7 @@ class ShellBlockOf final : public ShellBlock {
         Y_.resize(elements * modes * size);
         scale_.resize(elements);
         failed_.resize(elements);
+        energy_.resize(elements);
     }
 
     const Connectivity& connectivity() const override { return part_; }
@@ -223,6 +227,27 @@ class ShellBlockOf final : public ShellBlock {
         }
     }
 
+    Energy energy(const double* u) override {
+        prepare_workspaces();
+        for_each_by_colour(colours_, part_.size(), [&](int e, int thread) {
+            Workspace& w = workspaces_[thread];
+            energy_[e] = Energy{};
+            if (!strains(e, u, alpha_converged_.data(), w)) return;
+            material_->energy(points(), w.E.data(), state_.data() + first_state(e), w.energy.data());
+            energy_[e] = {0.0, 0.0};
+            for (int q = 0; q < points(); ++q) {
+                energy_[e].elastic += w.energy[q].elastic * w.dV[q];
+                energy_[e].plastic += w.energy[q].plastic * w.dV[q];
+            }
+        });
+        Energy total{0.0, 0.0};  // in the order of the elements, whatever the number of threads
+        for (const Energy& one : energy_) {
+            total.elastic += one.elastic;
+            total.plastic += one.plastic;
+        }
+        return total;
+    }
+
   private:
     using Workspace = typename Element::Workspace;
 
@@ -233,18 +258,23 @@ class ShellBlockOf final : public ShellBlock {
     /// Asks the material at the points of an element; `trial` takes the new history.
     bool respond(int e, Workspace& w, double* trial) {
         const int q = points();
-        const std::size_t first = static_cast<std::size_t>(e) * q * material_->state_size();
-        return material_->respond(q, w.E.data(), state_.data() + first, w.S.data(), w.CC.data(), trial) == q;
+        return material_->respond(q, w.E.data(), state_.data() + first_state(e), w.S.data(), w.CC.data(), trial) == q;
     }
 
-    double* trial_of(int e) { return trial_.data() + static_cast<std::size_t>(e) * points() * material_->state_size(); }
+    /// Where the history of an element begins in `state_` and `trial_`.
+    std::size_t first_state(int e) const { return static_cast<std::size_t>(e) * points() * material_->state_size(); }
+    double* trial_of(int e) { return trial_.data() + first_state(e); }
 
-    bool compute(int e, const double* u, Workspace& w, double* trial) {
+    /// Strains of an element at u with the enhanced parameters `alpha` of all elements. False if it is inverted.
+    bool strains(int e, const double* u, const double* alpha, Workspace& w) const {
         typename Element::Nodal X, local_u;
         gather<Nodes>(part_, e, X_.data(), X.data());
         gather<Nodes>(part_, e, u, local_u.data());
-        if (!element_.strains(X, local_u, alpha_.data() + static_cast<std::size_t>(e) * element_.modes(), w))
-            return false;
+        return element_.strains(X, local_u, alpha + static_cast<std::size_t>(e) * element_.modes(), w);
+    }
+
+    bool compute(int e, const double* u, Workspace& w, double* trial) {
+        if (!strains(e, u, alpha_.data(), w)) return false;
         if (!respond(e, w, trial)) return false;
         element_.integrate(w);
         return element_.condense(w);
@@ -259,6 +289,7 @@ class ShellBlockOf final : public ShellBlock {
     std::vector<double> y_, Y_;          // Kaa^-1 ra, Kaa^-1 Kad of the last evaluate
     std::vector<double> scale_;
     std::vector<char> failed_;
+    std::vector<Energy> energy_;
 };
 
 // Instantiated in cpp/src, one file each, so that they compile in parallel.

@@ -29,6 +29,7 @@ class SolidShell {
         std::vector<Voigt> E, S;             // [q] in the local frame
         std::vector<Voigt66> T, CC;          // [q]
         std::vector<double> dV;              // [q]
+        std::vector<Energy> energy;          // [q]
         std::vector<Voigt> enhanced;         // [q][component] covariant direction of an enhanced component
         std::vector<std::array<Vec3, 3>> g;  // [q] current base vectors
         // Tying samples: of the mid-surface, then of each layer.
@@ -55,7 +56,7 @@ class SolidShell {
         Workspace w;
         const int q = points(), per_pass = tables_.mid_samples + tables_.layer_samples,
                   all = tables_.mid_samples + tables_.layers * tables_.layer_samples;
-        w.E.resize(q), w.S.resize(q), w.T.resize(q), w.CC.resize(q), w.dV.resize(q), w.g.resize(q);
+        w.E.resize(q), w.S.resize(q), w.T.resize(q), w.CC.resize(q), w.dV.resize(q), w.g.resize(q), w.energy.resize(q);
         w.enhanced.resize(q * tables_.enhanced.size());
         w.sample_E.resize(all), w.sample_gi.resize(all), w.sample_gj.resize(all);
         w.sample_B.resize(per_pass * size), w.sample_sigma.resize(per_pass);

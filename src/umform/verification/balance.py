@@ -25,7 +25,7 @@ class BalanceRow:
     increments, iterations : int
         How long it was.
     drift : float
-        Largest difference of external work and energies, over the largest energy.
+        Largest difference of external work and energies in the run, over the largest energy in the run.
     force, moment : float
         Largest resultant of all external forces and their moments, over the sum of their sizes.
     order : float or None
@@ -46,13 +46,14 @@ class BalanceRow:
 def balance_row(case: str, run: str, result: Result) -> BalanceRow:
     """Balance of a result."""
     balance = result.balance()
+    energy = balance.elastic + balance.plastic + balance.contact
     orders = [order for iterations in result.iterations if (order := newton_order(iterations)) is not None]
     return BalanceRow(
         case=case,
         run=run,
         increments=len(result) - 1,
         iterations=int(result["iterations"].sum()),
-        drift=float(np.abs(balance.drift).max()),
+        drift=float(np.abs(balance.external_work - energy).max() / (np.abs(energy).max() or 1.0)),
         force=float(np.abs(balance.force_imbalance).max()),
         moment=float(np.abs(balance.moment_imbalance).max()),
         order=median(orders) if orders else None,

@@ -1,14 +1,23 @@
-// What a material law is to the elements: strain and history in, stress, tangent and new history out.
+// What a material law is to the elements: strain and history in, stress, tangent and new history out; and energies.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "umform/tensor.hpp"
 
 namespace umform {
+
+/// Energies per reference volume: what is stored in elastic strains, and the plastic work done so far (dissipation, and
+/// what hardening keeps). NaN where a law does not know them.
+struct Energy {
+    double elastic = std::numeric_limits<double>::quiet_NaN();
+    double plastic = std::numeric_limits<double>::quiet_NaN();
+};
 
 /// A law answers at one point. `E` is the Green-Lagrange strain in a local orthonormal frame, `state` the converged
 /// history (never changed), `trial` the new one. It returns false where the strain is outside of its domain.
@@ -18,6 +27,7 @@ concept MaterialLaw =
         { L::state_size } -> std::convertible_to<int>;
         { law.respond(E, state, S, CC, trial) } -> std::same_as<bool>;
         { law.initial(trial) } -> std::same_as<void>;
+        { law.energy(E, state) } -> std::same_as<Energy>;
     };
 
 /// The law as the elements see it: one virtual call for all points of an element, so that elements and laws are
@@ -30,6 +40,8 @@ class Material {
     /// Answers at n points; arrays are [n][6], [n][state_size], [n][36]. Returns the index of the first point that
     /// fails, or n.
     virtual int respond(int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial) const = 0;
+    /// Energies at n points whose history `state` belongs to the strain (it has been committed).
+    virtual void energy(int n, const Voigt* E, const double* state, Energy* energies) const = 0;
 };
 
 template <MaterialLaw Law>
@@ -43,6 +55,9 @@ class MaterialOf final : public Material {
             if (!law_.respond(E[q], state + q * Law::state_size, S[q], CC[q], trial + q * Law::state_size)) return q;
         return n;
     }
+    void energy(int n, const Voigt* E, const double* state, Energy* energies) const override {
+        for (int q = 0; q < n; ++q) energies[q] = law_.energy(E[q], state + q * Law::state_size);
+    }
 
   private:
     Law law_;
@@ -55,17 +70,25 @@ class MaterialFromFunction final : public Material {
     /// that fails, or n.
     using Function = std::function<int(int, const Voigt*, const double*, Voigt*, Voigt66*, double*)>;
 
-    MaterialFromFunction(Function function, std::vector<double> initial)
-        : function_(std::move(function)), initial_(std::move(initial)) {}
+    /// n, E [n][6], state [n][state_size] -> energies [n]; may be empty, if they are not known.
+    using EnergyFunction = std::function<void(int, const Voigt*, const double*, Energy*)>;
+
+    MaterialFromFunction(Function function, std::vector<double> initial, EnergyFunction energy)
+        : function_(std::move(function)), initial_(std::move(initial)), energy_(std::move(energy)) {}
     int state_size() const override { return static_cast<int>(initial_.size()); }
     void initial(double* state) const override { std::copy(initial_.begin(), initial_.end(), state); }
     int respond(int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial) const override {
         return function_(n, E, state, S, CC, trial);
     }
+    void energy(int n, const Voigt* E, const double* state, Energy* energies) const override {
+        std::fill_n(energies, n, Energy{});
+        if (energy_) energy_(n, E, state, energies);
+    }
 
   private:
     Function function_;
     std::vector<double> initial_;
+    EnergyFunction energy_;
 };
 
 /// Adds factor * a (x) b to a tangent; a and b hold tensor components (no engineering factors).

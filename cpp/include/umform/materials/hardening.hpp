@@ -1,10 +1,12 @@
-// Yield stress y(eqps) and its slope: a part of its own, so that every plastic law takes every curve.
+// Yield stress y(eqps), its slope and its integral: a part of its own, so that every plastic law takes every curve.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <variant>
 #include <vector>
+
+#include "umform/materials/remainders.hpp"
 
 namespace umform {
 
@@ -21,6 +23,10 @@ struct LinearVoce {
         const double range = saturation - y0;
         return {y0 + modulus * eqps + range * (1.0 - decay), modulus + range * rate * decay};
     }
+    double work(double eqps) const {
+        const double saturating = rate * (saturation - y0) * exp_remainder(-rate * eqps);
+        return y0 * eqps + (0.5 * modulus + saturating) * eqps * eqps;
+    }
 };
 
 /// y = K (e0 + e)^n. eq. (3.31)
@@ -30,6 +36,10 @@ struct Swift {
     YieldStress operator()(double eqps) const {
         const double value = strength * std::pow(offset + eqps, exponent);
         return {value, exponent * value / (offset + eqps)};
+    }
+    double work(double eqps) const {
+        const double power = exponent + 1.0;
+        return strength / power * std::pow(offset, power) * std::expm1(power * std::log1p(eqps / offset));
     }
 };
 
@@ -43,12 +53,25 @@ struct Tabulated {
         const double slope = (stress[after] - stress[after - 1]) / (eqps[after] - eqps[after - 1]);
         return {stress[after - 1] + slope * (e - eqps[after - 1]), slope};
     }
+    double work(double e) const {
+        double sum = 0.0;
+        for (std::size_t k = 1; k < eqps.size() && eqps[k - 1] < e; ++k) {
+            const double end = std::min(e, eqps[k]);
+            sum += 0.5 * (stress[k - 1] + (*this)(end).value) * (end - eqps[k - 1]);
+        }
+        return sum + stress.back() * std::max(e - eqps.back(), 0.0);
+    }
 };
 
 using Hardening = std::variant<LinearVoce, Swift, Tabulated>;
 
 inline YieldStress yield_stress(const Hardening& hardening, double eqps) {
     return std::visit([eqps](const auto& curve) { return curve(eqps); }, hardening);
+}
+
+/// Integral of the yield stress over the plastic strain from 0: plastic work per reference volume. eqs. (3.39), (3.40)
+inline double plastic_work(const Hardening& hardening, double eqps) {
+    return std::visit([eqps](const auto& curve) { return curve.work(eqps); }, hardening);
 }
 
 }  // namespace umform

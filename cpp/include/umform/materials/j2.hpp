@@ -16,24 +16,12 @@ struct J2 {
     void initial(double* state) const { std::copy_n(std::array<double, 7>{1, 1, 1, 0, 0, 0, 0}.begin(), 7, state); }
 
     bool respond(const Voigt& strain, const double* state, Voigt& S, Voigt66& CC, double* trial) const {
-        // 1. Principal elastic trial stretches: C N_i = l_i^2 Cp N_i with Cp^-1 = L L^T, N = L V,
-        //    from the eigenproblem of L^T C L - 1, so that small strains keep their digits. eqs. (3.12)-(3.14)
-        Voigt metric;
-        std::copy_n(state, 6, metric.begin());
-        Mat3 L, V;
-        if (!cholesky(from_voigt(metric, 1.0), L)) return false;
-        Vec3 excess;  // l_i^2 - 1
-        eigen_symmetric(elastic_metric_excess(from_voigt(strain, 0.5), L), excess, V);
-        Vec3 eps;
-        for (int i = 0; i < 3; ++i) {
-            if (!(excess[i] > -1.0)) return false;
-            eps[i] = 0.5 * std::log1p(excess[i]);
-        }
+        // 1. Principal elastic trial stretches.
+        ElasticStrain elastic;
+        if (!elastic.set(strain, state)) return false;
+        const auto& [L, V, excess, eps, deviator, volumetric] = elastic;
 
         // 2. Return map on the Kirchhoff stress. eqs. (3.15)-(3.20)
-        const double volumetric = eps[0] + eps[1] + eps[2];
-        Vec3 deviator;
-        for (int i = 0; i < 3; ++i) deviator[i] = eps[i] - volumetric / 3.0;
         const double norm = std::sqrt(dot(deviator, deviator));
         const double q_trial = std::sqrt(1.5) * 2.0 * mu * norm;
         const double eqps = state[6];
@@ -70,28 +58,95 @@ struct J2 {
                 Cp_inv[p] += new_metric * NN[i][p];
             }
         }
-        std::copy_n(plastic ? Cp_inv.begin() : metric.begin(), 6, trial);
+        std::copy_n(plastic ? Cp_inv.data() : state, 6, trial);
         trial[6] = eqps + dgam;
 
         tangent(plastic, b, norm, y.slope, deviator, tau, l2, excess, N, NN, CC);
         return true;
     }
 
+    /// Energy of the logarithmic elastic strains, and the work done against the yield stress. eqs. (3.38), (3.39)
+    Energy energy(const Voigt& strain, const double* state) const {
+        double trace, square;  // tr eps and eps : eps
+        if (!small_elastic_strain(strain, state, trace, square)) {
+            ElasticStrain elastic;
+            if (!elastic.set(strain, state)) return {};
+            trace = elastic.volumetric;
+            square = dot(elastic.eps, elastic.eps);
+        }
+        return {0.5 * kappa * trace * trace + mu * (square - trace * trace / 3.0), plastic_work(hardening, state[6])};
+    }
+
   private:
-    /// L^T C L - 1 = L^T (2E) L + (L^T L - 1).
-    static Mat3 elastic_metric_excess(const Mat3& E, const Mat3& L) {
-        Mat3 EL, A;
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j)
-                for (int k = j; k < 3; ++k) EL(i, j) += 2.0 * E(i, k) * L(k, j);
-        for (int i = 0; i < 3; ++i)
-            for (int j = i; j < 3; ++j) {
-                double sum = i == j ? -1.0 : 0.0;
-                for (int k = j; k < 3; ++k) sum += L(k, i) * L(k, j);
-                for (int k = i; k < 3; ++k) sum += L(k, i) * EL(k, j);
-                A(i, j) = A(j, i) = sum;
+    /// Principal elastic stretches: C N_i = l_i^2 Cp N_i with Cp^-1 = L L^T, N = L V, from the eigenproblem of
+    /// L^T C L - 1, so that small strains keep their digits. eqs. (3.12)-(3.14)
+    struct ElasticStrain {
+        Mat3 L, V;
+        Vec3 excess;  // l_i^2 - 1
+        Vec3 eps, deviator;
+        double volumetric;
+
+        /// False if C is not positive definite.
+        bool set(const Voigt& strain, const double* Cp_inv) {
+            Voigt metric;
+            std::copy_n(Cp_inv, 6, metric.begin());
+            if (!cholesky(from_voigt(metric, 1.0), L)) return false;
+            eigen_symmetric(elastic_metric_excess(from_voigt(strain, 0.5), L), excess, V);
+            for (int i = 0; i < 3; ++i) {
+                if (!(excess[i] > -1.0)) return false;
+                eps[i] = 0.5 * std::log1p(excess[i]);
             }
-        return A;
+            volumetric = eps[0] + eps[1] + eps[2];
+            for (int i = 0; i < 3; ++i) deviator[i] = eps[i] - volumetric / 3.0;
+            return true;
+        }
+
+        /// L^T C L - 1 = L^T (2E) L + (L^T L - 1).
+        static Mat3 elastic_metric_excess(const Mat3& E, const Mat3& L) {
+            Mat3 EL, A;
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j)
+                    for (int k = j; k < 3; ++k) EL(i, j) += 2.0 * E(i, k) * L(k, j);
+            for (int i = 0; i < 3; ++i)
+                for (int j = i; j < 3; ++j) {
+                    double sum = i == j ? -1.0 : 0.0;
+                    for (int k = j; k < 3; ++k) sum += L(k, i) * L(k, j);
+                    for (int k = i; k < 3; ++k) sum += L(k, i) * EL(k, j);
+                    A(i, j) = A(j, i) = sum;
+                }
+            return A;
+        }
+    };
+
+    /// tr eps and eps : eps from the invariants of D = C Cp^-1 - 1, whose roots are l_i^2 - 1; no eigenproblem is solved.
+    /// False where |D| > 0.03, which metals do not reach: there the series is too short. eq. (3.41)
+    static bool small_elastic_strain(const Voigt& strain, const double* Cp_inv, double& trace, double& square) {
+        Voigt metric;
+        std::copy_n(Cp_inv, 6, metric.begin());
+        const Mat3 E = from_voigt(strain, 0.5), P = from_voigt(metric, 1.0);
+        Mat3 D = P;
+        for (int i = 0; i < 3; ++i) {
+            D(i, i) -= 1.0;
+            for (int j = 0; j < 3; ++j)
+                for (int k = 0; k < 3; ++k) D(i, j) += 2.0 * E(i, k) * P(k, j);
+        }
+        const double first = D(0, 0) + D(1, 1) + D(2, 2), third = det(D);
+        double squares = 0.0;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) squares += D(i, j) * D(j, i);
+        if (!(squares < 9e-4)) return false;
+        const double second = 0.5 * (first * first - squares);
+        trace = 0.5 * std::log1p(first + second + third);
+        // log^2(1 + d) = sum_k (-1)^k (2/k) (1 + 1/2 + ... + 1/(k - 1)) d^k; sums of powers of the roots by Newton's identities.
+        Vec3 powers{3.0, first, squares};  // sum of d_i^(k-2), d_i^(k-1), d_i^k
+        double sum = squares, harmonic = 1.0;
+        for (int k = 3; k <= 12; ++k) {
+            harmonic += 1.0 / (k - 1);
+            powers = {powers[1], powers[2], first * powers[2] - second * powers[1] + third * powers[0]};
+            sum += (k % 2 == 0 ? 2.0 : -2.0) / k * harmonic * powers[2];
+        }
+        square = 0.25 * sum;
+        return true;
     }
 
     /// Solves q_trial - 3 mu dgam - y(eqps + dgam) = 0 by Newton's method kept inside a bracket.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "umform/materials/concept.hpp"
+#include "umform/materials/remainders.hpp"
 
 namespace umform {
 
@@ -10,6 +11,7 @@ struct RightCauchyGreen {
     Mat3 inverse;            // C^-1
     Mat3 one_minus_inverse;  // 1 - C^-1 = 2 C^-1 E
     double log_det;          // ln I3
+    double isochoric;        // (I1 - 3) / 2 - ln J, of second order in E
 
     /// False if C is not positive definite.
     bool set(const Voigt& strain) {
@@ -24,6 +26,7 @@ struct RightCauchyGreen {
         const double det_minus_one = 2.0 * trace + 4.0 * second + 8.0 * det(E);
         if (!(C(0, 0) > 0.0 && minor > 0.0 && det_minus_one > -1.0)) return false;
         log_det = std::log1p(det_minus_one);
+        isochoric = 0.5 * log_remainder(det_minus_one) - 2.0 * second - 4.0 * det(E);
         inverse = umform::inverse(C);
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) {
@@ -64,6 +67,13 @@ struct NeoHookeLogarithmic {
         C.tangent(lambda, 2.0 * (mu - pressure), CC);
         return true;
     }
+
+    /// eq. (3.36)
+    Energy energy(const Voigt& E, const double*) const {
+        RightCauchyGreen C;
+        if (!C.set(E)) return {};
+        return {mu * C.isochoric + 0.125 * lambda * C.log_det * C.log_det, 0.0};
+    }
 };
 
 /// W = c (I1 - 3) + c/beta (I3^-beta - 1) with c = mu/2, beta = nu/(1 - 2 nu). eqs. (3.7), (3.8)
@@ -84,6 +94,14 @@ struct NeoHookePower {
         }
         C.tangent(2.0 * mu * beta * power, 2.0 * mu * power, CC);
         return true;
+    }
+
+    /// eq. (3.37)
+    Energy energy(const Voigt& E, const double*) const {
+        RightCauchyGreen C;
+        if (!C.set(E)) return {};
+        const double volumetric = 0.5 * beta * C.log_det * C.log_det * exp_remainder(-beta * C.log_det);
+        return {mu * (C.isochoric + volumetric), 0.0};
     }
 };
 

@@ -23,6 +23,14 @@ struct SaintVenantKirchhoff {
         }
         return true;
     }
+
+    /// eq. (3.35)
+    Energy energy(const Voigt& E, const double*) const {
+        const double trace = E[0] + E[1] + E[2];
+        const double normal = E[0] * E[0] + E[1] * E[1] + E[2] * E[2];
+        const double shear = E[3] * E[3] + E[4] * E[4] + E[5] * E[5];  // of engineering components: 4 E_ij^2
+        return {0.5 * lambda * trace * trace + mu * (normal + 0.5 * shear), 0.0};
+    }
 };
 
 }  // namespace umform

@@ -1,0 +1,43 @@
+"""``umform verify``: lists, runs, shows, and says what is wrong."""
+
+from __future__ import annotations
+
+from typer.testing import CliRunner
+
+from umform import cli
+
+ONE = "linear-hemisphere"
+
+
+def umform_cli(*arguments):
+    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+
+
+def test_without_a_case_they_are_listed():
+    run = umform_cli("verify")
+    assert run.exit_code == 0
+    assert ONE in run.stdout
+
+
+def test_one_case_is_run_and_shown(tmp_path):
+    run = umform_cli("verify", ONE, "--short", "--out", tmp_path / "book")
+    assert run.exit_code == 0
+    assert "Pinched hemisphere" in run.stdout
+    assert "green" in run.stdout
+    assert (tmp_path / "book" / f"{ONE}.md").exists()
+    assert (tmp_path / "book" / "images" / f"{ONE}-convergence.svg").exists()
+
+
+def test_an_unknown_case(tmp_path):
+    run = umform_cli("verify", "linear-hemispher", "--out", tmp_path / "book")
+    assert run.exit_code == 1
+    assert f"did you mean {ONE}?" in run.stderr
+    assert "Traceback" not in run.stderr
+    assert not (tmp_path / "book").exists()
+
+
+def test_a_folder_that_cannot_be_made(tmp_path):
+    (tmp_path / "file").write_text("")
+    run = umform_cli("verify", ONE, "--short", "--out", tmp_path / "file" / "book")
+    assert run.exit_code == 1
+    assert "the folder cannot be made" in run.stderr
