@@ -3,7 +3,11 @@
 
 #include "arrays.hpp"
 #include "umform/surfaces/cylinder.hpp"
+#include "umform/surfaces/extruded.hpp"
+#include "umform/surfaces/placed.hpp"
 #include "umform/surfaces/plane.hpp"
+#include "umform/surfaces/revolved.hpp"
+#include "umform/surfaces/rounded_box.hpp"
 #include "umform/surfaces/sphere.hpp"
 
 using namespace umform;
@@ -11,7 +15,7 @@ using namespace umform;
 namespace {
 
 template <class Shape>
-std::shared_ptr<Surface> surface(Shape shape) {
+std::shared_ptr<Surface> surface(const Shape& shape) {
     return std::make_shared<SurfaceOf<Shape>>(shape);
 }
 
@@ -25,6 +29,67 @@ std::shared_ptr<Surface> surface_from_function(nb::callable function) {
             const auto parts = nb::cast<nb::tuple>(answer);
             copy_result(parts[0], g, size), copy_result(parts[1], n, 3 * size), copy_result(parts[2], H, 9 * size);
         });
+}
+
+/// Rows of start, end, centre and turn.
+Profile profile(const Input& rows, ProfileEnd start, ProfileEnd end) {
+    if (rows.ndim() != 2 || rows.shape(0) == 0 || rows.shape(1) != 7)
+        throw std::invalid_argument("segments must have shape (n, 7), n > 0");
+    std::vector<Segment> segments;
+    for (std::size_t i = 0; i < rows.shape(0); ++i) {
+        const double* r = rows.data() + 7 * i;
+        segments.push_back({{r[0], r[1]}, {r[2], r[3]}, {r[4], r[5]}, static_cast<int>(r[6])});
+    }
+    return {segments, start, end};
+}
+
+Mat3 matrix(const Input& values) {
+    if (values.ndim() != 2 || values.shape(0) != 3 || values.shape(1) != 3)
+        throw std::invalid_argument("the matrix must have shape (3, 3)");
+    Mat3 m;
+    std::copy_n(values.data(), 9, m.a.begin());
+    return m;
+}
+
+/// Tools of lines and arcs, and tools at another place.
+void bind_shapes(nb::module_& m) {
+    nb::enum_<ProfileEnd>(m, "ProfileEnd", "What the first and the last segment of a profile do.")
+        .value("joined", ProfileEnd::Joined)
+        .value("endless", ProfileEnd::Endless)
+        .value("on_axis", ProfileEnd::OnAxis);
+    m.def(
+        "extruded",
+        [](const Input& segments, ProfileEnd start, ProfileEnd end, Vec3 origin, Vec3 x, Vec3 y) {
+            return surface(Extruded{profile(segments, start, end), origin, x, y});
+        },
+        nb::arg("segments"), nb::arg("start"), nb::arg("end"), nb::arg("origin"), nb::arg("x"), nb::arg("y"),
+        nb::sig("def extruded(segments: NDArray[float64], start: ProfileEnd, end: ProfileEnd, origin: Sequence[float], "
+                "x: Sequence[float], y: Sequence[float]) -> Surface"),
+        "A profile of segments (n, 7): start, end, centre, turn; drawn out across its directions x and y.");
+    m.def(
+        "revolved",
+        [](const Input& segments, ProfileEnd start, ProfileEnd end, Vec3 origin, Vec3 axis) {
+            return surface(Revolved{profile(segments, start, end), origin, axis});
+        },
+        nb::arg("segments"), nb::arg("start"), nb::arg("end"), nb::arg("origin"), nb::arg("axis"),
+        nb::sig("def revolved(segments: NDArray[float64], start: ProfileEnd, end: ProfileEnd, origin: Sequence[float], "
+                "axis: Sequence[float]) -> Surface"),
+        "A profile of segments (n, 7): start, end, centre, turn; turned about an axis.");
+    m.def(
+        "rounded_box",
+        [](Vec3 centre, const Input& axes, Vec3 core, double radius) {
+            return surface(RoundedBox{centre, matrix(axes), core, radius});
+        },
+        nb::arg("centre"), nb::arg("axes"), nb::arg("core"), nb::arg("radius"),
+        nb::sig("def rounded_box(centre: Sequence[float], axes: NDArray[float64], core: Sequence[float], "
+                "radius: float) -> Surface"));
+    m.def(
+        "placed",
+        [](std::shared_ptr<Surface> tool, const Input& Q, Vec3 shift) -> std::shared_ptr<Surface> {
+            return std::make_shared<Placed>(std::move(tool), matrix(Q), shift);
+        },
+        nb::arg("tool"), nb::arg("matrix"), nb::arg("shift"),
+        nb::sig("def placed(tool: Surface, matrix: NDArray[float64], shift: Sequence[float]) -> Surface"));
 }
 
 nb::object gap(const Surface& surface, const Input& x) {
@@ -61,4 +126,5 @@ void bind_surfaces(nb::module_& m) {
         nb::sig(
             "def surface_from_function(function: Callable[[NDArray[float64]], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]]) -> Surface"),
         "A tool from a function x (n, 3) -> (g (n,), n (n, 3), H (n, 3, 3)).");
+    bind_shapes(m);
 }

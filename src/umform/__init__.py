@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from umform import errors
 
 if TYPE_CHECKING:
-    from umform import elements, fields, mesh, processes
+    from umform import elements, fields, mesh, processes, surfaces
     from umform._core import set_threads, threads
+    from umform.arc import Arc
     from umform.elements import Element, Term, Tying
     from umform.errors import UmformError
     from umform.materials import (
@@ -30,13 +31,30 @@ if TYPE_CHECKING:
     from umform.release import Release
     from umform.results import Result
     from umform.steps import Move, solve
-    from umform.surfaces import Cylinder, Plane, Sphere, UserSurface, check_surface
+    from umform.surfaces import (
+        Box,
+        Cylinder,
+        Extruded,
+        Plane,
+        Profile,
+        Punch,
+        Revolved,
+        Sphere,
+        Torus,
+        UDie,
+        UserSurface,
+        VDie,
+        WipingDie,
+        check_surface,
+        write_tool,
+    )
     from umform.user_law import UserLaw, check_law
 
 __version__ = "0.1.0"
 
 _HOME = {
     "umform._core": ("set_threads", "threads"),
+    "umform.arc": ("Arc",),
     "umform.elements": ("Element", "Term", "Tying"),
     "umform.errors": ("UmformError",),
     "umform.materials": (
@@ -57,17 +75,36 @@ _HOME = {
     "umform.results": ("Result",),
     "umform.release": ("Release",),
     "umform.steps": ("Move", "solve"),
-    "umform.surfaces": ("Cylinder", "Plane", "Sphere", "UserSurface", "check_surface"),
+    "umform.surfaces": (
+        "Box",
+        "Cylinder",
+        "Extruded",
+        "Plane",
+        "Profile",
+        "Punch",
+        "Revolved",
+        "Sphere",
+        "Torus",
+        "UDie",
+        "UserSurface",
+        "VDie",
+        "WipingDie",
+        "check_surface",
+        "write_tool",
+    ),
     "umform.user_law": ("UserLaw", "check_law"),
 }
-_MODULES = ("elements", "fields", "mesh", "processes")
+_MODULES = ("elements", "fields", "mesh", "processes", "surfaces")
 _HOME_OF = {name: module for module, names in _HOME.items() for name in names}
 
 __all__ = [
     "J2",
     "SVK",
+    "Arc",
+    "Box",
     "Cylinder",
     "Element",
+    "Extruded",
     "Linear",
     "LinearVoce",
     "Mesh",
@@ -78,17 +115,24 @@ __all__ = [
     "NewtonOptions",
     "Perfect",
     "Plane",
+    "Profile",
+    "Punch",
     "Release",
     "Result",
+    "Revolved",
     "Sphere",
     "Swift",
     "Table",
     "Term",
+    "Torus",
     "Tying",
+    "UDie",
     "UmformError",
     "UserLaw",
     "UserSurface",
+    "VDie",
     "Voce",
+    "WipingDie",
     "check_law",
     "check_surface",
     "elements",
@@ -98,7 +142,9 @@ __all__ = [
     "processes",
     "set_threads",
     "solve",
+    "surfaces",
     "threads",
+    "write_tool",
 ]
 
 

@@ -3,6 +3,7 @@ Kernels of umform: elements, materials, surfaces, contact, sparse patterns.
 """
 
 from collections.abc import Sequence
+import enum
 
 
 from collections.abc import Callable
@@ -90,6 +91,29 @@ def cylinder(centre: Sequence[float], axis: Sequence[float], radius: float, insi
 
 def surface_from_function(function: Callable[[NDArray[float64]], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]]) -> Surface:
     """A tool from a function x (n, 3) -> (g (n,), n (n, 3), H (n, 3, 3))."""
+
+class ProfileEnd(enum.Enum):
+    """What the first and the last segment of a profile do."""
+
+    joined = 0
+
+    endless = 1
+
+    on_axis = 2
+
+def extruded(segments: NDArray[float64], start: ProfileEnd, end: ProfileEnd, origin: Sequence[float], x: Sequence[float], y: Sequence[float]) -> Surface:
+    """
+    A profile of segments (n, 7): start, end, centre, turn; drawn out across its directions x and y.
+    """
+
+def revolved(segments: NDArray[float64], start: ProfileEnd, end: ProfileEnd, origin: Sequence[float], axis: Sequence[float]) -> Surface:
+    """
+    A profile of segments (n, 7): start, end, centre, turn; turned about an axis.
+    """
+
+def rounded_box(centre: Sequence[float], axes: NDArray[float64], core: Sequence[float], radius: float) -> Surface: ...
+
+def placed(tool: Surface, matrix: NDArray[float64], shift: Sequence[float]) -> Surface: ...
 
 class Connectivity:
     """Node ids of the elements of one kind."""

@@ -182,7 +182,7 @@ class ExternalWork:
         Parameters
         ----------
         residual : ndarray, shape (3 n,)
-            Residual of the last evaluation, which was at this state; reactions at the constrained degrees of freedom.
+            Residual of the last evaluation, which was at this state; reactions where it is held, prescribed or tied.
         """
         model = self.model
         state = _State(model.u.copy(), self._nodal_forces(residual), [_Tool.of(contact) for contact in model.contacts])
@@ -197,7 +197,8 @@ class ExternalWork:
     def _nodal_forces(self, residual: Floats) -> Floats:
         """Dead loads, pressures and reactions on the nodes."""
         model = self.model
-        forces = np.where(model.constrained(), residual, 0.0)
+        forces = residual.copy()  # reactions and hinge forces
+        forces[model.free] = 0.0
         for control in model.controls:
             if isinstance(control, Load):
                 forces += control.value * control.vector

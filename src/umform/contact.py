@@ -80,7 +80,7 @@ class Contact:
                 "a tool must be a surface",
                 where=f"contact {name}",
                 value=type(tool).__name__,
-                remedy="Plane, Cylinder, Sphere or UserSurface(function)",
+                remedy="a tool of umform.surfaces, VDie or Cylinder for instance, or UserSurface(function)",
             )
         self.name = name
         self.tool = tool

@@ -66,13 +66,14 @@ def no_convergence(failure: Failed, number: int, controls: Sequence[Control], va
     return NoConvergence(
         "Newton's method did not converge at the smallest increment",
         where=f"step {number}, on the way to {goal}",
-        value=_history(failure.iterations),
+        value=last_residuals(failure.iterations),
         cause=failure.reason,
         remedy="look at the last converged state (it is kept): buckling, a pinched sheet, folded elements; "
         "else take more steps, fewer contact jumps (more contact points), a softer penalty or line_search=True",
     )
 
 
-def _history(iterations: Sequence[Iteration]) -> str:
+def last_residuals(iterations: Sequence[Iteration]) -> str:
+    """Residuals of the last iterations in words."""
     tail = [f"{record.residual:.1e}" for record in iterations[-4:]]
     return "last residuals " + ", ".join(tail) if tail else "no iteration"

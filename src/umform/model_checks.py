@@ -38,7 +38,9 @@ def check_model(model: Model) -> None:
     half = len(mesh.connectivity[0]) // 2
     directors = mesh.points[mesh.connectivity[:, half:]] - mesh.points[mesh.connectivity[:, :half]]
     thickness = float(np.median(np.linalg.norm(directors, axis=-1)))
-    rows = [boundary.rigid_body_modes(mesh.points)[:, np.flatnonzero(model.constrained())].T]
+    modes = boundary.rigid_body_modes(mesh.points)
+    rows = [modes[:, np.flatnonzero(model.constrained())].T]
+    rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.ties]
     for contact in model.contacts:
         contact.place(model.time)
         contact.block.locate(model.u)
@@ -72,7 +74,7 @@ def check_model(model: Model) -> None:
             f"the sheet can move as a rigid whole in {6 - rank} way{'s' if rank < 5 else ''}",
             value="free: " + "; ".join(_describe_motion(motion) for motion in directions[rank:]),
             cause="too few supports, or a tool that does not touch the sheet yet",
-            remedy="hold the sheet with fix(), symmetry() or prescribe(), or let a tool overlap it by a hair",
+            remedy="hold the sheet with fix(), symmetry(), hinge() or prescribe(), or let a tool overlap it by a hair",
         )
 
 

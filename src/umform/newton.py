@@ -1,5 +1,7 @@
 """Newton's method on a system that can evaluate, recover, commit and revert; it knows no elements and no contact.
 
+Where an iteration goes is up to a corrector: `Newton.solve` corrects at fixed loads, `umform.arc` along a path.
+
 Convergence asks for a small residual AND a small increment, both without units: the residual against the root of the
 sum of squares of all element forces, the increment against the largest displacement. Neither can fall below round-off,
 so the floor that round-off sets is estimated in each iteration: a residual below it is small, and two in a row end the
@@ -14,79 +16,22 @@ import math
 import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue, NotFinite, SingularMatrix
 from umform.solvers import Pattern, SparseSolver, make_solver
+from umform.system import Evaluation, System
 
 log = logging.getLogger("umform.newton")
 
 Floats = NDArray[np.float64]
+_T = TypeVar("_T")
 
 #: Each trial is at least a quarter of the one before: thin sheets, whose energy is a narrow bent valley, creep else.
 _LINE_SEARCH_TRIALS = 3
-
-
-class Evaluation(Protocol):
-    """What Newton reads of an evaluation."""
-
-    @property
-    def residual(self) -> Floats:
-        """Residual at all degrees of freedom, reactions at the prescribed ones."""
-
-    @property
-    def values(self) -> Floats:
-        """Entries of the tangent."""
-
-    @property
-    def predictor(self) -> Floats:
-        """Tangent times the increment of the prescribed degrees of freedom."""
-
-    @property
-    def force_scale(self) -> float:
-        """Scale of the forces."""
-
-    @property
-    def failed(self) -> int:
-        """First cell outside of the domain of its law, or -1."""
-
-
-class System(Protocol):
-    """What Newton asks of a model."""
-
-    u: Floats
-
-    @property
-    def pattern(self) -> Pattern:
-        """Sparse pattern of the tangent."""
-
-    @property
-    def free(self) -> NDArray[np.int64]:
-        """Free degrees of freedom."""
-
-    def prescribed_displacement(self) -> Floats:
-        """Displacement of the prescribed degrees of freedom, zero elsewhere."""
-
-    def evaluate(self, u: Floats, du: Floats | None = None) -> Evaluation:
-        """Residual and tangent."""
-
-    def recover(self, du: Floats, s: float) -> None:
-        """Update condensed parameters."""
-
-    def undo_recover(self) -> None:
-        """Take the last update back."""
-
-    def active_set(self) -> NDArray[np.bool_]:
-        """Contact points that penetrate."""
-
-    def commit(self, u: Floats) -> None:
-        """Accept."""
-
-    def revert(self) -> None:
-        """Forget."""
 
 
 @dataclass(frozen=True)
@@ -163,11 +108,43 @@ class Failed(Exception):
 
 @dataclass(frozen=True)
 class Converged:
-    """A converged step: displacement, residual (with reactions) and the iterations."""
+    """A converged step: displacement, the evaluation there and the iterations."""
 
     u: Floats
-    residual: Floats
+    evaluation: Evaluation
     iterations: list[Iteration]
+
+    @property
+    def residual(self) -> Floats:
+        """Residual, reactions at the degrees of freedom that are held, prescribed or tied."""
+        return self.evaluation.residual
+
+
+class Corrector(Protocol):
+    """Evaluates the system and finds the increment that takes it nearer to equilibrium."""
+
+    @property
+    def line_search(self) -> bool:
+        """Whether the residual along the increment may judge its length."""
+
+    def evaluate(self, u: Floats) -> Evaluation:
+        """Residual and tangent."""
+
+    def direction(self, solver: SparseSolver, u: Floats, evaluation: Evaluation) -> Floats:
+        """Increment of all degrees of freedom; the solver holds the factors of the tangent."""
+
+
+class _FixedLoads:
+    """The corrector at fixed loads, supports and tools. eq. (5.5)"""
+
+    def __init__(self, system: System, line_search: bool) -> None:
+        self.system, self.line_search = system, line_search
+
+    def evaluate(self, u: Floats) -> Evaluation:
+        return self.system.evaluate(u)
+
+    def direction(self, solver: SparseSolver, u: Floats, evaluation: Evaluation) -> Floats:
+        return self.system.extend(solver.solve(-self.system.restrict(evaluation.residual)))
 
 
 class Newton:
@@ -184,7 +161,7 @@ class Newton:
     @property
     def solver(self) -> str:
         """Name of the sparse solver that the system gets."""
-        return self._ready_solver().name
+        return self.ready_solver().name
 
     def solve(self, extrapolation: Floats | None = None) -> Converged:
         """Find the equilibrium at the present loads, supports and tools, starting from the converged state.
@@ -200,8 +177,18 @@ class Newton:
         Failed
             If it does not converge; the system is reverted.
         """
+        return self.guarded(lambda: self._solve(extrapolation))
+
+    def guarded(self, work: Callable[[], _T]) -> _T:
+        """Do work that leaves no trace in the system if it fails.
+
+        Raises
+        ------
+        Failed
+            If it does not converge, or the tangent is singular or not finite.
+        """
         try:
-            return self._solve(extrapolation)
+            return work()
         except (SingularMatrix, NotFinite) as error:
             self.system.revert()
             raise Failed(error.what, []) from error
@@ -210,38 +197,44 @@ class Newton:
             raise
 
     def _solve(self, extrapolation: Floats | None) -> Converged:
-        system, options = self.system, self.options
-        free = system.free
-        solver = self._ready_solver()
-        target = system.prescribed_displacement()
-        constrained = np.ones(target.size, dtype=bool)
-        constrained[free] = False
-        prescribed_increment = np.where(constrained, target - system.u, 0.0)
+        """First increment from the extrapolation, or from the tangent by eq. (5.6); then corrections."""
+        system = self.system
+        solver = self.ready_solver()
+        start = clock.perf_counter()
         u = system.u.copy()
+        du = self.prescribed_increment(u)
+        if extrapolation is not None:
+            du += system.extend(system.restrict(extrapolation))
+        else:
+            first = system.evaluate(u, du)
+            self.check_domain(first, [])
+            solver.factor(first.values)
+            du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
+        return self.correct(u, du, _FixedLoads(system, self.options.line_search), start)
+
+    def prescribed_increment(self, u: Floats) -> Floats:
+        """What takes the supports from ``u`` to where they are prescribed; nothing of it is left to the unknowns."""
+        gap = self.system.prescribed_displacement() - u
+        return gap - self.system.extend(self.system.restrict(gap))
+
+    def correct(self, u: Floats, du: Floats, corrector: Corrector, start: float | None = None) -> Converged:
+        """Take a first increment ``du`` from ``u``, and iterate until residual and increments are small. eq. (5.9)"""
+        system, options = self.system, self.options
+        solver = self.ready_solver()
+        start = clock.perf_counter() if start is None else start
         iterations: list[Iteration] = []
         seen: list[bytes] = []
-        start = clock.perf_counter()
-
-        if extrapolation is not None:
-            du = np.where(constrained, prescribed_increment, extrapolation)
-            system.recover(du, 1.0)
-        else:
-            first = system.evaluate(u, prescribed_increment)
-            self._check_domain(first, iterations)
-            solver.factor(first.values)
-            du = prescribed_increment.copy()
-            du[free] = solver.solve(-(first.residual + first.predictor)[free])
-            system.recover(du, 1.0)
-        u += du
+        system.recover(du, 1.0)
+        u = u + du
         increment, step_length, pivots = _size(du, u), 1.0, None
-        evaluation = system.evaluate(u)
+        evaluation = corrector.evaluate(u)
         active = system.active_set()
         previous_active = active
         extra = at_floor = 0
 
         for number in range(1, options.max_iterations + 1):
-            self._check_domain(evaluation, iterations)
-            r = evaluation.residual[free]
+            self.check_domain(evaluation, iterations)
+            r = system.restrict(evaluation.residual)
             norm = float(np.linalg.norm(r))
             scale = evaluation.force_scale or 1.0
             if not np.isfinite(norm):
@@ -255,46 +248,47 @@ class Newton:
                 self._record(
                     iterations, number, norm / scale, increment, 0.0, entered, left, step_length, pivots, start
                 )
-                return Converged(u, evaluation.residual, iterations)
+                return Converged(u, evaluation, iterations)
             extra += int(small)
             self._detect_chatter(seen, active, iterations)
 
             pivots = solver.factor(evaluation.values).negative_pivots
-            du = np.zeros(u.size)
-            du[free] = solver.solve(-r)
-            energy = abs(float(r @ du[free]))
+            du = corrector.direction(solver, u, evaluation)
+            energy = abs(float(r @ system.restrict(du)))
             self._record(iterations, number, norm / scale, increment, energy, entered, left, step_length, pivots, start)
-            u, evaluation, step_length = self._advance(u, du, r)
+            u, evaluation, step_length = self._advance(u, du, r, corrector)
             increment = step_length * _size(du, u)
             previous_active, active = active, system.active_set()
         raise Failed(f"no convergence in {options.max_iterations} iterations", iterations)
 
-    def _advance(self, u: Floats, du: Floats, r: Floats) -> tuple[Floats, Evaluation, float]:
+    def _advance(self, u: Floats, du: Floats, r: Floats, corrector: Corrector) -> tuple[Floats, Evaluation, float]:
         """Take the increment, shortened by the line search if that is wanted. eq. (5.12)"""
-        system, free = self.system, self.system.free
+        system = self.system
         s = 1.0
-        slope = float(r @ du[free])
+        x = system.restrict(du)
+        slope = float(r @ x)
         for _ in range(_LINE_SEARCH_TRIALS):
             system.recover(du, s)
             trial = u + s * du
-            evaluation = system.evaluate(trial)
-            if not self.options.line_search:
+            evaluation = corrector.evaluate(trial)
+            if not corrector.line_search:
                 break
-            along = float(evaluation.residual[free] @ du[free]) if evaluation.failed < 0 else np.inf
+            along = float(system.restrict(evaluation.residual) @ x) if evaluation.failed < 0 else np.inf
             if abs(along) <= 0.8 * abs(slope):
                 break
             # Evaluation is pure: put the parameters back and evaluate at u again, and nothing of the trial is left.
             system.undo_recover()
-            system.evaluate(u)
+            corrector.evaluate(u)
             secant = s * slope / (slope - along) if np.isfinite(along) and slope != along else 0.5 * s
             s = min(max(secant, 0.25 * s), 0.5 * s)
         else:
             system.recover(du, s)
             trial = u + s * du
-            evaluation = system.evaluate(trial)
+            evaluation = corrector.evaluate(trial)
         return trial, evaluation, s
 
-    def _ready_solver(self) -> SparseSolver:
+    def ready_solver(self) -> SparseSolver:
+        """Return the solver that has analysed the present pattern."""
         pattern = self.system.pattern
         if self._solver is None or self._pattern is not pattern:
             self._solver = make_solver(pattern, self.solver_name)
@@ -305,7 +299,7 @@ class Newton:
         """Residual that round-off of the displacements leaves behind. eq. (5.10)"""
         largest = float(np.abs(values).max(initial=0.0))
         eps = float(np.finfo(float).eps)
-        return eps * largest * float(np.abs(u).max()) * math.sqrt(self.system.free.size)
+        return eps * largest * float(np.abs(u).max()) * math.sqrt(self.system.pattern.n)
 
     def _record(
         self,
@@ -337,7 +331,8 @@ class Newton:
             callback(record)
 
     @staticmethod
-    def _check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:
+    def check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:
+        """Fail where a cell is strained too far for its law."""
         if evaluation.failed >= 0:
             raise Failed(
                 f"cell {evaluation.failed} is strained beyond the domain of its material law "

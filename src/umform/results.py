@@ -145,9 +145,11 @@ class Result:
         }
         if at.eqps is not None:
             cells |= {"plastic_strain_mean": at.cell_average(at.eqps), "plastic_strain_max": at.eqps.max(axis=1)}
+        reaction = residual.copy()
+        reaction[model.free] = 0.0
         points = {
             "displacement": model.u.reshape(-1, 3).copy(),
-            "reaction": np.where(np.isin(np.arange(residual.size), model.free), 0.0, residual).reshape(-1, 3),
+            "reaction": reaction.reshape(-1, 3),
             "thickness_change": fields.thickness_change(model),
         }
         if model.contacts:

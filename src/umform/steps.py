@@ -1,4 +1,4 @@
-"""Steps: move controls with cutting and growth; and `solve`, which runs steps in a row."""
+"""Steps: move controls with cutting and growth; and `solve`, which runs steps of all kinds in a row."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.arc import Arc, follow
 from umform.boundary import Control
 from umform.errors import InvalidValue, NotFinite
 from umform.increment import Run, no_convergence, take_increment
@@ -19,7 +20,7 @@ from umform.newton import Failed, Newton, NewtonOptions
 from umform.release import Release, release
 from umform.results import Result
 
-__all__ = ["Move", "Release", "Step", "solve"]
+__all__ = ["Arc", "Move", "Release", "Step", "solve"]
 
 log = logging.getLogger("umform.steps")
 
@@ -91,7 +92,7 @@ class Move:
         return at
 
 
-Step = Move | Release
+Step = Move | Release | Arc
 
 
 def solve(
@@ -138,11 +139,11 @@ def solve(
     """
     from umform.progress import progress_bar
 
-    sequence = [steps] if isinstance(steps, Move | Release) else list(steps)
+    sequence = [steps] if isinstance(steps, Step) else list(steps)
     for number, step in enumerate(sequence, start=1):
-        if not isinstance(step, Move | Release):
-            raise InvalidValue("a step is a Move or a Release", where=f"step {number}", value=step)
-        for control in step.moved() if isinstance(step, Move) else [step.control]:
+        if not isinstance(step, Step):
+            raise InvalidValue("a step is a Move, a Release or an Arc", where=f"step {number}", value=step)
+        for control in [step.control] if isinstance(step, Release) else step.moved():
             if control not in model.controls:
                 raise InvalidValue(
                     "a step moves a control that the model does not have",
@@ -162,6 +163,8 @@ def solve(
             try:
                 if isinstance(step, Move):
                     _move(run, step, number, frames)
+                elif isinstance(step, Arc):
+                    follow(run, step, number, frames)
                 else:
                     release(run, step, number, frames)
             except BaseException as error:  # whatever ends the run: what was reached is kept with the error

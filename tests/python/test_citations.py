@@ -13,6 +13,7 @@ from umform.elements import CATALOGUE, element
 
 ROOT = Path(__file__).parents[2]
 THEORY = ROOT / "docs" / "theory"
+BOOK = ROOT / "src" / "umform" / "verification"  # cites what it puts to the test, and holds no equation
 PAGES = {page: page.read_text(encoding="utf-8") for page in sorted(THEORY.glob("*.md"))}
 CODE = {
     file: file.read_text(encoding="utf-8")
@@ -93,7 +94,7 @@ def test_files_of_the_table_exist_and_hold_the_citation(row):
     for name in names:
         assert code_file(name).is_file(), name
     for number in expanded(equations):
-        where = [file for file, text in CODE.items() if number in cited(text)]
+        where = [file for file, text in CODE.items() if number in cited(text) and BOOK not in file.parents]
         assert not where or {code_file(name) for name in names} & set(where), (number, where)
 
 

@@ -209,11 +209,15 @@ class Scalar:
 
     def __init__(self, residual, slope, start=0.0, active=lambda x: [], scale=1.0):
         self.u = np.array([start])
-        self.free = np.array([0])
         ends = np.array([0, 1], dtype=np.int32), np.array([0], dtype=np.int32)
         self.pattern = Pattern(1, *ends, True)
         self.residual, self.slope, self.active, self.scale = residual, slope, active, scale
         self.x, self.calls = start, []
+
+    def restrict(self, r):
+        return r
+
+    extend = restrict
 
     def prescribed_displacement(self):
         return np.zeros(1)

@@ -12,20 +12,17 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.boundary import traction_forces
-
-from .cases import extruded, linear_solution, record, stiffness
-
-PLATE = record("patch_test_plate.json")
-POINTS = np.array(list(PLATE["points_xy"].values()))
-NUMBER = {int(name): i for i, name in enumerate(PLATE["points_xy"])}
-E, NU = PLATE["E"], PLATE["nu"]
-MATERIAL = uf.SVK(E=E, nu=NU)
-STRAIN = 1e-3
-
-#: Round-off grows steeply with length / thickness: the table is for a plate ten times as thick as that of the
-#: reference, where 1e-10 can be asked of everything that passes.
-THICKNESS = 10 * PLATE["thickness"]
+from umform.verification.linear_algebra import linear_solution, stiffness
+from umform.verification.quality.patches import (
+    FIELDS,
+    NUMBER,
+    PLATE,
+    POINTS,
+    bending_field,
+    extruded,
+    patch_error,
+    patch_model,
+)
 
 # Each pair is (error of the displacements, error of the energy), 0 where exact: errors of the
 # displacements relative to the largest displacement of the field, errors of the energy relative to the exact one.
@@ -52,90 +49,12 @@ WHO_PASSES_WHAT = {
     ("MI9K3DEAS with E_12 compatible", 4): (EXACT, EXACT, EXACT, EXACT, EXACT),
     ("MI9K3DEAS with E_12 compatible", 9): (EXACT, EXACT, EXACT, EXACT, EXACT),
 }
-FIELDS = ("membrane", "bending", "thickness", "shear xz", "shear yz")
 
 
-def gradient(field: str) -> np.ndarray:
-    """Constant displacement gradient, symmetric, with stress in the plane, through the thickness or in shear alone."""
-    A = np.zeros((3, 3))
-    if field == "membrane":
-        A[:2, :2] = [[1, 0.5], [0.5, 1]]
-        A[2, 2] = -NU / (1 - NU) * 2
-    elif field == "thickness":
-        A = np.diag([-NU, -NU, 1.0])
-    else:
-        i = {"shear xz": 0, "shear yz": 1}[field]
-        A[i, 2] = A[2, i] = 0.5
-    return STRAIN * A
-
-
-def oriented(quads: list[list[int]], points: np.ndarray) -> np.ndarray:
-    """Quadrilaterals by index, turned so that their area is positive."""
-
-    def area(quad: np.ndarray) -> float:
-        x, y = points[quad].T
-        return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
-
-    quads = np.array(quads)
-    return np.array([quad if area(quad) > 0 else quad[::-1] for quad in quads])
-
-
-def distorted_plate(cell: str, thickness: float) -> uf.Mesh:
-    quads = [[NUMBER[name] for name in quad] for quad in PLATE["quads"]]
-    return extruded(POINTS, oriented(quads, POINTS), thickness, cell)
-
-
-def parallelogram_plate(cell: str, thickness: float) -> uf.Mesh:
-    """3 x 2 equal parallelograms in the place of the distorted quadrilaterals."""
-    points = np.array([[0.08 * i + 0.03 * j, 0.06 * j + 0.01 * i] for j in range(3) for i in range(4)])
-    quads = [[4 * j + i, 4 * j + i + 1, 4 * j + i + 5, 4 * j + i + 4] for j in range(2) for i in range(3)]
-    return extruded(points, np.array(quads), thickness, cell)
-
-
-def outer(mesh: uf.Mesh) -> np.ndarray:
-    """Nodes on the lateral faces: those of edges that belong to one quadrilateral."""
-    half = mesh.connectivity.shape[1] // 2
-    lower = mesh.connectivity[:, :half]
-    sides = [lower[:, [i, (i + 1) % 4, *([4 + i] if half == 9 else [])]] for i in range(4)]
-    edges = np.concatenate(sides)
-    ends, count = np.unique(np.sort(edges[:, :2], axis=1), axis=0, return_counts=True)
-    border = {tuple(pair) for pair in ends[count == 1]}
-    nodes = np.unique([n for edge in edges if tuple(sorted(edge[:2])) in border for n in edge])
-    return np.concatenate([nodes, nodes + len(mesh.points) // 2])
-
-
-def model_on(make_mesh, name: str, thickness: float = THICKNESS, **options) -> uf.Model:
+def model_on(mesh: str, name: str, **options) -> uf.Model:
     if name.endswith("with E_12 compatible"):
         name, options = name.split()[0], {**options, "compatible_E12": True}
-    element = uf.elements.element(name, **options)
-    model = uf.Model(make_mesh(element.cell, thickness), element, material=MATERIAL)
-    model.fix(outer(model.mesh))
-    return model
-
-
-def bending_field(X: np.ndarray) -> np.ndarray:
-    x, y, z = X.T
-    return STRAIN * np.column_stack([-z * (x + y / 2), -z * (y + x / 2), (x * x + x * y + y * y) / 2])
-
-
-def patch_error(model: uf.Model, field: str, thickness: float = THICKNESS) -> tuple[float, float]:
-    """Errors of displacements and energy, relative to the largest displacement and to the exact energy."""
-    X = model.mesh.points
-    area = float(traction_forces(model.mesh, "lower", (0, 0, 1)).sum())
-    loads: np.ndarray | float = 0.0
-    if field == "bending":
-        exact = bending_field(X)
-        stiff = E * thickness**3 / (12 * (1 - NU**2))
-        twice_energy = STRAIN**2 * stiff * (4 - 2 * (1 - NU) * (1 - 0.25)) * area
-    else:
-        A = gradient(field)
-        exact = X @ A.T
-        S = MATERIAL.lambda_ * np.trace(A) * np.eye(3) + 2 * MATERIAL.mu * A
-        loads = traction_forces(model.mesh, "upper", S[:, 2]) - traction_forces(model.mesh, "lower", S[:, 2])
-        twice_energy = float(np.tensordot(S, A)) * area * thickness
-    u = linear_solution(model, exact, loads)
-    forces = model.evaluate(np.zeros(u.size), u.ravel()).predictor
-    return float(np.abs(u - exact).max() / np.abs(exact).max()), float(forces @ u.ravel()) / twice_energy - 1
+    return patch_model(mesh, name, **options)
 
 
 def assert_as_in_table(found: tuple[float, float], expected: tuple[float, float]) -> None:
@@ -159,13 +78,13 @@ def options_of(modes: int | None) -> list[dict]:
 def test_distorted_plate(name, modes, field):
     expected = WHO_PASSES_WHAT[name, modes][FIELDS.index(field)]
     for options in options_of(modes):
-        assert_as_in_table(patch_error(model_on(distorted_plate, name, **options), field), expected)
+        assert_as_in_table(patch_error(model_on("distorted", name, **options), field), expected)
 
 
 @pytest.mark.parametrize("membrane_modes", [4, 5, 7])
 @pytest.mark.parametrize("field", ["membrane", "bending", "thickness"])
 def test_membrane_modes_do_no_harm(membrane_modes, field):
-    model = model_on(distorted_plate, "EAS3DEAS", membrane_modes=membrane_modes)
+    model = model_on("distorted", "EAS3DEAS", membrane_modes=membrane_modes)
     assert_as_in_table(patch_error(model, field), EXACT)
 
 
@@ -173,7 +92,7 @@ def test_membrane_modes_do_no_harm(membrane_modes, field):
 @pytest.mark.parametrize("name", ["ANS3DEAS", "EAS3DEAS", "DISP9K3DEAS", "MI9K3DEAS"])
 def test_parallelograms_pass_everything(name, field):
     for options in ({}, {"thickness_modes": 1}, {"thickness_order": 3, "tie_E33": True}):
-        assert_as_in_table(patch_error(model_on(parallelogram_plate, name, **options), field), EXACT)
+        assert_as_in_table(patch_error(model_on("parallelograms", name, **options), field), EXACT)
 
 
 @pytest.mark.parametrize("name", ["ANS3DEAS", "EAS3DEAS", "DISP9K3DEAS", "MI9K3DEAS with E_12 compatible"])
@@ -181,8 +100,8 @@ def test_parallelograms_pass_everything(name, field):
 def test_deflections_of_the_reference(name, options):
     """The plate as it is in the literature, length/thickness = 240: round-off leaves 1e-9 ... 1e-8."""
     thickness = PLATE["thickness"]
-    model = model_on(distorted_plate, name, thickness, **options)
-    u = linear_solution(model, bending_field(model.mesh.points))
+    model = model_on("distorted", name, thickness=thickness, **options)
+    u = linear_solution(model, prescribed=bending_field(model.mesh.points, thickness))
     for point, uz in PLATE["expected_uz_bending"].items():
         at = np.flatnonzero(np.abs(model.mesh.points[:, :2] - POINTS[NUMBER[int(point)]]).max(axis=1) < 1e-12)
         assert len(at) == 2
@@ -191,9 +110,9 @@ def test_deflections_of_the_reference(name, options):
 
 def test_single_thickness_mode_on_the_plate_of_the_reference():
     """One mode t: the largest error is 5e-8, 0.26 % of the deflection 1.935e-5."""
-    model = model_on(distorted_plate, "ANS3DEAS", PLATE["thickness"], thickness_modes=1)
-    exact = bending_field(model.mesh.points)
-    error = np.abs(linear_solution(model, exact) - exact).max()
+    model = model_on("distorted", "ANS3DEAS", thickness=PLATE["thickness"], thickness_modes=1)
+    exact = bending_field(model.mesh.points, PLATE["thickness"])
+    error = np.abs(linear_solution(model, prescribed=exact) - exact).max()
     assert error == pytest.approx(5e-8, rel=0.05)
     assert error / PLATE["expected_uz_bending"]["1"] == pytest.approx(0.0026, rel=0.05)
 
@@ -207,7 +126,7 @@ def test_six_zero_modes(name):
             options = {**options, "compatible_E12": True}
         element = uf.elements.element(name.split()[0], **options)
         corners = np.array([[0, 0], [2.1, 0.2], [1.7, 1.6], [-0.3, 1.4]])
-        mesh = extruded(corners, np.array([[0, 1, 2, 3]]), 0.3, element.cell)
+        mesh = extruded(corners, [[0, 1, 2, 3]], (-0.15, 0.15), element.cell)
         model = uf.Model(mesh, element, material=uf.SVK(E=1.0, nu=0.3))
         eigenvalues = np.linalg.eigvalsh(stiffness(model, model.evaluate(model.u)).toarray())
         assert (np.abs(eigenvalues) < 1e-12 * eigenvalues[-1]).sum() == 6
@@ -218,4 +137,4 @@ def test_six_zero_modes(name):
 def test_nine_thickness_modes_need_18_nodes(name):
     """With 2 x 2 Gauss points r² is a constant: nine modes are dependent, and the element says so."""
     with pytest.raises(uf.errors.InvalidValue):
-        model_on(distorted_plate, name, thickness_modes=9)
+        model_on("distorted", name, thickness_modes=9)

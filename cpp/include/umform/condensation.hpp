@@ -56,14 +56,14 @@ void add_transposed_product(double* K, const double* A, const double* B, int m, 
         }
 }
 
-/// Factorises a symmetric n x n matrix (stored by rows, full) as L D L^T in place; false on a vanishing pivot.
+/// Factorises a symmetric n x n matrix (stored by rows, full) as L D L^T in place; false on a vanishing pivot. A pivot
+/// is measured against its own diagonal entry: membrane and thickness modes of a thin element differ by (l / h)^4.
 inline bool factor_ldlt(double* A, int n) {
-    double largest = 0.0;
-    for (int j = 0; j < n; ++j) largest = std::max(largest, std::abs(A[j * n + j]));
     for (int j = 0; j < n; ++j) {
-        double d = A[j * n + j];
+        const double diagonal = A[j * n + j];
+        double d = diagonal;
         for (int k = 0; k < j; ++k) d -= A[j * n + k] * A[j * n + k] * A[k * n + k];
-        if (!(std::abs(d) > 1e-13 * largest)) return false;
+        if (!(std::abs(d) > 1e-13 * std::abs(diagonal))) return false;
         A[j * n + j] = d;
         for (int i = j + 1; i < n; ++i) {
             double sum = A[i * n + j];

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix, triu
 
+from umform.errors import SolveError
 from umform.model import Evaluation, Model
 from umform.solvers import make_solver
 
@@ -37,8 +38,10 @@ def linear_solution(model: Model, loads: Floats | float = 0.0, prescribed: Float
     """
     u = np.where(model.constrained(), np.broadcast_to(prescribed, (model.u.size // 3, 3)).ravel(), 0.0)
     evaluation = model.evaluate(np.zeros(u.size), u)
+    if evaluation.failed >= 0:
+        raise SolveError("an element is outside of the domain of its law", where=f"cell {evaluation.failed}")
     rhs = np.broadcast_to(loads, u.shape) - evaluation.predictor
     solver = make_solver(model.pattern, "auto")
     solver.factor(evaluation.values)
-    u[model.free] += solver.solve(rhs[model.free])
+    u += model.extend(solver.solve(model.restrict(rhs)))
     return u.reshape(-1, 3)

@@ -191,7 +191,10 @@ def test_ctrl_c_ends_all_processes(tmp_path):
     process = subprocess.Popen(
         command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True, text=True
     )
-    time.sleep(3.0)
+    deadline = time.monotonic() + 60.0
+    while not list(tmp_path.glob(".umform-*")) and time.monotonic() < deadline:  # until the runs have begun
+        time.sleep(0.05)
+    time.sleep(1.0)
     os.killpg(process.pid, signal.SIGINT)
     _, errors = process.communicate(timeout=20)  # ends when no process holds the pipes any more
     assert process.returncode == 130

@@ -8,10 +8,10 @@ import h5py
 import pytest
 
 from umform.errors import FileProblem, MeshError, NoConvergence, SolveError, UmformError
+from umform.pool import run_all
 from umform.processes import FreeBending, demo, free_bending
 from umform.processes.bending import page, showcase
 from umform.processes.bending.case import build
-from umform.pool import run_all
 from umform.processes.bending.showcase import Selection
 from umform.results import Result
 from umform.steps import Move, solve

@@ -1,6 +1,7 @@
 // What a rigid tool is to contact: one function of position.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <functional>
 #include <memory>

@@ -52,5 +52,5 @@ every parasitic strain shows; elements with 4 nodes a face are never plane here.
 below it: fine meshes of others do too, and that is the uncertainty of the reference.
 """,
     run=run,
-    cost=20.0,
+    cost=6.0,
 )

@@ -1,0 +1,188 @@
+"""Follow the path of equilibria through limit points: the load is one more unknown, the arc length one more equation.
+
+docs/theory, 5.12
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from umform.boundary import Control
+from umform.critical import CriticalPoints
+from umform.errors import InvalidValue, NoConvergence
+from umform.increment import Run, last_residuals
+from umform.model import Model
+from umform.newton import Failed
+from umform.path import Line, Path
+
+log = logging.getLogger("umform.arc")
+
+_KINDS = ("cylindrical", "spherical")
+
+
+@dataclass(frozen=True)
+class Arc:
+    """Follow the path of equilibria while controls go along straight lines, through maxima and minima of the load.
+
+    The load parameter goes from 0, where the controls stand, to 1, where they are at ``to``, and is an unknown: it
+    turns back where the load does (snap-through) and the displacements turn back where they do (snap-back). The step
+    ends when the load parameter reaches 1, exactly; or after ``most`` increments, or when ``until`` says so. The time
+    goes on with the length of the path, by ``increment`` in the first increment. Limit points and bifurcation points
+    are told in ``result.events``.
+
+    Parameters
+    ----------
+    control : Control or sequence of Control
+        What is moved: loads, pressures, prescribed displacements, tools, alone or together.
+    to : float or sequence of float
+        End value for each control.
+    increment : float
+        First increment of the load parameter along the tangent. It sets the first arc length.
+    kind : {"cylindrical", "spherical"}
+        Length of an increment: of the displacements, or of displacements and load parameter (which weighs as much as
+        the displacements in the first increment). eq. (5.22)
+    iterations : int
+        Number that the arc length is adapted to.
+    grow : float
+        Largest arc length over the first.
+    cuts : int
+        How often the first arc length may be halved before the run is given up.
+    most : int
+        Number of increments at which the step ends with a warning.
+    until : callable, optional
+        Asked with the model after each converged increment; True ends the step.
+
+    Notes
+    -----
+    The first increment goes towards ``to``, each other one on in the direction of the one before: a step that starts
+    beyond a limit point may lead back over it. The line search of :class:`umform.NewtonOptions` is off duty, since on
+    an arc the residual does not judge an increment.
+
+    Examples
+    --------
+    A shallow arch, hinged on its mid-line, snaps through under a force that goes down on the way:
+
+    >>> from umform import SVK, Arc, Model, solve
+    >>> from umform.mesh import strip
+    >>> mesh = strip(10.0, 1.0, 0.2, (8, 1)).transformed(lambda x: x + [0.0, 0.0, 0.5] * (1 - (x[:, :1] / 10.0) ** 2))
+    >>> model = Model(mesh, material=SVK(E=1000.0, nu=0.0))
+    >>> model.symmetry("x0", "x")
+    >>> model.hinge("x1", "xz")
+    >>> model.fix(lambda x, y, z: y < y.min() + 1e-9, "y")
+    >>> load = model.force("x0", (0.0, 0.0, -0.25), "load")
+    >>> result = solve(model, Arc(load, to=1.0, increment=0.05))
+    >>> float(result["load"][-1])
+    1.0
+    """
+
+    control: Control | Sequence[Control]
+    to: float | Sequence[float]
+    increment: float = 0.05
+    kind: str = "cylindrical"
+    iterations: int = 6
+    grow: float = 4.0
+    cuts: int = 10
+    most: int = 200
+    until: Callable[[Model], bool] | None = None
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.increment <= 1.0:
+            raise InvalidValue("the first increment of an arc is a fraction of the way", value=self.increment)
+        if self.kind not in _KINDS:
+            raise InvalidValue("an arc is cylindrical or spherical", value=self.kind)
+        if not self.grow >= 1:
+            raise InvalidValue("grow must be 1 or more", value=self.grow)
+        for name, least in (("iterations", 1), ("cuts", 0), ("most", 1)):
+            value = getattr(self, name)
+            if not isinstance(value, int) or value < least:
+                raise InvalidValue(f"{name} must be a whole number, {least} or more", value=value)
+        if len(self.targets()) != len(self.moved()) or len(set(self.moved())) != len(self.moved()):
+            raise InvalidValue(
+                "give one target for each control, and each control once",
+                value=f"{len(self.moved())} controls, {len(self.targets())} targets",
+            )
+        for target in self.targets():
+            if not (np.isscalar(target) and np.isrealobj(target) and np.isfinite(target)):
+                raise InvalidValue("a control is moved to a finite number", value=target)
+
+    def moved(self) -> list[Control]:
+        """The controls of the step."""
+        return [self.control] if isinstance(self.control, Control) else list(self.control)
+
+    def targets(self) -> list[float]:
+        """Their targets."""
+        return list(self.to) if isinstance(self.to, Sequence) else [self.to]
+
+
+def follow(run: Run, step: Arc, number: int, frames: int) -> None:
+    """Follow the path with arc lengths that adapt to the iterations. eq. (5.26)"""
+    path = _started(run, step, number)
+    critical = CriticalPoints(run.result, path.line.text, f"step {number}")
+    critical.advance(path.state)
+    length = path.first
+    every = max(1, step.most // frames) if frames > 0 else 0
+    count = 0
+    while True:
+        tried = path.shortened(length)
+        try:
+            converged = path.advance(tried)
+        except Failed as failure:
+            length = 0.5 * tried
+            if failure.chattering:
+                run.result.warn(f"step {number}, time {run.model.time:.4f}: {failure.reason}; the arc length is cut")
+            log.info("step %d: %s; arc length cut to %.3g of the first", number, failure.reason, length / path.first)
+            if length < path.first / 2**step.cuts:
+                at = path.line.text(path.state.fraction)
+                raise _no_convergence(failure, f"step {number}, at {at}") from None
+            continue
+        count += 1
+        fraction = path.state.fraction
+        ended = True
+        try:
+            ended = step.until is not None and step.until(run.model)
+        finally:  # the state counts, whatever becomes of the user's function
+            done = fraction == 1.0 or ended or count == step.most
+            keep = bool(every) and (count % every == 0 or done)
+            run.result.add(converged.residual, converged.iterations, step=number, frame=keep)
+            critical.advance(path.state)
+        run.tick(f"step {number}", min(max(fraction, 0.0), 1.0))
+        if done:
+            _say_how_it_ended(run, step, number, path, ended)
+            return
+        adapted = length * min(max(math.sqrt(step.iterations / len(converged.iterations)), 0.5), 2.0)
+        length = min(adapted, step.grow * path.first)
+
+
+def _say_how_it_ended(run: Run, step: Arc, number: int, path: Path, ended: bool) -> None:
+    fraction = path.state.fraction
+    if fraction == 1.0:
+        return
+    at = f"step {number}: the path ends at {path.line.text(fraction)}"
+    if ended:
+        run.result.note(f"{at}, as asked")
+    else:
+        run.result.warn(f"{at}, short of its target, after {step.most} increments")
+
+
+def _started(run: Run, step: Arc, number: int) -> Path:
+    try:
+        line = Line(step.moved(), step.targets())
+        return Path(run, line, step.increment, spherical=step.kind == "spherical")
+    except Failed as failure:
+        raise _no_convergence(failure, f"step {number}, at its beginning") from None
+
+
+def _no_convergence(failure: Failed, where: str) -> NoConvergence:
+    return NoConvergence(
+        "the path cannot be followed further, not even with the smallest arc length",
+        where=where,
+        value=last_residuals(failure.iterations),
+        cause=failure.reason,
+        remedy="look at the last converged state (it is kept): a path that ends or branches, folded elements, contact "
+        "that jumps; else a smaller increment or grow, more iterations in NewtonOptions, more cuts",
+    )

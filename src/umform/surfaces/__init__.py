@@ -1,0 +1,43 @@
+"""Rigid tools as functions of position: signed distance, unit normal and Hessian of the distance."""
+
+from umform.surfaces.check import SurfaceCheck, check_surface
+from umform.surfaces.directions import Direction, unit_vector
+from umform.surfaces.files import write_tool
+from umform.surfaces.placed import Placed
+from umform.surfaces.press_brake import Punch, UDie, VDie, WipingDie
+from umform.surfaces.profile import Profile
+from umform.surfaces.segments import Arc, Line
+from umform.surfaces.simple import Cylinder, Plane, Sphere
+from umform.surfaces.solids import Box, Torus
+from umform.surfaces.swept import Extruded, Revolved
+from umform.surfaces.tool import Surface, Tool
+from umform.surfaces.triangles import Triangles
+from umform.surfaces.user import GapFunction, UserSurface
+
+__all__ = [
+    "Arc",
+    "Box",
+    "Cylinder",
+    "Direction",
+    "Extruded",
+    "GapFunction",
+    "Line",
+    "Placed",
+    "Plane",
+    "Profile",
+    "Punch",
+    "Revolved",
+    "Sphere",
+    "Surface",
+    "SurfaceCheck",
+    "Tool",
+    "Torus",
+    "Triangles",
+    "UDie",
+    "UserSurface",
+    "VDie",
+    "WipingDie",
+    "check_surface",
+    "unit_vector",
+    "write_tool",
+]

@@ -1,0 +1,71 @@
+"""Points, directions and lengths as users write them, checked."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from umform.errors import InvalidValue, NotFinite
+
+_AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+Direction = str | tuple[float, float, float]
+Point = tuple[float, float, float]
+
+
+def unit_vector(direction: Direction, where: str) -> Point:
+    """Unit vector from "x", "-y", ... or three components."""
+    if isinstance(direction, str):
+        sign, name = (-1.0, direction[1:]) if direction.startswith("-") else (1.0, direction)
+        if name not in _AXES:
+            raise InvalidValue("a direction is x, y, z, -x, -y, -z or three numbers", where=where, value=direction)
+        direction = (sign * _AXES[name][0], sign * _AXES[name][1], sign * _AXES[name][2])
+    vector = np.asarray(direction, dtype=float)
+    if vector.shape != (3,) or not np.isfinite(vector).all():
+        raise NotFinite("a direction needs three finite numbers", where=where, value=direction)
+    length = float(np.linalg.norm(vector))
+    if length == 0.0:
+        raise InvalidValue("a direction must not be the zero vector", where=where)
+    x, y, z = (float(c) for c in vector / length)
+    return x, y, z
+
+
+def right_angle(x: Direction, y: Direction, where: str) -> tuple[Point, Point]:
+    """Two unit vectors at right angles.
+
+    Raises
+    ------
+    InvalidValue
+        If the angle between them is another one.
+    """
+    first, second = unit_vector(x, f"{where}.x"), unit_vector(y, f"{where}.y")
+    cosine = float(np.dot(first, second))
+    if abs(cosine) > 1e-9:
+        raise InvalidValue(
+            "two directions must be at right angles",
+            where=where,
+            value=f"{float(np.degrees(np.arccos(cosine))):.6g} degrees between {x} and {y}",
+            remedy="give y as the cross product of x and a third direction",
+        )
+    return first, second
+
+
+def point(values: ArrayLike, where: str, size: int = 3) -> list[float]:
+    """Coordinates of a point as a list of finite numbers."""
+    vector = np.asarray(values, dtype=float)
+    if vector.shape != (size,) or not np.isfinite(vector).all():
+        raise NotFinite(f"a point needs {'two' if size == 2 else 'three'} finite numbers", where=where, value=values)
+    return [float(c) for c in vector]
+
+
+def positive(value: float, where: str, what: str = "radius") -> float:
+    """A length that is finite and greater than zero."""
+    if not (np.isfinite(value) and value > 0):
+        raise InvalidValue(f"the {what} must be positive", where=where, value=value)
+    return float(value)
+
+
+def not_negative(value: float, where: str, what: str = "radius") -> float:
+    """A length that is finite and at least zero."""
+    if not (np.isfinite(value) and value >= 0):
+        raise InvalidValue(f"the {what} must not be negative", where=where, value=value)
+    return float(value)

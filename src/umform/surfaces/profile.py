@@ -1,0 +1,149 @@
+"""Plane curve of lines and arcs: the section of a tool."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from umform.errors import InvalidValue
+from umform.surfaces.corners import rounded
+from umform.surfaces.crossings import refuse_crossings
+from umform.surfaces.directions import point, positive
+from umform.surfaces.segments import Arc, Floats, Point2, Segment
+
+
+@dataclass(frozen=True)
+class Profile:
+    r"""Lines and arcs, one after the other, with the solid on the left of who walks along them.
+
+    A closed profile that is walked counter-clockwise is solid inside (its :attr:`area` is positive), clockwise it is a
+    hole in the solid. An open one divides the plane: its first and last line go on for ever. ::
+
+                 void                                  .---<---.
+        -----<-----.       .-----<-----                |       |
+          solid     \  v  /     solid                  | solid |  void
+                     '-<-'                             '--->---'
+
+    Parameters
+    ----------
+    segments : sequence of Line or Arc
+        In the order of the walk, each starting where the one before has ended.
+    closed : bool
+        The last one ends where the first one starts.
+
+    Raises
+    ------
+    InvalidValue
+        If segments do not meet, turn back, have no length, or if the curve meets itself.
+    """
+
+    segments: Sequence[Segment]
+    closed: bool = True
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "segments", tuple(self.segments))
+        if not self.segments:
+            raise InvalidValue("a profile needs at least one segment", where="Profile")
+        for i, segment in enumerate(self.segments):
+            segment.check(f"segment {i} of a profile")
+        self._check_joints()
+        refuse_crossings(self.segments, self.closed, (False, False), "Profile")
+
+    @classmethod
+    def from_corners(
+        cls, corners: Sequence[Point2], radii: float | Sequence[float] = 0.0, closed: bool = True
+    ) -> Profile:
+        """Lines between corners that are rounded by arcs.
+
+        Parameters
+        ----------
+        corners : sequence of (x, y)
+            Corners in the order of the walk; the ends of an open profile only say where its lines go on to.
+        radii : float or sequence of float
+            Radius at all corners or at each; 0 leaves a corner sharp.
+        closed : bool
+            The last corner is followed by the first.
+
+        Raises
+        ------
+        InvalidValue
+            If a fillet does not fit; the message names the corners.
+        """
+        return cls(rounded(corners, radii, closed), closed)
+
+    @classmethod
+    def circle(cls, centre: Point2, radius: float, hole: bool = False) -> Profile:
+        """A whole circle, solid inside or a hole."""
+        x, y = point(centre, "circle", 2)
+        start = (x + positive(radius, "circle"), y)
+        return cls([Arc(start, start, (x, y), clockwise=hole)])
+
+    @classmethod
+    def half_circle(cls, radius: float, hole: bool = False) -> Profile:
+        """The meridian of a sphere about the origin."""
+        top = positive(radius, "half circle")
+        arc = Arc((0.0, -top), (0.0, top), (0.0, 0.0))
+        return cls([arc.reversed() if hole else arc], closed=False)
+
+    @property
+    def area(self) -> float:
+        """Enclosed area, negative if the profile is a hole.
+
+        Raises
+        ------
+        InvalidValue
+            If the profile is open.
+        """
+        if not self.closed:
+            raise InvalidValue("an open profile has no area", where="Profile.area")
+        return sum(segment.area for segment in self.segments)
+
+    @property
+    def size(self) -> float:
+        """Largest coordinate of its points."""
+        return float(np.abs([(segment.start, segment.end) for segment in self.segments]).max())
+
+    def reversed(self) -> Profile:
+        """The same curve with solid and void exchanged."""
+        return Profile([segment.reversed() for segment in reversed(self.segments)], self.closed)
+
+    def points(self, chord: float, beyond: float = 0.0) -> Floats:
+        """Polyline along the curve.
+
+        Parameters
+        ----------
+        chord : float
+            Largest distance of a chord from its arc.
+        beyond : float
+            How much of an open profile to show beyond its ends.
+
+        Returns
+        -------
+        ndarray, shape (n, 2)
+            Points in the order of the walk; of a closed profile the last one is the first.
+        """
+        parts = [self.segments[0].points(chord)] + [segment.points(chord)[1:] for segment in self.segments[1:]]
+        points = np.vstack(parts)
+        if not self.closed and beyond > 0.0:
+            points[0] -= beyond * self.segments[0].tangents()[0]
+            points[-1] += beyond * self.segments[-1].tangents()[1]
+        return points
+
+    def _check_joints(self) -> None:
+        """Each segment starts where the one before has ended, and does not turn back there."""
+        count = len(self.segments)
+        for i in range(count if self.closed else count - 1):
+            one, other = self.segments[i], self.segments[(i + 1) % count]
+            where = f"end of segment {i} of a profile"
+            if np.hypot(*np.subtract(other.start, one.end)) > 1e-9 * self.size:
+                raise InvalidValue(
+                    "segments of a profile must meet",
+                    where=where,
+                    value=f"{one.end} and {other.start}",
+                    remedy="let each segment start where the one before has ended, or say closed=False",
+                )
+            before, after = one.tangents()[1], other.tangents()[0]
+            if before @ after < 0.0 and abs(before[0] * after[1] - before[1] * after[0]) < 1e-7:
+                raise InvalidValue("the profile turns back on itself", where=where, value=one.end)

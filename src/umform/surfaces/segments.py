@@ -1,0 +1,162 @@
+"""Lines and arcs of a plane curve: tangents, lengths, areas, points."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue
+from umform.surfaces.directions import point
+
+Floats = NDArray[np.float64]
+Point2 = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Line:
+    """Straight segment.
+
+    Parameters
+    ----------
+    start, end : tuple of float
+        Its ends in the plane of the profile.
+    """
+
+    start: Point2
+    end: Point2
+
+    def check(self, where: str) -> None:
+        """Refuse a line of no length."""
+        if self._vector(where).any():
+            return
+        raise InvalidValue("a line must have a length", where=where, value=f"both ends at {self.start}")
+
+    def _vector(self, where: str = "Line") -> Floats:
+        return np.subtract(point(self.end, f"{where}.end", 2), point(self.start, f"{where}.start", 2))
+
+    @property
+    def length(self) -> float:
+        """Length."""
+        return float(np.hypot(*self._vector()))
+
+    def tangents(self) -> tuple[Floats, Floats]:
+        """Unit tangents at start and end."""
+        t = self._vector() / self.length
+        return t, t
+
+    @property
+    def area(self) -> float:
+        """Area between the segment and the origin, positive if it is seen turning left."""
+        return 0.5 * (self.start[0] * self.end[1] - self.start[1] * self.end[0])
+
+    def points(self, chord: float) -> Floats:
+        """Points along the segment, both ends among them."""
+        return np.array([self.start, self.end], dtype=float)
+
+    def reversed(self) -> Line:
+        """The same line, walked the other way."""
+        return Line(self.end, self.start)
+
+    def row(self) -> list[float]:
+        """Start, end, centre and turn, as the kernels take them."""
+        return [*self.start, *self.end, 0.0, 0.0, 0.0]
+
+
+@dataclass(frozen=True)
+class Arc:
+    """Circular segment about a centre; where start and end are the same point it is the whole circle.
+
+    Parameters
+    ----------
+    start, end, centre : tuple of float
+        Ends and centre in the plane of the profile, the ends at one distance from the centre.
+    clockwise : bool
+        Turns to the right: a concave arc, its centre on the side of the void. Otherwise it turns to the left and is
+        convex, its centre on the side of the solid.
+    """
+
+    start: Point2
+    end: Point2
+    centre: Point2
+    clockwise: bool = False
+
+    def check(self, where: str) -> None:
+        """Refuse an arc whose ends are not on one circle."""
+        centre = point(self.centre, f"{where}.centre", 2)
+        first = math.dist(point(self.start, f"{where}.start", 2), centre)
+        last = math.dist(point(self.end, f"{where}.end", 2), centre)
+        if min(first, last) == 0.0:
+            raise InvalidValue("an arc must have a radius", where=where, value=f"an end at the centre {self.centre}")
+        if abs(first - last) > 1e-9 * max(first, last):
+            raise InvalidValue(
+                "the ends of an arc must be at the same distance from its centre",
+                where=where,
+                value=f"{first:.12g} and {last:.12g}",
+                remedy="compute the centre from the ends and the radius",
+            )
+
+    @property
+    def turn(self) -> int:
+        """1 to the left, -1 to the right."""
+        return -1 if self.clockwise else 1
+
+    @property
+    def radius(self) -> float:
+        """Distance of the ends to the centre."""
+        return 0.5 * (math.dist(self.start, self.centre) + math.dist(self.end, self.centre))
+
+    @property
+    def angle(self) -> float:
+        """Angle of the arc, positive and at most 2 pi."""
+        if self.start == self.end:
+            return 2.0 * math.pi
+        p, q = np.subtract(self.start, self.centre), np.subtract(self.end, self.centre)
+        return float(math.atan2(self.turn * (p[0] * q[1] - p[1] * q[0]), p @ q) % (2.0 * math.pi))
+
+    @property
+    def length(self) -> float:
+        """Length."""
+        return self.radius * self.angle
+
+    def tangents(self) -> tuple[Floats, Floats]:
+        """Unit tangents at start and end."""
+        p, q = np.subtract(self.start, self.centre), np.subtract(self.end, self.centre)
+        left = self.turn * np.array([[0.0, -1.0], [1.0, 0.0]])
+        return left @ p / np.hypot(*p), left @ q / np.hypot(*q)
+
+    @property
+    def area(self) -> float:
+        """Area between the segment and the origin, positive if it is seen turning left."""
+        cap = 0.5 * self.radius**2 * (self.angle - math.sin(self.angle))
+        return Line(self.start, self.end).area + self.turn * cap
+
+    @property
+    def middle(self) -> Floats:
+        """Unit vector from the centre to the middle of the arc."""
+        p = np.subtract(self.start, self.centre) / self.radius
+        half = 0.5 * self.turn * self.angle
+        return np.array([p[0] * math.cos(half) - p[1] * math.sin(half), p[0] * math.sin(half) + p[1] * math.cos(half)])
+
+    def points(self, chord: float) -> Floats:
+        """Points along the segment, both ends among them, with chords that leave it by no more than ``chord``."""
+        step = 2.0 * math.acos(max(1.0 - chord / self.radius, 0.5))
+        angles = self.turn * np.linspace(0.0, self.angle, math.ceil(self.angle / step) + 1)
+        p = np.subtract(self.start, self.centre)
+        x = self.centre[0] + p[0] * np.cos(angles) - p[1] * np.sin(angles)
+        y = self.centre[1] + p[0] * np.sin(angles) + p[1] * np.cos(angles)
+        inner = np.stack([x, y], axis=1)[1:-1]
+        return np.vstack([self.start, inner, self.end])
+
+    def reversed(self) -> Arc:
+        """The same arc, walked the other way."""
+        return Arc(self.end, self.start, self.centre, not self.clockwise)
+
+    def row(self) -> list[float]:
+        """Start, end, centre and turn, as the kernels take them."""
+        return [*self.start, *self.end, *self.centre, float(self.turn)]
+
+
+Segment = Line | Arc

@@ -1,0 +1,118 @@
+"""Torus and rounded box."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from umform import _core
+from umform.errors import InvalidValue
+from umform.surfaces.directions import Direction, Point, not_negative, point, positive, right_angle
+from umform.surfaces.profile import Profile
+from umform.surfaces.swept import Revolved
+from umform.surfaces.tool import Tool
+from umform.surfaces.triangles import Floats, Triangles, grid
+
+
+@dataclass(frozen=True)
+class Torus(Tool):
+    """Ring of round section.
+
+    Parameters
+    ----------
+    centre : tuple of float
+        Centre of the ring.
+    axis : str or tuple of float
+        Direction across the ring.
+    major : float
+        Radius of the circle on which the section has its centre.
+    minor : float
+        Radius of the section, less than ``major``.
+    """
+
+    centre: Point
+    axis: Direction
+    major: float
+    minor: float
+
+    def revolved(self) -> Revolved:
+        """The circle that is turned."""
+        if not positive(self.minor, "Torus.minor") < positive(self.major, "Torus.major"):
+            raise InvalidValue(
+                "a ring must have a hole",
+                where="Torus",
+                value=f"minor {self.minor}, major {self.major}",
+                remedy="minor < major; for a solid disc with a round edge turn a profile of your own",
+            )
+        return Revolved(Profile.circle((self.major, 0.0), self.minor), self.centre, self.axis)
+
+    def kernel(self) -> _core.Surface:
+        """The surface as the kernels take it."""
+        return self.revolved().kernel()
+
+    def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
+        """Belts around the axis."""
+        return self.revolved().facets(centre, reach, chord)
+
+
+@dataclass(frozen=True)
+class Box(Tool):
+    """Box with rounded edges and corners. eq. (4.27)
+
+    Parameters
+    ----------
+    centre : tuple of float
+        Centre.
+    size : tuple of float
+        Length along its three directions, over all.
+    radius : float
+        Radius of edges and corners, at most half of the smallest length; 0 leaves them sharp.
+    x, y : str or tuple of float
+        Its first two directions, at right angles.
+    """
+
+    centre: Point
+    size: Point
+    radius: float = 0.0
+    x: Direction = "x"
+    y: Direction = "y"
+
+    def kernel(self) -> _core.Surface:
+        """The surface as the kernels take it."""
+        axes, core = self._frame()
+        return _core.rounded_box(point(self.centre, "Box.centre"), axes, [float(c) for c in core], float(self.radius))
+
+    def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
+        """Eighths of a sphere, drawn apart; what stretches between them are the edges and faces."""
+        axes, core = self._frame()
+        step = 2.0 * math.acos(max(1.0 - 0.5 * chord / self.radius, 0.5)) if self.radius else math.pi
+        parts = math.ceil(0.5 * math.pi / step)
+        quarter = np.linspace(0.0, 0.5 * math.pi, parts + 1)
+        polar = np.concatenate([quarter - 0.5 * math.pi, quarter])  # -90 degrees at the lower, 90 at the upper face
+        height = np.repeat([-1.0, 1.0], parts + 1)
+        around = np.concatenate([quarter + 0.5 * math.pi * k for k in range(4)] + [np.zeros(1)])
+        sides = np.repeat([[1, 1], [-1, 1], [-1, -1], [1, -1], [1, 1]], [parts + 1] * 4 + [1], axis=0)
+        direction = np.empty((len(polar), len(around), 3))
+        direction[:, :, 0] = np.cos(polar)[:, None] * np.cos(around)
+        direction[:, :, 1] = np.cos(polar)[:, None] * np.sin(around)
+        direction[:, :, 2] = np.sin(polar)[:, None]
+        offset = np.empty_like(direction)
+        offset[:, :, :2] = core[:2] * sides
+        offset[:, :, 2] = core[2] * height[:, None]
+        belts = offset + self.radius * direction
+        middle = np.broadcast_to([0.0, 0.0, 1.0], (1, len(around), 3)) * (core[2] + self.radius)
+        return grid(np.array(self.centre) + np.concatenate([-middle, belts, middle]) @ axes)
+
+    def _frame(self) -> tuple[Floats, Floats]:
+        """Rows of its directions, and half of the box inside of the roundings."""
+        x, y = right_angle(self.x, self.y, "Box")
+        half = np.array([0.5 * positive(length, "Box.size", "size") for length in point(self.size, "Box.size")])
+        if not_negative(self.radius, "Box.radius") > half.min() * (1.0 + 1e-12):
+            raise InvalidValue(
+                "the radius of a box must be at most half of its smallest length",
+                where="Box.radius",
+                value=f"{self.radius}, half of the length {half.min()}",
+            )
+        return np.array([x, y, np.cross(x, y)]), np.maximum(half - self.radius, 0.0)

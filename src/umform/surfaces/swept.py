@@ -1,0 +1,180 @@
+"""Profiles made into tools: drawn out along an axis, or turned about one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from umform import _core
+from umform.errors import InvalidValue
+from umform.surfaces.crossings import refuse_crossings
+from umform.surfaces.directions import Direction, Point, point, right_angle, unit_vector
+from umform.surfaces.profile import Profile
+from umform.surfaces.segments import Arc, Line, Point2, Segment
+from umform.surfaces.tool import Tool
+from umform.surfaces.triangles import Floats, Triangles, across, grid
+
+_JOINED, _ENDLESS, _ON_AXIS = _core.ProfileEnd.joined, _core.ProfileEnd.endless, _core.ProfileEnd.on_axis
+
+
+@dataclass(frozen=True)
+class Extruded(Tool):
+    """A profile drawn out endlessly at right angles to its plane. eq. (4.25)
+
+    Parameters
+    ----------
+    profile : Profile
+        The section. An open one must begin and end with a line.
+    origin : tuple of float
+        Where the origin of the profile lies.
+    x, y : str or tuple of float
+        The two directions of the profile, at right angles; by default it stands in the xz-plane and the tool goes
+        along y.
+    """
+
+    profile: Profile
+    origin: Point = (0.0, 0.0, 0.0)
+    x: Direction = "x"
+    y: Direction = "z"
+
+    def kernel(self) -> _core.Surface:
+        """The surface as the kernels take it."""
+        segments = self.profile.segments
+        end = _JOINED if self.profile.closed else _ENDLESS
+        if not self.profile.closed:
+            _refuse_endless_arcs(segments[0], segments[-1], "Extruded")
+            refuse_crossings(segments, False, (True, True), "Extruded")
+        x, y = right_angle(self.x, self.y, "Extruded")
+        rows = np.array([segment.row() for segment in segments])
+        return _core.extruded(rows, end, end, point(self.origin, "Extruded.origin"), x, y)
+
+    def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
+        """Strips along the tool."""
+        x, y = (np.array(v) for v in right_angle(self.x, self.y, "Extruded"))
+        along = np.cross(y, x)
+        d = centre - point(self.origin, "Extruded.origin")
+        far = 2.0 * (self.profile.size + float(np.linalg.norm(d)) + reach)
+        curve = self.profile.points(chord, far)
+        section = self.origin + curve[:, :1] * x + curve[:, 1:] * y
+        ends = np.array([d @ along - reach, d @ along + reach])
+        return grid(section[:, None, :] + ends[None, :, None] * along)
+
+
+@dataclass(frozen=True)
+class Revolved(Tool):
+    """A profile turned about an axis: its x is the distance to the axis, its y goes along the axis. eq. (4.26)
+
+    Parameters
+    ----------
+    profile : Profile
+        The meridian, at x >= 0. An open one may begin or end on the axis x = 0; elsewhere it begins and ends with a
+        line that goes on for ever. A closed one may have one line on the axis, which is no surface.
+    origin : tuple of float
+        Where the origin of the profile lies.
+    axis : str or tuple of float
+        Direction of the axis.
+    """
+
+    profile: Profile
+    origin: Point = (0.0, 0.0, 0.0)
+    axis: Direction = "z"
+
+    def kernel(self) -> _core.Surface:
+        """The surface as the kernels take it."""
+        meridian, start, end = self._meridian()
+        rows = np.array([segment.row() for segment in meridian.segments])
+        axis = unit_vector(self.axis, "Revolved.axis")
+        return _core.revolved(rows, start, end, point(self.origin, "Revolved.origin"), axis)
+
+    def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
+        """Belts around the axis."""
+        axis = np.array(unit_vector(self.axis, "Revolved.axis"))
+        d = centre - point(self.origin, "Revolved.origin")
+        meridian, start, end = self._meridian()
+        beyond = 2.0 * (meridian.size + float(np.linalg.norm(d)) + reach)
+        curve = meridian.points(0.5 * chord)
+        first, last = meridian.segments[0].tangents()[0], meridian.segments[-1].tangents()[1]
+        curve[0] -= beyond * first if start == _ENDLESS else 0.0
+        curve[-1] += beyond * last if end == _ENDLESS else 0.0
+        widest = min(float(curve[:, 0].max()), float(np.linalg.norm(d)) + reach)
+        step = 2.0 * math.acos(max(1.0 - 0.5 * chord / widest, 0.5))
+        angles = np.linspace(0.0, 2.0 * math.pi, math.ceil(2.0 * math.pi / step) + 1)
+        x, y = (np.array(v) for v in across(unit_vector(self.axis, "Revolved.axis")))
+        ring = np.cos(angles)[:, None] * x + np.sin(angles)[:, None] * y
+        return grid(np.array(self.origin) + curve[:, None, :1] * ring + curve[:, None, 1:] * axis)
+
+    def _meridian(self) -> tuple[Profile, _core.ProfileEnd, _core.ProfileEnd]:
+        """What of the profile is a surface, and what its two ends do."""
+        near = 1e-12 * self.profile.size
+        segments = [_snapped(segment, near) for segment in self.profile.segments]
+        for i, segment in enumerate(segments):
+            _refuse_beyond_axis(segment, near, f"segment {i} of Revolved.profile")
+        on_axis = [i for i, s in enumerate(segments) if isinstance(s, Line) and s.start[0] == s.end[0] == 0.0]
+        if len(on_axis) > self.profile.closed:
+            raise InvalidValue(
+                "a line on the axis of revolution is no surface: none in an open profile, one at most in a closed one",
+                where="Revolved.profile",
+                value=f"segments {on_axis}",
+                remedy="leave it out: an open profile may end on the axis",
+            )
+        if not self.profile.closed:
+            return self._open_meridian(segments)
+        if not on_axis:
+            return Profile(segments), _JOINED, _JOINED
+        k = on_axis[0]
+        return Profile(segments[k + 1 :] + segments[:k], closed=False), _ON_AXIS, _ON_AXIS
+
+    def _open_meridian(self, segments: list[Segment]) -> tuple[Profile, _core.ProfileEnd, _core.ProfileEnd]:
+        """Each end on the axis, or a line that goes on for ever away from it."""
+        start = _ON_AXIS if segments[0].start[0] == 0.0 else _ENDLESS
+        end = _ON_AXIS if segments[-1].end[0] == 0.0 else _ENDLESS
+        outwards = -segments[0].tangents()[0][0], segments[-1].tangents()[1][0]
+        for kind, i, slope in ((start, 0, outwards[0]), (end, -1, outwards[1])):
+            if kind == _ENDLESS:
+                _refuse_endless_arcs(segments[i], segments[i], "Revolved")
+                if slope < 0.0:
+                    raise InvalidValue(
+                        "an open end of a profile must not run through the axis of revolution",
+                        where=f"{'first' if i == 0 else 'last'} segment of Revolved.profile",
+                        remedy="let it end on the axis, at x = 0",
+                    )
+        refuse_crossings(segments, False, (start == _ENDLESS, end == _ENDLESS), "Revolved")
+        return Profile(segments, closed=False), start, end
+
+
+def _refuse_endless_arcs(first: Segment, last: Segment, where: str) -> None:
+    for name, segment in (("first", first), ("last", last)):
+        if not isinstance(segment, Line):
+            raise InvalidValue(
+                "an open profile must begin and end with a line, that goes on for ever",
+                where=f"{name} segment of {where}.profile",
+                value=segment,
+                remedy="add a line, or close the profile",
+            )
+
+
+def _snapped(segment: Segment, near: float) -> Segment:
+    """Ends and centre exactly on the axis if they lie there to round-off."""
+
+    def snap(at: Point2) -> Point2:
+        return (0.0, at[1]) if abs(at[0]) <= near else at
+
+    if isinstance(segment, Line):
+        return Line(snap(segment.start), snap(segment.end))
+    return replace(segment, start=snap(segment.start), end=snap(segment.end), centre=snap(segment.centre))
+
+
+def _refuse_beyond_axis(segment: Segment, near: float, where: str) -> None:
+    """No point at x < 0, the leftmost one of an arc neither."""
+    least = min(segment.start[0], segment.end[0])
+    if isinstance(segment, Arc) and -segment.middle[0] >= math.cos(0.5 * segment.angle):
+        least = min(least, segment.centre[0] - segment.radius)
+    if least < -near:
+        raise InvalidValue(
+            "a profile must stay on one side of the axis of revolution, x >= 0",
+            where=where,
+            value=f"x = {least:.6g}",
+            remedy="an open profile may end on the axis",
+        )

@@ -1,0 +1,75 @@
+"""Tools from functions of the user."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform import _core
+from umform.errors import InvalidValue, NotFinite
+from umform.surfaces.tool import Tool
+
+Floats = NDArray[np.float64]
+
+#: x (n, 3) -> signed distance (n,), negative inside the tool; normal (n, 3), out of the tool; Hessian (n, 3, 3).
+GapFunction = Callable[[Floats], tuple[ArrayLike, ArrayLike, ArrayLike]]
+
+
+@dataclass(frozen=True)
+class UserSurface(Tool):
+    """A tool from a function of your own.
+
+    Parameters
+    ----------
+    function : callable
+        Takes positions (n, 3) and returns the signed distance (n,), negative inside the tool, the normal (n, 3) out of
+        the tool and the Hessian of the distance (n, 3, 3). It is called once for all contact points of a pair. Where
+        the function is not a distance but close to one (a scaled level set), gap and pressure are scaled with it.
+        :func:`check_surface` compares normal and Hessian with differences.
+    name : str
+        For messages and reports.
+    """
+
+    function: GapFunction
+    name: str = "user surface"
+
+    def __call__(self, x: Floats) -> tuple[Floats, Floats, Floats]:
+        """Evaluate the function and check what it returns.
+
+        Raises
+        ------
+        InvalidValue
+            If the arrays have other shapes.
+        NotFinite
+            If one of them holds NaN or infinity.
+        """
+        answer = self.function(x)
+        shapes = ((len(x),), (len(x), 3), (len(x), 3, 3))
+        if not isinstance(answer, tuple) or len(answer) != 3:
+            raise InvalidValue(
+                "a surface function must return three arrays: g, n, H", where=self.name, value=type(answer).__name__
+            )
+        arrays = []
+        for name, shape, values in zip(("g", "n", "H"), shapes, answer, strict=True):
+            array = np.ascontiguousarray(values, dtype=float)
+            if array.shape != shape:
+                raise InvalidValue(
+                    f"{name} of a surface function must have shape {shape}", where=self.name, value=array.shape
+                )
+            if not np.isfinite(array).all():
+                at = int(np.argwhere(~np.isfinite(array))[0][0])
+                raise NotFinite(
+                    f"{name} of a surface function is not finite",
+                    where=f"{self.name} at x = {x[at]}",
+                    cause="a square root or division outside of its domain",
+                    remedy="make the function smooth around the tool, inside of it too",
+                )
+            arrays.append(array)
+        return arrays[0], arrays[1], arrays[2]
+
+    def kernel(self) -> _core.Surface:
+        """The surface as the kernels take it."""
+        return _core.surface_from_function(self)

@@ -1,0 +1,73 @@
+"""What Newton's method asks of a model: it knows no elements and no contact beyond these two protocols."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.solvers import Pattern
+
+Floats = NDArray[np.float64]
+
+
+class Evaluation(Protocol):
+    """What Newton reads of an evaluation."""
+
+    @property
+    def residual(self) -> Floats:
+        """Residual at all degrees of freedom, reactions at the prescribed ones."""
+
+    @property
+    def values(self) -> Floats:
+        """Entries of the tangent."""
+
+    @property
+    def predictor(self) -> Floats:
+        """Tangent times the increment of the prescribed degrees of freedom."""
+
+    @property
+    def force_scale(self) -> float:
+        """Scale of the forces."""
+
+    @property
+    def failed(self) -> int:
+        """First cell outside of the domain of its law, or -1."""
+
+
+class System(Protocol):
+    """What Newton asks of a model."""
+
+    u: Floats
+
+    @property
+    def pattern(self) -> Pattern:
+        """Sparse pattern of the tangent."""
+
+    def restrict(self, r: Floats) -> Floats:
+        """Unknowns' share of a vector at all degrees of freedom. eq. (5.18)"""
+
+    def extend(self, x: Floats) -> Floats:
+        """Displacement of all degrees of freedom that the unknowns make. eq. (5.17)"""
+
+    def prescribed_displacement(self) -> Floats:
+        """Displacement that the supports prescribe, zero elsewhere."""
+
+    def evaluate(self, u: Floats, du: Floats | None = None) -> Evaluation:
+        """Residual and tangent."""
+
+    def recover(self, du: Floats, s: float) -> None:
+        """Update condensed parameters."""
+
+    def undo_recover(self) -> None:
+        """Take the last update back."""
+
+    def active_set(self) -> NDArray[np.bool_]:
+        """Contact points that penetrate."""
+
+    def commit(self, u: Floats) -> None:
+        """Accept."""
+
+    def revert(self) -> None:
+        """Forget."""
