@@ -12,30 +12,19 @@ import numpy as np
 import pytest
 
 import umform as uf
+from umform.verification.plastic.bars import THICKNESS, WIDTH, bar
 
-LENGTH, WIDTH, THICKNESS = 10.0, 4.0, 1.0
 HARDENING = uf.Linear(160.0, 500.0)
 STEEL = uf.J2(kappa=175000, mu=80770, hardening=HARDENING)
 
 ELEMENTS = {
-    "ANS3DEAS": ("ANS3DEAS", {}),
-    "4 modes": ("EAS3DEAS", {"membrane_modes": 4}),
-    "5 modes": ("EAS3DEAS", {"membrane_modes": 5}),
-    "7 modes": ("EAS3DEAS", {"membrane_modes": 7}),
+    "ANS3DEAS": uf.elements.element("ANS3DEAS"),
+    **{f"{modes} modes": uf.elements.element("EAS3DEAS", membrane_modes=modes) for modes in (4, 5, 7)},
 }
 
 
-def bar(name: str, material: uf.J2 = STEEL) -> tuple[uf.Model, object]:
-    """An eighth of a bar under uniaxial tension, 6 x 2 elements."""
-    element, options = ELEMENTS[name]
-    model = uf.Model(uf.mesh.strip(LENGTH, WIDTH, THICKNESS, (6, 2)), element, material=material, **options)
-    for plane, normal in (("x0", "x"), ("y0", "y"), ("lower", "z")):
-        model.symmetry(plane, normal)
-    return model, model.prescribe("x1", "x", "end")
-
-
 def pull(name: str, elongation: float = 1.0, steps: int = 20, **options) -> uf.Result:
-    model, end = bar(name)
+    model, end = bar(ELEMENTS[name], STEEL)
     return uf.solve(model, uf.Move(end, elongation, steps), options=uf.NewtonOptions(**options), frames=0)
 
 

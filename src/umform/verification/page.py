@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from umform.errors import UmformError
 from umform.plotting import plot_shape, save
 from umform.verification.balance import BalanceRow, balance_row
 from umform.verification.case import Case
@@ -80,7 +81,12 @@ class Page:
         """Solve a nonlinear problem and enter its balance of work and forces, and the order of Newton's method."""
         from umform.steps import solve
 
-        result = solve(model, steps, progress=False, **{"frames": 0, **options})
+        try:
+            result = solve(model, steps, progress=False, **{"frames": 0, **options})
+        except UmformError as error:  # what was reached counts too
+            reached: Result = error.result  # type: ignore[attr-defined]
+            self.balances.append(balance_row(self.case.name, f"{label} (ended early)", reached))
+            raise
         self.balances.append(balance_row(self.case.name, label, result))
         return result
 
