@@ -31,6 +31,8 @@ class BalanceRow:
     order : float or None
         Order of Newton's method: median over the increments of the order of the last steps, None where no increment
         has enough iterations above round-off.
+    measured : int
+        Number of increments that have: short increments converge in fewer iterations than tell an order.
     """
 
     case: str
@@ -41,6 +43,7 @@ class BalanceRow:
     force: float
     moment: float
     order: float | None
+    measured: int
 
 
 def balance_row(case: str, run: str, result: Result) -> BalanceRow:
@@ -57,16 +60,20 @@ def balance_row(case: str, run: str, result: Result) -> BalanceRow:
         force=float(np.abs(balance.force_imbalance).max()),
         moment=float(np.abs(balance.moment_imbalance).max()),
         order=median(orders) if orders else None,
+        measured=len(orders),
     )
 
 
 def newton_order(iterations: list[Iteration]) -> float | None:
     """Order of convergence p of the last two steps of an increment, |e_(k+1)| ~ |e_k|^p.
 
-    The error is measured by the energy r . du of the increment, whose root is a norm of it; an energy at round-off
-    (a relative residual below 1e-11) tells nothing.
+    The error is measured by the energy r . du of the increment, whose root is a norm of it. An energy at round-off
+    tells nothing: round-off is where the residual of the last iteration is, at the lowest.
     """
-    sizes = [math.sqrt(record.energy) for record in iterations if record.energy > 0.0 and record.residual > 1e-11]
+    if not iterations:
+        return None
+    noise = max(1e-11, 30.0 * iterations[-1].residual)
+    sizes = [math.sqrt(record.energy) for record in iterations if record.energy > 0.0 and record.residual > noise]
     if len(sizes) < 3:
         return None
     before, middle, last = sizes[-3:]

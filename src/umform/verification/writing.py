@@ -76,8 +76,9 @@ def page_text(page: Page) -> str:
 
 _BALANCE = (
     "External work against stored, dissipated and contact energy (largest drift over the largest energy); resultant "
-    "of all external forces and moments over the sum of their sizes; order of Newton's method (median over the "
-    "increments of the order of their last steps)."
+    "of all external forces and moments over the sum of their sizes; order of Newton's method: median of the order of "
+    "the last steps, over so many increments as have enough iterations to tell one (in brackets). Below 2: contact "
+    "points or yielding change up to the end of an increment, or membrane and bending errors fall in turns."
 )
 
 
@@ -92,7 +93,7 @@ def balancemarkdown_table(rows: Sequence[BalanceRow], with_case: bool = False) -
             f"{row.drift:.1e}",
             f"{row.force:.1e}",
             f"{row.moment:.1e}",
-            "-" if row.order is None else f"{row.order:.2f}",
+            "-" if row.order is None else f"{row.order:.2f} ({row.measured})",
         )
         for row in rows
     ]

@@ -106,20 +106,21 @@ def test_drawn_from_nothing():
     assert "0 / 0" not in which_element_text({})
 
 
-def records(errors):
+def records(errors, last=1e-15):
+    """Iterations with these errors, and one more with a residual at round-off."""
     return [
         uf.newton.Iteration(
             number=k,
-            residual=max(error, 1e-15),
+            residual=error,
             increment=error,
-            energy=error**2,
+            energy=0.0 if error == last else error**2,
             entered=0,
             left=0,
             step_length=1.0,
             negative_pivots=None,
             seconds=0.0,
         )
-        for k, error in enumerate(errors, start=1)
+        for k, error in enumerate([*errors, last], start=1)
     ]
 
 
@@ -127,6 +128,11 @@ def records(errors):
 def test_order_of_newton(order):
     errors = [0.3, *[0.3 ** (order**k) for k in range(1, 4)]] if order > 1 else [0.1, 0.03, 0.009, 0.0027]
     assert newton_order(records(errors)) == pytest.approx(order, rel=1e-6)
+
+
+def test_an_error_at_round_off_tells_no_order():
+    errors = [0.1, 0.01, 1e-4]
+    assert newton_order(records([*errors, 2e-9], last=1e-9)) == pytest.approx(2.0)
 
 
 def test_no_order_from_too_few_iterations_or_without_progress():
