@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 import umform as uf
+from umform.newton import Iteration
 from umform.verification import Case, Chapter, Page, Variant, book
 from umform.verification.balance import newton_order
 from umform.verification.checks import Verdict
@@ -109,7 +110,7 @@ def test_drawn_from_nothing():
 def records(errors, last=1e-15):
     """Iterations with these errors, and one more with a residual at round-off."""
     return [
-        uf.newton.Iteration(
+        Iteration(
             number=k,
             residual=error,
             increment=error,
