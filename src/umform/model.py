@@ -41,9 +41,10 @@ class Model(Supported, Loaded):
     material : Material
         SVK, NeoHooke, NeoHookePower or J2.
     thickness_points : int, optional
-        Points through the thickness, 2 to 15; default 2 (elastic) or 5 (plastic), at least thickness_order + 1.
-    thickness_rule : {"gauss", "lobatto", "split"}
-        Where they lie.
+        Points through the thickness, 2 to 15, at least thickness_order + 1. Default: 2 with an elastic law; 5 with a
+        plastic one, but 12 with BEND8 and BEND18.
+    thickness_rule : {"gauss", "lobatto", "split"}, optional
+        Where they lie; default gauss, but split where the default of the points is 12.
     **options
         Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
         compatible_E12.
@@ -63,7 +64,7 @@ class Model(Supported, Loaded):
         *,
         material: Material,
         thickness_points: int | None = None,
-        thickness_rule: str = "gauss",
+        thickness_rule: str | None = None,
         **options: int | bool | None,
     ) -> None:
         super().__init__(mesh)
@@ -81,10 +82,7 @@ class Model(Supported, Loaded):
             )
         self.material = material
         least = self.element.thickness_order + 1
-        self.thickness_points = (
-            thickness_points if thickness_points is not None else max(material.thickness_points, least)
-        )
-        self.thickness_rule = thickness_rule
+        self.thickness_points, self.thickness_rule = self._through_thickness(thickness_points, thickness_rule)
         if self.thickness_points < least:
             raise InvalidValue(
                 f"thickness order {least - 1} needs at least {least} thickness points",
@@ -92,7 +90,7 @@ class Model(Supported, Loaded):
                 cause="fewer points cannot see the highest mode",
                 remedy=f"thickness_points={least} or more",
             )
-        t, w = make_thickness_rule(self.thickness_points, thickness_rule)
+        t, w = make_thickness_rule(self.thickness_points, self.thickness_rule)
         self.element.check_modes(t)
         self.block = _core.shell_block(
             self.element.technology(), self.element.surface_points, t, w, material.law(), mesh.connectivity, mesh.points
@@ -100,6 +98,14 @@ class Model(Supported, Loaded):
         self.u: Floats = np.zeros(3 * len(mesh.points))
         self.time = 0.0
         self.contacts: list[Contact] = []
+
+    def _through_thickness(self, points: int | None, rule: str | None) -> tuple[int, str]:
+        """Points through the thickness and their rule: what is given, else what law and element want."""
+        plastic = self.material.thickness_points > 2
+        wanted, wanted_rule = self.element.plastic_points if plastic else (2, "gauss")
+        if points is not None:
+            return points, rule or "gauss"
+        return max(wanted, self.material.thickness_points, self.element.thickness_order + 1), rule or wanted_rule
 
     # Contact -------------------------------------------------------------------------------------------------
 

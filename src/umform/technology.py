@@ -74,6 +74,8 @@ class Element:
         Highest order in t of the enhanced thickness strain (0: none); it needs order + 1 thickness points.
     citation : str
         Where it comes from (a key of references.bib).
+    plastic_points : tuple (int, str), optional
+        Points through the thickness and their rule that a model takes with a plastic law if nothing is said.
     """
 
     name: str
@@ -83,6 +85,7 @@ class Element:
     surface_points: int = 2
     thickness_order: int = 0
     citation: str = ""
+    plastic_points: tuple[int, str] = (5, "gauss")
     options: dict[str, object] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:

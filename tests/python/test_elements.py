@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import umform as uf
 from umform import elements
 from umform import materials as mt
 from umform.elements import CATALOGUE, Element, Term, Tying, element, thickness_rule
@@ -16,11 +17,15 @@ from umform.mesh import strip
 from umform.model import Model
 
 LAWS = ("svk", "neo-hooke", "neo-hooke-power", "j2")
-ENHANCED = [name for name in CATALOGUE if name.endswith("EAS")]
+FOR_BENDS = ("BEND8", "BEND18")
+ENHANCED = [name for name in CATALOGUE if name.endswith("EAS") or name in FOR_BENDS]
 
 
 def options_of(name):
     """The ways of E_33: tied or not, order 1 and 3 where the element has an enhanced thickness strain."""
+    if name in FOR_BENDS:  # they have settled it
+        yield {}
+        return
     orders = (1, 3) if name in ENHANCED else (None,)
     for tie, order in itertools.product((False, True), orders):
         yield {"tie_E33": tie} | ({} if order is None else {"thickness_order": order})
@@ -211,8 +216,8 @@ def test_every_entry_of_the_catalogue_is_cited_and_has_its_nodes(name):
     made = element(name)
     assert made.name == name
     assert made.citation
-    assert made.nodes == (18 if "9K" in name else 8)
-    assert made.surface_points == (3 if "9K" in name else 2)
+    assert made.nodes == (18 if "9K" in name or name == "BEND18" else 8)
+    assert made.surface_points == (3 if made.nodes == 18 else 2)
     assert (made.thickness_order > 0) == (name in ENHANCED)
 
 
@@ -227,10 +232,42 @@ def test_every_entry_of_the_catalogue_is_cited_and_has_its_nodes(name):
         ("EAS3DEAS", {"membrane_modes": 5, "thickness_order": 2}, 10),
         ("MI9K3DEAS", {}, 9),
         ("MI9K3DEAS", {"thickness_modes": 4}, 4),
+        ("BEND8", {}, 4 + 3),
+        ("BEND18", {}, 9 * 4),
     ],
 )
 def test_number_of_enhanced_modes(name, options, modes):
     assert len(element(name, **options).modes) == modes
+
+
+@pytest.mark.parametrize(("name", "base"), [("BEND8", "ANS3DEAS"), ("BEND18", "MI9K3DEAS")])
+def test_the_elements_for_bends_are_order_4_with_tying(name, base):
+    own = {"name": name, "plastic_points": (12, "split")}
+    assert element(name) == replace(element(base, thickness_order=4, tie_E33=True), **own)
+    assert element(name, thickness_order=1, tie_E33=False) == replace(element(base), **own)
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "through"),
+    [
+        ("ANS3DEAS", {}, (5, "gauss")),
+        ("ANS3DEAS", {"thickness_rule": "lobatto"}, (5, "lobatto")),
+        ("BEND8", {}, (12, "split")),
+        ("BEND8", {"thickness_points": 9}, (9, "gauss")),
+        ("BEND8", {"thickness_rule": "gauss"}, (12, "gauss")),
+        ("BEND18", {}, (12, "split")),
+    ],
+)
+def test_points_through_the_thickness_that_a_plastic_law_gets(name, given, through):
+    cell = element(name).cell
+    steel = uf.J2(kappa=175e3, mu=80e3, hardening=uf.Perfect(160.0))
+    model = uf.Model(uf.mesh.strip(2, 1, 1, (2, 1), cell=cell), name, material=steel, **given)
+    assert (model.thickness_points, model.thickness_rule) == through
+
+
+def test_elastic_laws_need_no_more_points_than_the_order_asks_for():
+    model = uf.Model(uf.mesh.strip(2, 1, 1, (2, 1)), "BEND8", material=uf.SVK(E=1.0, nu=0.3))
+    assert (model.thickness_points, model.thickness_rule) == (5, "gauss")
 
 
 @pytest.mark.parametrize(("name", "linear"), [("ANS3DEAS", 4), ("MI9K3DEAS", 9), ("DISP9K3DEAS", 9)])
