@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from umform.newton import NewtonOptions
     from umform.release import Release
     from umform.results import Result
-    from umform.steps import Move, solve
+    from umform.steps import Move, resume, solve
     from umform.surfaces import (
         Box,
         Cylinder,
@@ -74,7 +74,7 @@ _HOME = {
     "umform.newton": ("NewtonOptions",),
     "umform.results": ("Result",),
     "umform.release": ("Release",),
-    "umform.steps": ("Move", "solve"),
+    "umform.steps": ("Move", "resume", "solve"),
     "umform.surfaces": (
         "Box",
         "Cylinder",
@@ -140,6 +140,7 @@ __all__ = [
     "fields",
     "mesh",
     "processes",
+    "resume",
     "set_threads",
     "solve",
     "surfaces",

@@ -9,11 +9,12 @@ import logging
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any, Self
 
 import numpy as np
 
 from umform.boundary import Control
-from umform.critical import CriticalPoints
+from umform.critical import CriticalPoints, PathState
 from umform.errors import InvalidValue, NoConvergence
 from umform.increment import Run, last_residuals
 from umform.model import Model
@@ -119,43 +120,120 @@ class Arc:
         return list(self.to) if isinstance(self.to, Sequence) else [self.to]
 
 
-def follow(run: Run, step: Arc, number: int, frames: int) -> None:
-    """Follow the path with arc lengths that adapt to the iterations. eq. (5.26)"""
-    path = _started(run, step, number)
-    critical = CriticalPoints(run.result, path.line.text, f"step {number}")
-    critical.advance(path.state)
-    length = path.first
-    every = max(1, step.most // frames) if frames > 0 else 0
-    count = 0
-    while True:
-        tried = path.shortened(length)
+@dataclass
+class Following:
+    """Follows the path with arc lengths that adapt to the iterations. eq. (5.26)
+
+    Attributes
+    ----------
+    path : Path
+        Line of the controls, and the last state on the path.
+    critical : CriticalPoints
+        What it has seen of the states.
+    length : float
+        The arc length that comes next.
+    count : int
+        Increments so far.
+    done : bool
+        Whether the step is at its end.
+    """
+
+    path: Path
+    critical: CriticalPoints
+    length: float
+    count: int = 0
+    done: bool = False
+
+    @classmethod
+    def begin(cls, run: Run, step: Arc) -> Self:
+        """The loop at the beginning of the step."""
+        path = _started(run, step, run.number)
+        run.history = run.model.block.state
+        critical = CriticalPoints(run.result, path.line.text, f"step {run.number}")
+        critical.advance(path.state)
+        return cls(path, critical, path.first)
+
+    @classmethod
+    def recall(cls, run: Run, step: Arc, memory: dict[str, Any]) -> Self:
+        """The loop as it stood."""
+        path = _Resumed(run, step, memory["path"])
+        critical = CriticalPoints(run.result, path.line.text, f"step {run.number}")
+        kept = memory["critical"]
+        critical._last, critical._turns, critical._silent = path.state, kept["turns"], kept["silent"]
+        critical._counted = None if kept["counted"] is None else PathState(**kept["counted"])
+        return cls(path, critical, memory["length"], memory["count"], memory["done"])
+
+    def memory(self) -> dict[str, Any]:
+        """All that the loop remembers."""
+        path, critical = self.path, self.critical
+        return {
+            "path": {
+                "starts": [start for start, _ in path.line.ends.values()],
+                "load_weight": path.load_weight,
+                "start_time": path.start_time,
+                "first": path.first,
+                "state": vars(path.state),
+            },
+            "critical": {
+                "counted": None if critical._counted is None else vars(critical._counted),
+                "turns": critical._turns,
+                "silent": critical._silent,
+            },
+            "length": self.length,
+            "count": self.count,
+            "done": self.done,
+        }
+
+    def advance(self, run: Run, step: Arc) -> None:
+        """Try one increment."""
+        path = self.path
+        tried = path.shortened(self.length)
+        run.history = run.model.block.state
         try:
             converged = path.advance(tried)
         except Failed as failure:
-            length = 0.5 * tried
-            if failure.chattering:
-                run.result.warn(f"step {number}, time {run.model.time:.4f}: {failure.reason}; the arc length is cut")
-            log.info("step %d: %s; arc length cut to %.3g of the first", number, failure.reason, length / path.first)
-            if length < path.first / 2**step.cuts:
-                at = path.line.text(path.state.fraction)
-                raise _no_convergence(failure, f"step {number}, at {at}") from None
-            continue
-        count += 1
+            self._cut(run, step, failure, tried)
+            return
+        self.count += 1
         fraction = path.state.fraction
         ended = True
         try:
             ended = step.until is not None and step.until(run.model)
         finally:  # the state counts, whatever becomes of the user's function
-            done = fraction == 1.0 or ended or count == step.most
-            keep = bool(every) and (count % every == 0 or done)
-            run.result.add(converged.residual, converged.iterations, step=number, frame=keep)
-            critical.advance(path.state)
-        run.tick(f"step {number}", min(max(fraction, 0.0), 1.0))
-        if done:
-            _say_how_it_ended(run, step, number, path, ended)
-            return
-        adapted = length * min(max(math.sqrt(step.iterations / len(converged.iterations)), 0.5), 2.0)
-        length = min(adapted, step.grow * path.first)
+            self.done = fraction == 1.0 or ended or self.count == step.most
+            every = max(1, step.most // run.frames) if run.frames > 0 else 0
+            frame = bool(every) and (self.count % every == 0 or self.done)
+            part = min(max(fraction, 0.0), 1.0)
+            run.keep(converged, step.moved(), name=f"step {run.number}", fraction=part, frame=frame)
+            self.critical.advance(path.state)
+        if self.done:
+            _say_how_it_ended(run, step, run.number, path, ended)
+        adapted = self.length * min(max(math.sqrt(step.iterations / len(converged.iterations)), 0.5), 2.0)
+        self.length = min(adapted, step.grow * path.first)
+
+    def _cut(self, run: Run, step: Arc, failure: Failed, tried: float) -> None:
+        """Halve an arc length that failed, or give up."""
+        number, path = run.number, self.path
+        self.length = 0.5 * tried
+        if failure.chattering:
+            run.result.warn(f"step {number}, time {run.model.time:.4f}: {failure.reason}; the arc length is cut")
+        log.info("step %d: %s; arc length cut to %.3g of the first", number, failure.reason, self.length / path.first)
+        if self.length < path.first / 2**step.cuts:
+            at = path.line.text(path.state.fraction)
+            raise _no_convergence(failure, f"step {number}, at {at}") from None
+
+
+class _Resumed(Path):
+    """A path that goes on from a state that was kept, without a look at its beginning."""
+
+    def __init__(self, run: Run, step: Arc, memory: dict[str, Any]) -> None:
+        for control, start in zip(step.moved(), memory["starts"], strict=True):
+            control.value = start
+        self.model, self.newton, self.line = run.model, run.newton, Line(step.moved(), step.targets())
+        self.load_weight, self.first = memory["load_weight"], memory["first"]
+        self.start_time, self.increment = memory["start_time"], step.increment
+        self.state = PathState(**memory["state"])
+        self.line.move(self.state.fraction)
 
 
 def _say_how_it_ended(run: Run, step: Arc, number: int, path: Path, ended: bool) -> None:

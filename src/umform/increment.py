@@ -1,32 +1,85 @@
-"""One increment of a run: set the controls, let Newton find the equilibrium, commit; or put everything back."""
+"""One increment of a run: set the controls, let Newton find the equilibrium, commit; or put everything back.
+
+A run is a state machine: between two increments all that it will do follows from the model, from what `Run` holds and
+from the `Loop` of the step that is under way. There it may be written to a checkpoint, stopped and taken up again.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.boundary import Control
+from umform.contact import ToolMotion
 from umform.errors import NoConvergence
 from umform.model import Model
 from umform.newton import Converged, Failed, Iteration, Newton
+from umform.progress import Tick, silent
 from umform.results import Result
 
 Floats = NDArray[np.float64]
 
 
+class Loop(Protocol):
+    """Where a step stands between two of its increments, and how it goes on."""
+
+    @property
+    def done(self) -> bool:
+        """Whether the step has come to its end."""
+
+    def advance(self, run: Run, step: Any) -> None:
+        """Try one increment: take it, or learn from its failure."""
+
+    def memory(self) -> dict[str, Any]:
+        """All that the loop remembers, as numbers, lists and arrays; ``recall`` of its class makes it again."""
+
+
 @dataclass
 class Run:
-    """State of a run: the model, Newton, the result, and the last increment for the extrapolation."""
+    """State of a run between two increments.
+
+    Attributes
+    ----------
+    model, newton, result
+        What is solved, how, and what came out so far.
+    frames : int
+        About how many states of a step are kept for pictures.
+    number : int
+        The step under way, counted from 1.
+    loop : Loop, optional
+        Where it stands; None before it begins.
+    last_du : ndarray, shape (3 n,), optional
+        The last increment of displacement, for the extrapolation.
+    history : ndarray
+        History of the material that the last evaluation at ``model.u`` has read: with it that evaluation can be made
+        again, to the last bit, and with it the blocks that the next enhanced parameters are recovered with.
+    tick, pause : callable
+        Shows where the run stands; writes checkpoints and stops the run, between increments.
+    """
 
     model: Model
     newton: Newton
     result: Result
+    frames: int = 60
+    number: int = 1
+    loop: Loop | None = None
     last_du: Floats | None = None
-    last_fraction: float = 0.0
-    tick: Callable[[str, float], None] = field(default=lambda name, done: None)
+    history: Floats = field(default_factory=lambda: np.empty(0))
+    tick: Tick = silent
+    pause: Callable[[], None] = field(default=lambda: None)
+
+    def keep(
+        self, converged: Converged, controls: Sequence[Control], *, name: str, fraction: float, frame: bool
+    ) -> None:
+        """Add a converged increment of the step to the result and show how far the step ``name`` has come."""
+        self.result.add(converged.residual, converged.iterations, step=self.number, frame=frame)
+        row = self.result.rows[-1]
+        forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
+        self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))
 
 
 def take_increment(
@@ -38,17 +91,9 @@ def take_increment(
     for control, value in zip(controls, values, strict=True):
         control.value = float(value)
     model.time = time
-    guess = None
-    if extrapolation is not None and run.last_du is not None and run.newton.options.extrapolate:
-        guess = extrapolation * run.last_du
-    u_before = model.u.copy()
+    u_before, history = model.u.copy(), model.block.state
     try:
-        try:
-            converged = run.newton.solve(guess)
-        except Failed:
-            if guess is None:
-                raise
-            converged = run.newton.solve(None)  # the extrapolation may have gone too far: once more from the tangent
+        converged = _converged(run, dict(zip(controls, before, strict=True)), time_before, extrapolation)
     except BaseException:  # no convergence, Ctrl-C, a user's function: the last converged state stands
         for control, value in zip(controls, before, strict=True):
             control.value = value
@@ -56,8 +101,49 @@ def take_increment(
         model.revert()
         raise
     model.commit(converged.u)
-    run.last_du = model.u - u_before
+    run.last_du, run.history = model.u - u_before, history
     return converged
+
+
+def _converged(run: Run, before: Mapping[Control, float], time: float, extrapolation: float | None) -> Converged:
+    """Equilibrium at the new values, from the extrapolation or from a tangent, whichever is the first to lead there."""
+    if extrapolation is not None and run.last_du is not None and run.newton.options.extrapolate:
+        try:
+            return run.newton.solve(extrapolation * run.last_du)
+        except Failed:  # it may have gone too far
+            pass
+    if any(isinstance(control, ToolMotion) for control in before):
+        try:
+            return run.newton.solve(_tangent(run, before, time))
+        except Failed:  # what was in contact before may say little
+            pass
+    return run.newton.solve(None)
+
+
+def _tangent(run: Run, before: Mapping[Control, float], time: float) -> Floats:
+    """Increment along the tangent of the last converged state, which goes with the tools that touch it. eq. (5.28)"""
+    model, newton = run.model, run.newton
+    rates = {control: control.value - value for control, value in before.items()}
+    time_after = model.time
+
+    def increment() -> Floats:
+        evaluation = model.evaluate(model.u, rates=rates)
+        newton.check_domain(evaluation, [])
+        solver = newton.ready_solver()
+        solver.factor(evaluation.values)
+        return model.extend(solver.solve(-model.restrict(evaluation.residual + evaluation.predictor)))
+
+    _put(before, time, model)
+    try:
+        return newton.guarded(increment)
+    finally:
+        _put({control: before[control] + rate for control, rate in rates.items()}, time_after, model)
+
+
+def _put(values: Mapping[Control, float], time: float, model: Model) -> None:
+    for control, value in values.items():
+        control.value = value
+    model.time = time
 
 
 def no_convergence(failure: Failed, number: int, controls: Sequence[Control], values: Sequence[float]) -> NoConvergence:

@@ -3,34 +3,47 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Protocol
+
+
+class Tick(Protocol):
+    """Takes the part of something that is done, and a few words on where it stands."""
+
+    def __call__(self, name: str, fraction: float, detail: str = "", /) -> None:
+        """Move the bar of a name."""
 
 
 @contextmanager
-def progress_bar(show: bool | None = None) -> Iterator[Callable[[str, float], None]]:
-    """Yield ``tick(name, fraction)``; one bar a name, on a terminal only unless ``show`` says otherwise."""
+def progress_bar(show: bool | None = None) -> Iterator[Tick]:
+    """Yield ``tick(name, fraction, detail)``; one bar a name, on a terminal only unless ``show`` says otherwise."""
     if show is None:
         show = sys.stderr.isatty()
     if not show:
-        yield lambda name, fraction: None
+        yield silent
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     columns = (
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(),
         TextColumn("{task.percentage:3.0f} %"),
         TimeElapsedColumn(),
         TimeRemainingColumn(),
+        TextColumn("{task.fields[detail]}", markup=False),
     )
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
         tasks: dict[str, int] = {}
 
-        def tick(name: str, fraction: float) -> None:
-            if name not in tasks:
-                tasks[name] = progress.add_task(name, total=1.0)
-            progress.update(tasks[name], completed=fraction)  # type: ignore[arg-type]
+        def tick(name: str, fraction: float, detail: str = "", /) -> None:
+            if name not in tasks:  # what is done before the first look says nothing of the speed
+                tasks[name] = progress.add_task(name, total=1.0, completed=fraction, detail=detail)  # type: ignore[arg-type]
+            progress.update(tasks[name], completed=fraction, detail=detail)  # type: ignore[arg-type]
 
         yield tick
+
+
+def silent(name: str, fraction: float, detail: str = "", /) -> None:
+    """Show nothing."""

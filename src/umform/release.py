@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, Self
 
 from umform.boundary import Control
 from umform.errors import InvalidValue
 from umform.increment import Run, no_convergence, take_increment
-from umform.newton import Failed
+from umform.model import Snapshot
+from umform.newton import Converged, Failed
 
 
 @dataclass(frozen=True)
@@ -37,67 +40,123 @@ class Release:
             raise InvalidValue("the tolerance of a release must be positive", value=self.tolerance)
 
 
-def release(run: Run, step: Release, number: int, frames: int) -> None:
-    """Secant on force against displacement from saved states; lift-off is bracketed to 1e-6 of the value. eq. (5.14)"""
-    model, control = run.model, step.control
-    start_time, start_value = model.time, control.value
-    evaluation = model.evaluate(model.u)
-    force = model.conjugate_force(control, evaluation.residual)
-    scale = abs(force)
-    if start_value == 0.0 or scale <= 1e-9 * evaluation.force_scale:
-        run.result.note(f"step {number}: nothing to release, the force of {control.name} is zero")
-        return
-    size = -math.copysign(step.increment or abs(start_value) / 1000.0, start_value)
-    largest, resolution = abs(start_value) / 20.0, 1e-6 * abs(start_value)
-    before: tuple[float, float] | None = None  # value and force of the state before the present one
-    bound: float | None = None  # a value where the force is known to be zero or beyond
-    finest = resolution  # of the way to the bound: where the force changes sign, only its zero counts
+@dataclass
+class Releasing:
+    """Secant on force against displacement from saved states; lift-off is bracketed to 1e-6 of the value. eq. (5.14)
+
+    Attributes
+    ----------
+    start_time, start_value, scale : float
+        Time, value of the control and size of its force at the beginning.
+    force, size : float
+        Force now, and the increment that comes next while the zero is not yet bracketed.
+    before : pair of float, optional
+        Value and force of the state before the present one.
+    bound : float, optional
+        A value where the force is known to be zero or beyond.
+    finest : float
+        Resolution of the way to the bound: where the force changes sign, only its zero counts.
+    taken : float, optional
+        The last increment, for the extrapolation.
+    failures, attempts : int
+        Increments that did not converge, and those that went too far.
+    done : bool
+        Whether the force is zero.
+    """
+
+    start_time: float
+    start_value: float
+    scale: float
+    force: float
+    size: float
+    finest: float
+    before: Sequence[float] | None = None
+    bound: float | None = None
     taken: float | None = None
-    failures = attempts = 0
-    while True:
+    failures: int = 0
+    attempts: int = 0
+    done: bool = False
+
+    @classmethod
+    def begin(cls, run: Run, step: Release) -> Self:
+        """The loop at the beginning of the step; done if there is nothing to release."""
+        model, value = run.model, step.control.value
+        evaluation = model.evaluate(model.u)
+        run.history = model.block.state
+        force = model.conjugate_force(step.control, evaluation.residual)
+        size = -math.copysign(step.increment or abs(value) / 1000.0, value)
+        loop = cls(model.time, value, abs(force), force, size, finest=1e-6 * abs(value))
+        if value == 0.0 or loop.scale <= 1e-9 * evaluation.force_scale:
+            run.result.note(f"step {run.number}: nothing to release, the force of {step.control.name} is zero")
+            loop.done = True
+        return loop
+
+    @classmethod
+    def recall(cls, run: Run, step: Release, memory: dict[str, Any]) -> Self:
+        """The loop as it stood."""
+        return cls(**memory)
+
+    def memory(self) -> dict[str, Any]:
+        """All that the loop remembers."""
+        return dict(vars(self))
+
+    def advance(self, run: Run, step: Release) -> None:
+        """Try one increment."""
+        model, control = run.model, step.control
         saved, value, touching = model.snapshot(), control.value, bool(model.active_set().any())
-        target = _next_release(value, force, before, bound, size, finest)
-        if target * start_value < 0.0:
+        target = _next_release(value, self.force, self.before, self.bound, self.size, self.finest)
+        if target * self.start_value < 0.0:
             target = 0.0
-        if target == value or attempts > 50:  # the force jumps over zero
+        if target == value or self.attempts > 50:  # the force jumps over zero
             jump = Failed("the zero of the force cannot be closed in", [])
-            raise no_convergence(jump, number, [control], [target])
-        time = start_time + 1.0 - target / start_value
+            raise no_convergence(jump, run.number, [control], [target])
+        time = self.start_time + 1.0 - target / self.start_value
         try:
             converged = take_increment(
-                run, [target], [control], time, None if taken is None else (target - value) / taken
+                run, [target], [control], time, None if self.taken is None else (target - value) / self.taken
             )
         except Failed as failure:
-            size, taken, failures = 0.25 * size, None, failures + 1
-            if failures > 20:
-                raise no_convergence(failure, number, [control], [target]) from None
-            continue
-        force_there = model.conjugate_force(control, converged.residual)
-        zero = abs(force_there) <= step.tolerance * scale
-        lifted = touching and zero and not model.active_set().any()
-        if (force_there * force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
-            bound, finest, attempts = target, resolution if lifted else 0.0, attempts + 1
-            model.restore(saved)
-            model.evaluate(model.u)
-            run.last_du, taken = None, None
-            if not lifted:
-                size = (target - value) * force / (force - force_there)
-                before = None
-            continue
-        before, taken, force = (value, force), target - value, force_there
-        done = zero or target == 0.0
-        run.result.add(converged.residual, converged.iterations, step=number, frame=frames > 0 and done)
-        run.tick(f"step {number}: release", 1.0 if done else 1.0 - min(1.0, abs(force) / scale))
-        if done:
-            how = "contact has lifted off" if lifted else "the force is zero" if zero else "the way back is complete"
-            run.result.note(f"step {number}: {how} at {control.name} = {control.value:.6g}")
+            self.size, self.taken, self.failures = 0.25 * self.size, None, self.failures + 1
+            if self.failures > 20:
+                raise no_convergence(failure, run.number, [control], [target]) from None
+            model.evaluate(model.u)  # what touches is asked of this state, not of the one that did not converge
+            run.history = saved.state
             return
-        if bound is None and abs(2.0 * size) <= largest and len(converged.iterations) <= 8:
-            size *= 2.0
+        force = model.conjugate_force(control, converged.residual)
+        zero = abs(force) <= step.tolerance * self.scale
+        lifted = touching and zero and not model.active_set().any()
+        resolution = 1e-6 * abs(self.start_value)
+        if (force * self.force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
+            self._go_back(run, saved, target, resolution if lifted else 0.0)
+            if not lifted:
+                self.size, self.before = (target - value) * self.force / (self.force - force), None
+            return
+        self.before, self.taken, self.force = (value, self.force), target - value, force
+        self.done = zero or target == 0.0
+        if self.bound is None and abs(2.0 * self.size) <= abs(self.start_value) / 20.0 and _at_ease(converged):
+            self.size *= 2.0
+        part = 1.0 if self.done else 1.0 - min(1.0, abs(force) / self.scale)
+        name = f"step {run.number}: release"
+        run.keep(converged, [control], name=name, fraction=part, frame=run.frames > 0 and self.done)
+        if self.done:
+            how = "contact has lifted off" if lifted else "the force is zero" if zero else "the way back is complete"
+            run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
+
+    def _go_back(self, run: Run, saved: Snapshot, target: float, finest: float) -> None:
+        """Restore the state before an increment that went too far; its end is the new bound."""
+        model = run.model
+        self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
+        model.restore(saved)
+        model.evaluate(model.u)
+        run.last_du, run.history, self.taken = None, saved.state, None
+
+
+def _at_ease(converged: Converged) -> bool:
+    return len(converged.iterations) <= 8
 
 
 def _next_release(
-    value: float, force: float, before: tuple[float, float] | None, bound: float | None, size: float, resolution: float
+    value: float, force: float, before: Sequence[float] | None, bound: float | None, size: float, resolution: float
 ) -> float:
     """Next value of a control on its way to zero force; with a bound, close in on the zero from the loaded side."""
     if bound is None:

@@ -62,6 +62,7 @@ class Result:
         self.solver = ""
         self.seconds = 0.0
         self._work = ExternalWork(model)
+        self._residual: Floats = np.empty(0)
 
     def add(self, residual: Floats, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
         """Add the converged state of the model (of its last evaluation) to the history."""
@@ -79,6 +80,7 @@ class Result:
             row[f"{contact.name}_active"] = int(contact.active().sum())
         row |= self._energy_columns(residual)
         row["iterations"] = len(iterations)
+        self._residual = residual
         self.rows.append(row)
         self.iterations.append(iterations)
         log.info(
@@ -123,6 +125,25 @@ class Result:
             force_imbalance=forces,
             moment_imbalance=moments,
         )
+
+    def work_memory(self) -> dict[str, Any]:
+        """All that the external work of later states follows from, beside the model itself."""
+        work = self._work
+        return {
+            "residual": self._residual,
+            "value": work.value,
+            "imbalances": np.array(work.imbalances),
+            "largest": work._largest,
+            "length": work._length,
+        }
+
+    def recall_work(self, memory: dict[str, Any]) -> None:
+        """Go on with the external work of a run that was kept; the model has been evaluated at its last state."""
+        work = self._work
+        self._residual = memory["residual"]
+        work.advance(self._residual)
+        work.imbalances = [(force, moment) for force, moment in memory["imbalances"].tolist()]
+        work.value, work._largest, work._length = memory["value"], memory["largest"], memory["length"]
 
     def note(self, message: str) -> None:
         """Keep an event, lift-off for instance, and log it."""

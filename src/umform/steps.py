@@ -1,98 +1,30 @@
-"""Steps: move controls with cutting and growth; and `solve`, which runs steps of all kinds in a row."""
+"""Run steps of all kinds in a row: `solve` begins, `resume` takes up a run that was stopped; both go the same way."""
 
 from __future__ import annotations
 
-import logging
-import math
 import time as clock
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from os import PathLike
+from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from umform.arc import Arc, follow
-from umform.boundary import Control
-from umform.errors import InvalidValue, NotFinite
-from umform.increment import Run, no_convergence, take_increment
+from umform.arc import Arc, Following
+from umform.checkpoint import Checkpoints, take_up
+from umform.errors import InvalidValue
+from umform.fingerprint import fingerprint
+from umform.increment import Run
+from umform.interrupt import Interrupt, gentle_interrupt
 from umform.model import Model
-from umform.newton import Failed, Newton, NewtonOptions
-from umform.release import Release, release
+from umform.move import Move, Moving
+from umform.newton import Newton, NewtonOptions
+from umform.progress import Tick, progress_bar
+from umform.release import Release, Releasing
 from umform.results import Result
 
-__all__ = ["Arc", "Move", "Release", "Step", "solve"]
-
-log = logging.getLogger("umform.steps")
-
-Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Move:
-    """Move one or more controls along straight lines in time, or along functions of time.
-
-    Parameters
-    ----------
-    control : Control or sequence of Control
-        What is moved: a prescribed displacement, a load factor, a pressure, a tool.
-    to : float, callable or sequence
-        End value, or a function of the fraction (0 ... 1) of the step, one for each control.
-    steps : int
-        Number of equal increments.
-    cuts : int
-        How often an increment may be halved before the run is given up.
-    grow : float
-        Largest increment over the nominal one: 1 never grows beyond ``1/steps``.
-    """
-
-    control: Control | Sequence[Control]
-    to: float | Callable[[float], float] | Sequence[float | Callable[[float], float]]
-    steps: int = 10
-    cuts: int = 10
-    grow: float = 1.0
-
-    def __post_init__(self) -> None:
-        if not isinstance(self.steps, int) or self.steps < 1:
-            raise InvalidValue("a step needs a whole number of increments, one at least", value=self.steps)
-        if not isinstance(self.cuts, int) or self.cuts < 0:
-            raise InvalidValue("cuts must be 0 or more", value=self.cuts)
-        if not self.grow >= 1:
-            raise InvalidValue("grow must be 1 or more", value=self.grow)
-        for target in self.targets():
-            if not callable(target) and not (np.isscalar(target) and np.isrealobj(target) and np.isfinite(target)):
-                raise InvalidValue("a control is moved to a finite number or along a function", value=target)
-        if len(self.targets()) != len(self.moved()):
-            raise InvalidValue(
-                "give one target for each control", value=f"{len(self.moved())} controls, {len(self.targets())} targets"
-            )
-
-    def moved(self) -> list[Control]:
-        """The controls of the step."""
-        return [self.control] if isinstance(self.control, Control) else list(self.control)
-
-    def targets(self) -> list[float | Callable[[float], float]]:
-        """Their targets."""
-        return list(self.to) if isinstance(self.to, Sequence) else [self.to]
-
-    def path(self) -> Callable[[float], list[float]]:
-        """Values of the controls as a function of the fraction of the step, from where they stand now."""
-        starts = [control.value for control in self.moved()]
-
-        def at(fraction: float) -> list[float]:
-            values = [
-                float(target(fraction)) if callable(target) else start + fraction * (target - start)
-                for start, target in zip(starts, self.targets(), strict=True)
-            ]
-            for control, value in zip(self.moved(), values, strict=True):
-                if not math.isfinite(value):
-                    where = f"fraction {fraction:g} of the step"
-                    raise NotFinite(f"the function that moves {control.name} is not finite", where=where, value=value)
-            return values
-
-        return at
-
+__all__ = ["Arc", "Move", "Release", "Step", "resume", "solve"]
 
 Step = Move | Release | Arc
+_LOOPS: dict[type, Any] = {Move: Moving, Release: Releasing, Arc: Following}
 
 
 def solve(
@@ -103,6 +35,8 @@ def solve(
     options: NewtonOptions | None = None,
     frames: int = 60,
     progress: bool | None = None,
+    checkpoint: str | PathLike[str] | None = None,
+    every: float = 60.0,
 ) -> Result:
     """Solve a model step by step.
 
@@ -120,6 +54,11 @@ def solve(
         About how many states are kept for pictures in each step (the history has all of them); 0 keeps none.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
+    checkpoint : str or PathLike, optional
+        File that the whole state of the run is written to now and then, at Ctrl-C and at the end; :func:`resume` takes
+        the run up from it.
+    every : float
+        Seconds between two checkpoints, at least; 0 writes one after each increment.
 
     Returns
     -------
@@ -132,13 +71,73 @@ def solve(
         If an increment fails at its smallest size.
     RigidBodyMotion, ToolSwallowsSheet
         If the model cannot be solved as it stands.
+    FileProblem
+        If no checkpoint can be written in its folder. One that fails later is a warning of the result.
 
     Notes
     -----
-    Any exception that ends the run, Ctrl-C too, carries all that was reached as its attribute ``result``.
+    Any exception that ends the run, Ctrl-C too, carries all that was reached as its attribute ``result``. The first
+    Ctrl-C ends the run after the present increment, the second one at once.
     """
-    from umform.progress import progress_bar
+    run, sequence = _ready(model, steps, solver, options, frames)
+    checkpoints = _checkpoints(run, sequence, checkpoint, every)
+    run.history = model.block.state
+    run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
+    return _go_on(run, sequence, progress_bar(progress), checkpoints)
 
+
+def resume(
+    path: str | PathLike[str],
+    model: Model,
+    steps: Sequence[Step] | Step,
+    *,
+    solver: str = "auto",
+    options: NewtonOptions | None = None,
+    frames: int = 60,
+    progress: bool | None = None,
+    every: float = 60.0,
+) -> Result:
+    """Take up a run from its checkpoint; what comes out is what the run would have given, to the last bit.
+
+    Parameters
+    ----------
+    path : str or PathLike
+        The checkpoint, which the run goes on to write.
+    model, steps, solver, options, frames
+        Those that :func:`solve` was called with, built again.
+    progress, every
+        See :func:`solve`; they may differ.
+
+    Returns
+    -------
+    Result
+        History, frames and iterations from the very beginning on.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read, or belongs to another run.
+    NoConvergence
+        If an increment fails at its smallest size.
+
+    Notes
+    -----
+    The bits are the same on the same machine with the same versions of Python's packages, see docs/long-runs.md.
+    """
+    run, sequence = _ready(model, steps, solver, options, frames)
+    checkpoints = _checkpoints(run, sequence, path, every)
+    assert checkpoints is not None
+    memory = take_up(run, path, checkpoints.fingerprint)
+    if memory is not None:
+        step = sequence[run.number - 1]
+        run.loop = _LOOPS[type(step)].recall(run, step, memory)
+    return _go_on(run, sequence, progress_bar(progress), checkpoints)
+
+
+def _ready(
+    model: Model, steps: Sequence[Step] | Step, solver: str, options: NewtonOptions | None, frames: int
+) -> tuple[Run, list[Step]]:
+    """Refuse what cannot be run, and make the run that has not begun."""
     sequence = [steps] if isinstance(steps, Step) else list(steps)
     for number, step in enumerate(sequence, start=1):
         if not isinstance(step, Step):
@@ -153,67 +152,53 @@ def solve(
                     remedy="use what prescribe(), force(), pressure() or drive() of this model returned",
                 )
     model.check()
-    run = Run(model, Newton(model, options, solver), Result(model))
-    start = clock.perf_counter()
+    run = Run(model, Newton(model, options, solver), Result(model), frames)
     run.result.solver = run.newton.solver
-    run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
-    with progress_bar(progress) as tick:
-        run.tick = tick
-        for number, step in enumerate(sequence, start=1):
-            try:
-                if isinstance(step, Move):
-                    _move(run, step, number, frames)
-                elif isinstance(step, Arc):
-                    follow(run, step, number, frames)
-                else:
-                    release(run, step, number, frames)
-            except BaseException as error:  # whatever ends the run: what was reached is kept with the error
-                run.result.seconds = clock.perf_counter() - start
-                error.result = run.result  # type: ignore[attr-defined]
-                raise
-    run.result.seconds = clock.perf_counter() - start
-    return run.result
+    return run, sequence
 
 
-def _move(run: Run, step: Move, number: int, frames: int) -> None:
-    model = run.model
-    controls, path, start_time = step.moved(), step.path(), model.time
-    nominal = 1.0 / step.steps
-    fraction, size, easy = 0.0, nominal, 0
-    smallest = nominal / 2**step.cuts
-    last_size: float | None = None
-    every = max(1, round(step.steps / frames)) if frames > 0 else 0
-    count = 0
-    while fraction < 1.0 - 1e-9 * nominal:
-        passed = fraction / nominal
-        next_mark = (math.floor(passed + 1e-9) + 1) * nominal
-        on_mark = abs(passed - round(passed)) < 1e-9  # off the nominal marks, after a cut, the next one is met again
-        advance = min(size, (1.0 if on_mark else next_mark) - fraction)
-        target = 1.0 if fraction + advance > 1.0 - 1e-9 * nominal else fraction + advance
-        extrapolation = None if last_size is None else (target - fraction) / last_size
+def _checkpoints(run: Run, steps: Sequence[Step], path: str | PathLike[str] | None, every: float) -> Checkpoints | None:
+    if path is None:
+        return None
+    return Checkpoints(path, every, fingerprint(run.model, steps, run.newton, run.frames))
+
+
+def _go_on(
+    run: Run, steps: Sequence[Step], bar: AbstractContextManager[Tick], checkpoints: Checkpoints | None
+) -> Result:
+    """Go on to the end from wherever the run stands."""
+    result = run.result
+    start = clock.perf_counter() - result.seconds
+    with bar as tick, gentle_interrupt() as stop:
+        run.tick, run.pause = tick, lambda: _pause(run, start, checkpoints, stop)
         try:
-            converged = take_increment(run, path(target), controls, start_time + target, extrapolation)
-        except Failed as failure:
-            size = 0.5 * (target - fraction)
-            easy = 0
-            last_size = None
-            if failure.chattering:
-                run.result.warn(
-                    f"step {number}, time {start_time + target:.4f}: {failure.reason}; the increment is cut"
-                )
-            log.info("step %d: %s; increment cut to %.3g", number, failure.reason, size)
-            if size < smallest:
-                raise no_convergence(failure, number, controls, path(target)) from None
-            continue
-        last_size = target - fraction
-        fraction = target
-        count += 1
-        easy = easy + 1 if len(converged.iterations) <= 8 else 0
-        if easy >= 3 and size < step.grow * nominal * (1 - 1e-12):
-            size = min(2.0 * size, step.grow * nominal)
-            easy = 0
-        last = fraction >= 1.0 - 1e-9 * nominal
-        run.result.add(
-            converged.residual, converged.iterations, step=number, frame=bool(every) and (count % every == 0 or last)
-        )
-        run.tick(f"step {number}", fraction)
+            while run.number <= len(steps):
+                _finish(run, steps[run.number - 1])
+                run.number, run.loop = run.number + 1, None
+            _pause(run, start, checkpoints, stop, last=True)
+        except BaseException as error:  # whatever ends the run: what was reached is kept with the error
+            result.seconds = clock.perf_counter() - start
+            error.result = result  # type: ignore[attr-defined]
+            raise
+    return result
+
+
+def _finish(run: Run, step: Step) -> None:
+    """Take a step to its end, from its beginning or from where it stands."""
+    if run.loop is None:
+        run.loop = _LOOPS[type(step)].begin(run, step)
+    while not run.loop.done:
+        run.pause()
+        run.loop.advance(run, step)
+
+
+def _pause(run: Run, start: float, checkpoints: Checkpoints | None, stop: Interrupt, *, last: bool = False) -> None:
+    """Between two increments: write a checkpoint if it is time to, and stop if somebody has asked to."""
+    run.result.seconds = clock.perf_counter() - start
+    if checkpoints is not None and (last or stop.asked or checkpoints.due()):
+        checkpoints.write(run)
+    if stop.asked:
+        how = ""
+        if checkpoints is not None and not checkpoints.problem:
+            how = f"; umform.resume({str(checkpoints.path)!r}, ...) goes on"
+        raise KeyboardInterrupt(f"stopped between two increments{how}")

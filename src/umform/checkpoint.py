@@ -1,0 +1,216 @@
+"""Checkpoints: the whole state of a run between two increments in one file, and a run that stands there again.
+
+The next increment recovers its enhanced parameters with the blocks of the last evaluation (2.19), which are not kept:
+the evaluation is made again, from the history that it had read. docs/long-runs.md
+"""
+
+from __future__ import annotations
+
+import time as clock
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from umform.contact import ContactPoints
+from umform.errors import FileProblem, InvalidValue
+from umform.increment import Run
+from umform.io.atomic import PendingFile
+from umform.io.trees import read_tree, write_tree
+from umform.model import Snapshot
+from umform.newton import Iteration
+from umform.results import Frame, Result
+from umform.solvers.pardiso import Pardiso
+
+_KIND = "checkpoint of umform"
+
+#: Checkpoints may take one part in so many of the time, where they are large.
+_SHARE = 20
+
+
+class Checkpoints:
+    """Writes the checkpoints of a run, one over the other.
+
+    Parameters
+    ----------
+    path : str or PathLike
+        The file.
+    every : float
+        Seconds between two of them, at least; 0: one after each increment.
+    fingerprint : dict of str to str
+        What the run is made of.
+
+    Attributes
+    ----------
+    problem : str
+        Why the last one could not be written; empty if it could.
+
+    Raises
+    ------
+    FileProblem
+        If no file can be written there.
+    InvalidValue
+        If the seconds are not a number, zero or more.
+    """
+
+    def __init__(self, path: str | PathLike[str], every: float, fingerprint: dict[str, str]) -> None:
+        if not 0.0 <= every < np.inf:
+            raise InvalidValue("checkpoints are written every so many seconds, 0 or more", value=every)
+        self.path, self.every, self.fingerprint = Path(path), every, fingerprint
+        self._last, self._cost, self.problem = clock.perf_counter(), 0.0, ""
+        trial = PendingFile(self.path)  # better now than after an hour
+        trial.__enter__()
+        trial.discard()
+
+    def due(self) -> bool:
+        """Whether it is time for the next one."""
+        wait = max(self.every, _SHARE * self._cost) if self.every > 0.0 else 0.0
+        return clock.perf_counter() - self._last >= wait
+
+    def write(self, run: Run) -> None:
+        """Write the state of a run between two increments; if that fails, the result is warned and the run goes on."""
+        start = clock.perf_counter()
+        try:
+            write_tree(self.path, {"fingerprint": self.fingerprint, **_tree(run)}, _KIND)
+        except FileProblem as problem:
+            if problem.cause != self.problem:  # say it once
+                run.result.warn(f"no checkpoint was written to {self.path}: {problem.cause}; what was there stays")
+            self.problem = problem.cause
+        else:
+            self.problem = ""
+        self._last = clock.perf_counter()
+        self._cost = self._last - start
+
+
+def take_up(run: Run, path: str | PathLike[str], fingerprint: dict[str, str]) -> dict[str, Any] | None:
+    """Let a run that has not begun stand where its checkpoint says.
+
+    Parameters
+    ----------
+    run : Run
+        The run, with its model.
+    path : str or PathLike
+        The checkpoint.
+    fingerprint : dict of str to str
+        What the run is made of.
+
+    Returns
+    -------
+    dict or None
+        Memory of the loop of the step ``run.number``; None if the run is at its end.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read, or belongs to another run.
+    """
+    tree = read_tree(path, _KIND)
+    _refuse_another_run(path, tree["fingerprint"], fingerprint)
+    model, snapshot = run.model, Snapshot(**tree["model"])
+    model.restore(snapshot)
+    model.block.restore(tree["history"], snapshot.alpha)
+    model.evaluate(model.u)
+    model.block.restore(snapshot.state, snapshot.alpha)
+    run.number, run.last_du, run.history = tree["number"], tree["last_du"], tree["history"]
+    solver = run.newton.ready_solver()
+    if isinstance(solver, Pardiso) and solver._handle.kind != tree["factors"]:
+        solver._start(tree["factors"])
+    _recall_result(run.result, tree["result"])
+    memory: dict[str, Any] | None = tree["loop"]
+    return memory
+
+
+def _tree(run: Run) -> dict[str, Any]:
+    solver = run.newton.ready_solver()
+    return {
+        "number": run.number,
+        # The one solver with a memory: once it needs the factors of an indefinite matrix, it stays with them.
+        "factors": solver._handle.kind if isinstance(solver, Pardiso) else None,
+        "loop": None if run.loop is None else run.loop.memory(),
+        "model": vars(run.model.snapshot()),
+        "history": run.history,
+        "last_du": run.last_du,
+        "result": _result_tree(run.result),
+    }
+
+
+def _refuse_another_run(path: str | PathLike[str], there: dict[str, str], here: dict[str, str]) -> None:
+    different = [part for part in here if there.get(part) != here[part]]
+    if not different:
+        return
+    part = different[0]
+    raise FileProblem(
+        "the checkpoint belongs to another run",
+        where=str(path),
+        value="different: " + ", ".join(different),
+        cause=f"{part}: {_around(there.get(part, ''), here[part])}",
+        remedy="call resume with what solve was called with, or begin anew with solve",
+    )
+
+
+def _around(there: str, here: str, width: int = 60) -> str:
+    """Where two texts part."""
+    same = next((k for k, (a, b) in enumerate(zip(there, here, strict=False)) if a != b), min(len(there), len(here)))
+    first = max(0, same - width // 2)
+    before = "... " if first else ""
+    return f"{before}{there[first : same + width]} in the file, {before}{here[first : same + width]} here"
+
+
+# The result -------------------------------------------------------------------------------------------------
+
+
+def _result_tree(result: Result) -> dict[str, Any]:
+    columns = result.columns()
+    records = [record for records in result.iterations for record in records]
+    return {
+        "columns": columns,
+        "history": [result[name] for name in columns],
+        "iterations": {
+            "counts": [len(records) for records in result.iterations],
+            "records": [list(vars(record).values()) for record in records],
+        },
+        "frames": _stacked([_frame_tree(frame) for frame in result.frames]),
+        "events": result.events,
+        "warnings": result.warnings,
+        "seconds": result.seconds,
+        "work": result.work_memory(),
+    }
+
+
+def _recall_result(result: Result, tree: dict[str, Any]) -> None:
+    columns = [column.tolist() for column in tree["history"]]
+    result.rows = [dict(zip(tree["columns"], row, strict=True)) for row in zip(*columns, strict=True)]
+    records = iter(tree["iterations"]["records"])
+    result.iterations = [[Iteration(*next(records)) for _ in range(count)] for count in tree["iterations"]["counts"]]
+    result.frames = [_frame(one) for one in _unstacked(tree["frames"])]
+    result.events, result.warnings, result.seconds = tree["events"], tree["warnings"], tree["seconds"]
+    result.recall_work(tree["work"])
+
+
+def _frame_tree(frame: Frame) -> dict[str, Any]:
+    return {**vars(frame), "contacts": {name: vars(points) for name, points in frame.contacts.items()}}
+
+
+def _frame(tree: dict[str, Any]) -> Frame:
+    contacts = {name: ContactPoints(**points) for name, points in tree["contacts"].items()}
+    return Frame(**{**tree, "number": int(tree["number"]), "time": float(tree["time"]), "contacts": contacts})
+
+
+def _stacked(trees: list[dict[str, Any]]) -> dict[str, Any] | None:
+    """Trees of the same shape as one tree of longer arrays; None for no trees."""
+    if not trees:
+        return None
+    columns = {key: [tree[key] for tree in trees] for key in trees[0]}
+    return {key: _stacked(parts) if isinstance(parts[0], dict) else np.stack(parts) for key, parts in columns.items()}
+
+
+def _unstacked(tree: dict[str, Any] | None) -> list[dict[str, Any]]:
+    """The trees that `_stacked` has made one of."""
+    if tree is None:
+        return []
+    return [_slice(tree, k) for k in range(len(tree["number"]))]
+
+
+def _slice(tree: dict[str, Any], k: int) -> dict[str, Any]:
+    return {key: _slice(part, k) if isinstance(part, dict) else part[k] for key, part in tree.items()}
