@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import time as clock
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -67,6 +68,7 @@ class Order:
 def run_case(order: Order, tick: Callable[[str, float], None] = lambda what, done: None) -> Outcome:
     """Run a case and write its page and pictures into a folder."""
     case = cases()[order.name]
+    logging.getLogger("umform").addHandler(logging.NullHandler())  # warnings of runs belong on pages, if anywhere
     page = Page(case, order.folder / "images", order.short, tick)
     start = clock.perf_counter()
     case.run(page)

@@ -61,13 +61,13 @@ def page_text(page: Page) -> str:
         case.problem.strip(),
         "## Reference",
         case.reference.strip(),
+        "## What came out",
+        *page.blocks,
         "## Checks",
         markdown_table(
             ("what", "reference", "found", "deviation", "expected within", "verdict"),
             [check.cells() for check in page.checks],
         ),
-        "## What came out",
-        *page.blocks,
     ]
     if page.balances:
         parts += ["## Balance", _BALANCE, balancemarkdown_table(page.balances)]
