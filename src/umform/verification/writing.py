@@ -141,9 +141,15 @@ def _summary_row(case: Case, outcome: Outcome) -> tuple[str, ...]:
     if outcome.failure:
         return name, Verdict.RED.mark, "-", outcome.failure.splitlines()[0]
     green = sum(check.verdict is Verdict.GREEN for check in outcome.checks)
-    worst = max(outcome.checks, key=lambda check: (check.verdict, abs(check.deviation) / check.within), default=None)
+    worst = max(outcome.checks, key=_badness, default=None)
     said = "no check" if worst is None else f"{worst.what}: {worst.cells()[3]} ({worst.cells()[4]} expected)"
     return name, outcome.verdict.mark, f"{green} of {len(outcome.checks)} green", said
+
+
+def _badness(check: Check) -> tuple[Verdict, float]:
+    """How far a check is off, in parts of what is expected of it; one that must be exact counts as none where it is."""
+    parts = abs(check.deviation) / check.within if check.within > 0.0 else float(check.deviation != 0.0)
+    return check.verdict, parts
 
 
 def markdown_table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

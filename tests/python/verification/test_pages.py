@@ -31,6 +31,7 @@ def stretched(page):
     found = study(page, pair, page.pick((2, 4, 8), (2, 4)), elongation)
     show(page, "convergence", "elongation over 0.1", normalised(found, 0.1))
     page.check("ANS3DEAS, 4 intervals", found[pair[0]][4], 0.1, within=1e-8)
+    page.check("a count", 3, 3, within=0)
     page.check("an expectation that is too high", 0.9, 1.0, 0.01, known=0.2, cause="it was too high")
     page.heading("More")
     page.table("A table", ("a", "b"), [("x", None), ("y", 0.123456), ("z", float("nan"))])
@@ -58,7 +59,7 @@ def test_pages_and_what_is_drawn_from_them(small_book, tmp_path):
         assert part in page
     assert (folder / "images" / "bar-stretched-convergence.svg").stat().st_size > 1000
     summary = (folder / "README.md").read_text()
-    assert "[A bar under tension](bar-stretched.md) | 🟠 amber | 1 of 2 green" in summary
+    assert "[A bar under tension](bar-stretched.md) | 🟠 amber | 2 of 3 green" in summary
     assert "| [A bar that fails](bar-failing.md) | 🔴 red | - | this case cannot be run" in summary
     assert "it was too high" in (folder / "errata.md").read_text()
     assert "| 1 / 1 | 1 / 1 |" in (folder / "which-element.md").read_text()
