@@ -178,7 +178,7 @@ void bind_blocks(nb::module_& m) {
         nb::sig(
             "def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64]) -> ShellBlock"));
 
-    auto contact = nb::class_<ContactBlock>(m, "ContactBlock", "Penalty contact of element faces with one rigid tool.");
+    auto contact = nb::class_<ContactBlock>(m, "ContactBlock", "Contact of element faces with one rigid tool.");
     bind_common(contact);
     contact.def_rw("penalty", &ContactBlock::penalty)
         .def(
@@ -216,7 +216,16 @@ void bind_blocks(nb::module_& m) {
             nb::sig("def normals(self) -> NDArray[float64]"))
         .def_prop_ro(
             "areas", [](const ContactBlock& b) { return to_numpy(b.areas(), {b.areas().size()}); },
-            nb::sig("def areas(self) -> NDArray[float64]"));
+            nb::sig("def areas(self) -> NDArray[float64]"))
+        .def_prop_rw(
+            "multipliers", [](const ContactBlock& b) { return to_numpy(b.multipliers(), {b.multipliers().size()}); },
+            [](ContactBlock& b, const Input& values) {
+                require(values.size() == b.multipliers().size(), "there is one multiplier for each contact point");
+                b.set_multipliers(values.data());
+            },
+            nb::for_getter(nb::sig("def multipliers(self) -> NDArray[float64]")),
+            nb::for_setter(nb::sig("def multipliers(self, values: NDArray[float64], /) -> None")),
+            "Pressures at the contact points that are there without a penetration.");
     m.def(
         "contact_block", &contact_block, nb::arg("facets"), nb::arg("X"), nb::arg("points"), nb::arg("at_nodes"),
         nb::arg("surface"),

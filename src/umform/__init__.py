@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from umform import errors
 
 if TYPE_CHECKING:
-    from umform import elements, fields, mesh, processes, surfaces
+    from umform import elements, fields, mesh, processes, sheet_metals, surfaces
     from umform._core import set_threads, threads
     from umform.arc import Arc
     from umform.elements import Element, Term, Tying
@@ -94,7 +94,7 @@ _HOME = {
     ),
     "umform.user_law": ("UserLaw", "check_law"),
 }
-_MODULES = ("elements", "fields", "mesh", "processes", "surfaces")
+_MODULES = ("elements", "fields", "mesh", "processes", "sheet_metals", "surfaces")
 _HOME_OF = {name: module for module, names in _HOME.items() for name in names}
 
 __all__ = [
@@ -142,6 +142,7 @@ __all__ = [
     "processes",
     "resume",
     "set_threads",
+    "sheet_metals",
     "solve",
     "surfaces",
     "threads",

@@ -221,7 +221,7 @@ class ShellBlock:
 def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64]) -> ShellBlock: ...
 
 class ContactBlock:
-    """Penalty contact of element faces with one rigid tool."""
+    """Contact of element faces with one rigid tool."""
 
     @property
     def connectivity(self) -> Connectivity: ...
@@ -261,6 +261,13 @@ class ContactBlock:
 
     @property
     def areas(self) -> NDArray[float64]: ...
+
+    @property
+    def multipliers(self) -> NDArray[float64]:
+        """Pressures at the contact points that are there without a penetration."""
+
+    @multipliers.setter
+    def multipliers(self, values: NDArray[float64], /) -> None: ...
 
 def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface) -> ContactBlock: ...
 

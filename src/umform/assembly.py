@@ -49,13 +49,14 @@ class Evaluation:
 
 @dataclass(frozen=True)
 class Snapshot:
-    """A converged state that a model can be put back to."""
+    """A converged state that a model can be put back to; of each contact it has the multipliers."""
 
     u: Floats
     state: Floats
     alpha: Floats
     controls: tuple[float, ...]
     time: float
+    multipliers: tuple[Floats, ...] = ()
 
 
 class Assembly:

@@ -33,7 +33,7 @@ class Energies:
     plastic : float
         Work of the yield stress on the plastic strains so far: heat, and what hardening keeps. NaN if not known.
     contact : float
-        Held by the penalty of all contacts.
+        Held by penalty and multipliers of all contacts.
     """
 
     elastic: float
@@ -55,12 +55,14 @@ def energies(model: Model) -> Energies:
         A model that has been evaluated at its converged state.
     """
     elastic, plastic = model.block.energy(model.u)
-    return Energies(elastic, plastic, sum(_penalty_energy(contact) for contact in model.contacts))
+    return Energies(elastic, plastic, sum(_contact_energy(contact) for contact in model.contacts))
 
 
-def _penalty_energy(contact: Contact) -> float:
-    depth = np.maximum(-contact.block.gaps, 0.0)
-    return 0.5 * contact.penalty * float((contact.block.areas * depth) @ depth)
+def _contact_energy(contact: Contact) -> float:
+    """Potential of penalty and multipliers, (p^2 - lambda^2) / (2 penalty) over the reference area. eq. (4.32)"""
+    at, multiplier = contact.at_points(), contact.block.multipliers
+    # (p - lambda)(p + lambda): a point that its multiplier alone holds has no energy, to the last digit.
+    return 0.5 / contact.penalty * float(((at.pressure - multiplier) * at.area) @ (at.pressure + multiplier))
 
 
 @dataclass(frozen=True)

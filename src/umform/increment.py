@@ -6,6 +6,7 @@ from the `Loop` of the step that is under way. There it may be written to a chec
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
@@ -15,11 +16,14 @@ from numpy.typing import NDArray
 
 from umform.boundary import Control
 from umform.contact import ToolMotion
+from umform.contact.augmentation import augmented
 from umform.errors import NoConvergence
 from umform.model import Model
 from umform.newton import Converged, Failed, Iteration, Newton
 from umform.progress import Tick, silent
 from umform.results import Result
+
+log = logging.getLogger("umform.steps")
 
 Floats = NDArray[np.float64]
 
@@ -76,7 +80,7 @@ class Run:
         self, converged: Converged, controls: Sequence[Control], *, name: str, fraction: float, frame: bool
     ) -> None:
         """Add a converged increment of the step to the result and show how far the step ``name`` has come."""
-        self.result.add(converged.residual, converged.iterations, step=self.number, frame=frame)
+        self.result.add(converged.residual, converged.iterations + converged.passes, step=self.number, frame=frame)
         row = self.result.rows[-1]
         forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
         self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))
@@ -93,7 +97,13 @@ def take_increment(
     model.time = time
     u_before, history = model.u.copy(), model.block.state
     try:
-        converged = _converged(run, dict(zip(controls, before, strict=True)), time_before, extrapolation)
+        starts = dict(zip(controls, before, strict=True))
+        converged = _converged(run, starts, time_before, extrapolation)
+        try:
+            converged = augmented(model, run.newton, converged)
+        except Failed as failure:  # a smaller increment would end in the same pass: it is taken as the penalty has it
+            log.info("%s in a pass of the multipliers: they stay what they were", failure.reason)
+            converged = _converged(run, starts, time_before, None)
     except BaseException:  # no convergence, Ctrl-C, a user's function: the last converged state stands
         for control, value in zip(controls, before, strict=True):
             control.value = value
@@ -106,22 +116,31 @@ def take_increment(
 
 
 def _converged(run: Run, before: Mapping[Control, float], time: float, extrapolation: float | None) -> Converged:
-    """Equilibrium at the new values, from the extrapolation or from a tangent, whichever is the first to lead there."""
-    if extrapolation is not None and run.last_du is not None and run.newton.options.extrapolate:
+    """Equilibrium at the new values, from the first start that leads there: extrapolation, tangent, tangent and search.
+
+    The search is for driven tools: where one row of points holds the sheet, a full step may lose it.
+    """
+    newton = run.newton
+    if extrapolation is not None and run.last_du is not None and newton.options.extrapolate:
         try:
-            return run.newton.solve(extrapolation * run.last_du)
+            return newton.solve(extrapolation * run.last_du)
         except Failed:  # it may have gone too far
             pass
-    if any(isinstance(control, ToolMotion) for control in before):
-        try:
-            return run.newton.solve(_tangent(run, before, time))
-        except Failed:  # what was in contact before may say little
-            pass
-    return run.newton.solve(None)
+    if not any(isinstance(control, ToolMotion) for control in before):
+        return newton.solve(None)
+    try:
+        return newton.solve(_tangent(run, before, time))
+    except Failed:
+        if newton.options.line_search:
+            raise
+    return newton.solve(_tangent(run, before, time), line_search=True)
 
 
-def _tangent(run: Run, before: Mapping[Control, float], time: float) -> Floats:
-    """Increment along the tangent of the last converged state, which goes with the tools that touch it. eq. (5.28)"""
+def _tangent(run: Run, before: Mapping[Control, float], time: float) -> Floats | None:
+    """Increment along the tangent of the last converged state, which goes with the tools that touch it. eq. (4.36)
+
+    None where nothing holds the sheet there but a tool that is still to come.
+    """
     model, newton = run.model, run.newton
     rates = {control: control.value - value for control, value in before.items()}
     time_after = model.time
@@ -136,6 +155,8 @@ def _tangent(run: Run, before: Mapping[Control, float], time: float) -> Floats:
     _put(before, time, model)
     try:
         return newton.guarded(increment)
+    except Failed:
+        return None
     finally:
         _put({control: before[control] + rate for control, rate in rates.items()}, time_after, model)
 

@@ -5,23 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from umform import _core, boundary
+from umform import _core
 from umform.assembly import Assembly, Evaluation, Snapshot
 from umform.boundary import Control, Load, Prescribed, Pressure
-from umform.contact import Contact, Motion, ToolMotion
+from umform.contact import ToolMotion
+from umform.contact.touched import Touched
 from umform.elements import Element
 from umform.elements import element as catalogue_element
 from umform.elements import thickness_rule as make_thickness_rule
 from umform.errors import InvalidValue, WrongCellType
 from umform.loads import Loaded
 from umform.materials import Material
-from umform.mesh import Mesh, Selector
+from umform.mesh import Mesh
 from umform.model_checks import check_model
 from umform.solvers import Pattern
 from umform.supports import Supported
-from umform.surfaces import Direction, Surface, unit_vector
 from umform.ties import MidLine
 
 __all__ = ["Evaluation", "Model", "Snapshot"]
@@ -29,7 +29,7 @@ __all__ = ["Evaluation", "Model", "Snapshot"]
 Floats = NDArray[np.float64]
 
 
-class Model(Supported, Loaded):
+class Model(Supported, Loaded, Touched):
     """Solid-shells with supports, loads and rigid tools.
 
     Parameters
@@ -97,7 +97,6 @@ class Model(Supported, Loaded):
         )
         self.u: Floats = np.zeros(3 * len(mesh.points))
         self.time = 0.0
-        self.contacts: list[Contact] = []
 
     def _through_thickness(self, points: int | None, rule: str | None) -> tuple[int, str]:
         """Points through the thickness and their rule: what is given, else what law and element want."""
@@ -106,70 +105,6 @@ class Model(Supported, Loaded):
         if points is not None:
             return points, rule or "gauss"
         return max(wanted, self.material.thickness_points, self.element.thickness_order + 1), rule or wanted_rule
-
-    # Contact -------------------------------------------------------------------------------------------------
-
-    def contact(
-        self, faces: Selector, tool: Surface, *, penalty: float, points: int | str = 2, name: str = ""
-    ) -> Contact:
-        """Let faces touch a rigid tool.
-
-        Parameters
-        ----------
-        faces : Selector
-            Lower or upper faces.
-        tool : Surface
-            A tool of :mod:`umform.surfaces`, or UserSurface.
-        penalty : float
-            Pressure per penetration.
-        points : int or "nodes"
-            Gauss points per direction and facet, 1 to 10, or the nodes with their tributary areas. Take at least 2 on
-            4-node and 3 on 9-node facets.
-        name : str, optional
-            For the history: the columns ``<name>_fx`` ... are the force on the tool.
-        """
-        contact = Contact(self.mesh, faces, tool, penalty, points, name or f"tool{len(self.contacts) + 1}")
-        if any(other.name == contact.name for other in self.contacts):
-            raise InvalidValue("two contacts have the same name", value=contact.name)
-        self.contacts.append(contact)
-        self._assembled = None
-        return contact
-
-    def drive(self, contact: Contact, direction: Direction, name: str = "") -> ToolMotion:
-        """Let steps move a tool along a direction.
-
-        Parameters
-        ----------
-        contact : Contact
-            The pair whose tool moves.
-        direction : str or array_like, shape (3,)
-            "z", "-x", ... or a vector.
-        name : str, optional
-            Column of the history.
-
-        Returns
-        -------
-        ToolMotion
-            The control whose value (a length) steps move; its force is that of the sheet on the tool along it.
-        """
-        control = ToolMotion(name or self._name(contact.name), direction=unit_vector(direction, "drive"))
-        contact.translations.append(control)
-        return self._add(control)
-
-    def set_motion(self, contact: Contact, motion: Motion, about: ArrayLike = (0.0, 0.0, 0.0)) -> None:
-        """Give a tool a motion in time, in addition to what steps do to it.
-
-        Parameters
-        ----------
-        contact : Contact
-            The pair whose tool moves.
-        motion : callable
-            time -> translation (3,), or (translation (3,), rotation vector (3,)).
-        about : array_like, shape (3,)
-            Point of the tool that the rotation is about.
-        """
-        contact.motion = motion
-        contact.reference_point = boundary.vector3(about, "about")
 
     # Evaluation ----------------------------------------------------------------------------------------------
 
@@ -240,7 +175,7 @@ class Model(Supported, Loaded):
         self.block.undo_recover()
 
     def active_set(self) -> NDArray[np.bool_]:
-        """Which contact points penetrate, over all contacts, of the last evaluation."""
+        """Which contact points tools hold, over all contacts, of the last evaluation."""
         if not self.contacts:
             return np.zeros(0, dtype=bool)
         return np.concatenate([contact.active() for contact in self.contacts])
@@ -248,21 +183,33 @@ class Model(Supported, Loaded):
     def commit(self, u: Floats) -> None:
         """Make ``u`` and the trial history of the last evaluation the converged state."""
         self.block.commit()
+        for contact in self.contacts:
+            contact.commit()
         self.u = u.copy()
 
     def revert(self) -> None:
         """Forget everything since the last commit."""
         self.block.revert()
+        for contact in self.contacts:
+            contact.revert()
 
     def snapshot(self) -> Snapshot:
         """Copy of the converged state and of the controls."""
         return Snapshot(
-            self.u.copy(), self.block.state, self.block.alpha, tuple(c.value for c in self.controls), self.time
+            self.u.copy(),
+            self.block.state,
+            self.block.alpha,
+            tuple(c.value for c in self.controls),
+            self.time,
+            tuple(contact.multipliers for contact in self.contacts),
         )
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot."""
         self.block.restore(snapshot.state, snapshot.alpha)
+        for contact, multipliers in zip(self.contacts, snapshot.multipliers, strict=True):
+            contact.multipliers = multipliers
+            contact.revert()
         self.u = snapshot.u.copy()
         self.time = snapshot.time
         for control, value in zip(self.controls, snapshot.controls, strict=True):

@@ -63,7 +63,7 @@ def check_model(model: Model) -> None:
                 cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
                 remedy="move the tool so that it just touches the sheet, or turn its normal",
             )
-        touching = at.gap <= 0.0
+        touching = contact.active()
         if touching.any():
             rows.append(_motion_along(mesh.points, at.x[touching], at.normal[touching]))
     matrix = np.concatenate([row for row in rows if len(row)]) if any(len(row) for row in rows) else np.zeros((1, 6))

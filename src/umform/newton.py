@@ -15,7 +15,7 @@ import logging
 import math
 import time as clock
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol, TypeVar
 
 import numpy as np
@@ -108,11 +108,12 @@ class Failed(Exception):
 
 @dataclass(frozen=True)
 class Converged:
-    """A converged step: displacement, the evaluation there and the iterations."""
+    """A converged step: displacement, the evaluation there, the iterations, those of more passes at the same loads."""
 
     u: Floats
     evaluation: Evaluation
     iterations: list[Iteration]
+    passes: list[Iteration] = field(default_factory=list)
 
     @property
     def residual(self) -> Floats:
@@ -163,7 +164,7 @@ class Newton:
         """Name of the sparse solver that the system gets."""
         return self.ready_solver().name
 
-    def solve(self, extrapolation: Floats | None = None) -> Converged:
+    def solve(self, extrapolation: Floats | None = None, *, line_search: bool = False) -> Converged:
         """Find the equilibrium at the present loads, supports and tools, starting from the converged state.
 
         Parameters
@@ -172,12 +173,40 @@ class Newton:
             Guess of the increment of this step; prescribed entries are overwritten. Without it the first increment is
             that of the tangent. It is recovered with the blocks of the last evaluation, which must be at ``system.u``.
 
+        line_search : bool
+            Search along the increments even if the options do not ask for it.
+
         Raises
         ------
         Failed
             If it does not converge; the system is reverted.
         """
-        return self.guarded(lambda: self._solve(extrapolation))
+        loads = _FixedLoads(self.system, self.options.line_search or line_search)
+        return self.guarded(lambda: self._solve(extrapolation, loads))
+
+    def go_on(self, converged: Converged, change: Floats) -> Converged:
+        """Find the equilibrium again after forces in the system have changed at the same loads, supports and tools.
+
+        Parameters
+        ----------
+        converged : Converged
+            The equilibrium before, which the last evaluation was at.
+        change : ndarray, shape (3 n,)
+            Change of the residual there, to first order; the first increment answers it with the tangent of before.
+
+        Raises
+        ------
+        Failed
+            If it does not converge; the system is reverted.
+        """
+
+        def work() -> Converged:
+            solver = self.ready_solver()
+            solver.factor(converged.evaluation.values)
+            du = self.system.extend(solver.solve(-self.system.restrict(change)))
+            return self.correct(converged.u, du, _FixedLoads(self.system, self.options.line_search))
+
+        return self.guarded(work)
 
     def guarded(self, work: Callable[[], _T]) -> _T:
         """Do work that leaves no trace in the system if it fails.
@@ -196,7 +225,7 @@ class Newton:
             self.system.revert()
             raise
 
-    def _solve(self, extrapolation: Floats | None) -> Converged:
+    def _solve(self, extrapolation: Floats | None, loads: _FixedLoads) -> Converged:
         """First increment from the extrapolation, or from the tangent by eq. (5.6); then corrections."""
         system = self.system
         solver = self.ready_solver()
@@ -210,7 +239,7 @@ class Newton:
             self.check_domain(first, [])
             solver.factor(first.values)
             du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
-        return self.correct(u, du, _FixedLoads(system, self.options.line_search), start)
+        return self.correct(u, du, loads, start)
 
     def prescribed_increment(self, u: Floats) -> Floats:
         """What takes the supports from ``u`` to where they are prescribed; nothing of it is left to the unknowns."""

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from difflib import get_close_matches
+from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,6 +31,7 @@ Floats = NDArray[np.float64]
 #: Colours that colour-blind readers can tell apart (Okabe & Ito).
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 INK = "#222222"
+_LINES = ("-", "--", ":", "-.")
 
 _STYLE: Any = {
     "font.size": 9.0,
@@ -51,6 +54,8 @@ _STYLE: Any = {
     "svg.hashsalt": "umform",
 }
 
+#: More faces than these are drawn without their edges, and as pixels in SVG and PDF too.
+_MANY = 4000
 _FORMATS = (".png", ".svg", ".pdf")
 #: Fields that a shape is coloured by unless another is wanted: the first that is there.
 _FAVOURITES = ("plastic_strain_max", "thickness_change", "displacement")
@@ -84,7 +89,7 @@ def inline_svg(figure: Figure) -> str:
     """The figure as an <svg> element for a page of HTML: no prologue, no metadata, no address of any kind."""
     text = io.StringIO()
     with house_style():
-        figure.savefig(text, format="svg", metadata={"Date": None})
+        figure.savefig(text, format="svg", dpi=200, metadata={"Date": None})
     svg = text.getvalue()
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<metadata>.*?</metadata>\s*", "", svg, flags=re.DOTALL)
@@ -118,6 +123,59 @@ def plot_history(result: Result, x: str, ys: Sequence[str], path: str | Path | N
     if path is not None:
         save(figure, path)
     return figure
+
+
+def compare_histories(
+    histories: Mapping[str, Mapping[str, Floats]], x: str, ys: Sequence[str], path: str | Path | None = None
+) -> Figure:
+    """Draw columns of the histories of several runs into one picture.
+
+    Parameters
+    ----------
+    histories : mapping of str to mapping
+        Name of each run, and its columns: ``result.table()``, or what :func:`umform.io.histories.read_history` reads.
+    x : str
+        Column of the abscissa.
+    ys : sequence of str
+        Columns of the ordinate; runs have colours, columns have kinds of lines.
+    path : str or Path, optional
+        Where to save the picture: .png, .svg or .pdf.
+
+    Raises
+    ------
+    InvalidValue
+        If a run has no such column.
+    """
+    for run, columns in histories.items():
+        for name in (x, *ys):
+            _check_column(name, columns, run)
+    with house_style():
+        figure = Figure(figsize=(6.6, 4.2), layout="constrained")
+        axes = figure.add_subplot()
+        for (run, columns), colour in zip(histories.items(), cycle(COLOURS)):
+            for name, line in zip(ys, cycle(_LINES)):
+                label = run if len(ys) == 1 else f"{run}: {name}"
+                axes.plot(columns[x], columns[name], line, color=colour, label=label)
+        axes.set_xlabel(x)
+        axes.set_ylabel(ys[0] if len(ys) == 1 else "")
+        axes.legend()
+    if path is not None:
+        save(figure, path)
+    return figure
+
+
+def _check_column(name: str, columns: Mapping[str, Floats], run: str) -> None:
+    """Refuse a column that a history does not have, and name the nearest that it has."""
+    if name in columns:
+        return
+    near = get_close_matches(name, columns, n=1, cutoff=0.4)
+    raise InvalidValue(
+        "the history has no such column",
+        where=run,
+        value=name,
+        cause=f"perhaps {near[0]} is meant" if near else "",
+        remedy="one of " + ", ".join(columns),
+    )
 
 
 def plot_shape(
@@ -175,7 +233,9 @@ def draw_shape(
     depth = corners[seen].mean(axis=1) @ towards
     seen = seen[np.argsort(depth, kind="stable")]
     flat = corners[seen] @ np.stack([across, up], axis=1)
-    faces = PolyCollection(list(flat), edgecolors="#33333388", linewidths=0.25)
+    many = len(flat) > _MANY
+    edges = "face" if many else "#33333388"
+    faces = PolyCollection(list(flat), edgecolors=edges, linewidths=0.25, rasterized=many)
     if values is None:
         faces.set_facecolor("#b8c4d0")
     else:

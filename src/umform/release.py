@@ -105,6 +105,8 @@ class Releasing:
         model, control = run.model, step.control
         saved, value, touching = model.snapshot(), control.value, bool(model.active_set().any())
         target = _next_release(value, self.force, self.before, self.bound, self.size, self.finest)
+        if self.failures and self.bound is None and target != value:
+            target = _short_of_zero(value, self.force, self.before, target)
         if target * self.start_value < 0.0:
             target = 0.0
         if target == value or self.attempts > 50:  # the force jumps over zero
@@ -149,6 +151,14 @@ class Releasing:
         model.restore(saved)
         model.evaluate(model.u)
         run.last_du, run.history, self.taken = None, saved.state, None
+
+
+def _short_of_zero(value: float, force: float, before: Sequence[float] | None, target: float) -> float:
+    """The target, or a value just short of the zero of the secant if that comes first: behind it nothing may hold."""
+    if before is None or before[0] == value or force == before[1]:
+        return target
+    to_zero = -force * (value - before[0]) / (force - before[1])
+    return value + 0.99 * to_zero if 0.0 < to_zero / (target - value) < 1.0 else target
 
 
 def _at_ease(converged: Converged) -> bool:

@@ -76,7 +76,7 @@ class Result:
             row |= {f"{contact.name}_f{axis}": float(value) for axis, value in zip("xyz", force, strict=True)}
             row |= {f"{contact.name}_m{axis}": float(value) for axis, value in zip("xyz", moment, strict=True)}
             gaps = contact.block.gaps
-            row[f"{contact.name}_penetration"] = float(max(-gaps.min(), 0.0))
+            row[f"{contact.name}_penetration"] = float(max(0.0, -gaps.min()))
             row[f"{contact.name}_active"] = int(contact.active().sum())
         row |= self._energy_columns(residual)
         row["iterations"] = len(iterations)

@@ -10,6 +10,7 @@ from typing import Any
 
 from umform.arc import Arc, Following
 from umform.checkpoint import Checkpoints, take_up
+from umform.contact.augmentation import refuse_on_an_arc, warn_of_penetration
 from umform.errors import InvalidValue
 from umform.fingerprint import fingerprint
 from umform.increment import Run
@@ -140,6 +141,8 @@ def _ready(
     """Refuse what cannot be run, and make the run that has not begun."""
     sequence = [steps] if isinstance(steps, Step) else list(steps)
     for number, step in enumerate(sequence, start=1):
+        if isinstance(step, Arc):
+            refuse_on_an_arc(model, f"step {number}")
         if not isinstance(step, Step):
             raise InvalidValue("a step is a Move, a Release or an Arc", where=f"step {number}", value=step)
         for control in [step.control] if isinstance(step, Release) else step.moved():
@@ -175,6 +178,7 @@ def _go_on(
             while run.number <= len(steps):
                 _finish(run, steps[run.number - 1])
                 run.number, run.loop = run.number + 1, None
+            warn_of_penetration(run.model, result)
             _pause(run, start, checkpoints, stop, last=True)
         except BaseException as error:  # whatever ends the run: what was reached is kept with the error
             result.seconds = clock.perf_counter() - start

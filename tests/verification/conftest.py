@@ -1,10 +1,8 @@
-"""The table of what was measured: printed at the end of a run, written into the docs by `make verification`."""
+"""The table of what was measured, printed at the end of a run."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
@@ -35,11 +33,3 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
     widths = [max(len(row[k]) for row in [_HEADER, *rows]) for k in range(len(_HEADER))]
     for row in [_HEADER, *rows]:
         terminalreporter.write_line("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)))
-    page = os.environ.get("UMFORM_VERIFICATION_PAGE")
-    if page:
-        lines = [f"| {' | '.join(row)} |" for row in [_HEADER, ("---",) * len(_HEADER), *rows]]
-        text = Path(page).read_text(encoding="utf-8")
-        head, tail = text.split("<!-- table -->")[0], text.split("<!-- /table -->")[1]
-        Path(page).write_text(
-            f"{head}<!-- table -->\n\n" + "\n".join(lines) + f"\n\n<!-- /table -->{tail}", encoding="utf-8"
-        )

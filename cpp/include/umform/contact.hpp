@@ -1,4 +1,5 @@
-// Frictionless penalty contact of element faces with one rigid tool, integrated over the reference area.
+// Frictionless contact of element faces with one rigid tool, by penalty and multipliers, integrated over the reference
+// area.
 #pragma once
 
 #include "umform/block.hpp"
@@ -37,10 +38,17 @@ class ContactBlock {
     const std::vector<double>& gaps() const { return g_; }
     const std::vector<double>& normals() const { return n_; }
     const std::vector<double>& areas() const { return area_; }
+    /// Pressures at the contact points that are there without a penetration, zero or more.
+    const std::vector<double>& multipliers() const { return multiplier_; }
+    void set_multipliers(const double* values) { multiplier_.assign(values, values + multiplier_.size()); }
 
   protected:
+    /// Gap less multiplier over penalty: a point is held where it is not positive, with -penalty times it. eq. (4.33)
+    double shifted_gap(int q) const { return g_[q] - multiplier_[q] / penalty; }
+
     std::vector<double> x_, g_, n_, H_;  // at the contact points of the last `locate`
     std::vector<double> area_;           // [facet][point] reference area of a contact point
+    std::vector<double> multiplier_;     // [facet][point]
 };
 
 template <int Nodes>
@@ -56,6 +64,7 @@ class ContactBlockOf final : public ContactBlock {
             gauss_rule(gauss(rule.points));
         const std::size_t count = part_.size() * N_.size();
         x_.resize(3 * count), g_.resize(count), n_.resize(3 * count), H_.resize(9 * count);
+        multiplier_.assign(count, 0.0);
         scale_.resize(part_.size());
     }
 
@@ -85,15 +94,15 @@ class ContactBlockOf final : public ContactBlock {
         for (int q = 0; q < points(); ++q) to_space(q);
     }
 
-    /// f_a = penalty int g~ n N_a,  K_ab = penalty int N_a N_b (n n^T + g~ H) over the points with g <= 0 (a tool that just
-    /// touches can hold). eqs. (4.9), (4.10)
+    /// f_a = penalty int g~ n N_a,  K_ab = penalty int N_a N_b (n n^T + g~ H) over the points whose shifted gap g~ is not
+    /// positive (a tool that just touches can hold). eqs. (4.9), (4.10), (4.33)
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         locate(u);
         const int per_facet = static_cast<int>(N_.size());
         for_each_by_colour(colours_, part_.size(), [&](int e, int) {
             scale_[e] = 0.0;
             bool active = false;
-            for (int q = 0; q < per_facet; ++q) active = active || g_[e * per_facet + q] <= 0.0;
+            for (int q = 0; q < per_facet; ++q) active = active || shifted_gap(e * per_facet + q) <= 0.0;
             if (!active) return;
             alignas(64) std::array<double, static_cast<std::size_t>(size) * size> K{};
             std::array<double, size> f{};
@@ -167,7 +176,7 @@ class ContactBlockOf final : public ContactBlock {
     }
 
     void add_point(int q, const Values& N, double* K, double* f) const {
-        const double g = g_[q];
+        const double g = shifted_gap(q);
         if (g > 0.0) return;
         const double weight = penalty * area_[q];
         const double *n = n_.data() + 3 * q, *H = H_.data() + 9 * q;

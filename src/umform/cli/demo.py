@@ -57,6 +57,9 @@ def free_bending(
         bool, _option("Shorten Newton's increments that go too far.", _SOLUTION, "--line-search/--no-line-search")
     ] = Default.line_search,
     processes: Annotated[int | None, _option("Runs at a time; default: the processors.", _SOLUTION)] = None,
+    print_deck: Annotated[
+        bool, typer.Option("--print-deck", help="Print the first run as a deck, and run none.")
+    ] = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -101,7 +104,13 @@ def free_bending(
         line_search=line_search,
         **given,
     )
-    _show(demo(out, selection.runs(base, sharp=not given), processes=processes), out)
+    runs = selection.runs(base, sharp=not given)
+    if print_deck:
+        from umform.deck import deck_of
+
+        typer.echo(deck_of(runs[0]), nl=False)
+        return
+    _show(demo(out, runs, processes=processes), out)
 
 
 def _show(outcome: Outcome, out: str) -> None:

@@ -247,8 +247,10 @@ def _check_types(mesh: Any, path: Path) -> None:
         "umform needs hexahedra with 8 or 27 nodes and no other solids",
         where=str(path),
         value=", ".join(f"{count} {name}" for name, count in sorted(counts.items())) or "no cells",
-        cause="" if solids else "the file has no solids; umform does not thicken a surface mesh",
-        remedy="mesh the mid-surface with quadrilaterals and extrude them through the thickness",
+        cause="" if solids else "the file holds a surface, no solids",
+        remedy="umform.mesh.read_shell(path, thickness) thickens a mesh of quadrilaterals"
+        if not solids
+        else "mesh the mid-surface with quadrilaterals and thicken them: umform.mesh.read_shell(path, thickness)",
     )
 
 

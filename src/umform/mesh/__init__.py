@@ -1,7 +1,24 @@
-"""Meshes of solid-shells: the mesh itself, structured generators, files."""
+"""Meshes of solid-shells: the mesh itself, structured generators, files, and meshes of other programs."""
 
-from umform.mesh.files import read
+from umform.mesh.files import read, read_shell
 from umform.mesh.generators import graded, grid, plate, strip
 from umform.mesh.mesh import FACE_NODES, FACES, Floats, Ids, Mesh, Selector
+from umform.mesh.orient import orient
+from umform.mesh.thicken import thicken
 
-__all__ = ["FACES", "FACE_NODES", "Floats", "Ids", "Mesh", "Selector", "graded", "grid", "plate", "read", "strip"]
+__all__ = [
+    "FACES",
+    "FACE_NODES",
+    "Floats",
+    "Ids",
+    "Mesh",
+    "Selector",
+    "graded",
+    "grid",
+    "orient",
+    "plate",
+    "read",
+    "read_shell",
+    "strip",
+    "thicken",
+]

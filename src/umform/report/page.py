@@ -1,15 +1,14 @@
-"""The report of any result: curves, last shape, end values, settings, versions, warnings."""
+"""The report of any result: shape, curves, events, history, settings, deck, versions, warnings."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from umform.boundary import Control
-from umform.plotting import plot_history, plot_shape
-from umform.report import parts
+from umform.report import live, parts
 from umform.report.repeats import counted
+from umform.report.scene import Scene, scene_of
 from umform.report.versions import versions
 
 if TYPE_CHECKING:
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
     from umform.results import Result
 
 
-def write_report(result: Result, path: str | Path) -> Path:
+def write_report(result: Result, path: str | Path, *, deck: str = "") -> Path:
     """Write one self-contained page about a result.
 
     Parameters
@@ -26,6 +25,8 @@ def write_report(result: Result, path: str | Path) -> Path:
         A result with a history.
     path : str or Path
         The page to write, ending in .html.
+    deck : str, optional
+        The input that the result comes from, to be kept in the page.
 
     Returns
     -------
@@ -43,28 +44,32 @@ def write_report(result: Result, path: str | Path) -> Path:
     lead = (
         f"{result.summary()['iterations']} Newton iterations in {result.seconds:.1f} s, sparse solver {result.solver}"
     )
-    return parts.write_html(path, title, lead, _parts(result))
+    scene = scene_of(result)
+    content = _parts(result, scene, deck)
+    return parts.write_html(path, title, lead, content, style=live.style(), scripts=live.scripts(scene))
 
 
-def _parts(result: Result) -> Iterator[str]:
+def _parts(result: Result, scene: Scene, deck: str) -> Iterator[str]:
     for message in counted(result.warnings):
         yield parts.note(message, bad=True)
-    yield parts.heading("Curves")
-    for control in result.model.controls:
-        yield parts.figure(*_curve(result, control))
     yield parts.heading("Shape")
-    yield parts.figure(plot_shape(result), "The sheet in its last state, in true proportion.")
+    yield live.shape(result, scene)
+    yield from map(parts.note, scene.notes)
+    yield parts.heading("Curves")
+    yield live.curves(result)
+    if result.events:
+        yield parts.heading("Events")
+        yield parts.items(counted(result.events))
     yield parts.heading("History")
     yield _end_values(result)
+    yield live.table(result)
     yield parts.heading("Settings")
     yield parts.pairs(settings(result.model))
+    if deck:
+        yield parts.heading("Deck")
+        yield parts.folded("The input of this run", deck)
     yield parts.heading("Versions")
     yield parts.pairs(versions())
-
-
-def _curve(result: Result, control: Control) -> tuple[Any, str]:
-    force = f"{control.name}_force"
-    return plot_history(result, control.name, [force]), f"{force} over {control.name}, all converged increments."
 
 
 def _end_values(result: Result) -> str:
@@ -72,7 +77,7 @@ def _end_values(result: Result) -> str:
     ends = {int(row["step"]): row for row in result.rows}
     columns = [name for name in result.columns() if name != "step"]
     header = ["", *("start" if step == 0 else f"end of step {step}" for step in ends)]
-    return parts.table(header, [[name, *(f"{row[name]:.6g}" for row in ends.values())] for name in columns])
+    return parts.table(header, [[name, *(f"{row[name] + 0.0:.6g}" for row in ends.values())] for name in columns])
 
 
 def settings(model: Model) -> dict[str, object]:

@@ -52,6 +52,16 @@ def figure(picture: Figure, caption: str) -> str:
     return f"<figure><div>{inline_svg(picture)}</div><figcaption>{escape(caption)}</figcaption></figure>"
 
 
+def folded(title: str, text: str) -> str:
+    """A long text that is opened by a click; its lines stay as they are."""
+    return f"<details><summary>{escape(title)}</summary><pre>{escape(text)}</pre></details>"
+
+
+def items(texts: Iterable[str]) -> str:
+    """A list."""
+    return "<ul>" + "".join(f"<li>{escape(text)}</li>" for text in texts) + "</ul>"
+
+
 def check_name(path: str | Path) -> None:
     """Refuse a page whose name does not end in .html."""
     if Path(path).suffix != ".html":
@@ -64,14 +74,30 @@ def check_name(path: str | Path) -> None:
         )
 
 
-def write_html(path: str | Path, title: str, lead: str, parts: Iterable[str]) -> Path:
-    """Write a page that needs nothing but itself, whole or not at all; its name ends in .html."""
+def write_html(
+    path: str | Path, title: str, lead: str, parts: Iterable[str], *, style: str = "", scripts: str = ""
+) -> Path:
+    """Write a page that needs nothing but itself, whole or not at all.
+
+    Parameters
+    ----------
+    path : str or Path
+        The page, ending in .html.
+    title, lead : str
+        Plain text at its top.
+    parts : iterable of str
+        What is in it, as HTML.
+    style, scripts : str, optional
+        More CSS, and <script> elements for the end of the page.
+    """
     check_name(path)
     template = Template(files("umform.report").joinpath("page.html").read_text(encoding="utf-8"))
     text = template.substitute(
         title=escape(title),
         lead=escape(lead),
         body="\n".join(parts),
+        style=style,
+        scripts=scripts,
         version=escape(umform.__version__),
         date=f"{datetime.now():%Y-%m-%d}",
     )

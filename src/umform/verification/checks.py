@@ -72,7 +72,8 @@ class Check:
 
     def cells(self) -> tuple[str, ...]:
         """What stands in the table of checks: what, reference, found, deviation, expected, verdict."""
-        deviation = f"{100 * self.deviation:+.2f} %" if self.relative else f"{self.deviation:+.2e}"
+        percent = round(100 * self.deviation, 2) + 0.0  # no minus before a zero
+        deviation = f"{percent:+.2f} %" if self.relative else f"{self.deviation:+.2e}"
         expected = f"{100 * self.within:g} %" if self.relative else f"{self.within:.1e}"
         verdict = self.verdict.mark + (f": {self.cause}" if self.verdict is Verdict.AMBER else "")
         return self.what, f"{self.reference:.6g}", f"{self.found:.6g}", deviation, expected, verdict

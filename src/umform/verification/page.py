@@ -148,7 +148,7 @@ class Page:
         if self.images is None:
             return
         path = self.images / f"{self.case.name}-{name}.png"
-        save(plot_shape(shape, values, view=view), path, dpi=110)
+        save(plot_shape(shape, values, view=view), path, dpi=90)
         self._show(path, caption)
 
     def _show(self, path: Path, caption: str) -> None:

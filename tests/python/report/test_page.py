@@ -1,11 +1,17 @@
 import re
+from base64 import b64decode
 from html.parser import HTMLParser
+from importlib.resources import files
 
+import numpy as np
 import pytest
 
 import umform as uf
 from umform.errors import InvalidValue
+from umform.plotting import inline_svg, plot_shape
 from umform.processes import FreeBending, free_bending
+from umform.report.page import write_report
+from umform.shape import Shape
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +34,7 @@ class Balance(HTMLParser):
         self.open = []
 
     def handle_starttag(self, tag, attrs):
-        if tag not in ("meta", "br"):
+        if tag not in ("meta", "br", "input"):
             self.open.append(tag)
 
     def handle_startendtag(self, tag, attrs):
@@ -47,11 +53,41 @@ def test_page_is_well_formed(page):
 def test_page_loads_nothing(page):
     assert "http://" not in page
     assert "https://" not in page
-    assert not re.search(r"<(script|link|img|iframe)\b|@import|url\((?!#)", page)
+    assert not re.search(r"<(link|img|iframe)\b|<script[^>]*\bsrc|@import|url\((?!#)|\bfetch\(|import\(", page)
+    assert "default-src 'none'" in page
+
+
+def test_the_library_has_no_address_but_the_name_of_a_namespace():
+    library = files("umform.report").joinpath("assets", "three", "three.min.js").read_text(encoding="utf-8")
+    assert set(re.findall(r"https?://[\w./]*", library)) == {"http://www.w3.org/1999/xhtml"}
+    assert "MIT" in files("umform.report").joinpath("assets", "three", "LICENSE").read_text(encoding="utf-8")
+
+
+def test_the_file_in_the_page_is_that_of_the_result(page, result, tmp_path):
+    (coded,) = re.findall(r'href="data:text/csv;base64,([^"]*)"', page)
+    assert b64decode(coded) == result.write(tmp_path / "h.csv").read_bytes()
+
+
+def test_deck_and_events_are_shown(result, tmp_path):
+    result.events.append("step 1, time 0.5000: contact is lost")
+    path = write_report(result, tmp_path / "r.html", deck="[model]\nelement = '<ANS>'")
+    result.events.pop()
+    page = path.read_text(encoding="utf-8")
+    assert "element = &#x27;&lt;ANS&gt;&#x27;" in page
+    assert "contact is lost" in page
+
+
+def test_many_faces_are_pixels(result):
+    """A still of a large mesh stays small."""
+    fine = uf.mesh.strip(10, 10, 0.1, (80, 80))
+    shape = Shape.displaced(fine, np.zeros_like(fine.points))
+    svg = inline_svg(plot_shape(shape))
+    assert "data:image/png" in svg
+    assert len(svg) < 200_000
 
 
 def test_page_shows_what_belongs_in_it(page, result):
-    assert page.count("<svg") == 2
+    assert page.count("<svg") == 3  # two stills and the curves with a cursor
     for word in ("ANS3DEAS", "punch_force", "Cylinder", "penalty 100", uf.__version__, "numpy", "end of step 2"):
         assert word in page
     assert f"{result['punch_force'].min():.6g}" in page

@@ -1,4 +1,4 @@
-"""Contact pairs: faces of the sheet against one rigid tool, its motion, resultants, pressure and gap."""
+"""A contact pair: faces of the sheet against one rigid tool, its motion, resultants, pressure and gap."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from umform import _core
 from umform.boundary import Control, vector3
-from umform.errors import InvalidPenalty, InvalidValue
+from umform.contact.settings import ContactSettings
 from umform.mesh import Ids, Mesh, Selector
 from umform.surfaces import Surface
 
@@ -54,46 +54,39 @@ class ContactPoints:
 
 
 class Contact:
-    """Frictionless penalty contact of faces with one tool (docs/theory, chapter 4).
+    """Frictionless contact of faces with one tool, held by a penalty and, where wanted, multipliers.
 
-    Made by :meth:`umform.Model.contact`.
+    docs/theory, chapter 4. Made by :meth:`umform.Model.contact`.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The sheet.
+    faces : Selector
+        Lower or upper faces.
+    tool : Surface
+        The tool.
+    settings : ContactSettings
+        Penalty, points, penetration that is allowed, multipliers or not; they are attributes of the pair.
+    name : str
+        For the history.
     """
 
-    def __init__(
-        self, mesh: Mesh, faces: Selector, tool: Surface, penalty: float, points: int | str, name: str
-    ) -> None:
-        if not (np.isfinite(penalty) and penalty > 0):
-            raise InvalidPenalty(
-                "the penalty must be positive",
-                where=f"contact {name}",
-                value=penalty,
-                cause="a sign or a missing value",
-                remedy="choose it from the penetration that you allow: penalty = expected pressure / penetration",
-            )
-        at_nodes = isinstance(points, str) and points == "nodes"
-        if not at_nodes and (isinstance(points, str) or points not in range(1, 11)):
-            raise InvalidValue(
-                "contact points per direction must be 1 to 10, or 'nodes'", where=f"contact {name}", value=points
-            )
-        if not isinstance(tool, Surface):
-            raise InvalidValue(
-                "a tool must be a surface",
-                where=f"contact {name}",
-                value=type(tool).__name__,
-                remedy="a tool of umform.surfaces, VDie or Cylinder for instance, or UserSurface(function)",
-            )
+    def __init__(self, mesh: Mesh, faces: Selector, tool: Surface, settings: ContactSettings, name: str) -> None:
         self.name = name
         self.tool = tool
-        self.penalty = float(penalty)
-        self.points: int | str = "nodes" if at_nodes else int(points)
+        self.penalty, self.points = settings.penalty, settings.points
+        self.allowed, self.augmented = settings.allowed, settings.augmented
         self.facets: Ids = mesh.facets(faces)
         #: Nodes of all cells that bear a facet, those of the far face too.
         self.nodes: Ids = np.unique(mesh.connectivity[mesh.face_set(faces)[:, 0]])
         self._kernel = tool.kernel()
-        self.block = _core.contact_block(
-            self.facets, mesh.points, 1 if at_nodes else int(points), at_nodes, self._kernel
-        )
+        at_nodes = isinstance(self.points, str)
+        per_side = 1 if isinstance(self.points, str) else self.points
+        self.block = _core.contact_block(self.facets, mesh.points, per_side, at_nodes, self._kernel)
         self.block.penalty = self.penalty
+        #: Multipliers of the converged state at the contact points; zero without augmentation.
+        self.multipliers: Floats = self.block.multipliers
         self.pose: tuple[Floats, Floats] = (np.eye(3), np.zeros(3))
         self.translations: list[ToolMotion] = []
         self.motion: Motion | None = None
@@ -114,17 +107,48 @@ class Contact:
         self.pose = np.ascontiguousarray(rotation), centre + shift - rotation @ centre
         self.block.set_pose(*self.pose)
 
+    @property
+    def _shifted_gap(self) -> Floats:
+        """Gap less multiplier over penalty: what pressure and active set are told by. eq. (4.33)"""
+        return self.block.gaps - self.block.multipliers / self.penalty
+
     def active(self) -> NDArray[np.bool_]:
-        """Which points penetrate, of the last evaluation."""
-        return self.block.gaps <= 0.0
+        """Which points are held by the tool, of the last evaluation."""
+        return self._shifted_gap <= 0.0
+
+    def loose(self) -> bool:
+        """Whether multipliers are wanted and a point that the tool holds is further from it than allowed."""
+        if not self.augmented or self.allowed is None:
+            return False
+        return bool((np.abs(self.block.gaps[self.active()]) > self.allowed).any())
+
+    def augment(self, change: Floats) -> None:
+        """Let the multipliers carry the pressure of the last evaluation, and add what that changes in the residual.
+
+        The points that are held now stay so to first order, and close their gaps: where the tool goes back, new
+        multipliers on old gaps would let go of points that bear a pressure. eqs. (4.34), (4.35)
+        """
+        at, held = self.at_points(), self.active()
+        weight = self.penalty * np.where(held, at.gap, 0.0) * at.area
+        forces = (weight[:, None] * at.normal).reshape(len(self.facets), -1, 3)
+        nodal = np.einsum("qa,eqk->eak", self.block.shape_values, forces)
+        np.add.at(change.reshape(-1, 3), self.facets, nodal)
+        self.block.multipliers = at.pressure
+
+    def commit(self) -> None:
+        """Make the multipliers those of the converged state."""
+        self.multipliers = self.block.multipliers
+
+    def revert(self) -> None:
+        """Go back to the multipliers of the converged state."""
+        self.block.multipliers = self.multipliers
 
     def at_points(self) -> ContactPoints:
-        """Gap, pressure and the rest at the contact points, of the last evaluation."""
-        gap = self.block.gaps
+        """Gap, pressure and the rest at the contact points, of the last evaluation. eqs. (4.6), (4.33)"""
         return ContactPoints(
             x=self.block.positions,
-            gap=gap,
-            pressure=self.penalty * np.maximum(-gap, 0.0),
+            gap=self.block.gaps,
+            pressure=self.penalty * np.maximum(-self._shifted_gap, 0.0),
             normal=self.block.normals,
             area=self.block.areas,
         )

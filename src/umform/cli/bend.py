@@ -1,0 +1,211 @@
+"""``umform bend``: air bending of a sheet in a V-die."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from umform.cli.root import Debug, Verbose, app, console
+
+if TYPE_CHECKING:
+    from umform.materials import J2
+    from umform.processes.air_bending.budget import Budget
+    from umform.processes.air_bending.case import AirBend
+    from umform.processes.air_bending.measures import Measures
+
+
+def _option(help_text: str, panel: str, *names: str) -> Any:
+    return typer.Option(*names, help=help_text, rich_help_panel=panel)
+
+
+_GOAL, _TOOLS, _SHEET, _SOLUTION = "What to do", "Tools (mm, degrees)", "Sheet (mm, MPa)", "Solution"
+
+
+@app.command()
+def bend(
+    out: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")] = Path(
+        "results/bend"
+    ),
+    angle: Annotated[float | None, _option("Find the stroke that leaves this angle in degrees.", _GOAL)] = None,
+    stroke: Annotated[float | None, _option("Bend to this stroke in mm.", _GOAL)] = None,
+    table: Annotated[str | None, _option("Strokes of a bending table: first:last:step, as 4:6:0.5.", _GOAL)] = None,
+    budget: Annotated[bool, _option("Run again with refinements, and show what they change.", _GOAL)] = False,
+    opening: Annotated[float, _option("Opening of the die.", _TOOLS)] = 16.0,
+    die_angle: Annotated[float, _option("Angle of the die.", _TOOLS)] = 85.0,
+    die_radius: Annotated[float, _option("Radius of its shoulders.", _TOOLS)] = 2.0,
+    punch_angle: Annotated[float, _option("Angle of the punch.", _TOOLS)] = 85.0,
+    punch_radius: Annotated[float, _option("Radius of its tip.", _TOOLS)] = 1.5,
+    thickness: Annotated[float, _option("Thickness of the sheet.", _SHEET)] = 2.0,
+    width: Annotated[float | None, _option("Length of the bend; default: plane strain.", _SHEET)] = None,
+    material: Annotated[str | None, _option("Name in the library of sheet metals, DC04 for one.", _SHEET)] = None,
+    young: Annotated[float | None, _option("Young's modulus.", _SHEET)] = None,
+    poisson: Annotated[float | None, _option("Poisson's ratio.", _SHEET)] = None,
+    yield_stress: Annotated[float | None, _option("Yield stress, for linear hardening.", _SHEET)] = None,
+    hardening_modulus: Annotated[float | None, _option("Hardening modulus; default 0.", _SHEET)] = None,
+    swift: Annotated[str | None, _option("Swift hardening K,e0,n, as 520,0.004,0.22.", _SHEET)] = None,
+    element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "BEND18",
+    layers: Annotated[int, _option("Elements through the thickness.", _SOLUTION)] = 2,
+    thickness_points: Annotated[int, _option("Points through the thickness of a layer.", _SOLUTION)] = 6,
+    elements_per_thickness: Annotated[float, _option("Elements on a length of one thickness.", _SOLUTION)] = 3.0,
+    width_elements: Annotated[int, _option("Elements over half of the width.", _SOLUTION)] = 3,
+    contact_points: Annotated[str, _option("Contact points per direction and facet, or auto.", _SOLUTION)] = "5",
+    penalty: Annotated[float | None, _option("Contact pressure per penetration.", _SOLUTION)] = None,
+    penetration: Annotated[float | None, _option("Penetration allowed, in place of a penalty.", _SOLUTION)] = None,
+    increment: Annotated[float, _option("Way of the punch in an increment, over the opening.", _SOLUTION)] = 0.00625,
+    tolerance: Annotated[float, _option("Of the angle that is looked for, in degrees.", _SOLUTION)] = 0.02,
+    processes: Annotated[int | None, _option("Runs of the budget at a time.", _SOLUTION)] = None,
+    verbose: Verbose = 0,
+    debug: Debug = False,
+) -> None:
+    """Bend a sheet in a V-die in the air, and unload it.
+
+    Give the stroke, or the angle that is wanted after springback. Each number is defined in docs/air-bending.md.
+    """
+    from umform.processes.air_bending.budget import error_budget
+    from umform.processes.air_bending.case import air_bending
+    from umform.processes.air_bending.files import write_files
+    from umform.processes.air_bending.parameters import AirBending
+    from umform.processes.air_bending.search import bending_table, find_stroke
+
+    _check_goal(angle, stroke)
+    law, note = _law(material, young, poisson, yield_stress, hardening_modulus, swift)
+    case = AirBending(
+        thickness=thickness,
+        opening=opening,
+        die_angle=die_angle,
+        die_radius=die_radius,
+        punch_angle=punch_angle,
+        punch_radius=punch_radius,
+        width=width,
+        material=law,
+        element=element,
+        layers=layers,
+        thickness_points=thickness_points,
+        elements_per_thickness=elements_per_thickness,
+        width_elements=width_elements,
+        contact_points=int(contact_points) if contact_points.isdigit() else contact_points,
+        penalty=penalty,
+        penetration=penetration,
+        increment=increment,
+        stroke=stroke,
+    )
+    strokes = _strokes(table) if table else []
+    if angle is not None:
+        case = find_stroke(case, angle, tolerance=tolerance).case
+    rows = bending_table(case, strokes) if strokes else []
+    done = air_bending(case)
+    errors = error_budget(case, done.measures, processes=processes) if budget else None
+    _show(done, rows, errors, note)
+    files = write_files(out, done, rows, errors)
+    console().print(f"Written to {out}: {', '.join(file.name for file in files)}", soft_wrap=True)
+
+
+def _check_goal(angle: float | None, stroke: float | None) -> None:
+    if (angle is None) == (stroke is None):
+        from umform.errors import InvalidValue
+
+        raise InvalidValue(
+            "give the stroke or the angle, one of them",
+            where="umform bend",
+            cause="both or none are given",
+            remedy="--angle 90 looks for the stroke, --stroke 6 bends to it",
+        )
+
+
+def _law(
+    name: str | None,
+    young: float | None,
+    poisson: float | None,
+    yield_stress: float | None,
+    modulus: float | None,
+    swift: str | None,
+) -> tuple[J2, str]:
+    """Law of the sheet, and what is to be said of it."""
+    from umform.errors import InvalidValue
+    from umform.processes.air_bending.parameters import DC04_LIKE
+
+    own = [value for value in (young, poisson, yield_stress, modulus, swift) if value is not None]
+    if name is not None:
+        if own:
+            raise InvalidValue("give a material by name or by numbers", where="--material", value=name)
+        from umform.sheet_metals import get
+
+        metal = get(name)
+        return metal.law, f"{name}: {metal.source}; {metal.caveat}"
+    if not own:
+        return DC04_LIKE, "material: a curve like that of DC04; give your own for numbers that count"
+    return _own_law(young, poisson, yield_stress, modulus, swift), ""
+
+
+def _own_law(
+    young: float | None, poisson: float | None, yield_stress: float | None, modulus: float | None, swift: str | None
+) -> J2:
+    from umform.errors import InvalidValue
+    from umform.materials import J2, Linear, Perfect, Swift
+
+    elastic = {"E": 210e3 if young is None else young, "nu": 0.3 if poisson is None else poisson}
+    if swift is not None and yield_stress is None and modulus is None:
+        return J2(**elastic, hardening=Swift(*_numbers(swift, ",", 3, "--swift", "K,e0,n as 520,0.004,0.22")))
+    if yield_stress is None or swift is not None:
+        raise InvalidValue(
+            "a hardening curve is given by --yield-stress with --hardening-modulus, or by --swift",
+            where="--yield-stress",
+            remedy="--yield-stress 160 --hardening-modulus 500, or --swift 520,0.004,0.22",
+        )
+    return J2(**elastic, hardening=Linear(yield_stress, modulus) if modulus else Perfect(yield_stress))
+
+
+def _strokes(text: str) -> list[float]:
+    """Strokes of first:last:step, the last one included."""
+    from umform.errors import InvalidValue
+
+    first, last, step = _numbers(text, ":", 3, "--table", "first:last:step as 4:6:0.5")
+    if not 0.0 < first <= last or not step > 0.0:
+        raise InvalidValue("a table goes from a positive stroke up to a larger one", where="--table", value=text)
+    return [first + number * step for number in range(int((last - first) / step + 1e-9) + 1)]
+
+
+def _numbers(text: str, separator: str, count: int, where: str, remedy: str) -> list[float]:
+    from umform.errors import InvalidValue
+
+    try:
+        values = [float(part) for part in text.split(separator)]
+    except ValueError:
+        values = []
+    if len(values) != count:
+        raise InvalidValue(f"{count} numbers are needed here", where=where, value=text, remedy=remedy)
+    return values
+
+
+def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str) -> None:
+    """Print measures, bending table, and what is to be said of them."""
+    from umform.processes.air_bending.formulas import shop_forces
+    from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
+    from umform.report.repeats import counted
+
+    screen = console()
+    _print_table("Air bending", summary_header(errors), summary(done.measures, done.case.width, errors))
+    low, high = shop_forces(done.case)
+    screen.print(f"rule of the shop for the largest force: {low:.1f} to {high:.1f} N/mm (1.33 to 1.42 Rm t²/V)")
+    if rows:
+        _print_table("Bending table", table_header(), table_rows(rows))
+    if note:
+        screen.print(note, soft_wrap=True)
+    for warning in counted(done.warnings):
+        typer.echo(f"umform: {warning}", err=True)
+    for name, why in (errors.failures if errors else {}).items():
+        typer.echo(f"umform: {name}: {why}", err=True)
+
+
+def _print_table(title: str, header: list[str], rows: list[list[str]]) -> None:
+    from rich import box
+    from rich.table import Table
+
+    table = Table(title=title, box=box.SIMPLE_HEAD)
+    for number, name in enumerate(header):
+        table.add_column(name, justify="left" if number == 0 or name == "unit" else "right", no_wrap=number == 0)
+    for row in rows:
+        table.add_row(*row)
+    console().print(table)

@@ -1,0 +1,90 @@
+"""``umform check``: what a deck says, and a look at its physics, without solving."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from umform.cli.root import Debug, Verbose, app, console
+from umform.errors import InvalidValue, UmformError
+
+if TYPE_CHECKING:
+    from umform.deck import Deck, Problem
+    from umform.deck.findings import Finding
+
+DeckFile = Annotated[Path, typer.Argument(metavar="DECK", help="A deck: one TOML file.")]
+Changes = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help="Another value of a key, as steps.0.increments=5; repeatable."),
+]
+
+
+@app.command()
+def check(deck: DeckFile, changes: Changes = None, verbose: Verbose = 0, debug: Debug = False) -> None:
+    """Look at a deck without solving it: keys, names, gaps, supports, element sizes, units, effort.
+
+    An error ends with exit code 1; warnings do not.
+    """
+    from umform.deck.findings import Level
+    from umform.deck.look import look
+
+    with told():
+        loaded, problem = build(deck, changes or ())
+        findings = list(look(loaded, problem))
+    _show(findings)
+    if any(finding.level is Level.ERROR for finding in findings):
+        raise typer.Exit(1)
+
+
+def build(path: Path, changes: Sequence[str]) -> tuple[Deck, Problem]:
+    """The deck of a file with some values changed, and what it builds."""
+    from umform.deck import load
+
+    deck = load(path, dict(_change(text) for text in changes))
+    return deck, deck.build()
+
+
+@contextmanager
+def told() -> Iterator[None]:
+    """Print what is wrong with a deck in the words of decks, and end with exit code 1."""
+    try:
+        yield
+    except UmformError as error:
+        typer.echo(f"umform: {error}", err=True)
+        raise typer.Exit(1) from error
+
+
+def _change(text: str) -> tuple[str, Any]:
+    key, _, value = text.partition("=")
+    try:
+        return key.strip(), tomllib.loads(f"value = {value}")["value"]
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError):
+        raise InvalidValue(
+            "this changes no key",
+            where="--set",
+            value=text,
+            cause="the value is no TOML",
+            remedy="write key=value, as steps.0.increments=5; words in quotes within quotes: element.name='\"BEND8\"'",
+        ) from None
+
+
+def _show(findings: Sequence[Finding]) -> None:
+    """One row a finding, the remedy in the row below."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    from umform.deck.findings import Level
+
+    colours = {Level.OK: "green", Level.WARNING: "yellow", Level.ERROR: "red"}
+    table = Table("", "about", "found", box=box.SIMPLE_HEAD)
+    for finding in findings:
+        text = f"{finding.text}\nremedy: {finding.remedy}" if finding.remedy else finding.text
+        level = Text(finding.level.value, style=colours[finding.level])
+        table.add_row(level, Text(finding.about), Text(text))
+    console().print(table)

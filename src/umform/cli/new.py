@@ -1,0 +1,48 @@
+"""``umform new``: templates of decks, and their JSON schema."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from umform.cli.root import Debug, app, console
+
+
+@app.command()
+def new(
+    template: Annotated[str | None, typer.Argument(help="Name of a template; none: list them.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write the deck, and beside it the files that it reads.")
+    ] = None,
+    schema: Annotated[bool, typer.Option("--schema", help="Print the JSON schema of decks, for editors.")] = False,
+    debug: Debug = False,
+) -> None:
+    """Print a deck to start from: `umform new air-bending > deck.toml`."""
+    from umform.deck import templates
+
+    if schema:
+        from umform.deck.schema import json_schema  # all of umform, which the list does not need
+
+        typer.echo(json_schema(), nl=False)
+    elif template is None:
+        _list_templates()
+    elif out is None:
+        typer.echo(templates.template(template), nl=False)
+    else:
+        for file in templates.write_template(template, out):
+            typer.echo(f"Written: {file}", err=True)
+
+
+def _list_templates() -> None:
+    """All templates with their titles."""
+    from rich import box
+    from rich.table import Table
+
+    from umform.deck.templates import templates
+
+    table = Table("name", "deck", box=box.SIMPLE_HEAD)
+    for name, title in templates().items():
+        table.add_row(name, title)
+    console().print(table)

@@ -1,0 +1,88 @@
+"""``umform run``: solve a deck and write what comes out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from umform.cli.check import Changes, DeckFile, build, told
+from umform.cli.root import INTERRUPTED, Debug, Verbose, app, console
+from umform.errors import UmformError
+
+if TYPE_CHECKING:
+    from umform.deck.running import Outcome
+    from umform.results import Result
+
+
+@app.command()
+def run(
+    deck: DeckFile,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FOLDER", help="Folder for what comes out; default: that of the deck.")
+    ] = None,
+    solver: Annotated[str | None, typer.Option(help="Another sparse solver than that of the deck.")] = None,
+    changes: Changes = None,
+    verbose: Verbose = 0,
+    debug: Debug = False,
+) -> None:
+    """Solve a deck: history, fields, report, pictures, and a copy of the deck.
+
+    What was reached is written even if Newton's method gives up (exit code 1) or Ctrl-C ends the run (130).
+    """
+    from umform.deck import running
+
+    with told():
+        loaded, problem = build(deck, changes or ())
+        outcome = running.run(loaded, problem, out, solver=solver)
+    _show(outcome)
+    _end(outcome.ended_by)
+
+
+def _show(outcome: Outcome) -> None:
+    """The table, what happened, and where the files are."""
+    from umform.report.repeats import counted
+
+    screen = console()
+    screen.print(_table(outcome.result))
+    for event in outcome.result.events:
+        screen.print(event, soft_wrap=True, markup=False)
+    if outcome.files:
+        names = ", ".join(file.name for file in outcome.files)
+        screen.print(f"Written to {outcome.files[0].parent}: {names}", soft_wrap=True, markup=False)
+    for warning in counted(outcome.result.warnings):
+        typer.echo(f"umform: {warning}", err=True)
+
+
+def _table(result: Result) -> object:
+    """The end of each step: increments, iterations, and all controls with their forces."""
+    from rich import box
+    from rich.table import Table
+
+    names = [column for control in result.model.controls for column in (control.name, f"{control.name}_force")]
+    summary = result.summary()
+    title = f"{summary['increments']} increments in {result.seconds:.1f} s, solver {result.solver}"
+    table = Table("step", title=title, box=box.SIMPLE_HEAD)
+    for name in ("time", "increments", "iterations", *names):
+        table.add_column(name, justify="right")
+    for step in sorted({int(row["step"]) for row in result.rows} - {0}):
+        rows = [row for row in result.rows if row["step"] == step]
+        last = rows[-1]
+        effort = [str(len(rows)), str(int(sum(row["iterations"] for row in rows)))]
+        table.add_row(str(step), f"{last['time']:.4g}", *effort, *(f"{last[name]:.6g}" for name in names))
+    return table
+
+
+def _end(error: BaseException | None) -> None:
+    """The message and the exit code of a run that has ended early."""
+    if error is None:
+        return
+    if isinstance(error, KeyboardInterrupt):
+        typer.echo("\numform: interrupted; what was reached is written", err=True)
+        raise typer.Exit(INTERRUPTED)
+    if isinstance(error, UmformError):
+        typer.echo(f"umform: {error}", err=True)
+        typer.echo("  what was reached is written", err=True)
+        raise typer.Exit(1)
+    raise error

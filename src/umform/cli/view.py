@@ -1,0 +1,148 @@
+"""``umform view``: the deformed sheet of a file of fields, in a window or as a picture."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from umform.cli.root import Debug, app
+
+#: Fields that are shown unless another is wanted: the first that is there.
+_FAVOURITES = ("plastic_strain_max", "thickness_change", "displacement")
+
+_BAR = {
+    "vertical": True,
+    "position_x": 0.86,
+    "position_y": 0.5,
+    "width": 0.05,
+    "height": 0.4,
+    "color": "#222222",
+    "title_font_size": 20,
+    "label_font_size": 18,
+    "fmt": "%.3g",
+}
+
+
+@app.command()
+def view(
+    file: Annotated[Path, typer.Argument(metavar="FILE.vtkhdf", help="Fields of a run.")],
+    field: Annotated[str | None, typer.Option(help="Field to colour by; of a vector, its length.")] = None,
+    frame: Annotated[int, typer.Option(help="Frame: 0 is the first, -1 the last.")] = -1,
+    png: Annotated[Path | None, typer.Option(metavar="OUT.png", help="Write a picture, open no window.")] = None,
+    debug: Debug = False,
+) -> None:
+    """Show the deformed sheet of a run, coloured by a field.
+
+    Needs PyVista: `pip install "umform[view]"`.
+    """
+    _check_names(file, png)
+    pv = _pyvista(off_screen=png is not None)
+    grid = _read(pv, file, frame)
+    name = _chosen(grid, field)
+    plotter = pv.Plotter(off_screen=png is not None, window_size=(1200, 800))
+    plotter.set_background("white")
+    plotter.add_mesh(
+        grid.warp_by_vector("displacement") if "displacement" in grid.point_data else grid,
+        scalars=name,
+        cmap="viridis",
+        show_edges=grid.n_cells < 20000,
+        edge_color="#606a74",
+        ambient=0.2,
+        scalar_bar_args=_BAR | {"title": name.replace("_", " ") + "\n"},
+    )
+    plotter.view_vector((-0.55, -1.0, 0.5), viewup=(0.0, 0.0, 1.0))
+    if png is None:
+        plotter.show(title=f"umform: {file.name}")
+        return
+    from umform.io.atomic import PendingFile
+
+    with PendingFile(png) as temporary:
+        plotter.screenshot(temporary)
+    plotter.close()
+    typer.echo(f"Written to {png}")
+
+
+def _check_names(file: Path, png: Path | None) -> None:
+    """Refuse what cannot be a file of fields or a picture, before anything slow is loaded."""
+    from umform.errors import FileProblem, InvalidValue
+
+    if png is not None and png.suffix != ".png":
+        raise InvalidValue("a picture of the shape is a PNG", where="--png", value=str(png), remedy="end it in .png")
+    if not file.is_file():
+        raise FileProblem(
+            "there is no such file", where=str(file), remedy="result.write('run.vtkhdf') and `umform run` write one"
+        )
+    import h5py
+
+    if not h5py.is_hdf5(file):
+        raise FileProblem("this is no file of fields", where=str(file), remedy="give a file that ends in .vtkhdf")
+    with h5py.File(file) as content:
+        if "VTKHDF" not in content:
+            raise FileProblem(
+                "this HDF5 file holds no VTKHDF", where=str(file), remedy="give a file that ends in .vtkhdf"
+            )
+
+
+def _pyvista(*, off_screen: bool) -> Any:
+    """PyVista, or why it cannot be used here."""
+    from umform.errors import UmformError
+
+    screen = sys.platform != "linux" or "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ
+    if not screen and not off_screen:
+        raise UmformError(
+            "there is no screen to open a window on",
+            where="umform view",
+            cause="neither DISPLAY nor WAYLAND_DISPLAY is set",
+            remedy="--png picture.png writes a picture",
+        )
+    try:
+        pv = importlib.import_module("pyvista")
+        log = importlib.import_module("vtkmodules.vtkCommonCore").vtkLogger
+    except ImportError as error:
+        raise UmformError(
+            "umform view needs PyVista",
+            where="umform view",
+            cause=str(error),
+            remedy='pip install "umform[view]"; the page of result.report() needs a browser only',
+        ) from error
+    if not screen:  # VTK looks for an X server first, and would complain before it does without
+        log.SetStderrVerbosity(log.VERBOSITY_ERROR)
+    return pv
+
+
+def _read(pv: Any, file: Path, frame: int) -> Any:
+    """The cells of a frame with their fields."""
+    from umform.errors import InvalidValue
+
+    reader = pv.get_reader(file)
+    reader.reader.UpdateInformation()
+    count = reader.reader.GetNumberOfSteps() or 1
+    if not -count <= frame < count:
+        raise InvalidValue(
+            "the file has no such frame", where="--frame", value=frame, remedy=f"0 to {count - 1}, or -1 for the last"
+        )
+    reader.reader.SetStep(frame % count)
+    return reader.read()
+
+
+def _chosen(grid: Any, field: str | None) -> str:
+    """The field to colour by: the one that is wanted, if it can be drawn."""
+    from umform.errors import InvalidValue
+
+    arrays = {**dict(grid.point_data), **dict(grid.cell_data)}
+    drawable: list[str] = [name for name, values in arrays.items() if values.ndim == 1 or values.shape[1] == 3]
+    if field is None:
+        return next(name for name in (*_FAVOURITES, *drawable) if name in drawable)
+    if field not in drawable:
+        raise InvalidValue(
+            "a tensor has no one value to colour by" if field in arrays else "the file has no such field",
+            where="--field",
+            value=field,
+            remedy="one of " + ", ".join(sorted(drawable)),
+        )
+    return field

@@ -1,0 +1,126 @@
+"""What meets in a contact: how thick the sheet is, how round the tool, and which line force to expect between them.
+
+Nothing here needs to be exact: a penalty may be wrong by a factor of two, and what it leaves is in the history.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform import _core
+from umform.errors import InvalidPenalty, UmformError
+from umform.materials import Material
+from umform.mesh import Ids, Mesh
+
+Floats = NDArray[np.float64]
+
+#: Shortest lever arm of the contact force in thicknesses: that of the narrowest die, whose radii shorten it as it bends.
+_ARM = 2.0
+#: Largest radius that a sheet is bent to, in thicknesses: a strain of one per cent at its faces.
+_FLATTEST = 50.0
+#: Largest strain that the stress of bending is asked for.
+_LARGEST_STRAIN = 0.25
+
+
+@dataclass(frozen=True)
+class Encounter:
+    """Sheet and tool where the tool is sharpest.
+
+    Attributes
+    ----------
+    thickness : float
+        That of the sheet, all layers together.
+    radius : float
+        Least radius of the tool, 0 for an edge; at most 50 thicknesses, for the sheet is round too.
+    length : float
+        Length of a facet in the direction that the tool is round in.
+    line_force : float
+        Force per width to expect. eq. (4.28)
+    stiffness : float
+        E / (1 - nu^2) of the sheet.
+    """
+
+    thickness: float
+    radius: float
+    length: float
+    line_force: float
+    stiffness: float
+
+    @classmethod
+    def of(cls, mesh: Mesh, facets: Ids, tool: _core.Surface, material: Material, where: str) -> Encounter:
+        """Measure mesh and tool where they stand, and ask the law."""
+        h = sheet_thickness(mesh)
+        radius, length = _sharpest(mesh.points[facets[:, :4]], tool, _FLATTEST * h)
+        strain = min(h / (2.0 * radius + h), _LARGEST_STRAIN)
+        stress, slope = (bending_stress(material, e, where) for e in (strain, 1e-7))
+        return cls(h, radius, length, stress * h / (4.0 * _ARM), slope / 1e-7)
+
+
+def sheet_thickness(mesh: Mesh) -> float:
+    """Thickness of the sheet: the median over its cells, times the layers that lie on each other."""
+    half = mesh.connectivity.shape[1] // 2
+    lower, upper = mesh.connectivity[:, :half], mesh.connectivity[:, half:]
+    cell = float(np.median(np.linalg.norm(mesh.points[upper] - mesh.points[lower], axis=-1)))
+    layers, above = 1, np.unique(upper)
+    while len(above := np.intersect1d(above, lower)):  # nodes with one more cell on top
+        layers += 1
+        above = np.unique(upper[np.isin(lower, above).all(axis=1)])
+    return layers * cell
+
+
+def bending_stress(material: Material, strain: float, where: str) -> float:
+    """Kirchhoff stress of a law in its virgin state at E11 = strain, E22 = 0 and S33 = 0: at the face of a wide bend.
+
+    Raises
+    ------
+    InvalidPenalty
+        If the law does not answer at such strains.
+    """
+    law = material.law()
+    E, state = np.array([[strain, 0.0, -0.5 * strain, 0.0, 0.0, 0.0]]), law.initial()[None]
+    try:
+        for _ in range(50):
+            S, CC, _ = law.respond(E, state)
+            change = -S[0, 2] / CC[0, 2, 2]
+            E[0, 2] += change
+            if abs(change) < 1e-6 * strain:
+                break
+        stress = float(law.respond(E, state)[0][0, 0] * (1.0 + 2.0 * strain))
+    except (UmformError, ValueError, ArithmeticError):
+        stress = math.nan
+    if not (math.isfinite(stress) and stress > 0.0):
+        raise InvalidPenalty(
+            "the law has no bending stress that a penalty could be estimated from",
+            where=where,
+            value=f"strain {strain:.3g}",
+            remedy="give penalty and points: penalty = expected contact pressure / penetration that you allow",
+        )
+    return stress
+
+
+def _sharpest(corners: Floats, tool: _core.Surface, flattest: float) -> tuple[float, float]:
+    """Least radius of the tool next to some facets (facets, 4, 3), and the length of the facets across it.
+
+    The largest eigenvalue of H at a distance g is 1 / (R + g), eq. (4.3); its direction is the one that is round.
+    """
+    grid = np.array([(r, s) for r in (-1.0, 0.0, 1.0) for s in (-1.0, 0.0, 1.0)])
+    N = 0.25 * np.stack([(1 + a * grid[:, 0]) * (1 + b * grid[:, 1]) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+    gap, _, H = tool.gap(np.ascontiguousarray(np.einsum("aq,eak->eqk", N, corners).reshape(-1, 3)))
+    defined = np.isfinite(gap) & np.isfinite(H).all(axis=(1, 2))  # not so on the axis of a tool
+    gap, H = np.where(defined, gap, 0.0), np.where(defined[:, None, None], H, 0.0)
+    values, directions = np.linalg.eigh(H)
+    reach = flattest + np.maximum(gap, 0.0)
+    round_ = values[:, 2] * reach > 1.0
+    radii = np.where(round_, np.maximum(1.0 / np.where(round_, values[:, 2], 1.0) - gap, 0.0), flattest)
+    radii = np.minimum(radii, flattest).reshape(len(corners), -1)
+    along = directions[:, :, 2].reshape(*radii.shape, 3)
+    edges = np.roll(corners, -1, axis=1) - corners
+    radius = float(radii.min())
+    if radius == flattest:  # flat all over: no direction is better than another
+        return radius, float(np.linalg.norm(edges, axis=-1).max())
+    facet, point = np.nonzero(radii <= 2.0 * radius)
+    return radius, float(np.abs(np.einsum("nak,nk->na", edges[facet], along[facet, point])).max())

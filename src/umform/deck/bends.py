@@ -1,0 +1,124 @@
+"""Whether mesh and element can follow the bends that the tools ask for.
+
+A sheet of thickness h on a radius R strains by h / (2 R + h) at its surfaces. Rules of thumb: an element should span
+some 10 degrees of the smallest radius, and the false moment of sharp-bend locking should stay below a few per cent of
+the plastic one (docs/theory, section 2.8).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from umform.contact import Contact
+from umform.deck.deck import Deck
+from umform.deck.findings import Finding, ok, warning
+from umform.deck.problem import Problem
+from umform.deck.tools import ToolPart, along, smallest_radius
+from umform.materials import J2
+from umform.mesh import Mesh
+from umform.model import Model
+
+#: Degrees of a tool radius that one element may span.
+_ARC = 12.0
+#: False moment over the plastic one that is borne.
+_LOCKING = 0.05
+#: Points through the thickness that plastic bending needs, and sharp bends (strain above 0.1).
+_POINTS, _SHARP_POINTS, _SHARP = 5, 7, 0.1
+
+
+def look(deck: Deck, problem: Problem) -> Iterator[Finding]:
+    """Element sizes on all tools, and the thickness on the sharpest one."""
+    h = thickness(problem.model.mesh)
+    sharpest: tuple[float, str] | None = None
+    for name, part in deck.contents.contacts.items():
+        tool = deck.contents.tools[part.tool]
+        radius = smallest_radius(tool)
+        if radius is None:
+            continue
+        yield element_size(problem.contacts[name], problem.model, tool, radius)
+        if radius > 0 and (sharpest is None or radius < sharpest[0]):
+            sharpest = (radius, part.tool)
+    if sharpest is not None and isinstance(problem.model.material, J2):
+        yield from through_thickness(problem.model, problem.model.material, h, *sharpest)
+
+
+def thickness(mesh: Mesh) -> float:
+    """Thickness of the sheet: that of a cell, times the layers."""
+    half = mesh.connectivity.shape[1] // 2
+    lower, upper = mesh.connectivity[:, :half], mesh.connectivity[:, half:]
+    cell = float(np.median(np.linalg.norm(mesh.points[upper] - mesh.points[lower], axis=-1)))
+    layers, above = 1, np.unique(upper)
+    while len(above := np.intersect1d(above, lower)):  # nodes with one more cell on top
+        layers += 1
+        above = np.unique(upper[np.isin(lower, above).all(axis=1)])
+    return layers * cell
+
+
+def element_size(contact: Contact, model: Model, tool: ToolPart, radius: float) -> Finding:
+    """Angle of the smallest radius of a tool that an element spans where the tool is nearest."""
+    about = f"contact {contact.name}"
+    size = _size_near(contact, model, along(tool))
+    if radius == 0.0:
+        remedy = "round it: the finer the mesh, the deeper an edge cuts into the sheet"
+        return warning(about, "the tool has a sharp edge", remedy)
+    degrees = math.degrees(size / radius)
+    text = f"an element is {size:.3g} long and spans {degrees:.3g} degrees of the radius {radius:.4g}"
+    if degrees <= _ARC:
+        return ok(about, text)
+    remedy = f"elements of {math.radians(10) * radius:.2g} or less where this radius bends the sheet"
+    return warning(about, text, remedy)
+
+
+def _size_near(contact: Contact, model: Model, axis: np.ndarray[tuple[int, ...], np.dtype[np.float64]] | None) -> float:
+    """Size of the facets nearest to the tool: across it if it has one section, else their shorter side."""
+    corners = model.mesh.points[contact.facets[:, :4]]
+    gaps = contact.gap(corners.mean(axis=1))
+    near = corners[gaps <= np.nanmin(gaps) + 1e-9 * float(np.ptp(model.mesh.points, axis=0).max())]
+    sides = np.roll(near, -1, axis=1) - near
+    lengths = np.linalg.norm(sides, axis=-1)
+    if axis is None:
+        return float(lengths.min(axis=1).min())
+    lateral = np.linalg.norm(sides - (sides @ axis)[..., None] * axis, axis=-1)
+    return float(lateral.max(axis=1).min())
+
+
+def through_thickness(model: Model, material: J2, h: float, radius: float, tool: str) -> Iterator[Finding]:
+    """Thickness points and thickness order against the strain that the smallest radius asks for."""
+    strain = h / (2.0 * radius + h)
+    order = max(model.element.thickness_order, 1)
+    locking = locking_moment(order, strain, material.kappa / first_yield(material))
+    text = f"the radius {radius:.4g} of {tool} strains a sheet of {h:.4g} by {100 * strain:.3g} %"
+    if locking > _LOCKING:
+        remedy = "name = 'BEND8' or 'BEND18', or thickness_order = 3 and tie_E33 = true"
+        yield warning("element", f"{text}: at thickness order {order} it locks", remedy)
+    else:
+        yield ok("element", f"{text}: thickness order {order} can follow")
+    least = _SHARP_POINTS if strain > _SHARP else _POINTS
+    points = model.thickness_points
+    if points < least and strain > first_yield(material) / material.E:
+        yield warning("element", f"{points} thickness points for a strain of {100 * strain:.3g} %", f"take {least}")
+
+
+def first_yield(material: J2) -> float:
+    """Yield stress of the virgin material."""
+    return material.hardening.curve()(0.0)[0]
+
+
+def locking_moment(order: int, strain: float, stiffness: float) -> float:
+    """False moment of sharp-bend locking over the plastic moment, see docs/theory, section 2.8.
+
+    Parameters
+    ----------
+    order : int
+        Order of the thickness strain.
+    strain : float
+        x_s, the strain at the surface.
+    stiffness : float
+        Bulk modulus over yield stress.
+    """
+    m = order + 1
+    beta = (m + 1) / 2 * 2.0**m * math.factorial(m) ** 2 / math.factorial(2 * m)
+    return math.sqrt(3.0) * m * beta**2 / (2 * m + 1) * stiffness * strain ** (2 * m - 1)

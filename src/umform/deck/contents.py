@@ -1,0 +1,43 @@
+"""What stands in a deck: all its tables."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from umform.deck.contacts import ContactPart
+from umform.deck.controls import ControlPart, Support
+from umform.deck.element import ElementPart
+from umform.deck.material import MaterialPart
+from umform.deck.mesh import MeshPart
+from umform.deck.parts import Name, Part
+from umform.deck.steps import Output, Solution, StepPart
+from umform.deck.tools import ToolPart
+
+
+class Contents(Part):
+    """A problem of umform: mesh, material, element, tools, contacts, supports, controls, steps."""
+
+    title: str = ""
+    """What it is about."""
+    mesh: MeshPart
+    """Points and cells."""
+    material: MaterialPart
+    """Material law."""
+    element: ElementPart = ElementPart()
+    """Element and points through the thickness."""
+    tools: dict[Name, ToolPart] = {}
+    """Rigid tools by name."""
+    contacts: dict[Name, ContactPart] = {}
+    """Contacts by name; their names begin columns of the history."""
+    supports: list[Support] = []
+    """What is held."""
+    controls: dict[Name, ControlPart] = {}
+    """What steps move, by name: displacements, loads, tools; their names are columns of the history."""
+    steps: Annotated[list[StepPart], Field(min_length=1)]
+    """What happens, in a row."""
+    solution: Solution = Solution()
+    """Sparse solver and Newton's method."""
+    output: Output = Output()
+    """What is written."""

@@ -1,0 +1,44 @@
+"""The element of a deck: a name of the catalogue and its options."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from umform.deck.parts import Part
+from umform.elements import CATALOGUE
+from umform.elements import element as catalogue_element
+from umform.technology import Element
+
+
+class ElementPart(Part):
+    """Element, its options, and the points through the thickness."""
+
+    name: Annotated[str, Field(json_schema_extra={"enum": list(CATALOGUE)})] = "ANS3DEAS"
+    """Name in the catalogue; `umform elements` lists it."""
+    thickness_modes: Literal[1, 4, 9] | None = None
+    """Enhanced modes of the thickness strain."""
+    thickness_order: Literal[1, 2, 3, 4] | None = None
+    """Order of the thickness strain; 3 or 4 for sharp bends."""
+    order_modes: Literal[1, 4, 9] | None = None
+    """Modes in the surface that go with each order above 1."""
+    membrane_modes: Literal[4, 5, 7] | None = None
+    """Enhanced in-plane modes of EAS3DEAS."""
+    tie_E33: bool | None = None
+    """Tie the thickness strain."""
+    compatible_E12: bool | None = None
+    """Leave the tying of E_12 out of MI9K3DEAS or BEND18."""
+    thickness_points: Annotated[int, Field(ge=2, le=15)] | None = None
+    """Points through the thickness; by default what suits the material."""
+    thickness_rule: Literal["gauss", "lobatto", "split"] = "gauss"
+    """Where they lie."""
+
+    def options(self) -> dict[str, Any]:
+        """Options that were given, as the catalogue and the model take them."""
+        through = {"name", "thickness_points", "thickness_rule"}
+        return self.model_dump(exclude=through, exclude_none=True)
+
+    def build(self) -> Element:
+        """The element."""
+        return catalogue_element(self.name, **self.options())

@@ -1,0 +1,136 @@
+"""The mesh of a deck: a strip, a grid, or a file."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Discriminator, Field, Strict, Tag, model_validator
+from pydantic_core import PydanticCustomError
+
+from umform import mesh
+from umform.deck.parts import Pair, Part, Positive
+from umform.mesh import Floats, Mesh
+
+Divisions = Annotated[int, Field(ge=1, le=100_000)]
+Lines = Annotated[list[float], Field(min_length=2, max_length=100_001)]
+
+#: More cells than this are refused: a slip of the pen should not fill the memory.
+_MOST_CELLS = 1_000_000
+
+
+class Strip(Part):
+    """Strip or plate: x from 0 to length, y from 0 to width, mid-surface at z = 0; with the sets of a grid."""
+
+    generator: Literal["strip", "plate"]
+    """A plate is a wide strip."""
+    length: Positive
+    """Along x."""
+    width: Positive
+    """Along y."""
+    thickness: Positive
+    """Along z."""
+    cells: Annotated[tuple[Divisions, Divisions], Strict(False)]
+    """Elements along x and y."""
+    layers: Annotated[int, Field(ge=1, le=100)] = 1
+    """Elements through the thickness."""
+    grading: Pair = (1.0, 1.0)
+    """Size of the last element over that of the first one, along x and y."""
+    rolled: Positive | None = None
+    """Radius of the mid-surface of a strip that is rolled up about an axis along y, at z = -rolled; x is the arc."""
+
+    @model_validator(mode="after")
+    def _is_possible(self) -> Strip:
+        _refuse_too_many(self.cells[0] * self.cells[1] * self.layers)
+        if min(self.grading) <= 0:
+            raise PydanticCustomError("grading", "the ratios of a grading must be positive")
+        if self.rolled is not None and self.rolled <= 0.5 * self.thickness:
+            raise PydanticCustomError("rolled", "the radius of a rolled strip must be more than half of its thickness")
+        if self.rolled is not None and self.length >= 2 * np.pi * self.rolled:
+            raise PydanticCustomError("rolled", "a rolled strip must be shorter than the full circle")
+        return self
+
+    def build(self, cell: str, folder: Path) -> Mesh:
+        """Mesh of cells of a type."""
+        del folder
+        flat = mesh.strip(
+            self.length, self.width, self.thickness, self.cells, cell=cell, layers=self.layers, grading=self.grading
+        )
+        return flat if self.rolled is None else flat.transformed(_roll(self.rolled))
+
+
+def _roll(radius: float) -> Any:
+    def rolled(X: Floats) -> Floats:
+        angle, r = X[:, 0] / radius, radius + X[:, 2]
+        return np.column_stack([r * np.sin(angle), X[:, 1], r * np.cos(angle) - radius])
+
+    return rolled
+
+
+class Grid(Part):
+    """Grid of lines; with the sets x0, x1, y0, y1, lower, upper, and x0_lower, x0_upper, ... for their edges."""
+
+    generator: Literal["grid"]
+    """The word grid."""
+    x: Lines
+    """Borders of the elements, increasing."""
+    y: Lines
+    """Borders of the elements, increasing."""
+    z: Lines
+    """Borders of the layers, increasing."""
+
+    @model_validator(mode="after")
+    def _is_possible(self) -> Grid:
+        for name in ("x", "y", "z"):
+            lines = getattr(self, name)
+            if any(b <= a for a, b in pairwise(lines)):
+                raise PydanticCustomError(
+                    "lines", "the lines of a grid must increase, those of {axis} do not", {"axis": name}
+                )
+        _refuse_too_many((len(self.x) - 1) * (len(self.y) - 1) * (len(self.z) - 1))
+        return self
+
+    def build(self, cell: str, folder: Path) -> Mesh:
+        """Mesh of cells of a type."""
+        del folder
+        return mesh.grid(self.x, self.y, self.z, cell)
+
+
+class File(Part):
+    """A file that umform.mesh.read reads; its groups of nodes are sets, and so are its faces lower and upper."""
+
+    file: Annotated[str, Field(min_length=1)]
+    """Path, from the folder of the deck."""
+
+    def build(self, cell: str, folder: Path) -> Mesh:
+        """The mesh; whether it fits the element is up to the model."""
+        del cell
+        return mesh.read(folder / self.file)
+
+
+def _refuse_too_many(cells: int) -> None:
+    if cells > _MOST_CELLS:
+        raise PydanticCustomError("cells", "{cells} cells are more than {most}", {"cells": cells, "most": _MOST_CELLS})
+
+
+def _kind(value: Any) -> str | None:
+    if isinstance(value, dict):
+        word = "file" if "file" in value else value.get("generator")
+        return word if isinstance(word, str) else None
+    return "file" if isinstance(value, File) else getattr(value, "generator", None)
+
+
+MeshPart = Annotated[
+    Annotated[Strip, Tag("strip")]
+    | Annotated[Strip, Tag("plate")]
+    | Annotated[Grid, Tag("grid")]
+    | Annotated[File, Tag("file")],
+    Discriminator(
+        _kind,
+        custom_error_type="mesh",
+        custom_error_message="a mesh has generator = strip, plate or grid, or file = a path",
+        custom_error_context={"key": "generator", "expected_tags": "'strip', 'plate', 'grid'"},
+    ),
+]

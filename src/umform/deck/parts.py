@@ -1,0 +1,64 @@
+"""What all parts of a deck have in common: strict types, no unknown keys, and numbers, vectors and directions."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Strict, Tag
+
+
+class Part(BaseModel):
+    """A table of a deck. Numbers are finite, words are not taken for numbers, and unknown keys are errors."""
+
+    model_config = ConfigDict(
+        extra="forbid", strict=True, allow_inf_nan=False, frozen=True, use_attribute_docstrings=True
+    )
+
+
+Positive = Annotated[float, Field(gt=0)]
+NotNegative = Annotated[float, Field(ge=0)]
+Count = Annotated[int, Field(ge=1)]
+#: Names become columns of tables and labels of figures.
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=60)]
+Directions = Annotated[str, Field(pattern=r"^[xyz]{1,3}$")]
+Axis = Literal["x", "y", "z"]
+
+# TOML has arrays where Python has tuples; what is in them stays strict.
+Pair = Annotated[tuple[float, float], Strict(False)]
+Vector = Annotated[tuple[float, float, float], Strict(False)]
+
+
+def word_or_array(value: Any) -> str | None:
+    """Which of two ways to write a value was taken, lest the errors of both be told."""
+    return "word" if isinstance(value, str) else "array" if isinstance(value, list | tuple) else None
+
+
+def number_or_array(value: Any) -> str | None:
+    """Which of two ways to write a value was taken."""
+    return "array" if isinstance(value, list | tuple) else "number"
+
+
+#: "x", "-z", ..., or three numbers.
+Way = Annotated[
+    Annotated[Literal["x", "y", "z", "-x", "-y", "-z"], Tag("word")] | Annotated[Vector, Tag("array")],
+    Discriminator(
+        word_or_array,
+        custom_error_type="direction",
+        custom_error_message="Input should be x, y, z, -x, -y, -z or three numbers",
+    ),
+]
+
+__all__ = [
+    "Axis",
+    "Count",
+    "Directions",
+    "Name",
+    "NotNegative",
+    "Pair",
+    "Part",
+    "Positive",
+    "Vector",
+    "Way",
+    "number_or_array",
+    "word_or_array",
+]

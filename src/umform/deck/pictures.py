@@ -1,0 +1,47 @@
+"""The two pictures of a run: force over displacement, and the last shape."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from umform.boundary import Control, Load, Pressure
+from umform.deck.problem import Problem
+from umform.plotting import house_style, plot_shape, save
+from umform.results import Result
+from umform.steps import Release
+
+
+def draw_curve(problem: Problem, result: Result, path: Path) -> None:
+    """Force over displacement of the control that the first step moves; of a load, over what it moves most."""
+    control = main_control(problem)
+    if isinstance(control, Load | Pressure):
+        _draw_load(control, result, path)
+    else:
+        result.plot(control.name, f"{control.name}_force", path)
+
+
+def draw_shape(result: Result, path: Path) -> None:
+    """The sheet in its last state."""
+    plot_shape(result, path=path)
+
+
+def main_control(problem: Problem) -> Control:
+    """The control that the first step moves."""
+    step = problem.steps[0]
+    return step.control if isinstance(step, Release) else step.moved()[0]
+
+
+def _draw_load(control: Control, result: Result, path: Path) -> None:
+    """A load over the displacement of the node that has moved most in the end, frame by frame."""
+    displacements = np.array([frame.points["displacement"] for frame in result.frames])
+    farthest = int(np.argmax(np.linalg.norm(displacements[-1], axis=1)))
+    values = result[control.name][[frame.number for frame in result.frames]]
+    with house_style():
+        figure = Figure(figsize=(5.6, 3.6), layout="constrained")
+        axes = figure.add_subplot()
+        axes.plot(np.linalg.norm(displacements[:, farthest], axis=1), values, marker=".", markersize=3)
+        axes.set(xlabel=f"displacement of node {farthest}", ylabel=control.name)
+    save(figure, path)

@@ -1,0 +1,258 @@
+"""From a deck to a problem that can be solved: the model, its controls and contacts, the steps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from umform.boundary import Control
+from umform.contact import Contact
+from umform.deck.contents import Contents
+from umform.deck.lines import Path
+from umform.deck.material import J2
+from umform.deck.source import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey, Source
+from umform.deck.tools import Profiled
+from umform.errors import UmformError
+from umform.materials import Material
+from umform.model import Model
+from umform.newton import Newton, NewtonOptions
+from umform.results import Result
+from umform.steps import Step, solve
+from umform.surfaces import Tool
+from umform.technology import Element
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A model and what happens to it.
+
+    Attributes
+    ----------
+    model : Model
+        The model.
+    contacts : dict of str to Contact
+        Its contacts by name.
+    controls : dict of str to Control
+        Its controls by name.
+    steps : list of Step
+        What happens, in a row.
+    options : NewtonOptions
+        How hard to iterate.
+    solver : str
+        Sparse solver.
+    frames : int
+        States that each step keeps.
+    """
+
+    model: Model
+    contacts: dict[str, Contact]
+    controls: dict[str, Control]
+    steps: list[Step]
+    options: NewtonOptions
+    solver: str
+    frames: int
+
+    def solve(self, *, solver: str | None = None, progress: bool | None = None) -> Result:
+        """Solve the problem, see :func:`umform.solve`."""
+        return solve(
+            self.model,
+            self.steps,
+            solver=solver or self.solver,
+            options=self.options,
+            frames=self.frames,
+            progress=progress,
+        )
+
+
+def build(contents: Contents, source: Source) -> Problem:
+    """Build the problem of a deck.
+
+    Parameters
+    ----------
+    contents : Contents
+        What stands in it.
+    source : Source
+        Where it stands.
+
+    Raises
+    ------
+    DeckError
+        With all that does not fit.
+    """
+    with np.errstate(all="ignore"):
+        return _Builder(contents, source).problem()
+
+
+@dataclass
+class _Builder:
+    """Builds part after part, and goes on after one that fails as far as others do not need it."""
+
+    contents: Contents
+    source: Source
+    errors: list[UmformError] = field(default_factory=list)
+
+    def problem(self) -> Problem:
+        tools = self._tools()
+        model = self._model()
+        if model is None:
+            raise DeckError(self.errors)
+        contacts = self._contacts(model, tools)
+        self._supports(model)
+        controls = self._controls(model, contacts)
+        options = self._options(model)
+        self._raise()
+        steps = self._steps(controls)
+        self._raise()
+        solution, output = self.contents.solution, self.contents.output
+        return Problem(model, contacts, controls, steps, options, solution.solver, output.frames)
+
+    def _tools(self) -> dict[str, Tool]:
+        tools: dict[str, Tool] = {}
+        for name, part in self.contents.tools.items():
+            before = len(self.errors)
+            if isinstance(part, Profiled):
+                with self._at("tools", name, "profile"):
+                    part.profile.build()
+            if len(self.errors) > before:
+                continue
+            with self._at("tools", name):
+                tool = part.build()
+                tool.kernel()
+                tools[name] = tool
+        return tools
+
+    def _model(self) -> Model | None:
+        part = self.contents.element
+        element, mesh, material = self._element(), None, self._material()
+        with self._at("mesh"):
+            mesh = self.contents.mesh.build(element.cell if element else "hex8", self.source.folder)
+        if element is None or mesh is None or material is None:
+            return None
+        with self._at("element"):
+            return Model(
+                mesh,
+                element,
+                material=material,
+                thickness_points=part.thickness_points,
+                thickness_rule=part.thickness_rule,
+            )
+        return None
+
+    def _element(self) -> Element | None:
+        with self._at("element"):
+            return self.contents.element.build()
+        return None
+
+    def _material(self) -> Material | None:
+        part, before = self.contents.material, len(self.errors)
+        if isinstance(part, J2):
+            with self._at("material", "hardening"):
+                part.hardening.build()
+        if len(self.errors) > before:
+            return None
+        with self._at("material"):
+            return part.build()
+        return None
+
+    def _contacts(self, model: Model, tools: dict[str, Tool]) -> dict[str, Contact]:
+        contacts = {}
+        for name, part in self.contents.contacts.items():
+            if part.tool not in tools:
+                continue  # it has failed, and said why
+            with self._at("contacts", name):
+                contacts[name] = part.add_to(model, tools[part.tool], name)
+        return contacts
+
+    def _supports(self, model: Model) -> None:
+        for number, part in enumerate(self.contents.supports):
+            with self._at("supports", number):
+                part.add_to(model)
+
+    def _controls(self, model: Model, contacts: dict[str, Contact]) -> dict[str, Control]:
+        controls: dict[str, Control] = {}
+        for name, part in self.contents.controls.items():
+            if getattr(part, "contact", None) not in (None, *contacts):
+                continue  # the same
+            with self._at("controls", name):
+                controls[name] = part.add_to(model, name, contacts)
+        return controls
+
+    def _options(self, model: Model) -> NewtonOptions:
+        options = NewtonOptions()
+        with self._at("solution"):
+            options = self.contents.solution.build()
+        if not self.errors:
+            with self._at("supports"):
+                _ = model.pattern
+        if not self.errors:
+            with self._at("solution", "solver"):
+                _ = Newton(model, options, self.contents.solution.solver).solver
+        return options
+
+    def _steps(self, controls: dict[str, Control]) -> list[Step]:
+        steps: list[Step] = []
+        for number, part in enumerate(self.contents.steps):
+            with self._at("steps", number):
+                steps.append(part.build(controls))
+        return steps
+
+    def _at(self, *path: str | int) -> _Place:
+        """Where what is built inside of the block stands in the deck."""
+        return _Place(path, self)
+
+    def _raise(self) -> None:
+        if self.errors:
+            raise DeckError(self.errors)
+
+
+@dataclass(frozen=True)
+class _Place:
+    """A block that may fail: its error is kept, with its place in the deck."""
+
+    path: Path
+    builder: _Builder
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
+        if isinstance(error, UmformError):
+            self._place(error)
+            self.builder.errors.append(error)
+        elif isinstance(error, ArithmeticError | ValueError | MemoryError):
+            unusable = DeckKey(
+                "nothing can be built from this",
+                where=self.builder.source.place(self.path),
+                cause=str(error) or type(error).__name__,
+                remedy="look at the size of its numbers",
+            )
+            self.builder.errors.append(unusable)
+        else:
+            return False
+        return True
+
+    def _place(self, error: UmformError) -> None:
+        """Say where in the deck; if the error names a key of the table, or its value, where that key is."""
+        source, path = self.builder.source, self.path
+        error.cause, error.remedy = error.cause or ANY_CAUSE, error.remedy or ANY_REMEDY
+        table = _value(source.data, path)
+        keys = table if isinstance(table, dict) else {}
+        last = error.where.rpartition(".")[2]
+        plain = isinstance(error.value, str | int | float)  # arrays are not compared
+        named = [last] if last in keys else [key for key, given in keys.items() if plain and given == error.value]
+        if named and isinstance(keys[named[0]], str | int | float):
+            error.where = source.place((*path, named[0]))
+        else:
+            inner = f" ({error.where})" if error.where and error.where != path[-1] else ""
+            error.where = source.place(path) + inner
+
+
+def _value(data: Any, path: Path) -> Any:
+    for part in path:
+        try:
+            data = data[part]
+        except (KeyError, IndexError, TypeError):
+            return None
+    return data

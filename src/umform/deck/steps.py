@@ -1,0 +1,147 @@
+"""The steps of a deck, how they are solved, and what is written."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from umform import steps
+from umform.boundary import Control
+from umform.deck.parts import Count, Name, Part, Positive
+from umform.newton import NewtonOptions
+
+Controls = Mapping[str, Control]
+Targets = Annotated[dict[Name, float], Field(min_length=1)]
+Cuts = Annotated[int, Field(ge=0, le=40)]
+Grow = Annotated[float, Field(ge=1)]
+#: Increments of a release until its force is zero, roughly: it grows from a thousandth to a twentieth of the way.
+_OF_A_RELEASE = 30
+
+
+class Move(Part):
+    """Move one or more controls along straight lines."""
+
+    kind: Literal["move"]
+    """The word move."""
+    to: Targets
+    """End value of each control."""
+    increments: Annotated[int, Field(ge=1, le=1_000_000)] = 10
+    """Number of equal increments."""
+    cuts: Cuts = 10
+    """How often an increment may be halved."""
+    grow: Grow = 1.0
+    """Largest increment over the nominal one."""
+
+    def build(self, controls: Controls) -> steps.Step:
+        """The step."""
+        moved = [controls[name] for name in self.to]
+        return steps.Move(moved, list(self.to.values()), steps=self.increments, cuts=self.cuts, grow=self.grow)
+
+    @property
+    def expected(self) -> int:
+        """About how many increments it takes."""
+        return self.increments
+
+
+class Release(Part):
+    """Take a control back until its force is zero or contact has lifted off."""
+
+    kind: Literal["release"]
+    """The word release."""
+    control: Name
+    """Which control."""
+    increment: Positive | None = None
+    """First increment; by default 1/1000 of the present value."""
+    tolerance: Positive = 1e-6
+    """Force that counts as zero, relative to that at the beginning."""
+
+    def build(self, controls: Controls) -> steps.Step:
+        """The step."""
+        return steps.Release(controls[self.control], self.increment, self.tolerance)
+
+    @property
+    def expected(self) -> int:
+        """About how many increments it takes."""
+        return _OF_A_RELEASE
+
+
+class Arc(Part):
+    """Follow the path of equilibria through limit points while controls go along straight lines."""
+
+    kind: Literal["arc"]
+    """The word arc."""
+    to: Targets
+    """End value of each control."""
+    increment: Annotated[float, Field(gt=0, le=1)] = 0.05
+    """First increment of the load parameter, which goes from 0 to 1."""
+    length: Literal["cylindrical", "spherical"] = "cylindrical"
+    """Length of an increment: of displacements, or of displacements and load parameter."""
+    iterations: Count = 6
+    """Iterations that the arc length is adapted to."""
+    grow: Grow = 4.0
+    """Largest arc length over the first."""
+    cuts: Cuts = 10
+    """How often the first arc length may be halved."""
+    most: Annotated[int, Field(ge=1, le=1_000_000)] = 200
+    """Number of increments at which the step ends with a warning."""
+
+    def build(self, controls: Controls) -> steps.Step:
+        """The step."""
+        return steps.Arc(
+            [controls[name] for name in self.to],
+            list(self.to.values()),
+            increment=self.increment,
+            kind=self.length,
+            iterations=self.iterations,
+            grow=self.grow,
+            cuts=self.cuts,
+            most=self.most,
+        )
+
+    @property
+    def expected(self) -> int:
+        """At most so many increments."""
+        return self.most
+
+
+StepPart = Annotated[Move | Release | Arc, Field(discriminator="kind")]
+
+
+class Solution(Part):
+    """Sparse solver and Newton's method."""
+
+    solver: Annotated[str, Field(min_length=1)] = "auto"
+    """auto, banded, pardiso or superlu."""
+    residual: Positive = 1e-9
+    """Tolerance of the residual, relative to the element forces."""
+    increment: Positive = 1e-6
+    """Tolerance of the increment, relative to the largest displacement."""
+    max_iterations: Annotated[int, Field(ge=1, le=1000)] = 25
+    """Iterations before an increment is cut."""
+    line_search: bool = False
+    """Shorten increments that do not bring the residual down."""
+    extrapolate: bool = True
+    """Start an increment from the extrapolated last one."""
+
+    def build(self) -> NewtonOptions:
+        """Options of Newton's method."""
+        return NewtonOptions(**self.model_dump(exclude={"solver"}))
+
+
+class Output(Part):
+    """What is written, and where."""
+
+    folder: Annotated[str, Field(min_length=1)] | None = None
+    """Folder, from where the command is run; by default results/ and the name of the deck."""
+    frames: Annotated[int, Field(ge=1, le=100_000)] = 60
+    """About how many states each step keeps for pictures and fields."""
+    csv: bool = True
+    """History as history.csv."""
+    vtkhdf: bool = True
+    """Fields as fields.vtkhdf."""
+    report: bool = True
+    """A page, report.html."""
+    pictures: bool = True
+    """Force over displacement as curve.png, the last shape as shape.png."""

@@ -1,0 +1,100 @@
+"""Histories of runs, read back from their CSV files."""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import FileProblem
+
+Floats = NDArray[np.float64]
+#: Columns by name.
+History = dict[str, Floats]
+
+#: Name of the history in the folder of a run.
+HISTORY = "history.csv"
+
+
+def read_history(path: str | os.PathLike[str]) -> History:
+    """Read the history of a run.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        A CSV file with one header row, or a folder that holds ``history.csv``.
+
+    Returns
+    -------
+    dict of str to ndarray
+        The columns, as :meth:`umform.Result.table` has them.
+
+    Raises
+    ------
+    FileProblem
+        The file is missing, or is no table of numbers.
+    """
+    file = _file(Path(path))
+    try:
+        with file.open(newline="", encoding="utf-8") as text:
+            header, *rows = list(csv.reader(text)) or [[]]
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileProblem("the history cannot be read", where=str(file), cause=str(error)) from error
+    if not rows:
+        raise FileProblem("this history has no rows", where=str(file), remedy="give the history.csv of a run")
+    for number, row in enumerate(rows, start=2):
+        if len(row) != len(header):
+            raise FileProblem(
+                f"a row has {len(row)} cells and not {len(header)}", where=f"{file}, line {number}", cause="a cut file"
+            )
+    try:
+        values = np.array(rows, dtype=float)
+    except ValueError as error:
+        raise FileProblem(
+            "a history is a table of numbers", where=str(file), cause=str(error), remedy="give the history.csv of a run"
+        ) from error
+    return dict(zip(header, values.T, strict=True))
+
+
+def read_histories(paths: Sequence[str | os.PathLike[str]]) -> dict[str, History]:
+    """Read histories of several runs, named as briefly as they can be told apart.
+
+    Parameters
+    ----------
+    paths : sequence of str or os.PathLike
+        Files or folders.
+
+    Returns
+    -------
+    dict of str to dict
+        The history of each run.
+    """
+    names = [_name(Path(path)) for path in paths]
+    clear = len(set(names)) == len(names)
+    return {
+        name if clear else str(path): read_history(path) for name, path in zip(names, map(Path, paths), strict=True)
+    }
+
+
+def _file(path: Path) -> Path:
+    file = path / HISTORY if path.is_dir() else path
+    if not file.is_file():
+        raise FileProblem(
+            "there is no history here",
+            where=str(path),
+            cause=f"the folder holds no {HISTORY}" if path.is_dir() else "there is no such file",
+            remedy="give a CSV file that result.write() made, or the folder of a run",
+        )
+    return file
+
+
+def _name(path: Path) -> str:
+    """The folder of a history.csv, the name of another file."""
+    path = path.resolve()
+    if path.is_dir():
+        return path.name
+    return path.parent.name if path.name == HISTORY else path.stem

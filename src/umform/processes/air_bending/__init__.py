@@ -1,0 +1,12 @@
+"""Air bending: a sheet in a V-die, bent by a punch and unloaded.
+
+`air_bending` runs one bend of given stroke, `find_stroke` looks for the stroke of a wanted angle, `bending_table` gives
+the angles of a row of strokes; `AirBending` are the parameters.
+"""
+
+from umform.processes.air_bending.case import AirBend, air_bending
+from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.search import Found, bending_table, find_stroke
+
+__all__ = ["AirBend", "AirBending", "Found", "Measures", "air_bending", "bending_table", "find_stroke"]

@@ -1,0 +1,108 @@
+"""Error budget: how far each measure moves when mesh, points or increments are refined, one at a time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields, replace
+
+from umform.pool import run_all
+from umform.processes.air_bending.brake import Brake
+from umform.processes.air_bending.checks import needed_stroke
+from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.parameters import AirBending
+from umform.progress import progress_bar
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Sensitivities of the measures.
+
+    Attributes
+    ----------
+    base : Measures
+        The measures of the case as it stands.
+    changes : dict of str to dict of str to float
+        For each refinement, the change of each measure. NaN where the refined run has failed.
+    failures : dict of str to str
+        Why a refined run has failed.
+    """
+
+    base: Measures
+    changes: dict[str, dict[str, float]]
+    failures: dict[str, str]
+
+    def total(self, name: str) -> float:
+        """Root of the sum of squares of the changes of a measure: its uncertainty from the discretisation."""
+        return math.sqrt(sum(change[name] ** 2 for change in self.changes.values()))
+
+
+def refinements(case: AirBending) -> dict[str, AirBending]:
+    """The case refined in one way at a time; t-pts are those through the thickness, c-pts of contact."""
+    points = case.contact_points
+    return {
+        "mesh/2": replace(case, elements_per_thickness=2.0 * case.elements_per_thickness),
+        "layers+1": replace(case, layers=case.layers + 1),
+        "t-pts+2": replace(case, thickness_points=min(15, case.thickness_points + 2)),
+        "c-pts+2": replace(case, contact_points=10 if isinstance(points, str) else min(10, points + 2)),
+        "penalty*2": _harder(case),
+        "step/2": replace(case, increment=0.5 * case.increment),
+    }
+
+
+def _harder(case: AirBending) -> AirBending:
+    """The case with half of the penetration."""
+    penalty = case.contact_penalty
+    if penalty is not None:
+        return replace(case, penalty=2.0 * penalty)
+    return replace(case, penetration=0.5 * (case.penetration or 0.0))
+
+
+def error_budget(
+    case: AirBending, base: Measures, *, processes: int | None = None, progress: bool | None = None
+) -> Budget:
+    """Run the case again with each refinement, at the same stroke.
+
+    The runs go in parallel processes, which are spawned: a script that calls this needs
+    ``if __name__ == "__main__":``.
+
+    Parameters
+    ----------
+    case : AirBending
+        The parameters.
+    base : Measures
+        Its measures.
+    processes : int, optional
+        Number of processes; default: that of the processors.
+    progress : bool, optional
+        Show a progress bar; default: only on a terminal.
+    """
+    cases = refinements(case)
+    with progress_bar(progress) as tick:
+        answers = run_all(
+            _run,
+            list(cases.values()),
+            [_cost(refined) for refined in cases.values()],
+            on_failure=lambda task, error: str(error),
+            processes=processes,
+            tick=lambda done: tick("budget", done),
+        )
+    names = [field.name for field in fields(Measures)]
+    changes = {
+        name: {
+            key: getattr(answer, key) - getattr(base, key) if isinstance(answer, Measures) else math.nan
+            for key in names
+        }
+        for name, answer in zip(cases, answers, strict=True)
+    }
+    return Budget(base, changes, {n: a for n, a in zip(cases, answers, strict=True) if isinstance(a, str)})
+
+
+def _run(case: AirBending) -> Measures | str:
+    brake = Brake(case)
+    brake.load(needed_stroke(case))
+    return brake.unload()
+
+
+def _cost(case: AirBending) -> float:
+    """About how long a case takes, in any unit."""
+    return case.elements_per_thickness * case.layers * case.thickness_points / case.increment

@@ -1,0 +1,92 @@
+"""The files of a bend: tables, pictures, fields, report; all of them get their names together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from umform.io.tables import write_csv, write_json
+from umform.processes.air_bending.budget import Budget
+from umform.processes.air_bending.case import AirBend
+from umform.processes.air_bending.formulas import shop_forces, tensile_strength
+from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.words import columns
+from umform.processes.bending.staging import staging
+from umform.report.versions import versions
+
+_DATA = ("curve.csv", "table.csv", "bend.json", "bend.vtkhdf")
+_PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "drawing.png", "drawing.svg", "report.html")
+
+
+def write_files(
+    out: str | Path, bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None = None
+) -> list[Path]:
+    """Write all that is known of a bend.
+
+    Parameters
+    ----------
+    out : str or Path
+        Folder for curve.csv, bend.json, bend.vtkhdf, curve, shape and drawing as .png and .svg, report.html, and
+        table.csv if there is a table; made if it is missing.
+    bend : AirBend
+        The bend.
+    table : sequence of Measures
+        Bending table.
+    budget : Budget, optional
+        Error budget.
+
+    Returns
+    -------
+    list of Path
+        The files.
+    """
+    from umform.plotting import save
+    from umform.processes.air_bending.drawing import drawing
+    from umform.processes.air_bending.page import write_page
+    from umform.processes.air_bending.pictures import curves, shapes
+
+    with staging(out, [*_DATA, *_PAGE]) as stage:
+        here = stage.waiting
+        write_csv(here / "curve.csv", {"step": bend.step, "stroke": bend.stroke, "force": bend.force})
+        if table:
+            write_csv(here / "table.csv", columns(table))
+        write_json(here / "bend.json", record(bend, table, budget))
+        bend.result.write(here / "bend.vtkhdf")
+        files = stage.commit(_DATA)  # a picture that fails does not take the numbers along
+        figures = {"curve": curves(bend, table), "shape": shapes(bend), "drawing": drawing(bend)}
+        for name, figure in figures.items():
+            for ending in (".png", ".svg"):
+                save(figure, here / (name + ending))
+        write_page(here / "report.html", bend, figures, table, budget)
+        return [*files, *stage.commit(_PAGE)]
+
+
+def record(bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None = None) -> dict[str, Any]:
+    """Parameters, measures, table and budget in a form that JSON can hold."""
+    content: dict[str, Any] = {
+        "parameters": parameters(bend.case),
+        "measures": asdict(bend.measures),
+        "total_force": bend.total_force,
+        "shop_forces": shop_forces(bend.case),
+        "tensile_strength": tensile_strength(bend.case.material),
+        "force_balance": bend.force_balance,
+        "penetration": max(float(bend.result[f"{tool}_penetration"].max()) for tool in ("die", "punch")),
+        "increments": len(bend.result) - 1,
+        "iterations": bend.iterations,
+        "seconds": bend.result.seconds,
+        "warnings": bend.warnings,
+        "versions": versions(),
+        "table": [asdict(row) for row in table],
+    }
+    if budget:
+        finished = {name: change for name, change in budget.changes.items() if name not in budget.failures}
+        content["budget"] = {"changes": finished, "failures": budget.failures}
+    return content
+
+
+def parameters(case: AirBending) -> dict[str, Any]:
+    """Parameters in a form that JSON can hold; the material in words."""
+    return case.record() | {"material": repr(case.material)}

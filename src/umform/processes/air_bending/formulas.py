@@ -1,0 +1,27 @@
+"""Rules of the shop that results are held against, and what they ask of a material."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from umform.materials import J2
+from umform.processes.air_bending.parameters import AirBending
+
+#: Factors in use for F = factor Rm t² / V.
+FORCE_FACTORS = (1.33, 1.42)
+
+
+def tensile_strength(material: J2) -> float:
+    """Tensile strength Rm of a hardening curve: the largest y(e) exp(-e), y the true yield stress (Considère).
+
+    Elastic strains are neglected, and strains up to 2 are looked at.
+    """
+    curve = material.hardening.curve()
+    strains = np.linspace(0.0, 2.0, 4001)
+    return float(max(curve(float(e))[0] * np.exp(-e) for e in strains))
+
+
+def shop_forces(case: AirBending) -> tuple[float, float]:
+    """Largest force of air bending by the rule of the shop, F = 1.33 ... 1.42 Rm t² / V in N/mm, V the opening."""
+    base = tensile_strength(case.material) * case.thickness**2 / case.opening
+    return FORCE_FACTORS[0] * base, FORCE_FACTORS[1] * base

@@ -1,0 +1,82 @@
+"""The report of a bend: measures, curves, shapes, bending table, settings, versions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from umform.processes.air_bending.budget import Budget
+from umform.processes.air_bending.case import AirBend
+from umform.processes.air_bending.formulas import shop_forces
+from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
+from umform.report import parts
+from umform.report.page import settings
+from umform.report.repeats import counted
+from umform.report.versions import versions
+
+_BUDGET = (
+    "± is the root of the sum of squares of the changes by the refinements beside it: the uncertainty from mesh, "
+    "points, penalty and increments. Material data, friction and tools have uncertainties of their own."
+)
+
+
+def write_page(
+    path: Path, bend: AirBend, figures: Mapping[str, Figure], table: Sequence[Measures], budget: Budget | None
+) -> Path:
+    """Write the report of a bend.
+
+    Parameters
+    ----------
+    path : Path
+        The page, ending in .html.
+    bend : AirBend
+        The bend.
+    figures : mapping of str to Figure
+        Curve, shape and drawing.
+    table : sequence of Measures
+        Bending table; may be empty.
+    budget : Budget or None
+        Error budget.
+    """
+    case = bend.case
+    kind = "plane strain" if case.width is None else f"{case.width:g} mm wide"
+    title = f"Air bending: {case.thickness:g} mm sheet, {case.opening:g} mm opening, {bend.measures.angle:.2f} degrees"
+    lead = f"{kind}; {bend.iterations} Newton iterations in {bend.result.seconds:.1f} s"
+    return parts.write_html(path, title, lead, _parts(bend, figures, table, budget))
+
+
+def _parts(
+    bend: AirBend, figures: Mapping[str, Figure], table: Sequence[Measures], budget: Budget | None
+) -> Iterator[str]:
+    for message in counted(bend.warnings):
+        yield parts.note(message, bad=True)
+    yield parts.heading("Measures")
+    yield parts.table(summary_header(budget), summary(bend.measures, bend.case.width, budget))
+    if budget:
+        yield parts.paragraph(_BUDGET)
+        for name, why in budget.failures.items():
+            yield parts.note(f"{name}: {why}", bad=True)
+    low, high = shop_forces(bend.case)
+    yield parts.paragraph(f"The rule of the shop, 1.33 to 1.42 Rm t²/V, gives {low:.1f} to {high:.1f} N/mm.")
+    yield parts.figure(figures["drawing"], "What is measured.")
+    yield parts.heading("Curves")
+    yield parts.figure(figures["curve"], "Force and angle over the stroke.")
+    yield parts.heading("Shape")
+    yield parts.figure(figures["shape"], "The sheet and its tools in true proportion.")
+    if table:
+        yield parts.heading("Bending table")
+        yield parts.table(table_header(), table_rows(table))
+    yield parts.heading("Parameters")
+    yield parts.pairs(
+        {
+            name: "plane strain" if value is None and name == "width" else value
+            for name, value in bend.case.record().items()
+        }
+    )
+    yield parts.heading("Model")
+    yield parts.pairs(settings(bend.result.model))
+    yield parts.heading("Versions")
+    yield parts.pairs(versions())

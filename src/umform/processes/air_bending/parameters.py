@@ -1,0 +1,161 @@
+"""Parameters of air bending, and the tools and limits that follow from them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from typing import Any
+
+from umform.materials import J2, Swift
+from umform.processes.air_bending.checks import check_geometry, check_parameters
+from umform.surfaces import Punch, VDie
+
+#: Like DC04 across the rolling direction in shape and level; a curve of your own material is better.
+DC04_LIKE = J2(E=210e3, nu=0.3, hardening=Swift(strength=520.0, offset=0.004, exponent=0.22))
+
+
+@dataclass(frozen=True)
+class AirBending:
+    r"""Parameters of air bending in mm, N and MPa. ::
+
+              |     |
+              | \ / |  punch_angle, punch_radius
+        =======  v  =======  sheet: thickness, width
+        -----.       .-----  die_radius
+              \     /
+               \   /     die_angle
+                 v
+             |<----->|  opening
+
+    Parameters
+    ----------
+    thickness : float
+        Thickness of the sheet.
+    opening : float
+        Distance of the lines where the flanks of the die, drawn on as planes, meet its top.
+    die_angle, die_radius : float
+        Angle between the flanks of the die in degrees; radius of its shoulders.
+    punch_angle, punch_radius : float
+        Angle between the flanks of the punch in degrees; radius of its tip.
+    width : float, optional
+        Length of the bend. Without it, plane strain: a sheet so wide that nothing moves along the bend.
+    stroke : float, optional
+        Way of the punch from where it touches the sheet; a search or a table does not need it.
+    material : J2
+        Law of the sheet.
+    element : str
+        Name in the catalogue.
+    layers : int
+        Elements stacked through the thickness.
+    thickness_points : int
+        Points through the thickness of each layer.
+    elements_per_thickness : float
+        Elements along the sheet on a length of one thickness, in the bend and where the shoulder touches; in dies wider
+        than 16 thicknesses, on 1/16 of the opening.
+    width_elements : int
+        Elements over half of the width; without a width there is one.
+    contact_points : int or "auto"
+        Contact points per direction and facet.
+    penalty : float, optional
+        Contact pressure per penetration; default E / thickness.
+    penetration : float, optional
+        Penetration that is allowed, in place of a penalty.
+    increment : float
+        Way of the punch in one increment, over the opening.
+    """
+
+    thickness: float = 2.0
+    opening: float = 16.0
+    die_angle: float = 85.0
+    die_radius: float = 2.0
+    punch_angle: float = 85.0
+    punch_radius: float = 1.5
+    width: float | None = None
+    stroke: float | None = None
+    material: J2 = DC04_LIKE
+    element: str = "BEND18"
+    layers: int = 2
+    thickness_points: int = 6
+    elements_per_thickness: float = 3.0
+    width_elements: int = 3
+    contact_points: int | str = 5
+    penalty: float | None = None
+    penetration: float | None = None
+    increment: float = 0.00625
+
+    def __post_init__(self) -> None:
+        check_parameters(self.record())
+        check_geometry(self)
+
+    def record(self) -> dict[str, Any]:
+        """All parameters by name."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @property
+    def die(self) -> VDie:
+        """The die; its top is z = 0."""
+        return VDie(self.opening, self.die_angle, self.die_radius)
+
+    @property
+    def punch(self) -> Punch:
+        """The punch, touching the sheet at z = thickness."""
+        return Punch(self.punch_radius, self.punch_angle, origin=(0.0, 0.0, self.thickness))
+
+    @property
+    def contact_penalty(self) -> float | None:
+        """Contact pressure per penetration; None if it follows from the penetration that is allowed."""
+        if self.penalty is None and self.penetration is None:
+            return self.material.E / self.thickness
+        return self.penalty
+
+    @property
+    def way(self) -> float:
+        """Way of the punch in one increment, in mm."""
+        return self.increment * self.opening
+
+    @property
+    def shoulder(self) -> float:
+        """Distance of the axis of the shoulder from the middle: where the sheet rests at first."""
+        return 0.5 * self.die.tangent_width
+
+    @property
+    def steepest(self) -> float:
+        """Slope of a leg in degrees at which it lies against a flank of punch or die: the end of air bending."""
+        return 0.5 * (180.0 - max(self.die_angle, self.punch_angle))
+
+    def free_length(self, slope: float) -> float:
+        """Straight length of a leg between punch tip and shoulder if the sheet is wrapped around the tip, thin lines.
+
+        Parameters
+        ----------
+        slope : float
+            Slope of the leg in degrees.
+        """
+        a = math.radians(slope)
+        return (self.shoulder - self._radii * math.sin(a)) / math.cos(a)
+
+    def rigid_stroke(self, slope: float) -> float:
+        """Stroke at a slope of the leg in degrees, for a sheet that is wrapped around the tip: an upper bound."""
+        a = math.radians(slope)
+        return self.free_length(slope) * math.sin(a) + self._radii * (1.0 - math.cos(a))
+
+    @property
+    def largest_stroke(self) -> float:
+        """Stroke at which a sheet wrapped around the tip lies against a flank."""
+        return self.rigid_stroke(self.steepest)
+
+    @property
+    def reach(self) -> float:
+        """Length of half of the mid-surface from the middle to the shoulder, the largest that air bending needs."""
+        a = math.radians(self.steepest)
+        return max(self.shoulder, (self.punch_radius + 0.5 * self.thickness) * a + self.free_length(self.steepest))
+
+    @property
+    def half_length(self) -> float:
+        """Half of the length of the sheet: it ends three thicknesses beyond the shoulder."""
+        return self.reach + 3.0 * self.thickness
+
+    @property
+    def _radii(self) -> float:
+        """Distance of the axes of tip and shoulder, measured across a leg."""
+        return self.punch_radius + self.thickness + self.die_radius

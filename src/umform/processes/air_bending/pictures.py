@@ -1,0 +1,113 @@
+"""Pictures of air bending: force and angle over the stroke; the sheet with its tools, under load and released."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from umform.plotting import COLOURS, house_style
+from umform.processes.air_bending.case import AirBend
+from umform.processes.air_bending.formulas import shop_forces
+from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.section import Section
+from umform.results import Frame
+
+Floats = NDArray[np.float64]
+
+_BLUE, _VERMILION, _GREEN = COLOURS[:3]
+_TOOL: dict[str, Any] = {"facecolor": "#d9dde2", "edgecolor": "#555555", "linewidth": 0.8}
+_FIELD = "plastic_strain_mean"
+
+
+def curves(bend: AirBend, table: Sequence[Measures] = ()) -> Figure:
+    """Force over stroke in loading and unloading; angle over stroke under load and after unloading."""
+    with house_style():
+        figure = Figure(figsize=(9.0, 3.6), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        _draw_force(left, bend)
+        _draw_angle(right, bend, table)
+    return figure
+
+
+def shapes(bend: AirBend) -> Figure:
+    """The sheet and its tools under load, and after unloading, coloured by the plastic strain."""
+    last = max(n for n, frame in enumerate(bend.result.frames) if bend.step[frame.number] < 2)
+    states = [
+        (f"under load: {bend.measures.loaded_angle:.2f}°", bend.loaded, bend.result.frames[last]),
+        (f"released: {bend.measures.angle:.2f}°", bend.released, bend.result.frames[-1]),
+    ]
+    largest = max(float(frame.cells[_FIELD].max()) for _, _, frame in states)
+    with house_style():
+        figure = Figure(figsize=(9.0, 4.2), layout="constrained")
+        grid = figure.subplots(1, 2, sharex=True, sharey=True)
+        for axes, (title, section, frame) in zip(grid, states, strict=True):
+            drawn = _draw_sheet(axes, bend, section, frame)
+            drawn.set_clim(0.0, largest)
+            _draw_tools(axes, bend.case, bend.stroke[frame.number])
+            axes.set_title(title)
+            _frame(axes, bend)
+        bar = figure.colorbar(drawn, ax=list(grid), shrink=0.8, aspect=30, pad=0.02)
+        bar.set_label("equivalent plastic strain, mean of the element")
+        bar.outline.set_visible(False)
+    return figure
+
+
+def _draw_force(axes: Axes, bend: AirBend) -> None:
+    down = bend.step < 2
+    axes.plot(bend.stroke[down], bend.force[down], color=_BLUE, label="loading")
+    back = np.flatnonzero(down)[-1]
+    axes.plot(bend.stroke[back:], bend.force[back:], color=_VERMILION, label="unloading")
+    low, high = shop_forces(bend.case)
+    axes.axhspan(low, high, color=_GREEN, alpha=0.25, linewidth=0, label="rule of the shop, 1.33 to 1.42 Rm t²/V")
+    axes.set(xlabel="stroke in mm", ylabel="force in N for each mm of the bend", title="Force")
+    axes.set_ylim(0.0, 1.35 * max(high, float(bend.force.max())))
+    axes.legend(loc="upper left")
+
+
+def _draw_angle(axes: Axes, bend: AirBend, table: Sequence[Measures]) -> None:
+    axes.plot(*bend.path.T, color=_BLUE, label="under load")
+    rows = sorted([*table, bend.measures], key=lambda row: row.stroke)
+    released = [(row.stroke, row.angle) for row in rows]
+    axes.plot(*np.array(released).T, "o-", color=_VERMILION, markersize=4, label="after unloading")
+    axes.set(xlabel="stroke in mm", ylabel="angle in degrees", title="Angle between the legs")
+    axes.legend()
+
+
+def _draw_sheet(axes: Axes, bend: AirBend, section: Section, frame: Frame) -> PolyCollection:
+    """Elements of the middle of the sheet, and their mirror images."""
+    x = section.current
+    levels, elements = x.shape[1] - 1, (len(x) - 1) // section.order
+    mesh = bend.result.model.mesh
+    values = frame.cells[_FIELD][: len(mesh.connectivity)].reshape(elements, -1, levels)[:, 0]
+    quads = np.stack([x[:-1, :-1], x[1:, :-1], x[1:, 1:], x[:-1, 1:]], axis=2).reshape(-1, 4, 2)
+    colours = np.repeat(values, section.order, axis=0).ravel()
+    both = np.concatenate([quads, quads * [-1.0, 1.0]])
+    drawn = PolyCollection(list(both), edgecolors="face", linewidths=0.3, cmap="viridis", array=np.tile(colours, 2))
+    axes.add_collection(drawn)
+    return drawn
+
+
+def _draw_tools(axes: Axes, case: AirBending, stroke: float) -> None:
+    far = 4.0 * case.half_length
+    die = case.die.profile.points(1e-3 * case.thickness, far)
+    axes.fill(*np.concatenate([die, [[die[-1, 0], -far], [die[0, 0], -far]]]).T, zorder=0, **_TOOL)
+    punch = case.punch.profile.points(1e-3 * case.thickness, far) + np.array([0.0, case.thickness - stroke])
+    axes.fill(*punch.T, zorder=0, **_TOOL)
+
+
+def _frame(axes: Axes, bend: AirBend) -> None:
+    """Show the sheet and as much of the tools as lies about it, in true proportion."""
+    across = 1.1 * float(bend.loaded.current[..., 0].max())
+    bottom = min(-0.5 * bend.case.opening / np.tan(np.radians(0.5 * bend.case.die_angle)), -bend.measures.stroke)
+    axes.set(
+        xlim=(-across, across), ylim=(1.15 * bottom, float(bend.loaded.current[..., 1].max()) + bend.case.thickness)
+    )
+    axes.set_aspect("equal")
+    axes.axis("off")

@@ -1,0 +1,162 @@
+"""The bent section: fibres through the thickness, slopes, radius, lengths."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from umform import _core
+from umform.errors import InvalidValue
+from umform.mesh import Mesh
+
+Floats = NDArray[np.float64]
+
+#: Part of the slope of the leg by which the inner face turns in the bend; the rest fades away along the leg.
+_BEND = 0.9
+#: Points along half of the inner face.
+_SAMPLES = 4001
+
+
+@dataclass(frozen=True)
+class Section:
+    """Section of half of the bent sheet at y = 0, the lines of nodes through the thickness one after the other.
+
+    Attributes
+    ----------
+    reference, current : ndarray, shape (lines, levels, 2)
+        Positions (x, z) of the nodes; levels from the lower (outer) to the upper (inner) face.
+    order : int
+        Order of the elements along the sheet: 1, or 2 with a line of nodes in the middle of each element.
+    """
+
+    reference: Floats
+    current: Floats
+    order: int
+
+    @classmethod
+    def of(cls, mesh: Mesh, u: Floats) -> Section:
+        """Section of a mesh of `half_sheet` under displacements u, shape (n, 3) or (3 n,)."""
+        middle = mesh.nodes("y0")
+        X = mesh.points[middle][:, [0, 2]]
+        lines = len(np.unique(X[:, 0]))
+        order = np.lexsort((X[:, 1], X[:, 0]))
+        X = X[order].reshape(lines, -1, 2)
+        d = u.reshape(-1, 3)[middle][:, [0, 2]][order].reshape(lines, -1, 2)
+        return cls(X, X + d, 2 if mesh.cell == "hex18" else 1)
+
+    @property
+    def thickness(self) -> float:
+        """Thickness of the flat sheet."""
+        return float(self.reference[0, -1, 1] - self.reference[0, 0, 1])
+
+    @property
+    def half_length(self) -> float:
+        """Half of the length of the flat sheet."""
+        return float(self.reference[-1, 0, 0])
+
+    def fibre(self, height: float) -> Floats:
+        """Current positions (lines, 2) of the fibre at a height, 0 the lower (outer) and 1 the upper (inner) face."""
+        levels = (self.reference[0, :, 1] - self.reference[0, 0, 1]) / self.thickness
+        k = min(max(int(np.searchsorted(levels, height)) - 1, 0), len(levels) - 2)
+        part = (height - levels[k]) / (levels[k + 1] - levels[k])
+        line: Floats = (1.0 - part) * self.current[:, k] + part * self.current[:, k + 1]
+        return line
+
+    def element_lengths(self, height: float) -> Floats:
+        """Current length of a fibre in each element, from the shape functions; shape (elements,)."""
+        x = self.fibre(height)
+        if self.order == 1:
+            return np.asarray(np.linalg.norm(np.diff(x, axis=0), axis=1))
+        r, w = _core.gauss(4)
+        dN = np.stack([r - 0.5, -2.0 * r, r + 0.5])
+        nodes = np.stack([x[:-1:2], x[1::2], x[2::2]])
+        return np.asarray(np.linalg.norm(np.einsum("aq,aek->eqk", dN, nodes), axis=-1) @ w)
+
+    @property
+    def element_references(self) -> Floats:
+        """Length of the elements in the flat sheet; shape (elements,)."""
+        return np.diff(self.reference[:: self.order, 0, 0])
+
+    @cached_property
+    def neutral_height(self) -> float:
+        """Height in the flat sheet (0 outer, 1 inner face) of the fibre that is as long as the flat sheet."""
+        heights = np.linspace(0.0, 1.0, 41)
+        change = np.array([self.element_lengths(h).sum() for h in heights]) - self.half_length
+        if not change[0] > 0.0 > change[-1]:
+            raise InvalidValue(
+                "no fibre of the section keeps its length",
+                where="neutral fibre",
+                value=f"outer {change[0]:+.3g}, inner {change[-1]:+.3g}",
+                cause="the sheet is hardly bent",
+                remedy="a larger stroke",
+            )
+        return float(np.interp(0.0, -change, heights))
+
+    def leg(self, height: float) -> tuple[Floats, Floats]:
+        """Point and direction (outwards) of the straight line through the outermost two thicknesses of a fibre."""
+        end = self.reference[:, 0, 0] > self.half_length - 2.0 * self.thickness - 1e-9
+        x = self.fibre(height)[end]
+        centre = x.mean(axis=0)
+        direction = np.linalg.svd(x - centre)[2][0]
+        return centre, direction * np.sign(direction[0])
+
+    @property
+    def slope(self) -> float:
+        """Slope of the leg in radians: half of the bend angle."""
+        direction = self.leg(0.5)[1]
+        return float(np.arctan2(direction[1], direction[0]))
+
+    @property
+    def angle(self) -> float:
+        """Angle between the legs in degrees."""
+        return 180.0 - 2.0 * float(np.degrees(self.slope))
+
+    @property
+    def radius(self) -> float:
+        """Radius of the circle that fits the inner face in the bend best."""
+        return self.circle[1]
+
+    @cached_property
+    def circle(self) -> tuple[float, float]:
+        """Height of the centre, and radius, of the circle about x = 0 that fits the inner face best (least squares).
+
+        It is fitted to points at equal distances in the flat sheet where the inner face, a cubic spline through its
+        nodes, has turned by at most nine tenths of the slope of the leg.
+        """
+        face = self._inner_face
+        at = np.linspace(0.0, self.half_length, _SAMPLES)
+        dx, dz = face(at, 1).T
+        first = int(np.argmax(np.arctan2(dz, dx) > _BEND * self.slope))
+        x, z = face(at[: max(first, 3)]).T
+        # x² + z² = 2 z z_c + (R² - z_c²) is linear in z_c and R² - z_c²
+        matrix = np.stack([2.0 * z, np.ones(len(z))], axis=1)
+        (zc, c), *_ = np.linalg.lstsq(matrix, x**2 + z**2, rcond=None)
+        return float(zc), float(np.sqrt(c + zc**2))
+
+    @property
+    def smallest_radius(self) -> float:
+        """Smallest radius of circles through three points of the inner face, in the flat sheet 1/3 thickness apart."""
+        x = self._inner_face(np.arange(0.0, 0.5 * self.half_length, self.thickness / 3.0))
+        x = np.concatenate([x[1:2] * [-1.0, 1.0], x])
+        a, b = x[1:-1] - x[:-2], x[2:] - x[1:-1]
+        twice_area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+        sides = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1) * np.linalg.norm(a + b, axis=1)
+        return float(1.0 / (2.0 * twice_area / sides).max())
+
+    @cached_property
+    def _inner_face(self) -> CubicSpline:
+        """Position on the inner face over x in the flat sheet."""
+        return CubicSpline(self.reference[:, 0, 0], self.fibre(1.0))
+
+    @property
+    def thicknesses(self) -> Floats:
+        """Current thickness across the mid-surface over that of the flat sheet; shape (lines,)."""
+        across = self.current[:, -1] - self.current[:, 0]
+        tangent = np.gradient(self.fibre(0.5), axis=0)
+        tangent[0] = [1.0, 0.0]  # the symmetry plane
+        normal = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1) / np.linalg.norm(tangent, axis=1, keepdims=True)
+        return np.asarray(np.einsum("ik,ik->i", across, normal) / self.thickness)

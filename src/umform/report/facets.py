@@ -1,0 +1,58 @@
+"""Faces made ready for a renderer: which corners share a normal, so that bends look smooth and edges sharp."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+Floats = NDArray[np.float64]
+Ids = NDArray[np.int64]
+
+#: Faces that meet at a larger angle have an edge between them, in degrees.
+CREASE = 35.0
+
+
+def smooth_groups(points: Floats, faces: Ids) -> Ids:
+    """Groups of the corners of faces that share a normal.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 3)
+        Positions.
+    faces : ndarray of int, shape (m, k)
+        Triangles or quadrilaterals, counter-clockwise from outside.
+
+    Returns
+    -------
+    ndarray of int, shape (m, k)
+        Number of the group of each corner, from 0. Corners at one point are in one group if their faces are neighbours
+        over an edge that bends by less than the crease angle, directly or through others.
+    """
+    m, k = faces.shape
+    corner = np.arange(m * k).reshape(m, k)
+    following = np.roll(np.arange(k), -1)
+    ends = np.stack([faces, faces[:, following]], axis=-1).reshape(-1, 2)
+    ids = np.stack([corner, corner[:, following]], axis=-1).reshape(-1, 2)
+    turned = ends[:, 0] > ends[:, 1]
+    ends[turned], ids[turned] = ends[turned, ::-1], ids[turned, ::-1]
+    order = np.lexsort((ends[:, 1], ends[:, 0]))
+    one, other = order[:-1], order[1:]
+    met = (ends[one] == ends[other]).all(axis=1)
+    one, other = one[met], other[met]
+    normal = unit_normals(points, faces)
+    flat = np.einsum("ei,ei->e", normal[one // k], normal[other // k]) > np.cos(np.radians(CREASE))
+    a, b = ids[one[flat]].ravel(), ids[other[flat]].ravel()
+    joined = coo_array((np.ones(len(a)), (a, b)), shape=(m * k, m * k))
+    groups: Ids = connected_components(joined, directed=False)[1].astype(np.int64)
+    return groups.reshape(m, k)
+
+
+def unit_normals(points: Floats, faces: Ids) -> Floats:
+    """Unit normals of faces, shape (m, 3); zero for a face without area."""
+    x = points[faces]
+    area = np.cross(x[:, 2] - x[:, 0], x[:, -1] - x[:, 1])
+    size = np.linalg.norm(area, axis=1, keepdims=True)
+    normals: Floats = np.divide(area, size, out=np.zeros_like(area), where=size > 0)
+    return normals

@@ -1,0 +1,72 @@
+"""The parts of a page that move: shape in space, curves with a cursor, history as a file and a table."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from html import escape
+from importlib.resources import files
+from pathlib import Path
+from string import Template
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from umform.plotting import COLOURS, plot_history, plot_shape
+from umform.report import parts
+from umform.report.packing import compressed
+from umform.report.scene import Scene
+
+if TYPE_CHECKING:
+    from umform.results import Result
+
+_SCRIPTS = ("unpack.js", "space.js", "shape.js", "curves.js", "start.js")
+
+
+def style() -> str:
+    """What the parts need beside the style of all pages."""
+    return _asset("run.css")
+
+
+def scripts(scene: Scene) -> str:
+    """Data and programs, to be put at the end of the page."""
+    library = compressed(_asset("three/three.min.js").encode())
+    program = "\n".join(_asset(name) for name in _SCRIPTS)
+    return (
+        f'<script type="application/octet-stream" id="scene">{scene.data}</script>\n'
+        f'<script type="application/octet-stream" id="three">{library}</script>\n'
+        f'<script type="module">\n{program}</script>'
+    )
+
+
+def shape(result: Result, scene: Scene) -> str:
+    """The picture in space, or a still of the last state where it cannot be drawn."""
+    options = "".join(f"<option>{escape(name)}</option>" for name in scene.fields)
+    still = parts.figure(plot_shape(result), "The sheet in its last state, in true proportion.")
+    without_tools = "" if scene.tools else " hidden"
+    return _filled("shape.html", still=still, fields=options, last=str(scene.frames - 1), without_tools=without_tools)
+
+
+def curves(result: Result) -> str:
+    """Curves of the history, or a still for each control."""
+    pairs = [(control.name, f"{control.name}_force") for control in result.model.controls]
+    stills = [parts.figure(plot_history(result, x, [y]), f"{y} over {x}, all converged increments.") for x, y in pairs]
+    x, y = pairs[0] if pairs else ("time", result.columns()[-1])
+    colours = escape(json.dumps(COLOURS))
+    return _filled("curves.html", still="\n".join(stills), x=escape(x), y=escape(y), colours=colours)
+
+
+def table(result: Result) -> str:
+    """The history as a file to download, and all of its rows."""
+    with TemporaryDirectory() as folder:
+        csv = result.write(Path(folder) / "history.csv").read_bytes()
+    names = "".join(f"<th>{escape(name)}</th>" for name in result.columns())
+    size = {"rows": str(len(result)), "count": str(len(result.columns()))}
+    return _filled("history.html", csv=b64encode(csv).decode("ascii"), names=names, **size)
+
+
+def _asset(name: str) -> str:
+    return files("umform.report").joinpath("assets", name).read_text(encoding="utf-8")
+
+
+def _filled(name: str, **values: str) -> str:
+    return Template(_asset(name)).substitute(values)

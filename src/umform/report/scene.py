@@ -1,0 +1,196 @@
+"""What the page draws in space: outer faces, frames with their fields, tools with their places."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue, UmformError
+from umform.report.facets import smooth_groups
+from umform.report.packing import Quantised, pack
+from umform.shape import _outer_faces
+from umform.surfaces import Tool
+from umform.surfaces.triangles import Box3, Triangles
+
+if TYPE_CHECKING:
+    from umform.contact import Contact
+    from umform.results import Frame, Result
+
+Floats = NDArray[np.float64]
+Ids = NDArray[np.int64]
+#: Places of a tool, one for each frame: rotations (frames, 3, 3) and shifts (frames, 3).
+Poses = tuple[Floats, Floats]
+
+#: Tools are drawn as far as this share of the diagonal of the sheet around its path.
+_MARGIN = 0.12
+#: Largest distance of a drawn tool from the true one, as a share of the same diagonal.
+_CHORD = 5e-4
+#: A field has two signs if the smaller extreme is more than this share of the larger one.
+_TWO_SIGNS = 0.02
+#: Fields in the order in which they are offered; others follow.
+_ORDER = ("plastic_strain_max", "plastic_strain_mean", "thickness_change", "displacement", "contact_pressure")
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What is drawn.
+
+    Attributes
+    ----------
+    data : str
+        The packed scene.
+    frames : int
+        Number of frames.
+    fields : list of str
+        Names of the fields for people.
+    tools : list of str
+        Names of the contacts whose tools are drawn.
+    notes : list of str
+        What could not be drawn.
+    """
+
+    data: str
+    frames: int
+    fields: list[str]
+    tools: list[str]
+    notes: list[str]
+
+
+def scene_of(result: Result) -> Scene:
+    """The scene of a result; without kept frames, its last state only."""
+    mesh = result.model.mesh
+    faces, owners = _outer_faces(mesh.connectivity.astype(np.int64))
+    nodes, faces = np.unique(faces, return_inverse=True)
+    cells, owners = np.unique(owners, return_inverse=True)
+    faces = faces.reshape(-1, 4)
+    X = mesh.points[nodes]
+    shifts = _displacements(result)[:, nodes]
+    arrays: dict[str, NDArray[Any] | Quantised] = {
+        "points": X,
+        "faces": faces,
+        "groups": smooth_groups(X, faces),
+        "owners": owners,
+        "displacements": Quantised.of(shifts),
+    }
+    fields: list[dict[str, Any]] = []
+    for name, place, values in _fields(result.frames, shifts, nodes, cells):
+        arrays[f"field {name}"] = Quantised.of(values)
+        fields.append({"name": name, "label": name.replace("_", " "), "on": place, **_scale(values)})
+    tools, notes = [], []
+    box = _around(X + shifts)
+    for contact, poses in zip(result.model.contacts, _poses(result), strict=True):
+        try:
+            surface = _surface(contact, poses, box)
+        except UmformError as error:
+            notes.append(f"The tool of contact {contact.name} is not drawn: {error.what}.")
+            continue
+        if len(surface.triangles):
+            tools.append(contact.name)
+            arrays |= _tool_arrays(f"tool {len(tools) - 1}", surface, poses)
+    head = {"frames": _marks(result), "fields": fields, "tools": tools, "maps": _maps(fields)}
+    return Scene(pack(head, arrays), len(shifts), [field["label"] for field in fields], tools, notes)
+
+
+def _displacements(result: Result) -> Floats:
+    if not result.frames:
+        return result.model.u.reshape(1, -1, 3)
+    return np.stack([frame.points["displacement"] for frame in result.frames])
+
+
+def _marks(result: Result) -> list[dict[str, float]]:
+    """Row of the history and time of each frame."""
+    if not result.frames:
+        return [{"row": len(result) - 1, "time": float(result.model.time)}]
+    return [{"row": frame.number, "time": float(frame.time)} for frame in result.frames]
+
+
+def _fields(frames: list[Frame], shifts: Floats, nodes: Ids, cells: Ids) -> Iterator[tuple[str, str, Floats]]:
+    """Name, place and values (frames, n) of the scalar fields that are finite everywhere."""
+    found: dict[str, tuple[str, Floats]] = {"displacement": ("points", np.linalg.norm(shifts, axis=2))}
+    if frames:
+        for place, ids in (("points", nodes), ("cells", cells)):
+            for name, first in getattr(frames[0], place).items():
+                if first.ndim == 1:
+                    values = np.stack([getattr(frame, place)[name][ids] for frame in frames])
+                    if np.isfinite(values).all():
+                        found[name] = place, values
+    for name in sorted(found, key=lambda name: _ORDER.index(name) if name in _ORDER else len(_ORDER)):
+        yield name, *found[name]
+
+
+def _scale(values: Floats) -> dict[str, object]:
+    """The colour map that suits a field: from one side to the other of zero if it has both signs."""
+    low, high = float(values.min()), float(values.max())
+    both = min(-low, high) > _TWO_SIGNS * max(-low, high)
+    return {"map": "coolwarm" if both else "viridis", "symmetric": both}
+
+
+def _maps(fields: list[dict[str, Any]]) -> dict[str, str]:
+    """Colour maps as 64 colours in hexadecimal."""
+    names = sorted({field["map"] for field in fields})
+    steps = np.linspace(0.0, 1.0, 64)
+    return {name: (mpl.colormaps[name](steps, bytes=True)[:, :3]).tobytes().hex() for name in names}
+
+
+def _around(x: Floats) -> tuple[Floats, Floats]:
+    """Lowest and highest corner of a box around the sheet on its whole path."""
+    low, high = x.min(axis=(0, 1)), x.max(axis=(0, 1))
+    margin = _MARGIN * np.linalg.norm(high - low)
+    return low - margin, high + margin
+
+
+def _poses(result: Result) -> Iterator[Poses]:
+    """Places of the tool of each contact at the frames."""
+    for contact in result.model.contacts:
+        if not result.frames:
+            yield contact.pose[0][None], contact.pose[1][None]
+            continue
+        with _put_back(contact):
+            places = []
+            for frame in result.frames:
+                for control in contact.translations:
+                    control.value = result.rows[frame.number][control.name]
+                contact.place(frame.time)
+                places.append(contact.pose)
+        rotations, shifts = zip(*places, strict=True)
+        yield np.stack(rotations), np.stack(shifts)
+
+
+@contextmanager
+def _put_back(contact: Contact) -> Iterator[None]:
+    """Leave the tool where it was found."""
+    values, pose = [control.value for control in contact.translations], contact.pose
+    try:
+        yield
+    finally:
+        for control, value in zip(contact.translations, values, strict=True):
+            control.value = value
+        contact.pose = pose
+        contact.block.set_pose(*pose)
+
+
+def _surface(contact: Contact, poses: Poses, box: tuple[Floats, Floats]) -> Triangles:
+    """Triangles of a tool, in its own frame, that come into the box at one frame at least."""
+    if not isinstance(contact.tool, Tool):
+        raise InvalidValue("this surface does not know its shape")
+    low, high = box
+    corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
+    own = np.concatenate([(corners - shift) @ rotation for rotation, shift in zip(*poses, strict=True)])
+    inner: Box3 = (tuple(own.min(axis=0)), tuple(own.max(axis=0)))
+    return contact.tool.triangles(inner, _CHORD * float(np.linalg.norm(high - low)))
+
+
+def _tool_arrays(name: str, surface: Triangles, poses: Poses) -> dict[str, NDArray[Any] | Quantised]:
+    rotations, shifts = poses
+    return {
+        f"{name} points": surface.points,
+        f"{name} faces": surface.triangles,
+        f"{name} groups": smooth_groups(surface.points, surface.triangles),
+        f"{name} poses": np.concatenate([rotations, shifts[:, :, None]], axis=2),
+    }

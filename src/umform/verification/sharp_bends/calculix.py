@@ -1,0 +1,250 @@
+"""Continuum meshes of the same strips in CalculiX: quadratic elements C3D20R, several layers, plane strain.
+
+Where the environment variable UMFORM_CALCULIX is set and ``ccx`` is found the cases run them anew, which takes
+minutes; else they take the forces that are stored. ``python -m umform.verification.sharp_bends.calculix FOLDER`` makes
+the stored files anew.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import SolveError
+from umform.verification.references import table
+from umform.verification.sharp_bends.candidates import KAPPA, MU, YIELD_STRESS
+
+Floats = NDArray[np.float64]
+Point = tuple[float, float, float]
+
+VARIABLE = "UMFORM_CALCULIX"
+THICKNESS = 1.0
+#: All forces are for this width; the mesh is as wide as 1.
+WIDTH = 10.0
+#: Edges of a hexahedron in the order of its mid-side nodes.
+_EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7))
+
+
+@dataclass(frozen=True)
+class Continuum:
+    """A strip of continuum elements.
+
+    Attributes
+    ----------
+    over : {"supports", "cylinder"}
+        Three-point bending without contact, or over the cylinder.
+    hardening : float
+        Hardening modulus.
+    layers : int
+        Elements through the thickness.
+    size, fine : float
+        Length of the elements next to the punch, and as far as they are so small; beyond, they grow.
+    stroke : float
+        Displacement of the punch.
+    """
+
+    over: str
+    hardening: float
+    layers: int
+    size: float
+    fine: float
+    stroke: float
+
+    @property
+    def file(self) -> str:
+        """Name of the file with the stored forces."""
+        return f"calculix_{self.over}_H{self.hardening:g}_{self.layers}_layers.csv"
+
+    @property
+    def length(self) -> float:
+        """Half length of the strip."""
+        return 25.0 if self.over == "supports" else 60.0
+
+
+#: The meshes whose forces are stored.
+STORED = (
+    Continuum("supports", 500.0, 4, 0.25, 5.0, 15.0),
+    Continuum("supports", 500.0, 6, 0.16666667, 4.0, 20.0),
+    Continuum("supports", 100.0, 4, 0.25, 5.0, 20.0),
+    Continuum("supports", 100.0, 6, 0.16666667, 4.0, 20.0),
+    Continuum("supports", 0.0, 2, 0.5, 6.0, 15.0),
+    Continuum("supports", 0.0, 4, 0.25, 5.0, 15.0),
+    Continuum("cylinder", 500.0, 4, 0.25, 5.0, 15.0),
+    Continuum("cylinder", 500.0, 6, 0.16666666, 4.0, 15.0),
+)
+
+
+def forces(mesh: Continuum) -> tuple[Floats, Floats, str]:
+    """Displacements and forces of the punch, and where they come from: run now, or stored."""
+    if os.environ.get(VARIABLE) and shutil.which("ccx"):
+        with tempfile.TemporaryDirectory() as folder:
+            u, force = run(mesh, Path(folder))
+        return u, force, "run with this page"
+    columns = table(mesh.file)
+    return columns["u"], columns["force"], "stored"
+
+
+def run(mesh: Continuum, folder: Path) -> tuple[Floats, Floats]:
+    """Run CalculiX in a folder; displacements and forces of the punch.
+
+    Raises
+    ------
+    SolveError
+        If it does not reach the end.
+    """
+    (folder / "strip.inp").write_text(deck(mesh), encoding="ascii")
+    log = subprocess.run(["ccx", "strip"], cwd=folder, capture_output=True, text=True, check=False)
+    u, force = read_forces((folder / "strip.dat").read_text(encoding="ascii"), mesh.stroke)
+    if u[-1] < mesh.stroke * (1 - 1e-9):
+        raise SolveError("CalculiX did not reach the end", where=mesh.file, value=u[-1], cause=log.stdout[-500:])
+    return u, force
+
+
+def read_forces(printed: str, stroke: float) -> tuple[Floats, Floats]:
+    """Displacements and forces from the totals that CalculiX prints for each increment."""
+    found = re.findall(r"total force.*time\s+(\S+)\s+\S+\s+\S+\s+(\S+)", printed)
+    time, fz = (np.array([0.0, *(float(row[k]) for row in found)]) for k in (0, 1))
+    return time * stroke, -fz * WIDTH
+
+
+def stations(mesh: Continuum, growth: float = 1.2, largest: float = 1.25) -> Floats:
+    """Stations along the strip: equal elements near the punch, then growing ones."""
+    x = list(np.arange(0.0, mesh.fine + 1e-9, mesh.size))
+    equal, step = len(x), mesh.size
+    while x[-1] < mesh.length:
+        step = min(step * growth, largest)
+        x.append(x[-1] + step)
+    grid = np.array(x)
+    last = grid[equal - 1]
+    grid[equal:] = last + (grid[equal:] - last) * (mesh.length - last) / (grid[-1] - last)
+    return grid
+
+
+class _Deck:
+    """Lines of a deck, with its nodes and elements."""
+
+    def __init__(self, mesh: Continuum) -> None:
+        self.ids: dict[Point, int] = {}
+        self.elements: list[list[int]] = []
+        self.lower: list[int] = []  # elements of the lowest layer
+        x = stations(mesh)
+        z = np.linspace(-0.5 * THICKNESS, 0.5 * THICKNESS, mesh.layers + 1)
+        for i in range(len(x) - 1):
+            for k in range(mesh.layers):
+                around = ((0, 0), (1, 0), (1, 1), (0, 1))
+                corners = [(x[i + a], float(b), z[k + c]) for c in (0, 1) for a, b in around]
+                points = np.array(corners + [0.5 * np.add(corners[a], corners[b]) for a, b in _EDGES])
+                self.elements.append([self._node(point) for point in points])
+                if k == 0:
+                    self.lower.append(len(self.elements))
+        self.lines = ["*NODE,NSET=NALL", *(f"{n},{p[0]:.9g},{p[1]:.9g},{p[2]:.9g}" for p, n in self.ids.items())]
+        self.lines.append("*ELEMENT,TYPE=C3D20R,ELSET=STRIP")
+        for number, nodes in enumerate(self.elements, 1):
+            self.lines += [",".join(map(str, [number, *nodes[:15]])) + ",", ",".join(map(str, nodes[15:]))]
+
+    def _node(self, point: Floats) -> int:
+        key: Point = tuple(float(c) for c in np.round(point, 9))  # type: ignore[assignment]
+        return self.ids.setdefault(key, len(self.ids) + 1)
+
+    def material(self, hardening: float) -> None:
+        """The steel; its hardening is given up to a plastic strain of 5."""
+        young, nu = 9 * KAPPA * MU / (3 * KAPPA + MU), (3 * KAPPA - 2 * MU) / (2 * (3 * KAPPA + MU))
+        flow = [f"{YIELD_STRESS},0.", f"{YIELD_STRESS + 5 * hardening + 1e-6},5."]
+        self.lines += ["*MATERIAL,NAME=STEEL", "*ELASTIC", f"{young:.9g},{nu:.9g}", "*PLASTIC", *flow]
+        self.lines.append("*SOLID SECTION,ELSET=STRIP,MATERIAL=STEEL")
+
+    def node_set(self, name: str, x: float, lower: bool) -> None:
+        """Nodes of the section x, or of its lower edge."""
+        z = -0.5 * THICKNESS
+        chosen = [n for p, n in self.ids.items() if abs(p[0] - x) < 1e-6 and (not lower or p[2] == z)]
+        self.lines.append(f"*NSET,NSET={name}")
+        self.lines += [",".join(map(str, chosen[i : i + 10])) for i in range(0, len(chosen), 10)]
+
+    def step(self, largest: float = 0.02) -> None:
+        """One step of large deformation with increments up to a part of it."""
+        self.lines += ["*STEP,NLGEOM,INC=100000", "*STATIC", f"{largest / 10},1.,1e-9,{largest}"]
+
+    def push(self, stroke: float) -> str:
+        """The deck with the displacement of the punch and what is printed."""
+        self.lines += ["*BOUNDARY", f"PUNCH,3,3,{-stroke}", "*NODE PRINT,NSET=PUNCH,TOTALS=ONLY", "RF", "*END STEP"]
+        return "\n".join(self.lines) + "\n"
+
+
+def deck(mesh: Continuum) -> str:
+    """Input of CalculiX."""
+    made = _Deck(mesh)
+    made.node_set("X0", 0.0, lower=False)
+    made.node_set("PUNCH", 0.0, lower=True)
+    if mesh.over == "supports":
+        made.material(mesh.hardening)
+        made.node_set("SUPPORT", mesh.length, lower=True)
+        made.lines += ["*BOUNDARY", "X0,1,1", "NALL,2,2", "SUPPORT,3,3"]
+        made.step()
+        made.lines += ["*CONTROLS,PARAMETERS=FIELD", "1e-4,1e-2"]
+    else:
+        held = _cylinder(made)
+        made.material(mesh.hardening)
+        _contact(made)
+        made.lines += ["*BOUNDARY", "X0,1,1", "NALL,2,2", *(f"{node},1,3" for node in held)]
+        made.step()
+    return made.push(mesh.stroke)
+
+
+def _cylinder(made: _Deck, radius: float = 20.0, centre: float = 25.0, facets: int = 400) -> tuple[int, int]:
+    """The tool: a ring of facets in a rigid body, from 45 to 145 degrees; returns its reference nodes."""
+    z = -0.5 * THICKNESS - radius
+    first = node = len(made.ids)
+    made.lines.append("*NODE,NSET=NTOOL")
+    for angle in np.radians(np.linspace(45.0, 145.0, facets + 1)):
+        for r, y in ((radius, -0.1), (radius, 1.1), (0.8 * radius, -0.1), (0.8 * radius, 1.1)):
+            node += 1
+            made.lines.append(f"{node},{centre + r * np.cos(angle):.9g},{y:.9g},{z + r * np.sin(angle):.9g}")
+    held = node + 1, node + 2
+    made.lines += ["*NODE", *(f"{n},{centre},0,{z}" for n in held), "*ELEMENT,TYPE=C3D8,ELSET=TOOL"]
+    for i in range(facets):
+        a = first + 4 * i
+        b = a + 4
+        nodes = (a + 3, a + 4, b + 4, b + 3, a + 1, a + 2, b + 2, b + 1)
+        made.lines.append(",".join(map(str, [len(made.elements) + 1 + i, *nodes])))
+    made.lines.append(f"*RIGID BODY,NSET=NTOOL,REF NODE={held[0]},ROT NODE={held[1]}")
+    return held
+
+
+def _contact(made: _Deck, penalty: float = 100.0) -> None:
+    """Surface to surface, the pressure linear in the penetration."""
+    made.lines += ["*SURFACE,NAME=SLOWER", *(f"{number},S1" for number in made.lower), "*SURFACE,NAME=STOOL", "TOOL,S2"]
+    made.lines += ["*MATERIAL,NAME=TOOL", "*ELASTIC", "210000,.3", "*SOLID SECTION,ELSET=TOOL,MATERIAL=TOOL"]
+    made.lines += ["*SURFACE INTERACTION,NAME=PENALTY", "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR"]
+    made.lines += [f"{penalty},0.,0.01", "*CONTACT PAIR,INTERACTION=PENALTY,TYPE=SURFACE TO SURFACE", "SLOWER,STOOL"]
+
+
+def csv_text(mesh: Continuum, u: Floats, force: Floats) -> str:
+    """A file of stored forces."""
+    lines = [
+        f"# CalculiX 2.20, C3D20R, {mesh.layers} layers, elements of {mesh.size:.3g} in the hinge, H = "
+        f"{mesh.hardening:g}, plane strain, {mesh.over}; force for a width of {WIDTH:g}.",
+        "# Made by `python -m umform.verification.sharp_bends.calculix FOLDER`; increments as CalculiX chose them.",
+        "u,force",
+        *(f"{a:.6g},{b:.6g}" for a, b in zip(u, force, strict=True)),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _make_files(folder: Path) -> None:
+    for mesh in STORED:
+        with tempfile.TemporaryDirectory() as scratch:
+            text = csv_text(mesh, *run(mesh, Path(scratch)))
+        (folder / mesh.file).write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    _make_files(Path(sys.argv[1]))

@@ -1,0 +1,94 @@
+"""Decks with mistakes: templates whose text, keys and values are changed at random."""
+
+import copy
+import datetime
+import json
+import tomllib
+
+from hypothesis import strategies as st
+
+from umform.deck.templates import template, template_file, templates
+
+FOLDER = template_file("own-mesh").parent
+TEXTS = {name: template(name) for name in templates()}
+#: Words of all decks, so that keys and values get into each other's places.
+WORDS = sorted({word for text in TEXTS.values() for word in text.replace('"', " ").split() if word.isidentifier()})
+
+numbers = st.sampled_from(
+    [0, 1, 2, 3, -1, 7, 0.0, 0.5, -2.5, 1e-9, 1e9, 1e200, -1e300, float("nan"), float("inf"), 10**30]
+)
+words = st.one_of(st.sampled_from(WORDS), st.text(max_size=5), st.sampled_from(["", "x0", "nodes", "$\\frac$", "../x"]))
+scalars = st.one_of(numbers, words, st.booleans(), st.just(datetime.date(2020, 2, 2)))
+values = st.one_of(
+    scalars,
+    st.lists(scalars, max_size=4),
+    st.dictionaries(words, scalars, max_size=3),
+    st.just([]),
+    st.just({}),
+    st.just([[0, 1], [2]]),
+)
+
+
+def written(value):
+    """A value as TOML."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return json.dumps(value).replace("\x7f", "\\u007f")
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(key)} = {written(entry)}" for key, entry in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(written, value)) + "]"
+    return str(value)
+
+
+def places(data, path=()):
+    """All paths of a tree."""
+    for key, value in data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ():
+        yield (*path, key)
+        yield from places(value, (*path, key))
+
+
+def holder(data, path):
+    for key in path[:-1]:
+        data = data[key]
+    return data
+
+
+@st.composite
+def changed_data(draw, most=3):
+    """A template with some keys renamed, dropped, copied elsewhere, or given other values."""
+    data = copy.deepcopy(tomllib.loads(TEXTS[draw(st.sampled_from(sorted(TEXTS)))]))
+    for _ in range(draw(st.integers(1, most))):
+        path = draw(st.sampled_from(list(places(data)) or [("mesh",)]))
+        inside = holder(data, path)
+        how = draw(st.sampled_from(["value", "number", "drop", "rename", "copy"]))
+        if how == "drop":
+            del inside[path[-1]]
+        elif how == "rename" and isinstance(inside, dict):
+            inside[draw(words)] = inside.pop(path[-1])
+        elif how == "copy":
+            source = draw(st.sampled_from(list(places(data))))
+            inside[path[-1]] = copy.deepcopy(holder(data, source)[source[-1]])
+        else:
+            inside[path[-1]] = copy.deepcopy(draw(numbers if how == "number" else values))
+    return "".join(f"{json.dumps(key)} = {written(value)}\n" for key, value in data.items())
+
+
+@st.composite
+def changed_text(draw):
+    """A template with pieces of text cut out, doubled, or put in."""
+    text = TEXTS[draw(st.sampled_from(sorted(TEXTS)))]
+    for _ in range(draw(st.integers(1, 3))):
+        start = draw(st.integers(0, len(text)))
+        end = min(start + draw(st.sampled_from([0, 1, 2, 10, 60])), len(text))
+        piece = draw(
+            st.one_of(
+                st.text(max_size=3), st.sampled_from(['"', "[", "]]", "{", "\n", "=", "'''", "#", text[start:end] * 2])
+            )
+        )
+        text = text[:start] + piece + text[end:]
+    return text
+
+
+decks = st.one_of(changed_data(), changed_data(), changed_text())

@@ -1,0 +1,133 @@
+import math
+
+import numpy as np
+import pytest
+
+from umform.deck import Deck
+from umform.deck.bends import locking_moment, thickness
+from umform.deck.findings import Level
+from umform.deck.look import look
+from umform.mesh import strip as strip_mesh
+
+
+@pytest.fixture
+def found():
+    """Findings of a text about something."""
+
+    def looked(text, about, **changes):
+        deck = Deck.read(text, changes={key.replace("__", "."): value for key, value in changes.items()})
+        return [finding for finding in look(deck, deck.build()) if finding.about == about]
+
+    return looked
+
+
+def levels(findings):
+    return [finding.level for finding in findings]
+
+
+OK, WARNING, ERROR = [Level.OK], [Level.WARNING], [Level.ERROR]
+
+
+def test_free_motions(strip, found):
+    assert levels(found(strip, "supports")) == OK
+    (free,) = found(strip.replace('kind = "fix"', 'kind = "symmetry"\nnormal = "x"'), "supports")
+    assert free.level is Level.ERROR
+    assert "translation y" in free.text
+    assert free.remedy
+
+
+def test_gaps(texts, found):
+    text = texts("free-bending")
+    first = found(text, "contact cylinder")[0]
+    assert first.level is Level.OK
+    deeper = found(text.replace("-20.5]", "-20.4]"), "contact cylinder")[0]
+    assert deeper.level is Level.WARNING
+    assert "overlap 0.09" in deeper.text
+    away = found(text.replace("-20.5]", "-420.5]"), "contact cylinder")[0]
+    assert away.level is Level.WARNING
+    assert "gap 400" in away.text
+    swallowed = found(text.replace("-20.5]", "-19.5]"), "tools")
+    assert levels(swallowed) == ERROR
+    centre = found(
+        text.replace("[25.0, 0.0, -20.5]", "[25.0, 0.0, -0.5]").replace("points = 2 ", "points = 'nodes' "), "tools"
+    )
+    assert levels(centre) == ERROR
+
+
+def test_element_size_on_the_smallest_radius(texts, found):
+    text = texts("air-bending")
+    fine, coarse = (found(text, "contact punch", mesh__cells=[n, 1])[1] for n in (40, 10))
+    assert fine.level is Level.OK
+    assert f"{math.degrees(0.35 / 3):.3g} degrees" in fine.text
+    assert coarse.level is Level.WARNING
+    assert "0.52 or less" in coarse.remedy
+    edge = found(text.replace("tip_radius = 3.0", "tip_radius = 0.0"), "contact punch")
+    assert any("sharp edge" in finding.text and finding.level is Level.WARNING for finding in edge)
+
+
+def test_element_size_is_measured_across_the_tool(texts, found):
+    across = found(texts("free-bending"), "contact cylinder", mesh__cells=[24, 100])[1]
+    assert "an element is 2.5 long" in across.text
+
+
+def test_thickness_order_and_points(texts, found):
+    text = texts("air-bending")
+    assert levels(found(text, "element")) == OK
+    (locks,) = found(text, "element", element__name="ANS3DEAS")
+    assert locks.level is Level.WARNING
+    assert "33.3 %" in locks.text
+    few = found(text, "element", element__thickness_points=5)
+    assert levels(few) == [Level.OK, Level.WARNING]
+
+
+def test_locking_moment_is_that_of_the_theory():
+    """The false moment (2.28), differentiated from its energy, over the plastic moment of plane strain."""
+    kappa_over_y, h = 600.0, 2.0
+
+    def energy(k, order):
+        z = np.linspace(-h / 2, h / 2, 4001)
+        m, x, t = order + 1, k * h / 2, 2 * z / h
+        beta = {2: 1.0, 3: 4 / 5, 4: 4 / 7}[m]
+        legendre = np.polynomial.legendre.Legendre.basis(m)(t)
+        return np.trapezoid(0.5 * kappa_over_y * (beta * x**m * legendre) ** 2, z)
+
+    k = 0.2
+    plastic = 2 / math.sqrt(3) * h**2 / 4
+    for order in (1, 2, 3):
+        moment = (energy(k * 1.0001, order) - energy(k * 0.9999, order)) / (2e-4 * k)
+        assert locking_moment(order, k * h / 2, kappa_over_y) == pytest.approx(moment / plastic, rel=1e-4)
+
+
+def test_thickness_of_stacked_layers():
+    assert thickness(strip_mesh(4.0, 1.0, 0.6, (3, 1), layers=3)) == pytest.approx(0.6)
+
+
+def test_units(strip, texts, found):
+    assert levels(found(strip, "units")) == OK
+    (pascal,) = found(strip, "units", material__E=210e9)
+    assert pascal.level is Level.WARNING
+    assert "Pa with mm" in pascal.text
+    small = {"mesh__length": 0.01, "mesh__width": 0.002, "mesh__thickness": 0.001}
+    (metres,) = found(strip, "units", **small)
+    assert "MPa with m?" in metres.text
+    assert levels(found(strip, "units", material__E=210e9, **small)) == OK
+    mixed = found(texts("free-bending"), "units", material__hardening__yield_stress=160e6)
+    assert levels(mixed) == [Level.OK, Level.WARNING]
+    stiff = found(texts("free-bending"), "contact cylinder", contacts__cylinder__penalty=1e9)
+    assert Level.WARNING in levels(stiff)
+
+
+def test_idle_tools_and_controls(texts, found):
+    text = (
+        texts("free-bending") + '[tools.spare]\nshape = "Plane"\n[controls.spare]\nkind = "pressure"\nfaces = "upper"\n'
+    )
+    assert levels(found(text, "tool spare")) == WARNING
+    assert levels(found(text, "control spare")) == WARNING
+
+
+def test_effort(texts, found):
+    (effort,) = found(texts("free-bending"), "effort")
+    assert "330 increments" in effort.text
+    assert "ms an iteration" in effort.text
+    (singular,) = found(texts("free-bending").replace("-20.5]", "-21.5]"), "effort")
+    assert singular.level is Level.WARNING or "ms an iteration" in singular.text

@@ -1,0 +1,203 @@
+import csv
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from umform import cli
+from umform.deck.templates import template_file
+from umform.newton import Newton
+
+FILES = {"history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", "as-run.toml"}
+
+
+def umform(*words):
+    return CliRunner().invoke(cli.app, [str(word) for word in words])
+
+
+@pytest.fixture
+def deck(tmp_path, strip):
+    path = tmp_path / "pull.toml"
+    path.write_text(strip)
+    return path
+
+
+def rows(folder):
+    with (folder / "history.csv").open() as file:
+        return list(csv.DictReader(file))
+
+
+def whole(folder):
+    """Names of the files in a folder, each of which must be whole."""
+    names = {path.name for path in folder.iterdir()}
+    assert not any(name.startswith(".") for name in names)
+    if "report.html" in names:
+        assert (folder / "report.html").read_text().rstrip().endswith("</html>")
+    for picture in names & {"curve.png", "shape.png"}:
+        assert (folder / picture).read_bytes().endswith(b"IEND\xaeB`\x82")
+    if "fields.vtkhdf" in names:
+        import h5py
+
+        with h5py.File(folder / "fields.vtkhdf") as file:
+            assert file["VTKHDF/Steps"].attrs["NSteps"] > 0
+    return names
+
+
+def test_run_writes_everything(deck, tmp_path):
+    out = tmp_path / "a" / "b"
+    answer = umform("run", deck, "--out", out, "--solver", "superlu", "--set", "steps.0.increments=3")
+    assert answer.exit_code == 0, answer.output
+    assert whole(out) == FILES
+    assert [float(row["pull"]) for row in rows(out)] == pytest.approx([0, 0.1 / 3, 0.2 / 3, 0.1])
+    assert "solver superlu" in answer.output
+    assert "Written to" in answer.output
+    copy = (out / "as-run.toml").read_text()
+    assert copy == "# run with --set steps.0.increments=3\n" + deck.read_text()
+    assert umform("check", out / "as-run.toml").exit_code == 0
+
+
+def test_output_is_as_asked_for(deck, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    deck.write_text(deck.read_text() + "[output]\nreport = false\npictures = false\nvtkhdf = false\n")
+    assert umform("run", deck).exit_code == 0
+    assert whole(tmp_path / "results" / "pull") == {"history.csv", "as-run.toml"}
+    assert umform("run", deck, "--set", "output.csv=false", "--set", "output.folder='x'").exit_code == 0
+    assert whole(tmp_path / "x") == {"as-run.toml"}
+
+
+def test_loads_are_drawn_over_what_they_move(tmp_path):
+    changes = ["--set", "steps.0.increments=2", "--set", "mesh.cells=[4,1]", "--set", "output.report=false"]
+    answer = umform("run", template_file("cantilever"), "--out", tmp_path, *changes)
+    assert answer.exit_code == 0, answer.output
+    assert "curve.png" in whole(tmp_path)
+
+
+def test_no_convergence_writes_what_was_reached(deck, tmp_path, monkeypatch):
+    solve, calls = Newton.solve, []
+
+    def tired(self, *args):
+        calls.append(1)
+        if len(calls) > 2:
+            self.options = type(self.options)(max_iterations=1)
+        return solve(self, *args)
+
+    monkeypatch.setattr(Newton, "solve", tired)
+    changes = ["--set", "steps.0.increments=4", "--set", "steps.0.cuts=0"]
+    answer = umform("run", deck, "--out", tmp_path / "out", *changes)
+    assert answer.exit_code == 1
+    assert "did not converge" in answer.output
+    assert "what was reached is written" in answer.output
+    assert whole(tmp_path / "out") == FILES
+    assert len(rows(tmp_path / "out")) == 3
+
+
+def test_interrupt_writes_what_was_reached(deck, tmp_path, monkeypatch):
+    solve, calls = Newton.solve, []
+
+    def interrupted(self, *args):
+        calls.append(1)
+        if len(calls) > 3:
+            raise KeyboardInterrupt
+        return solve(self, *args)
+
+    monkeypatch.setattr(Newton, "solve", interrupted)
+    answer = umform("run", deck, "--out", tmp_path / "out", "--set", "steps.0.increments=9")
+    assert answer.exit_code == 130
+    assert "interrupted; what was reached is written" in answer.output
+    assert whole(tmp_path / "out") == FILES
+    assert len(rows(tmp_path / "out")) == 4
+
+
+def test_interrupt_while_writing_leaves_no_half_file(deck, tmp_path, monkeypatch):
+    from umform.results import Result
+
+    def interrupted(self, path):
+        path.write_text("<html>")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Result, "report", interrupted)
+    answer = umform("run", deck, "--out", tmp_path / "out")
+    assert answer.exit_code == 130
+    assert whole(tmp_path / "out") == {"history.csv", "fields.vtkhdf", "as-run.toml"}
+
+
+def test_what_cannot_be_solved_leaves_no_folder(deck, tmp_path):
+    deck.write_text(deck.read_text().replace('kind = "fix"', 'kind = "symmetry"\nnormal = "x"'))
+    answer = umform("run", deck, "--out", tmp_path / "out")
+    assert answer.exit_code == 1
+    assert "rigid whole" in answer.output
+    assert not (tmp_path / "out").exists()
+
+
+def test_folder_that_cannot_be_written(deck, tmp_path):
+    (tmp_path / "file").write_text("")
+    answer = umform("run", deck, "--out", tmp_path / "file" / "out")
+    assert answer.exit_code == 1
+    assert "is a file, not a directory" in answer.output
+
+
+def test_check(deck):
+    answer = umform("check", deck)
+    assert answer.exit_code == 0
+    assert "no rigid-body motion is free" in answer.output
+    answer = umform("check", deck, "--set", "material.E=210e9")
+    assert answer.exit_code == 0
+    assert "Pa with mm?" in answer.output
+    deck.write_text(deck.read_text().replace('kind = "fix"', 'kind = "symmetry"\nnormal = "x"'))
+    assert umform("check", deck).exit_code == 1
+
+
+def test_wrong_decks_and_changes(deck, tmp_path):
+    for change in ("mesh.cels=3", "mesh.cells", "mesh.cells=[", "mesh.cells=" + "[" * 5000):
+        answer = umform("check", deck, "--set", change)
+        assert answer.exit_code == 1
+        assert "remedy" in answer.output
+    answer = umform("run", deck, "--solver", "pardisso")
+    assert answer.exit_code == 1
+    assert "superlu" in answer.output
+    assert umform("check", tmp_path / "missing.toml").exit_code == 1
+
+
+def test_new(tmp_path):
+    assert "air-bending" in umform("new").output
+    assert umform("new", "cantilever").output == template_file("cantilever").read_text()
+    assert umform("new", "--schema").output.startswith("{")
+    answer = umform("new", "nothing")
+    assert answer.exit_code == 1
+    assert "one of air-bending" in answer.output
+    assert umform("new", "own-mesh", "--out", tmp_path / "deck.toml").exit_code == 0
+    assert umform("check", tmp_path / "deck.toml").exit_code == 0
+
+
+def test_demo_prints_its_deck(tmp_path):
+    answer = umform("demo", "free-bending", "--print-deck", "--mesh", "24x1", "--contact", "5", "--radius", "15")
+    assert answer.exit_code == 0
+    (tmp_path / "deck.toml").write_text(answer.output)
+    checked = umform("check", tmp_path / "deck.toml")
+    assert checked.exit_code == 0
+    assert "the radius 15 of cylinder" in checked.output
+
+
+def test_ctrl_c_ends_a_run_with_whole_files(tmp_path):
+    out = tmp_path / "out"
+    command = [sys.executable, "-m", "umform.cli", "run", str(template_file("free-bending")), "--out", str(out)]
+    environment = os.environ | {"PYTHONPATH": str(Path(cli.__file__).parents[2]), "OMP_NUM_THREADS": "1"}
+    changes = ["--set", "steps.0.increments=100000", "--set", "output.report=false"]
+    run = subprocess.Popen([*command, *changes, "-v"], stderr=subprocess.PIPE, text=True, env=environment)
+    try:
+        for line in run.stderr:
+            if "step 1" in line:  # the first increment is done
+                break
+        run.send_signal(signal.SIGINT)
+        said = run.stderr.read()
+        assert run.wait(120) == 130, said
+    finally:
+        run.kill()
+        run.stderr.close()
+    assert "what was reached is written" in said
+    assert whole(out) == FILES - {"report.html"}
+    assert 1 < len(rows(out)) < 100000

@@ -1,0 +1,146 @@
+"""Error budget, files, and the command `umform bend`."""
+
+from __future__ import annotations
+
+import csv
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from umform.cli import app
+from umform.processes.air_bending import AirBending, air_bending
+from umform.processes.air_bending import budget as budget_module
+from umform.processes.air_bending.budget import Budget, error_budget, refinements
+from umform.processes.air_bending.files import write_files
+from umform.processes.air_bending.measures import QUANTITIES
+from umform.processes.air_bending.words import summary, summary_header
+
+TINY = AirBending(stroke=1.0, elements_per_thickness=1.0, layers=1, increment=0.025)
+TYPED = ["--elements-per-thickness", "1", "--layers", "1", "--increment", "0.025"]
+
+
+@pytest.fixture(scope="module")
+def bend():
+    return air_bending(TINY, progress=False)
+
+
+@pytest.fixture(scope="module")
+def errors(bend):
+    return error_budget(TINY, bend.measures, processes=1, progress=False)
+
+
+def test_each_refinement_changes_one_parameter():
+    for refined in refinements(TINY).values():
+        before = TINY.record() | {"penalty": TINY.contact_penalty}
+        after = refined.record() | {"penalty": refined.contact_penalty}
+        assert sum(before[name] != after[name] for name in before) == 1
+
+
+def test_automatic_contact_is_refined_too():
+    cases = refinements(replace(TINY, penetration=0.01, contact_points="auto"))
+    assert cases["penalty*2"].penetration == 0.005
+    assert cases["c-pts+2"].contact_points == 10
+
+
+def test_a_budget_is_the_change_by_each_refinement(bend, errors):
+    assert errors.failures == {}
+    finer = air_bending(replace(TINY, elements_per_thickness=2.0), progress=False).measures
+    for name in ("angle", "largest_force"):
+        expected = getattr(finer, name) - getattr(bend.measures, name)
+        assert errors.changes["mesh/2"][name] == pytest.approx(expected, abs=2e-3)
+    assert errors.total("angle") >= abs(errors.changes["mesh/2"]["angle"]) > 0.0
+    assert errors.total("stroke") == 0.0
+
+
+def test_a_refined_run_that_fails_says_so(bend, monkeypatch):
+    def fails(case):
+        raise ValueError("no")
+
+    monkeypatch.setattr(budget_module, "_run", fails)
+    errors = error_budget(TINY, bend.measures, processes=1, progress=False)
+    assert set(errors.failures) == set(refinements(TINY))
+    assert np.isnan(errors.total("angle"))
+
+
+def test_tables_have_a_column_for_each_refinement(bend, errors):
+    header, rows = summary_header(errors), summary(bend.measures, 50.0, errors)
+    assert {len(row) for row in rows} == {len(header)}
+    assert [row[0] for row in rows if row[0] != "force on the width"] == [q.label for q in QUANTITIES.values()]
+    total = next(row for row in rows if row[0] == "force on the width")
+    assert float(total[1]) == pytest.approx(bend.measures.largest_force * 0.05, abs=0.006)
+
+
+def test_all_files_are_written(tmp_path, bend, errors):
+    files = write_files(tmp_path / "out", bend, [bend.measures], errors)
+    assert sorted(file.name for file in files) == sorted(
+        ["curve.csv", "table.csv", "bend.json", "bend.vtkhdf", "report.html"]
+        + [f"{name}.{ending}" for name in ("curve", "shape", "drawing") for ending in ("png", "svg")]
+    )
+    record = json.loads((tmp_path / "out" / "bend.json").read_text())
+    assert record["measures"]["angle"] == bend.measures.angle
+    assert record["budget"]["changes"]["mesh/2"]["angle"] == errors.changes["mesh/2"]["angle"]
+    with (tmp_path / "out" / "curve.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == len(bend.stroke)
+    assert float(rows[-1]["stroke"]) == bend.stroke[-1]
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert all(quantity.label in page for quantity in QUANTITIES.values())
+
+
+def test_a_failed_refinement_does_not_spoil_the_files(tmp_path, bend):
+    changes = {"mesh/2": dict.fromkeys(QUANTITIES, float("nan"))}
+    write_files(tmp_path, bend, budget=Budget(bend.measures, changes, {"mesh/2": "it did not converge"}))
+    record = json.loads((tmp_path / "bend.json").read_text())
+    assert record["budget"] == {"changes": {}, "failures": {"mesh/2": "it did not converge"}}
+    assert "it did not converge" in (tmp_path / "report.html").read_text()
+
+
+def test_the_command_bends_to_a_stroke(tmp_path):
+    typed = ["bend", "--stroke", "1", "--table", "0.5:1:0.5", "--swift", "520,0.004,0.22", "--width", "10"]
+    done = CliRunner().invoke(app, [*typed, "--width-elements", "2", *TYPED, "--out", str(tmp_path)])
+    assert done.exit_code == 0, done.output
+    assert "force on the width" in done.output
+    assert "Bending table" in done.output
+    assert (tmp_path / "report.html").exists()
+    assert len((tmp_path / "table.csv").read_text().splitlines()) == 3
+
+
+def test_the_command_takes_a_metal_of_the_library(tmp_path):
+    done = CliRunner().invoke(app, ["bend", "--stroke", "1", "--material", "DC04", *TYPED, "--out", str(tmp_path)])
+    assert done.exit_code == 0, done.output
+    assert "DC04: " in done.output
+    record = json.loads((tmp_path / "bend.json").read_text())
+    assert 270.0 <= record["tensile_strength"] <= 350.0
+
+
+def test_the_command_finds_an_angle(tmp_path):
+    typed = ["bend", "--angle", "160", "--tolerance", "0.1", "--yield-stress", "200", "--hardening-modulus", "500"]
+    done = CliRunner().invoke(app, [*typed, *TYPED, "--out", str(tmp_path)])
+    assert done.exit_code == 0, done.output
+    record = json.loads((tmp_path / "bend.json").read_text())
+    assert record["measures"]["angle"] == pytest.approx(160.0, abs=0.2)
+    assert "500" in record["parameters"]["material"]
+
+
+@pytest.mark.parametrize(
+    ("typed", "message"),
+    [
+        ([], "give the stroke or the angle"),
+        (["--stroke", "6", "--angle", "90"], "give the stroke or the angle"),
+        (["--stroke", "6", "--swift", "520"], "3 numbers are needed"),
+        (["--stroke", "6", "--young", "200000"], "a hardening curve is given by"),
+        (["--stroke", "6", "--material", "DC04", "--young", "2e5"], "by name or by numbers"),
+        (["--stroke", "6", "--material", "cheese"], "cheese"),
+        (["--stroke", "6", "--table", "6:4:1"], "a table goes"),
+        (["--stroke", "9"], "beyond air bending"),
+        (["--angle", "80"], "cannot be reached"),
+    ],
+)
+def test_the_command_refuses(typed, message, tmp_path):
+    done = CliRunner().invoke(app, ["bend", *typed, "--out", str(tmp_path / "out")])
+    assert done.exit_code == 1
+    assert message in done.stderr
+    assert not (tmp_path / "out").exists()

@@ -1,0 +1,59 @@
+"""Write the table of the README from the pages of the verification book: the numbers in it are never typed.
+
+`make verification` calls it after the run; a test calls it with --check.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+README = ROOT / "README.md"
+BOOK = ROOT / "docs" / "verification"
+BEGIN, END = "<!-- verification -->\n", "<!-- /verification -->"
+
+#: Page, and the check on it that the README quotes.
+QUOTED = (
+    ("scordelis-lo", "ANS3DEAS, E_33 tied, 32 intervals"),
+    ("linear-hemisphere", "MI9K3DEAS, E_33 tied, 32 intervals"),
+    ("nonlinear-end-shear", "w at full load, ANS3DEAS, E_33 tied, 32 intervals"),
+    ("nonlinear-hemisphere", "-u_B at full load, MI9K3DEAS, E_33 tied, 32 intervals"),
+    ("nonlinear-roof-6-35", "Limit load, N, ANS3DEAS, E_33 tied, 16 intervals"),
+    ("plastic-tube", "limit pressure, MI9K3DEAS, E_33 tied, 16 layers"),
+    ("contact-hertz-line", "ANS3DEAS, 8 elements over the half-width: peak pressure"),
+    ("bending-reproduction", "ANS3DEAS 24x1 2x2: F(15)"),
+)
+
+
+def rows(page: str) -> dict[str, list[str]]:
+    """Checks of a page: what -> reference, found, deviation."""
+    text = (BOOK / f"{page}.md").read_text(encoding="utf-8")
+    table = text.split("## Checks")[1].split("\n## ")[0]
+    lines = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table.splitlines() if "|" in line]
+    return {line[0]: line[1:4] for line in lines[2:]}
+
+
+def table() -> str:
+    """The table of the README."""
+    lines = ["| case | what | reference | umform | deviation |", "|---|---|---|---|---|"]
+    for page, what in QUOTED:
+        title = (BOOK / f"{page}.md").read_text(encoding="utf-8").splitlines()[0].removeprefix("# ")
+        lines.append(f"| [{title}](docs/verification/{page}.md) | {what} | {' | '.join(rows(page)[what])} |")
+    return "\n".join(lines) + "\n"
+
+
+def main() -> int:
+    """Rewrite the README, or with --check say whether it is as it would be written."""
+    text = README.read_text(encoding="utf-8")
+    before, rest = text.split(BEGIN)
+    after = rest.split(END)[1]
+    fresh = before + BEGIN + table() + END + after
+    if "--check" in sys.argv:
+        return 0 if fresh == text else 1
+    README.write_text(fresh, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
