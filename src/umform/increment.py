@@ -142,8 +142,8 @@ def _tangent(run: Run, before: Mapping[Control, float], time: float) -> Floats |
     None where nothing holds the sheet there but a tool that is still to come.
     """
     model, newton = run.model, run.newton
-    rates = {control: control.value - value for control, value in before.items()}
-    time_after = model.time
+    after, time_after = {control: control.value for control in before}, model.time
+    rates = {control: after[control] - value for control, value in before.items()}
 
     def increment() -> Floats:
         evaluation = model.evaluate(model.u, rates=rates)
@@ -158,7 +158,7 @@ def _tangent(run: Run, before: Mapping[Control, float], time: float) -> Floats |
     except Failed:
         return None
     finally:
-        _put({control: before[control] + rate for control, rate in rates.items()}, time_after, model)
+        _put(after, time_after, model)
 
 
 def _put(values: Mapping[Control, float], time: float, model: Model) -> None:

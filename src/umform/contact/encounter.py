@@ -18,7 +18,7 @@ from umform.mesh import Ids, Mesh
 
 Floats = NDArray[np.float64]
 
-#: Shortest lever arm of the contact force in thicknesses: that of the narrowest die, whose radii shorten it as it bends.
+#: Shortest lever arm of the contact force in thicknesses: that of the narrowest die, whose radii shorten it in bending.
 _ARM = 2.0
 #: Largest radius that a sheet is bent to, in thicknesses: a strain of one per cent at its faces.
 _FLATTEST = 50.0
