@@ -98,8 +98,9 @@ def _control(control: Control) -> str:
 
 
 def _contact(contact: Contact) -> str:
-    where = [contact.facets, contact.points, contact.penalty, contact.translations]
-    return text([contact.name, contact.tool, *where, contact.motion, contact.reference_point])
+    where = [contact.facets, contact.points, contact.translations]
+    how = [contact.penalty, contact.allowed, contact.augmented]
+    return text([contact.name, contact.tool, *where, *how, contact.motion, contact.reference_point])
 
 
 def _function(function: Any, depth: int) -> str:

@@ -13,12 +13,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from umform.contact import Contact
+from umform.contact.encounter import sheet_thickness
 from umform.deck.deck import Deck
 from umform.deck.findings import Finding, ok, warning
 from umform.deck.problem import Problem
 from umform.deck.tools import ToolPart, along, smallest_radius
 from umform.materials import J2
-from umform.mesh import Mesh
 from umform.model import Model
 
 #: Degrees of a tool radius that one element may span.
@@ -31,7 +31,7 @@ _POINTS, _SHARP_POINTS, _SHARP = 5, 7, 0.1
 
 def look(deck: Deck, problem: Problem) -> Iterator[Finding]:
     """Element sizes on all tools, and the thickness on the sharpest one."""
-    h = thickness(problem.model.mesh)
+    h = sheet_thickness(problem.model.mesh)
     sharpest: tuple[float, str] | None = None
     for name, part in deck.contents.contacts.items():
         tool = deck.contents.tools[part.tool]
@@ -43,18 +43,6 @@ def look(deck: Deck, problem: Problem) -> Iterator[Finding]:
             sharpest = (radius, part.tool)
     if sharpest is not None and isinstance(problem.model.material, J2):
         yield from through_thickness(problem.model, problem.model.material, h, *sharpest)
-
-
-def thickness(mesh: Mesh) -> float:
-    """Thickness of the sheet: that of a cell, times the layers."""
-    half = mesh.connectivity.shape[1] // 2
-    lower, upper = mesh.connectivity[:, :half], mesh.connectivity[:, half:]
-    cell = float(np.median(np.linalg.norm(mesh.points[upper] - mesh.points[lower], axis=-1)))
-    layers, above = 1, np.unique(upper)
-    while len(above := np.intersect1d(above, lower)):  # nodes with one more cell on top
-        layers += 1
-        above = np.unique(upper[np.isin(lower, above).all(axis=1)])
-    return layers * cell
 
 
 def element_size(contact: Contact, model: Model, tool: ToolPart, radius: float) -> Finding:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from umform.contact.encounter import sheet_thickness
 from umform.deck import bends
 from umform.deck.contents import Contents
 from umform.deck.deck import Deck
@@ -75,7 +76,7 @@ def motions(model: Model) -> Finding:
 def gaps(problem: Problem) -> Iterator[Finding]:
     """Gap or overlap of each contact pair at the start."""
     model = problem.model
-    thickness = bends.thickness(model.mesh)
+    thickness = sheet_thickness(model.mesh)
     for name, contact in problem.contacts.items():
         contact.place(model.time)
         contact.block.locate(model.u)
@@ -104,7 +105,7 @@ def units(model: Model, contents: Contents) -> Iterator[Finding]:
     material: object = model.material
     if not isinstance(material, Elastic):
         return
-    length, thickness = float(np.ptp(model.mesh.points, axis=0).max()), bends.thickness(model.mesh)
+    length, thickness = float(np.ptp(model.mesh.points, axis=0).max()), sheet_thickness(model.mesh)
     text = f"E = {material.E:.4g}, thickness {thickness:.4g}, length {length:.4g}"
     if material.E > 1e9 and length > 1.0:
         yield warning("units", f"{text}: Pa with mm?", "with mm and N stresses are in MPa: E of steel is 210e3")

@@ -3,8 +3,9 @@ import math
 import numpy as np
 import pytest
 
+from umform.contact.encounter import sheet_thickness
 from umform.deck import Deck
-from umform.deck.bends import locking_moment, thickness
+from umform.deck.bends import locking_moment
 from umform.deck.findings import Level
 from umform.deck.look import look
 from umform.mesh import strip as strip_mesh
@@ -99,7 +100,7 @@ def test_locking_moment_is_that_of_the_theory():
 
 
 def test_thickness_of_stacked_layers():
-    assert thickness(strip_mesh(4.0, 1.0, 0.6, (3, 1), layers=3)) == pytest.approx(0.6)
+    assert sheet_thickness(strip_mesh(4.0, 1.0, 0.6, (3, 1), layers=3)) == pytest.approx(0.6)
 
 
 def test_units(strip, texts, found):
