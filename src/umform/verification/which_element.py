@@ -13,8 +13,15 @@ ENOUGH = 0.05
 _ADVICE = (
     ("a sheet over a tool, radius many times the thickness", "`ANS3DEAS`, `tie_E33=True`, two elements over the width"),
     ("the same on few elements", "`MI9K3DEAS`, `tie_E33=True`, 3 x 3 contact points at least"),
-    ("a sharp bend", "the elements for bends, see [the chapter on sharp bends](README.md#sharp-bends)"),
-    ("a sheet that bends in its own plane", "`EAS3DEAS`, `tie_E33=True`"),
+    (
+        "a sharp bend, radius below some ten thicknesses",
+        "`BEND8` (two elements over the width) or `BEND18`, see [sharp bends](README.md#sharp-bends)",
+    ),
+    ("a sheet that bends in its own plane, elastic", "`EAS3DEAS`, `tie_E33=True`"),
+    (
+        "plastic flow in plane strain, strains above 0.1",
+        "`MI9K3DEAS`; `EAS3DEAS` is not stable there, `ANS3DEAS` is stiff",
+    ),
     ("locking, to see what it is", "`DISP3D`, `DISP9K3D`"),
 )
 
