@@ -111,7 +111,7 @@ test-pardiso: pardiso  ## tests of solvers, threads and a bend with PARDISO
 verification: pardiso  ## run the whole verification book and write docs/verification (some 20 minutes on 2 cores)
 	$(SAY) 'Running all cases of the verification book'
 	@$(BIN)/umform verify --all --out docs/verification $(ARGS)
-	@$(BIN)/python tools/readme_numbers.py
+	@$(if $(ARGS),,$(BIN)/python tools/readme_numbers.py)
 
 # ---- style ----
 
