@@ -108,7 +108,7 @@ test-pardiso: pardiso  ## tests of solvers, threads and a bend with PARDISO
 	    $(BIN)/pytest -q $(PARDISO_TESTS) $(ARGS); \
 	else echo 'There is no wheel of MKL for this platform: PARDISO is not tested here'; fi
 
-verification: pardiso  ## run the whole verification book and write docs/verification (some 20 minutes on 2 cores)
+verification: pardiso  ## run the whole verification book and write docs/verification (some 12 minutes on 2 cores)
 	$(SAY) 'Running all cases of the verification book'
 	@$(BIN)/umform verify --all --out docs/verification $(ARGS)
 	@$(if $(ARGS),,$(BIN)/python tools/readme_numbers.py)

@@ -14,6 +14,10 @@ _LIMITS = """\
 * Statics: there is no mass and no inertia.
 * Penalty contact: a sheet sinks into a tool by pressure / penalty.
 * The plastic law is isotropic: no anisotropy of rolled sheet, no Bauschinger effect in reverse bending.
+* Pressure at the nodes of 9-node faces can be slightly negative beside the edge of a contact: it is an average with
+  the shape functions as weights, and these change their sign. At the contact points it is right.
+* A release from a tool with a penalty of some 100 E/h can fail close to zero force; the automatic penalty is softer.
+* In air bending one layer of elements bends more sharply than two or more at the same stroke: take two layers.
 * Results after the onset of necking or of a plastic hinge without hardening depend on the mesh: the law has no length.
 """
 
