@@ -1,8 +1,15 @@
-"""Every block of Python in the docs runs; blocks of one page share their names, as a reader would type them."""
+"""What the docs show runs: blocks of one page run in their order, in one folder, and share their names, as a reader would type them.
+
+A block of `python` or `sh` is run, one of `toml` whose first line is a comment with a file name is written there, and one of `text`
+shows what the block of `sh` before it prints. `console` shows commands that cannot run in a test.
+"""
 
 from __future__ import annotations
 
+import math
+import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -10,17 +17,75 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PAGES = [
-    page for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))] if "```python" in page.read_text()
-]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+WITH_BLOCKS = [page for page in PAGES if re.search(r"^```(python|sh)$", page.read_text(), flags=re.M)]
+KINDS = {"python", "sh", "toml", "text", "console", "mermaid", ""}
+
+
+def blocks(page: Path) -> list[tuple[str, str]]:
+    """Kind and text of all fenced blocks of a page."""
+    return re.findall(r"^```(\w*)\n(.*?)^```", page.read_text(), flags=re.S | re.M)
+
+
+def shell(command: str, folder: Path, *, bin_folder: Path) -> str:
+    """What a block of commands prints; it must end well."""
+    environment = {**os.environ, "PATH": f"{bin_folder}{os.pathsep}{os.environ['PATH']}", "COLUMNS": "160"}
+    done = subprocess.run(
+        ["bash", "-euo", "pipefail", "-c", command],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
+    return done.stdout
+
+
+def shown(expected: str, printed: str) -> bool:
+    """Whether a line of the page is the beginning of a printed one: words alike, numbers within 0.5 % and their digits."""
+    wanted = expected.split()
+    return any(
+        len(line.split()) >= len(wanted) and all(map(_alike, wanted, line.split())) for line in printed.splitlines()
+    )
+
+
+def _alike(word: str, other: str) -> bool:
+    try:
+        digits = len(word.partition(".")[2])
+        return math.isclose(float(word), float(other), rel_tol=5e-3, abs_tol=0.6 * 10**-digits)
+    except ValueError:
+        return word == other
+
+
+@pytest.mark.parametrize("page", WITH_BLOCKS, ids=lambda page: str(page.relative_to(ROOT)))
+def test_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    bin_folder = tmp_path / "bin"
+    bin_folder.mkdir()
+    (bin_folder / "umform").write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -m umform "$@"\n')
+    (bin_folder / "umform").chmod(0o755)
+    folder = tmp_path / "work"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    names: dict[str, object] = {"__name__": "docs"}
+    printed = ""
+    for kind, text in blocks(page):
+        if kind == "python":
+            exec(compile(text, str(page), "exec"), names)
+        elif kind == "sh":
+            printed = shell(text, folder, bin_folder=bin_folder)
+        elif kind == "toml" and (name := re.match(r"# (\S+\.toml)\n", text)):
+            Path(name[1]).write_text(text)
+        elif kind == "text" and printed:
+            for line in filter(None, map(str.strip, text.splitlines())):
+                assert shown(line, printed), f"{page.name} shows {line!r}, printed was\n{printed}"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
-def test_python_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    names: dict[str, object] = {"__name__": "docs"}
-    for block in re.findall(r"^```python\n(.*?)^```", page.read_text(), flags=re.S | re.M):
-        exec(compile(block, str(page), "exec"), names)
+def test_every_block_says_what_it_is(page: Path) -> None:
+    for kind, text in blocks(page):
+        assert kind in KINDS, (page.name, kind)
+        assert kind or not re.search(r"^umform \w+", text, flags=re.M), f"{page.name}: commands without a kind: {text}"
 
 
 def test_the_numbers_of_the_readme_are_those_of_the_verification_book() -> None:
@@ -29,7 +94,6 @@ def test_the_numbers_of_the_readme_are_those_of_the_verification_book() -> None:
 
 
 def test_links_between_pages_lead_somewhere() -> None:
-    pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
-    for page in pages:
+    for page in PAGES:
         for target in re.findall(r"\]\(([^)#:]+?)(?:#[^)]*)?\)", page.read_text()):
             assert (page.parent / target).exists(), (page.name, target)

@@ -1,0 +1,5 @@
+"""`python -m umform` is the command line."""
+
+from umform.cli import main
+
+main()
