@@ -1,7 +1,7 @@
-"""What the docs show runs: blocks of one page run in their order, in one folder, and share their names, as a reader would type them.
+"""What the docs show runs: blocks of a page in their order, in one folder, sharing their names, as a reader types them.
 
-A block of `python` or `sh` is run, one of `toml` whose first line is a comment with a file name is written there, and one of `text`
-shows what the block of `sh` before it prints. `console` shows commands that cannot run in a test.
+A block of `python` or `sh` is run, one of `toml` whose first line is a comment with a file name is written there, and
+one of `text` shows what the block of `sh` before it prints. `console` shows commands that cannot run in a test.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def shell(command: str, folder: Path, *, bin_folder: Path) -> str:
 
 
 def shown(expected: str, printed: str) -> bool:
-    """Whether a line of the page is the beginning of a printed one: words alike, numbers within 0.5 % and their digits."""
+    """Whether a line of the page begins a printed one: words alike, numbers within 0.5 % or their digits."""
     wanted = expected.split()
     return any(
         len(line.split()) >= len(wanted) and all(map(_alike, wanted, line.split())) for line in printed.splitlines()
