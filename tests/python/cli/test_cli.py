@@ -187,7 +187,7 @@ def test_interrupt_of_a_command(monkeypatch):
 
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 def test_ctrl_c_ends_all_processes(tmp_path):
-    command = [sys.executable, "-m", "umform.cli", "demo", "free-bending", "--out", tmp_path, "--processes", "2"]
+    command = [sys.executable, "-m", "umform", "demo", "free-bending", "--out", tmp_path, "--processes", "2"]
     process = subprocess.Popen(
         command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True, text=True
     )
@@ -204,7 +204,7 @@ def test_ctrl_c_ends_all_processes(tmp_path):
 
 
 def test_log_of_increments(tmp_path):
-    command = [sys.executable, "-m", "umform.cli", "-v", "demo", "free-bending", "--out", tmp_path, *RUN]
+    command = [sys.executable, "-m", "umform", "-v", "demo", "free-bending", "--out", tmp_path, *RUN]
     run = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=True)
     assert "step 1  time" in run.stderr
     assert "umform.newton" not in run.stdout

@@ -184,7 +184,7 @@ def test_demo_prints_its_deck(tmp_path):
 
 def test_ctrl_c_ends_a_run_with_whole_files(tmp_path):
     out = tmp_path / "out"
-    command = [sys.executable, "-m", "umform.cli", "run", str(template_file("free-bending")), "--out", str(out)]
+    command = [sys.executable, "-m", "umform", "run", str(template_file("free-bending")), "--out", str(out)]
     environment = os.environ | {"PYTHONPATH": str(Path(cli.__file__).parents[2]), "OMP_NUM_THREADS": "1"}
     changes = ["--set", "steps.0.increments=100000", "--set", "output.report=false"]
     run = subprocess.Popen([*command, *changes, "-v"], stderr=subprocess.PIPE, text=True, env=environment)

@@ -30,7 +30,7 @@ def test_pictures_show_the_frame_and_the_field(file, tmp_path):
     pictures = []
     for number, options in enumerate((["--frame", "0"], ["--frame", "3"], ["--field", "displacement"])):
         png = tmp_path / f"{number}.png"
-        command = [sys.executable, "-m", "umform.cli", "view", file, "--png", png, *options]
+        command = [sys.executable, "-m", "umform", "view", file, "--png", png, *options]
         run = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
         assert run.returncode == 0, run.stderr
         assert run.stderr == ""
