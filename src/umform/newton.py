@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from umform.errors import InvalidValue, NotFinite, SingularMatrix
 from umform.solvers import Pattern, SparseSolver, make_solver
 from umform.system import Evaluation, System
+from umform.timing import TimedSolver, Timing
 
 log = logging.getLogger("umform.newton")
 
@@ -151,11 +152,18 @@ class _FixedLoads:
 class Newton:
     """Newton's method with a solver that keeps its symbolic factorisation while the pattern holds."""
 
-    def __init__(self, system: System, options: NewtonOptions | None = None, solver: str = "auto") -> None:
+    def __init__(
+        self,
+        system: System,
+        options: NewtonOptions | None = None,
+        solver: str = "auto",
+        timing: Timing | None = None,
+    ) -> None:
         self.system = system
+        self.timing = timing or Timing()
         self.options = options or NewtonOptions()
         self.solver_name = solver
-        self._solver: SparseSolver | None = None
+        self._solver: TimedSolver | None = None
         self._pattern: Pattern | None = None
         self.callbacks: list[Callable[[Iteration], None]] = []
 
@@ -316,11 +324,12 @@ class Newton:
             evaluation = corrector.evaluate(trial)
         return trial, evaluation, s
 
-    def ready_solver(self) -> SparseSolver:
+    def ready_solver(self) -> TimedSolver:
         """Return the solver that has analysed the present pattern."""
         pattern = self.system.pattern
         if self._solver is None or self._pattern is not pattern:
-            self._solver = make_solver(pattern, self.solver_name)
+            with self.timing.analysis:
+                self._solver = TimedSolver(make_solver(pattern, self.solver_name), self.timing)
             self._pattern = pattern
         return self._solver
 
