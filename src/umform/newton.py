@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue, NotFinite, SingularMatrix
+from umform.reuse import Reuse
 from umform.solvers import Pattern, SparseSolver, make_solver
 from umform.system import Evaluation, System
 from umform.timing import TimedSolver, Timing
@@ -30,6 +31,8 @@ log = logging.getLogger("umform.newton")
 
 Floats = NDArray[np.float64]
 _T = TypeVar("_T")
+
+_EPS = float(np.finfo(float).eps)
 
 #: Each trial is at least a quarter of the one before: thin sheets, whose energy is a narrow bent valley, creep else.
 _LINE_SEARCH_TRIALS = 3
@@ -51,6 +54,10 @@ class NewtonOptions:
         Shorten increments that do not bring the residual along them down.
     extrapolate : bool
         Start a step from the extrapolated last one instead of the tangent.
+    factor_cost : float, optional
+        What a factorisation costs over an evaluation with a solve; where it is dear, old factors serve for more than
+        one iteration, see :mod:`umform.reuse`. Default: an estimate from the entries of the factors; 0 makes new ones
+        always.
     """
 
     residual: float = 1e-9
@@ -58,10 +65,13 @@ class NewtonOptions:
     max_iterations: int = 25
     line_search: bool = False
     extrapolate: bool = True
+    factor_cost: float | None = None
 
     def __post_init__(self) -> None:
         if not self.residual > 0 or not self.increment > 0 or self.max_iterations < 1:
             raise InvalidValue("tolerances and iterations must be positive", where="NewtonOptions", value=self)
+        if self.factor_cost is not None and not self.factor_cost >= 0:
+            raise InvalidValue("a cost is zero or more", where="factor_cost", value=self.factor_cost)
 
 
 @dataclass(frozen=True)
@@ -129,6 +139,10 @@ class Corrector(Protocol):
     def line_search(self) -> bool:
         """Whether the residual along the increment may judge its length."""
 
+    @property
+    def reuses(self) -> bool:
+        """Whether the factors of the iteration before may serve for the next one."""
+
     def evaluate(self, u: Floats) -> Evaluation:
         """Residual and tangent."""
 
@@ -138,6 +152,8 @@ class Corrector(Protocol):
 
 class _FixedLoads:
     """The corrector at fixed loads, supports and tools. eq. (5.5)"""
+
+    reuses = True
 
     def __init__(self, system: System, line_search: bool) -> None:
         self.system, self.line_search = system, line_search
@@ -268,6 +284,7 @@ class Newton:
         active = system.active_set()
         previous_active = active
         extra = at_floor = 0
+        reuse = Reuse(options, system.pattern)
 
         for number in range(1, options.max_iterations + 1):
             self.check_domain(evaluation, iterations)
@@ -289,7 +306,9 @@ class Newton:
             extra += int(small)
             self._detect_chatter(seen, active, iterations)
 
-            pivots = solver.factor(evaluation.values).negative_pivots
+            quiet = corrector.reuses and not (entered or left)
+            if not reuse.factors_will_do(norm / scale, increment, settled=quiet):
+                pivots = reuse.remember(solver.factor(evaluation.values))
             du = corrector.direction(solver, u, evaluation)
             energy = abs(float(r @ system.restrict(du)))
             self._record(iterations, number, norm / scale, increment, energy, entered, left, step_length, pivots, start)
@@ -335,9 +354,8 @@ class Newton:
 
     def _floor(self, values: Floats, u: Floats) -> float:
         """Residual that round-off of the displacements leaves behind. eq. (5.10)"""
-        largest = float(np.abs(values).max(initial=0.0))
-        eps = float(np.finfo(float).eps)
-        return eps * largest * float(np.abs(u).max()) * math.sqrt(self.system.pattern.n)
+        largest = max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))  # no copy of the matrix
+        return _EPS * largest * float(np.abs(u).max()) * math.sqrt(self.system.pattern.n)
 
     def _record(
         self,
