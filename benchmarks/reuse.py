@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -40,6 +42,16 @@ def dome(cells: int) -> tuple[uf.Model, uf.Move]:
     return model, uf.Move(punch, to=-8.0, steps=10)
 
 
+def best(work: Callable[..., Any], *arguments: object) -> tuple[float, Any]:
+    """Nanoseconds of CPU time of the fastest of three calls, and the answer."""
+    times = []
+    for _ in range(3):
+        start = time.process_time()
+        answer = work(*arguments)
+        times.append(time.process_time() - start)
+    return 1e9 * min(times), answer
+
+
 def costs(cells: int) -> None:
     """Print nanoseconds in the units of the estimate, and the cost of factors as estimated and as measured."""
     print(
@@ -47,21 +59,11 @@ def costs(cells: int) -> None:
     )
     for count in (cells // 2, cells):
         model, _ = dome(count)
-        solver = Newton(model).ready_solver()
-        pattern, rhs = model.pattern, np.ones(model.pattern.n)
-        seconds = []
-        for work in (lambda: model.evaluate(model.u), lambda: solver.factor(values), lambda: solver.solve(rhs)):
-            answers, times = [], []
-            for _ in range(3):
-                start = time.process_time()
-                answers.append(work())
-                times.append(time.process_time() - start)
-            seconds.append(min(times))
-            if len(seconds) == 1:
-                values = answers[0].values
-            elif len(seconds) == 2:
-                fill = answers[0].fill
-        evaluate, factor, solve = (1e9 * second for second in seconds)
+        pattern, solver = model.pattern, Newton(model).ready_solver()
+        evaluate, evaluation = best(model.evaluate, model.u)
+        factor, told = best(solver.factor, evaluation.values)
+        solve, _ = best(solver.solve, np.ones(pattern.n))
+        fill = told.fill
         units = f"{factor / (fill**2 / pattern.n):>19.3f}{solve / fill:>12.2f}{evaluate / pattern.nnz:>14.0f}"
         ratios = f"{cost_of_factors(fill, pattern):>10.2f}{factor / (evaluate + solve):>10.2f}"
         print(f"{count**2:>9}{units}{ratios}", flush=True)
