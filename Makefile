@@ -6,6 +6,7 @@
 PYTHON ?= python3
 JOBS   ?= $(shell nproc 2>/dev/null || echo 2)
 ARGS   ?=
+JSON   ?= build/bench.json
 
 VENV   := .venv
 BIN    := $(VENV)/bin
@@ -64,10 +65,10 @@ demo: env  ## bend a strip over a cylinder; pictures and report in results/free-
 	$(SAY) 'Running the demo'
 	@$(BIN)/umform demo free-bending --out results/free-bending
 
-bench: env  ## time the kernels
-	@$(BIN)/python benchmarks/kernels.py $(ARGS)
-	@$(BIN)/python benchmarks/run.py
-	@$(BIN)/python benchmarks/sparse.py
+bench: env  ## time kernels, a run and the sparse solvers; the numbers go to build/bench.json, or JSON=file
+	@$(BIN)/python benchmarks/kernels.py --json $(JSON) $(ARGS)
+	@$(BIN)/python benchmarks/run.py --json $(JSON)
+	@$(BIN)/python benchmarks/sparse.py --json $(JSON)
 
 # ---- test ----
 

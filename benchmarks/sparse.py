@@ -10,6 +10,7 @@ import time
 
 import numpy as np
 
+import record
 import umform as uf
 from umform.solvers import available, make_solver
 
@@ -33,7 +34,10 @@ def tangent(cells: tuple[int, int], cell: str) -> tuple[uf.Model, np.ndarray]:
 
 def main() -> None:
     """Run the benchmark."""
-    argparse.ArgumentParser(description=__doc__).parse_args()
+    parser = argparse.ArgumentParser(description=__doc__)
+    record.add_option(parser)
+    arguments = parser.parse_args()
+    numbers: dict[str, float] = {}
     names = [name for name, here in available().items() if here]
     print(f"{'':<24}{'n':>8}" + "".join(f"{name:>10}" for name in names) + "   factorisation, fastest = 1")
     for label, cells, cell, repeat in CASES:
@@ -48,6 +52,8 @@ def main() -> None:
         fastest = min(best.values())
         ratios = "".join(f"{best[name] / fastest:>10.1f}" for name in names)
         print(f"{label:<24}{model.pattern.n:>8}{ratios}")
+        numbers |= {f"{label}, {name}, ms": 1e3 * best[name] for name in names}
+    record.write(arguments.json, "sparse", numbers)
 
 
 if __name__ == "__main__":
