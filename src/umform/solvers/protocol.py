@@ -83,7 +83,7 @@ class Pattern:
                 value=f"shape {values.shape} instead of ({self.nnz},)",
                 remedy="analyse the pattern that the values belong to",
             )
-        with np.errstate(all="ignore"):
+        with np.errstate(over="ignore", invalid="ignore"):
             total = float(values.sum())
         if not math.isfinite(total):  # a sum may overflow too: look at each value
             finite = np.isfinite(values)
