@@ -122,12 +122,12 @@ def in_turns(sources: list[Path], count: int) -> list[list[dict[str, float]]]:
 
 def report(rounds: list[list[dict[str, float]]], arguments: argparse.Namespace) -> None:
     """Print ratios with their spread, and write them."""
-    print(f"{'':<28}{'CPU s':>8}{'ratio':>8}   least to most   {arguments.second} / {arguments.first}")
+    print(f"{'':<38}{'CPU s':>8}{'ratio':>8}   least to most   {arguments.second} / {arguments.first}")
     found = {}
     for name in rounds[0][0]:
         ratios = sorted(second[name] / first[name] for first, second in rounds)
         seconds, middle = statistics.median(first[name] for first, _ in rounds), statistics.median(ratios)
-        print(f"{name:<28}{seconds:>8.3f}{middle:>8.3f}   {ratios[0]:.3f} to {ratios[-1]:.3f}")
+        print(f"{name:<38}{seconds:>8.3f}{middle:>8.3f}   {ratios[0]:.3f} to {ratios[-1]:.3f}")
         found |= {f"{name}, ratio": middle, f"{name}, least": ratios[0], f"{name}, most": ratios[-1]}
     record.write(arguments.json, f"compare {arguments.first} {arguments.second}", found)
 

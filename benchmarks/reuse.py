@@ -15,6 +15,10 @@ import numpy as np
 
 import umform as uf
 from umform.newton import Newton, NewtonOptions
+from umform.processes.air_bending import brake
+from umform.processes.air_bending.parameters import AirBending
+from umform.processes.bending import case as bending
+from umform.processes.bending.parameters import FreeBending
 from umform.reuse import cost_of_factors
 
 LAW = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
@@ -54,11 +58,14 @@ def best(work: Callable[..., Any], *arguments: object) -> tuple[float, Any]:
 
 def costs(cells: int) -> None:
     """Print nanoseconds in the units of the estimate, and the cost of factors as estimated and as measured."""
-    print(
-        f"{'elements':>9}{'factor/(fill^2/n)':>19}{'solve/fill':>12}{'evaluate/nnz':>14}{'estimate':>10}{'measured':>10}"
-    )
-    for count in (cells // 2, cells):
-        model, _ = dome(count)
+    print(f"{'':<22}{'factor/(fill^2/n)':>19}{'solve/fill':>12}{'evaluate/nnz':>14}{'estimate':>10}{'measured':>10}")
+    models = {
+        "free bending 24x1": bending.build(FreeBending())[0],
+        "air bending": brake.build(AirBending())[0],
+        "air bending, 40 wide": brake.build(AirBending(width=40.0, width_elements=10))[0],
+        **{f"dome {count}x{count}": dome(count)[0] for count in (cells // 2, cells)},
+    }
+    for label, model in models.items():
         pattern, solver = model.pattern, Newton(model).ready_solver()
         evaluate, evaluation = best(model.evaluate, model.u)
         factor, told = best(solver.factor, evaluation.values)
@@ -66,7 +73,7 @@ def costs(cells: int) -> None:
         fill = told.fill
         units = f"{factor / (fill**2 / pattern.n):>19.3f}{solve / fill:>12.2f}{evaluate / pattern.nnz:>14.0f}"
         ratios = f"{cost_of_factors(fill, pattern):>10.2f}{factor / (evaluate + solve):>10.2f}"
-        print(f"{count**2:>9}{units}{ratios}", flush=True)
+        print(f"{label:<22}{units}{ratios}", flush=True)
 
 
 def main() -> None:

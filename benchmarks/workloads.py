@@ -26,11 +26,11 @@ def cpu_seconds(work: Callable[[], object]) -> float:
     return time.process_time() - start
 
 
-def start_up() -> float:
-    """CPU seconds of five calls of ``umform --version``."""
+def start_up(*words: str) -> float:
+    """CPU seconds of five starts of Python with these words."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     for _ in range(5):
-        subprocess.run([sys.executable, "-m", "umform.cli", "--version"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([sys.executable, *words], check=True, stdout=subprocess.DEVNULL)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
@@ -70,7 +70,9 @@ def bent_plate() -> object:
 def workloads() -> Iterator[tuple[str, float]]:
     """Names and CPU seconds, one after the other."""
     uf.set_threads(1)
-    yield "umform --version, 5 times", start_up()
+    yield "python -c pass, 5 times", start_up("-c", "pass")
+    yield "umform --version, 5 times", start_up("-m", "umform.cli", "--version")
+    yield "import umform; umform.Model, 5 times", start_up("-c", "import umform; umform.Model")
     yield "evaluate ANS3DEAS, J2", cpu_seconds(evaluations("ANS3DEAS", (50, 50)))
     yield "evaluate MI9K3DEAS, J2", cpu_seconds(evaluations("MI9K3DEAS", (16, 16)))
     yield "free bending 24x1", cpu_seconds(free_bending)
@@ -78,4 +80,4 @@ def workloads() -> Iterator[tuple[str, float]]:
 
 
 if __name__ == "__main__":
-    print(json.dumps(dict(workloads())))
+    print(json.dumps(dict(workloads()), indent=1))
