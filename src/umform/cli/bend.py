@@ -106,7 +106,7 @@ def bend(
         files = write_files(out, done, rows, errors)
     console().print(f"Written to {out}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
-        show_timing(Timing.sum(spent), f"Where the time went, {len(spent)} runs without those of the budget")
+        show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
 
 
 def _check_goal(angle: float | None, stroke: float | None) -> None:

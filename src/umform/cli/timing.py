@@ -26,5 +26,6 @@ def show_timing(timing: Timing, title: str = "Where the time went") -> None:
         each = "" if calls is None else f"{1e3 * seconds / calls:.3f}"
         table.add_row(name, f"{seconds:.3f}", f"{100 * share:.1f}", "" if calls is None else str(calls), each)
     table.add_section()
-    table.add_row("all", f"{timing.total:.3f}", "100.0", str(timing.run.calls), "")
+    runs = f"{timing.run.calls} run{'s' if timing.run.calls > 1 else ''}"
+    table.add_row("all", f"{timing.total:.3f}", "100.0", runs, "")
     console().print(table)

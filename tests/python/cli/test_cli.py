@@ -64,7 +64,7 @@ def test_timing_sums_up_all_runs(tmp_path):
     assert rows["elements"][2] == rows["contact and pressure"][2]  # a call of each in each evaluation
     assert 2 * 30 < int(rows["factorisation"][2]) < int(rows["elements"][2])
     whole = next(line for line in table.splitlines() if line.split()[:1] == ["all"])
-    assert whole.split()[2:] == ["100.0", "2"]
+    assert whole.split()[2:] == ["100.0", "2", "runs"]
 
 
 def test_elements_are_listed():
