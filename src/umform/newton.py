@@ -284,7 +284,7 @@ class Newton:
         active = system.active_set()
         previous_active = active
         extra = at_floor = 0
-        reuse = Reuse(options, system.pattern)
+        reuse = Reuse(options, system.pattern.n, system.effort)
 
         for number in range(1, options.max_iterations + 1):
             self.check_domain(evaluation, iterations)

@@ -3,14 +3,15 @@
 The tangent changes by what the last increment is relative to the one before; by a small multiple of this, `fall`, old
 factors bring residual and increment down in each iteration, new ones quadratically. Both are counted up to the
 tolerances, and each iteration weighed: 1 for evaluation and solve, and the cost of a factorisation on top. That cost is
-estimated from entries, never from a clock, so that a run repeats to the last bit. docs/performance.md, Solving
+estimated from the entries of the factors, never from a clock: a run repeats to the last bit.
+docs/performance.md, Solving
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from umform.solvers import Factorisation, Pattern
+from umform.solvers import Factorisation
 
 if TYPE_CHECKING:
     from umform.newton import NewtonOptions
@@ -22,13 +23,14 @@ _FALL = 3.0
 #: Slower than this old factors are not worth a thought.
 _SLOW = 0.2
 #: Nanoseconds, whose ratios alone count: of a factorisation for each entry of the factors times their mean number in a
-#: column, of a solve for each of them, of an evaluation for each entry of the matrix. benchmarks/reuse.py prints them.
-_FACTOR, _SOLVE, _EVALUATE = 0.09, 1.5, 100.0
+#: column, of a solve for each of them, of an evaluation of effort 1 for each equation. benchmarks/reuse.py prints them.
+_FACTOR, _SOLVE, _EVALUATE = 0.09, 1.5, 2800.0
 
 
-def cost_of_factors(fill: int, pattern: Pattern) -> float:
-    """Factorisation over evaluation and solve, from the entries of factors and matrix."""
-    return _FACTOR * fill * (fill / pattern.n) / (_EVALUATE * pattern.nnz + _SOLVE * fill)
+def cost_of_factors(fill: int, equations: int, effort: float) -> float:
+    """Factorisation over evaluation and solve, from the entries of the factors and :attr:`umform.Model.effort`."""
+    column = fill / equations
+    return _FACTOR * column * column / (_EVALUATE * effort + _SOLVE * column)
 
 
 class Reuse:
@@ -38,12 +40,14 @@ class Reuse:
     ----------
     options : NewtonOptions
         Tolerances, and the cost of a factorisation if that is given.
-    pattern : Pattern
+    equations : int
         Of the matrix.
+    effort : float
+        Of an evaluation, for each equation.
     """
 
-    def __init__(self, options: NewtonOptions, pattern: Pattern) -> None:
-        self._options, self._pattern = options, pattern
+    def __init__(self, options: NewtonOptions, equations: int, effort: float) -> None:
+        self._options, self._equations, self._effort = options, equations, effort
         self._cost = 0.0
         self._increment: float | None = None  # of the iteration before
         self._residual = 0.0
@@ -77,7 +81,7 @@ class Reuse:
     def remember(self, factorisation: Factorisation) -> int | None:
         """Keep what new factors cost; return their negative pivots."""
         given = self._options.factor_cost
-        self._cost = cost_of_factors(factorisation.fill, self._pattern) if given is None else given
+        self._cost = cost_of_factors(factorisation.fill, self._equations, self._effort) if given is None else given
         return factorisation.negative_pivots
 
     def _count(self, residual: float, increment: float, fall: float, *, old: bool) -> int:
