@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -125,8 +124,9 @@ class Model(Supported, Loaded, Touched):
         one fibre of its own, one of 18 nodes has four.
         """
         nodes = self.mesh.connectivity.shape[1]
-        fibres = (math.isqrt(nodes // 2) - 1) ** 2
-        return self.block.points / 20 * (nodes / 8) ** 2 / fibres
+        fibres = 1 if nodes == 8 else 4
+        size = nodes / 8
+        return float(self.block.points / 20 * size * size / fibres)
 
     @property
     def free(self) -> NDArray[np.int64]:
