@@ -6,6 +6,7 @@
 PYTHON ?= python3
 JOBS   ?= $(shell nproc 2>/dev/null || echo 2)
 ARGS   ?=
+JSON   ?= build/bench.json
 
 VENV   := .venv
 BIN    := $(VENV)/bin
@@ -26,7 +27,7 @@ unexport PYTHONPATH PYTHONHOME
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
 .PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
-        format bench clean
+        format bench compare clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -64,10 +65,13 @@ demo: env  ## bend a strip over a cylinder; pictures and report in results/free-
 	$(SAY) 'Running the demo'
 	@$(BIN)/umform demo free-bending --out results/free-bending
 
-bench: env  ## time the kernels
-	@$(BIN)/python benchmarks/kernels.py $(ARGS)
-	@$(BIN)/python benchmarks/run.py
-	@$(BIN)/python benchmarks/sparse.py
+bench: env  ## time kernels, a run and the sparse solvers; the numbers go to build/bench.json, or JSON=file
+	@$(BIN)/python benchmarks/kernels.py --json $(JSON) $(ARGS)
+	@$(BIN)/python benchmarks/run.py --json $(JSON)
+	@$(BIN)/python benchmarks/sparse.py --json $(JSON)
+
+compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
+	@$(BIN)/python benchmarks/compare.py $(ARGS)
 
 # ---- test ----
 

@@ -1,17 +1,16 @@
 """Microseconds per element for residual and tangent of every element and material, on 1 and 2 threads.
 
-Prints a table; ``--json FILE`` writes it. Ratios within one run are what counts: the machine may be shared.
+Prints a table; ``--json FILE`` adds it to a file. Ratios within one run are what counts: the machine may be shared.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import time
-from pathlib import Path
 
 import numpy as np
 
+import record
 import umform as uf
 from umform import elements
 from umform.model import Model
@@ -40,7 +39,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--cells", type=int, default=40, help="elements along each side of the sheet")
     parser.add_argument("--repeat", type=int, default=5, help="evaluations, of which the fastest counts")
-    parser.add_argument("--json", type=Path, help="file for the table")
+    record.add_option(parser)
     arguments = parser.parse_args()
 
     rows = []
@@ -62,8 +61,8 @@ def main() -> None:
             points = model.block.points
             rows.append({"element": name, "material": label, "points": points, "us_1": times[0], "us_2": times[1]})
             print(f"{name:<14}{label:<16}{points:>7}{times[0]:>12.2f}{times[1]:>12.2f}")
-    if arguments.json:
-        arguments.json.write_text(json.dumps(rows, indent=1))
+    numbers = {f"{row['element']} {row['material']}, {n} threads, us": row[f"us_{n}"] for row in rows for n in (1, 2)}
+    record.write(arguments.json, "kernels", numbers)
 
 
 if __name__ == "__main__":

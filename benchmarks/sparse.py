@@ -1,4 +1,5 @@
-"""How the sparse solvers compare: time of a factorisation with the analysis kept, as ratios to the fastest one.
+"""How the sparse solvers compare: time of a factorisation with the analysis kept, as ratios to the fastest one; and
+what the analysis takes, that of the choice among them (`auto`) too, as ratios to the same factorisation.
 
 Tangents of flat sheets at rest. The solvers that are installed take turns, so that a shared machine troubles all alike.
 """
@@ -10,6 +11,7 @@ import time
 
 import numpy as np
 
+import record
 import umform as uf
 from umform.solvers import available, make_solver
 
@@ -33,13 +35,22 @@ def tangent(cells: tuple[int, int], cell: str) -> tuple[uf.Model, np.ndarray]:
 
 def main() -> None:
     """Run the benchmark."""
-    argparse.ArgumentParser(description=__doc__).parse_args()
+    parser = argparse.ArgumentParser(description=__doc__)
+    record.add_option(parser)
+    arguments = parser.parse_args()
+    numbers: dict[str, float] = {}
     names = [name for name, here in available().items() if here]
-    print(f"{'':<24}{'n':>8}" + "".join(f"{name:>10}" for name in names) + "   factorisation, fastest = 1")
+    columns = "".join(f"{name:>10}" for name in names)
+    print(f"{'fastest factorisation = 1':<24}{'n':>7}{columns}   {'auto':>10}{columns}   (analysis)")
     for label, cells, cell, repeat in CASES:
         model, values = tangent(cells, cell)
         best = dict.fromkeys(names, np.inf)
-        solvers = {name: make_solver(model.pattern, name) for name in names}
+        analysis, solvers = {}, {}
+        for name in ("auto", *names):
+            start = time.perf_counter()
+            solvers[name] = make_solver(model.pattern, name)
+            analysis[name] = time.perf_counter() - start
+        del solvers["auto"]
         for _ in range(repeat):
             for name, solver in solvers.items():
                 start = time.perf_counter()
@@ -47,7 +58,11 @@ def main() -> None:
                 best[name] = min(best[name], time.perf_counter() - start)
         fastest = min(best.values())
         ratios = "".join(f"{best[name] / fastest:>10.1f}" for name in names)
-        print(f"{label:<24}{model.pattern.n:>8}{ratios}")
+        analyses = "".join(f"{seconds / fastest:>10.1f}" for seconds in analysis.values())
+        print(f"{label:<24}{model.pattern.n:>8}{ratios}   {analyses}")
+        numbers |= {f"{label}, {name}, ms": 1e3 * best[name] for name in names}
+        numbers |= {f"{label}, {name}, analysis, ms": 1e3 * seconds for name, seconds in analysis.items()}
+    record.write(arguments.json, "sparse", numbers)
 
 
 if __name__ == "__main__":

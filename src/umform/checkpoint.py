@@ -113,7 +113,7 @@ def take_up(run: Run, path: str | PathLike[str], fingerprint: dict[str, str]) ->
     model.evaluate(model.u)
     model.block.restore(snapshot.state, snapshot.alpha)
     run.number, run.last_du, run.history = tree["number"], tree["last_du"], tree["history"]
-    solver = run.newton.ready_solver()
+    solver = run.newton.ready_solver().solver
     if isinstance(solver, Pardiso) and solver._handle.kind != tree["factors"]:
         solver._start(tree["factors"])
     _recall_result(run.result, tree["result"])
@@ -122,7 +122,7 @@ def take_up(run: Run, path: str | PathLike[str], fingerprint: dict[str, str]) ->
 
 
 def _tree(run: Run) -> dict[str, Any]:
-    solver = run.newton.ready_solver()
+    solver = run.newton.ready_solver().solver
     return {
         "number": run.number,
         # The one solver with a memory: once it needs the factors of an indefinite matrix, it stays with them.

@@ -23,6 +23,7 @@ from umform.model_checks import check_model
 from umform.solvers import Pattern
 from umform.supports import Supported
 from umform.ties import MidLine
+from umform.timing import Timing
 
 __all__ = ["Evaluation", "Model", "Snapshot"]
 
@@ -97,6 +98,8 @@ class Model(Supported, Loaded, Touched):
         )
         self.u: Floats = np.zeros(3 * len(mesh.points))
         self.time = 0.0
+        #: Where the time goes; :func:`umform.solve` puts a new one here.
+        self.timing = Timing()
 
     def _through_thickness(self, points: int | None, rule: str | None) -> tuple[int, str]:
         """Points through the thickness and their rule: what is given, else what law and element want."""
@@ -112,6 +115,18 @@ class Model(Supported, Loaded, Touched):
     def pattern(self) -> Pattern:
         """Sparse pattern of the tangent over the unknowns."""
         return self._assembly().pattern
+
+    @property
+    def effort(self) -> float:
+        """What an evaluation costs for each equation; 1 for 8-node elements with 20 points.
+
+        Each point adds to all entries of an element's matrix; in a regular mesh of one layer an element of 8 nodes has
+        one fibre of its own, one of 18 nodes has four.
+        """
+        nodes = self.mesh.connectivity.shape[1]
+        fibres = 1 if nodes == 8 else 4
+        size = nodes / 8
+        return float(self.block.points / 20 * size * size / fibres)
 
     @property
     def free(self) -> NDArray[np.int64]:
@@ -145,30 +160,37 @@ class Model(Supported, Loaded, Touched):
         if rates:
             du = self.displacement_of_supports(rates)
         product = None if du is None else Kdu
-        failed, scale = self.block.evaluate(u, assembly.scatter, f, values, du, product)
+        with self.timing.elements:
+            failed, scale = self.block.evaluate(u, assembly.scatter, f, values, du, product)
         for contact, scatter in zip(self.contacts, assembly.contact_scatter, strict=True):
-            contact.place(self.time)
-            shift = sum(rates.get(c, 0.0) * np.asarray(c.direction) for c in contact.translations)
-            relative = None if du is None else (du.reshape(-1, 3) - shift).ravel()
-            scale += contact.block.evaluate(u, scatter, f, values, relative, product)[1]
+            with self.timing.contact:
+                contact.place(self.time)
+                shift = sum(rates.get(c, 0.0) * np.asarray(c.direction) for c in contact.translations)
+                relative = None if du is None else (du.reshape(-1, 3) - shift).ravel()
+                scale += contact.block.evaluate(u, scatter, f, values, relative, product)[1]
         for control, scatter in zip(self.of_kind(Pressure), assembly.pressure_scatter, strict=True):
             assert control.block is not None
             if rates.get(control, 0.0) != 0.0:
                 control.block.pressure = rates[control]
                 control.block.evaluate(u, scatter, Kdu, np.zeros_like(values), None, None)
             control.block.pressure = control.value
-            scale += control.block.evaluate(u, scatter, f, values, du, product)[1]
+            with self.timing.contact:
+                scale += control.block.evaluate(u, scatter, f, values, du, product)[1]
         for load in self.of_kind(Load):
             if load in rates:
                 Kdu -= rates[load] * load.vector
             if load.value != 0.0:
                 f -= load.value * load.vector
                 scale += load.value**2 * float(load.vector @ load.vector)
-        return Evaluation(f, assembly.reduce(values), Kdu, float(np.sqrt(scale)), failed)
+        if self.ties:
+            with self.timing.ties:
+                values = assembly.reduce(values)
+        return Evaluation(f, values, Kdu, float(np.sqrt(scale)), failed)
 
     def recover(self, du: Floats, s: float) -> None:
         """Update the enhanced parameters after ``u += s du``. eq. (2.19)"""
-        self.block.recover(du, s)
+        with self.timing.recovery:
+            self.block.recover(du, s)
 
     def undo_recover(self) -> None:
         """Take the last :meth:`recover` back."""
@@ -232,5 +254,6 @@ class Model(Supported, Loaded, Touched):
 
     def _assembly(self) -> Assembly:
         if self._assembled is None:
-            self._assembled = Assembly(self)
+            with self.timing.analysis:
+                self._assembled = Assembly(self)
         return self._assembled

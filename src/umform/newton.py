@@ -22,13 +22,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue, NotFinite, SingularMatrix
+from umform.reuse import Reuse
 from umform.solvers import Pattern, SparseSolver, make_solver
 from umform.system import Evaluation, System
+from umform.timing import TimedSolver, Timing
 
 log = logging.getLogger("umform.newton")
 
 Floats = NDArray[np.float64]
 _T = TypeVar("_T")
+
+_EPS = float(np.finfo(float).eps)
 
 #: Each trial is at least a quarter of the one before: thin sheets, whose energy is a narrow bent valley, creep else.
 _LINE_SEARCH_TRIALS = 3
@@ -50,6 +54,10 @@ class NewtonOptions:
         Shorten increments that do not bring the residual along them down.
     extrapolate : bool
         Start a step from the extrapolated last one instead of the tangent.
+    factor_cost : float, optional
+        What a factorisation costs over an evaluation with a solve; where it is dear, old factors serve for more than
+        one iteration, see :mod:`umform.reuse`. Default: an estimate from the entries of the factors; 0 makes new ones
+        always.
     """
 
     residual: float = 1e-9
@@ -57,10 +65,13 @@ class NewtonOptions:
     max_iterations: int = 25
     line_search: bool = False
     extrapolate: bool = True
+    factor_cost: float | None = None
 
     def __post_init__(self) -> None:
         if not self.residual > 0 or not self.increment > 0 or self.max_iterations < 1:
             raise InvalidValue("tolerances and iterations must be positive", where="NewtonOptions", value=self)
+        if self.factor_cost is not None and not self.factor_cost >= 0:
+            raise InvalidValue("a cost is zero or more", where="factor_cost", value=self.factor_cost)
 
 
 @dataclass(frozen=True)
@@ -128,6 +139,10 @@ class Corrector(Protocol):
     def line_search(self) -> bool:
         """Whether the residual along the increment may judge its length."""
 
+    @property
+    def reuses(self) -> bool:
+        """Whether the factors of the iteration before may serve for the next one."""
+
     def evaluate(self, u: Floats) -> Evaluation:
         """Residual and tangent."""
 
@@ -137,6 +152,8 @@ class Corrector(Protocol):
 
 class _FixedLoads:
     """The corrector at fixed loads, supports and tools. eq. (5.5)"""
+
+    reuses = True
 
     def __init__(self, system: System, line_search: bool) -> None:
         self.system, self.line_search = system, line_search
@@ -151,11 +168,18 @@ class _FixedLoads:
 class Newton:
     """Newton's method with a solver that keeps its symbolic factorisation while the pattern holds."""
 
-    def __init__(self, system: System, options: NewtonOptions | None = None, solver: str = "auto") -> None:
+    def __init__(
+        self,
+        system: System,
+        options: NewtonOptions | None = None,
+        solver: str = "auto",
+        timing: Timing | None = None,
+    ) -> None:
         self.system = system
+        self.timing = timing or Timing()
         self.options = options or NewtonOptions()
         self.solver_name = solver
-        self._solver: SparseSolver | None = None
+        self._solver: TimedSolver | None = None
         self._pattern: Pattern | None = None
         self.callbacks: list[Callable[[Iteration], None]] = []
 
@@ -260,6 +284,7 @@ class Newton:
         active = system.active_set()
         previous_active = active
         extra = at_floor = 0
+        reuse = Reuse(options, system.pattern.n, system.effort)
 
         for number in range(1, options.max_iterations + 1):
             self.check_domain(evaluation, iterations)
@@ -281,7 +306,9 @@ class Newton:
             extra += int(small)
             self._detect_chatter(seen, active, iterations)
 
-            pivots = solver.factor(evaluation.values).negative_pivots
+            quiet = corrector.reuses and not (entered or left)
+            if not reuse.factors_will_do(norm / scale, increment, settled=quiet):
+                pivots = reuse.remember(solver.factor(evaluation.values))
             du = corrector.direction(solver, u, evaluation)
             energy = abs(float(r @ system.restrict(du)))
             self._record(iterations, number, norm / scale, increment, energy, entered, left, step_length, pivots, start)
@@ -316,19 +343,19 @@ class Newton:
             evaluation = corrector.evaluate(trial)
         return trial, evaluation, s
 
-    def ready_solver(self) -> SparseSolver:
+    def ready_solver(self) -> TimedSolver:
         """Return the solver that has analysed the present pattern."""
         pattern = self.system.pattern
         if self._solver is None or self._pattern is not pattern:
-            self._solver = make_solver(pattern, self.solver_name)
+            with self.timing.analysis:
+                self._solver = TimedSolver(make_solver(pattern, self.solver_name), self.timing)
             self._pattern = pattern
         return self._solver
 
     def _floor(self, values: Floats, u: Floats) -> float:
         """Residual that round-off of the displacements leaves behind. eq. (5.10)"""
-        largest = float(np.abs(values).max(initial=0.0))
-        eps = float(np.finfo(float).eps)
-        return eps * largest * float(np.abs(u).max()) * math.sqrt(self.system.pattern.n)
+        largest = max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))  # no copy of the matrix
+        return _EPS * largest * float(np.abs(u).max()) * math.sqrt(self.system.pattern.n)
 
     def _record(
         self,

@@ -68,6 +68,7 @@ class OnArc:
     """
 
     line_search = False
+    reuses = False  # near a limit point the tangent changes by more than the residual tells
 
     def __init__(self, newton: Newton, model: Model, line: Line, load_weight: float, length: float | None) -> None:
         self.newton, self.model, self.line = newton, model, line

@@ -15,6 +15,7 @@ from umform.balance import Balance, ExternalWork, drift
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv
 from umform.newton import Iteration
+from umform.timing import Timing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,15 +46,17 @@ class Result:
     contact the force ``<name>_fx``, ``_fy``, ``_fz`` and moment about the origin ``_mx``, ``_my``, ``_mz`` of the sheet
     on the tool, the largest penetration ``<name>_penetration`` and the number of ``<name>_active`` points, the
     ``external_work`` and the ``elastic_energy``, ``plastic_work`` and ``contact_energy`` that it went into, and the
-    number of ``iterations``. ``events`` says what happened (lift-off), ``warnings`` what to look at.
+    number of ``iterations``. ``events`` says what happened (lift-off), ``warnings`` what to look at, ``timing`` where
+    the time went, since the run began or was taken up.
 
     All energies of a model at rest are zero. A run that starts from a deformed or loaded state starts its external work
     at the sum of the energies that it finds. Energies that a law does not know (one of the user, without an energy) are
     NaN, and the external work then starts at zero.
     """
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, timing: Timing | None = None) -> None:
         self.model = model
+        self.timing = timing or Timing()
         self.rows: list[dict[str, float]] = []
         self.frames: list[Frame] = []
         self.iterations: list[list[Iteration]] = []
@@ -66,6 +69,10 @@ class Result:
 
     def add(self, residual: Floats, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
         """Add the converged state of the model (of its last evaluation) to the history."""
+        with self.timing.output:
+            self._add(residual, iterations, step, frame)
+
+    def _add(self, residual: Floats, iterations: list[Iteration], step: int, frame: bool) -> None:
         model = self.model
         row: dict[str, float] = {"step": step, "time": model.time}
         for control in model.controls:

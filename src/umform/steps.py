@@ -21,6 +21,7 @@ from umform.newton import Newton, NewtonOptions
 from umform.progress import Tick, progress_bar
 from umform.release import Release, Releasing
 from umform.results import Result
+from umform.timing import Timing, new_timing
 
 __all__ = ["Arc", "Move", "Release", "Step", "resume", "solve"]
 
@@ -80,11 +81,13 @@ def solve(
     Any exception that ends the run, Ctrl-C too, carries all that was reached as its attribute ``result``. The first
     Ctrl-C ends the run after the present increment, the second one at once.
     """
-    run, sequence = _ready(model, steps, solver, options, frames)
-    checkpoints = _checkpoints(run, sequence, checkpoint, every)
-    run.history = model.block.state
-    run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
-    return _go_on(run, sequence, progress_bar(progress), checkpoints)
+    timing = new_timing()
+    with timing.run:
+        run, sequence = _ready(model, steps, solver, options, frames, timing)
+        checkpoints = _checkpoints(run, sequence, checkpoint, every)
+        run.history = model.block.state
+        run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
+        return _go_on(run, sequence, progress_bar(progress), checkpoints)
 
 
 def resume(
@@ -125,18 +128,25 @@ def resume(
     -----
     The bits are the same on the same machine with the same versions of Python's packages, see docs/long-runs.md.
     """
-    run, sequence = _ready(model, steps, solver, options, frames)
-    checkpoints = _checkpoints(run, sequence, path, every)
-    assert checkpoints is not None
-    memory = take_up(run, path, checkpoints.fingerprint)
-    if memory is not None:
-        step = sequence[run.number - 1]
-        run.loop = _LOOPS[type(step)].recall(run, step, memory)
-    return _go_on(run, sequence, progress_bar(progress), checkpoints)
+    timing = new_timing()
+    with timing.run:
+        run, sequence = _ready(model, steps, solver, options, frames, timing)
+        checkpoints = _checkpoints(run, sequence, path, every)
+        assert checkpoints is not None
+        memory = take_up(run, path, checkpoints.fingerprint)
+        if memory is not None:
+            step = sequence[run.number - 1]
+            run.loop = _LOOPS[type(step)].recall(run, step, memory)
+        return _go_on(run, sequence, progress_bar(progress), checkpoints)
 
 
 def _ready(
-    model: Model, steps: Sequence[Step] | Step, solver: str, options: NewtonOptions | None, frames: int
+    model: Model,
+    steps: Sequence[Step] | Step,
+    solver: str,
+    options: NewtonOptions | None,
+    frames: int,
+    timing: Timing,
 ) -> tuple[Run, list[Step]]:
     """Refuse what cannot be run, and make the run that has not begun."""
     sequence = [steps] if isinstance(steps, Step) else list(steps)
@@ -154,8 +164,9 @@ def _ready(
                     cause="it belongs to another model",
                     remedy="use what prescribe(), force(), pressure() or drive() of this model returned",
                 )
+    model.timing = timing
     model.check()
-    run = Run(model, Newton(model, options, solver), Result(model), frames)
+    run = Run(model, Newton(model, options, solver, timing), Result(model, timing), frames)
     run.result.solver = run.newton.solver
     return run, sequence
 
@@ -200,7 +211,8 @@ def _pause(run: Run, start: float, checkpoints: Checkpoints | None, stop: Interr
     """Between two increments: write a checkpoint if it is time to, and stop if somebody has asked to."""
     run.result.seconds = clock.perf_counter() - start
     if checkpoints is not None and (last or stop.asked or checkpoints.due()):
-        checkpoints.write(run)
+        with run.result.timing.output:
+            checkpoints.write(run)
     if stop.asked:
         how = ""
         if checkpoints is not None and not checkpoints.problem:

@@ -45,6 +45,10 @@ class System(Protocol):
     def pattern(self) -> Pattern:
         """Sparse pattern of the tangent."""
 
+    @property
+    def effort(self) -> float:
+        """What an evaluation costs for each equation; 1 for 8-node elements with 20 points."""
+
     def restrict(self, r: Floats) -> Floats:
         """Unknowns' share of a vector at all degrees of freedom. eq. (5.18)"""
 

@@ -207,6 +207,8 @@ def test_line_search_of_a_thin_strip_does_not_creep():
 class Scalar:
     """A system of one unknown: residual and slope are functions of x, the active set a function of x."""
 
+    effort = 1.0
+
     def __init__(self, residual, slope, start=0.0, active=lambda x: [], scale=1.0):
         self.u = np.array([start])
         ends = np.array([0, 1], dtype=np.int32), np.array([0], dtype=np.int32)

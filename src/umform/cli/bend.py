@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from umform.cli.root import Debug, Verbose, app, console
+from umform.cli.timing import Timed, show_timing
 
 if TYPE_CHECKING:
     from umform.materials import J2
@@ -56,6 +57,7 @@ def bend(
     increment: Annotated[float, _option("Way of the punch in an increment, over the opening.", _SOLUTION)] = 0.00625,
     tolerance: Annotated[float, _option("Of the angle that is looked for, in degrees.", _SOLUTION)] = 0.02,
     processes: Annotated[int | None, _option("Runs of the budget at a time.", _SOLUTION)] = None,
+    timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -68,6 +70,7 @@ def bend(
     from umform.processes.air_bending.files import write_files
     from umform.processes.air_bending.parameters import AirBending
     from umform.processes.air_bending.search import bending_table, find_stroke
+    from umform.timing import Timing, timings
 
     _check_goal(angle, stroke)
     law, note = _law(material, young, poisson, yield_stress, hardening_modulus, swift)
@@ -92,14 +95,18 @@ def bend(
         stroke=stroke,
     )
     strokes = _strokes(table) if table else []
-    if angle is not None:
-        case = find_stroke(case, angle, tolerance=tolerance).case
-    rows = bending_table(case, strokes) if strokes else []
-    done = air_bending(case)
+    with timings() as spent:
+        if angle is not None:
+            case = find_stroke(case, angle, tolerance=tolerance).case
+        rows = bending_table(case, strokes) if strokes else []
+        done = air_bending(case)
     errors = error_budget(case, done.measures, processes=processes) if budget else None
     _show(done, rows, errors, note)
-    files = write_files(out, done, rows, errors)
+    with done.result.timing.files:
+        files = write_files(out, done, rows, errors)
     console().print(f"Written to {out}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    if timing:
+        show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
 
 
 def _check_goal(angle: float | None, stroke: float | None) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from umform.cli.root import Debug, Verbose, app, console
+from umform.cli.timing import Timed, show_timing
 from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
 
 if TYPE_CHECKING:
@@ -60,6 +61,7 @@ def free_bending(
     print_deck: Annotated[
         bool, typer.Option("--print-deck", help="Print the first run as a deck, and run none.")
     ] = False,
+    timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -110,10 +112,10 @@ def free_bending(
 
         typer.echo(deck_of(runs[0]), nl=False)
         return
-    _show(demo(out, runs, processes=processes), out)
+    _show(demo(out, runs, processes=processes), out, timing=timing)
 
 
-def _show(outcome: Outcome, out: str) -> None:
+def _show(outcome: Outcome, out: str, *, timing: bool) -> None:
     """Print the table, where the files are, and what went wrong."""
     from rich import box
     from rich.table import Table
@@ -131,6 +133,10 @@ def _show(outcome: Outcome, out: str) -> None:
     screen.print(table)
     screen.print(RECONSTRUCTION)
     screen.print(f"Written to {out}: {', '.join(file.name for file in outcome.files)}", soft_wrap=True)
+    if timing:
+        from umform.timing import Timing
+
+        show_timing(Timing.sum(run.timing for run in outcome.runs))
     for run in outcome.runs:
         for warning in counted(run.warnings):
             typer.echo(f"umform: {run.case.name}: {warning}", err=True)

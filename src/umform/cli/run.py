@@ -9,6 +9,7 @@ import typer
 
 from umform.cli.check import Changes, DeckFile, build, told
 from umform.cli.root import INTERRUPTED, Debug, Verbose, app, console
+from umform.cli.timing import Timed, show_timing
 from umform.errors import UmformError
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ def run(
     ] = None,
     solver: Annotated[str | None, typer.Option(help="Another sparse solver than that of the deck.")] = None,
     changes: Changes = None,
+    timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -37,6 +39,8 @@ def run(
         loaded, problem = build(deck, changes or ())
         outcome = running.run(loaded, problem, out, solver=solver)
     _show(outcome)
+    if timing:
+        show_timing(outcome.result.timing)
     _end(outcome.ended_by)
 
 

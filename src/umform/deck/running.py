@@ -83,7 +83,8 @@ def run(
             if reached is None or not reached.frames:
                 raise
             result, ended_by = reached, error
-        return Outcome(result, write(deck, problem, result, stage), ended_by)
+        with result.timing.files:
+            return Outcome(result, write(deck, problem, result, stage), ended_by)
 
 
 def write(deck: Deck, problem: Problem, result: Result, stage: Staging) -> list[Path]:

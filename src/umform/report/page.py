@@ -68,6 +68,8 @@ def _parts(result: Result, scene: Scene, deck: str) -> Iterator[str]:
     if deck:
         yield parts.heading("Deck")
         yield parts.folded("The input of this run", deck)
+    yield parts.heading("Where the time went")
+    yield _time(result)
     yield parts.heading("Versions")
     yield parts.pairs(versions())
 
@@ -78,6 +80,15 @@ def _end_values(result: Result) -> str:
     columns = [name for name in result.columns() if name != "step"]
     header = ["", *("start" if step == 0 else f"end of step {step}" for step in ends)]
     return parts.table(header, [[name, *(f"{row[name] + 0.0:.6g}" for row in ends.values())] for name in columns])
+
+
+def _time(result: Result) -> str:
+    """Seconds, shares and calls of the parts of the run."""
+    rows = [
+        [name, f"{seconds:.2f}", f"{100 * share:.1f}", "" if calls is None else str(calls)]
+        for name, seconds, share, calls in result.timing.rows()
+    ]
+    return parts.table(["", "s", "%", "calls"], rows)
 
 
 def settings(model: Model) -> dict[str, object]:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 from ..errors import InvalidValue
 from . import pardiso
-from .banded import Banded
+from .banded import Banded, wider_than
 from .pardiso import Pardiso
 from .protocol import Factorisation, Pattern, SparseSolver
 from .superlu import SuperLU
@@ -79,7 +79,7 @@ def _fastest(pattern: Pattern) -> SparseSolver:
     has_pardiso = available()["pardiso"]
     narrow = _NARROW_FOR_PARDISO if has_pardiso else _NARROW_FOR_SUPERLU
     hint = "" if has_pardiso else '; faster: pip install "umform[pardiso]"'
-    if pattern.symmetric:
+    if pattern.symmetric and not wider_than(narrow, pattern):
         banded = Banded()
         banded.analyse(pattern)
         if banded.bandwidth <= narrow:

@@ -99,6 +99,26 @@ def _inverse(order: IntIndex) -> IntIndex:
     return places
 
 
+def wider_than(bandwidth: int, pattern: Pattern) -> bool:
+    """Whether a short walk over the graph shows that the band of no order is so narrow.
+
+    In a band of half width b the equations that k steps lead to from one equation are at most 2 k b. Here the steps go
+    up in the rows that are stored; in a sheet they find a number that grows with k^2.
+    """
+    seen = np.zeros(pattern.n, dtype=bool)
+    seen[0] = True
+    front, count, steps = np.zeros(1, dtype=np.int64), 0, 0
+    while len(front) and count <= 2 * steps * bandwidth:
+        lengths = pattern.indptr[front + 1] - pattern.indptr[front]
+        ends = np.cumsum(lengths)
+        entries = np.arange(ends[-1]) + np.repeat(pattern.indptr[front] - (ends - lengths), lengths)
+        front = np.unique(pattern.indices[entries])
+        front = front[~seen[front]]
+        seen[front] = True
+        count, steps = count + len(front), steps + 1
+    return count > 2 * steps * bandwidth
+
+
 def _bandwidth(places: IntIndex, rows: IntArray, columns: IntArray) -> int:
     """Return how far the entries lie from the diagonal at most."""
     return int(np.abs(places[rows] - places[columns]).max())

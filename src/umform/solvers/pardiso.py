@@ -59,7 +59,7 @@ class Pardiso:
         self._pattern = pattern
         self._matrix = sparse.csr_matrix(
             (
-                np.zeros(pattern.nnz),
+                np.empty(pattern.nnz),  # never touched: PARDISO reads the values that `factor` is given
                 np.ascontiguousarray(pattern.indices, dtype=np.int32),
                 np.ascontiguousarray(pattern.indptr, dtype=np.int32),
             ),
@@ -70,7 +70,7 @@ class Pardiso:
     def factor(self, values: FloatArray) -> Factorisation:
         """Factorise; the first pivot that is not positive ends the use of Cholesky for this pattern."""
         self._factored = False
-        np.copyto(self._matrix.data, self._pattern.checked(values))
+        self._matrix.data = self._pattern.checked(values)
         code = self._handle.call(_FACTOR, self._matrix)
         if code == _PIVOT_NOT_POSITIVE and self._handle.kind == _CHOLESKY:
             self._start(_INDEFINITE)
@@ -117,7 +117,7 @@ class Pardiso:
         product = matrix @ x
         if self._pattern.symmetric:
             product += matrix.T @ x - (matrix.diagonal() * x.T).T
-        size = float(np.abs(matrix.data).max())
+        size = max(float(matrix.data.max()), -float(matrix.data.min()))
         check_accuracy(self.name, backward_error(b - product, size, x, b))
 
 

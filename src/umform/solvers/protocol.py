@@ -6,6 +6,7 @@ model. Positions in the pattern are equations: free degrees of freedom, counted 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -75,15 +76,19 @@ class Pattern:
 
     def checked(self, values: FloatArray) -> FloatArray:
         """Return the values as contiguous float64, or refuse a wrong number of them, NaN and infinity."""
-        values = np.ascontiguousarray(values, dtype=np.float64)
+        values = np.ascontiguousarray(values, dtype=np.float64)  # no copy where they are that already
         if values.shape != (self.nnz,):
             raise InvalidValue(
                 "The values do not fit the pattern of the matrix",
                 value=f"shape {values.shape} instead of ({self.nnz},)",
                 remedy="analyse the pattern that the values belong to",
             )
-        finite = np.isfinite(values)
-        if not finite.all():
+        with np.errstate(over="ignore", invalid="ignore"):
+            total = float(values.sum())
+        if not math.isfinite(total):  # a sum may overflow too: look at each value
+            finite = np.isfinite(values)
+            if finite.all():
+                return values
             entry = int(np.argmin(finite))
             raise NotFinite(
                 "The matrix holds a value that is not finite",
@@ -141,6 +146,8 @@ class SparseSolver(Protocol):
 
     def factor(self, values: FloatArray) -> Factorisation:
         """Factorise the matrix with these values on the pattern analysed last.
+
+        The values are not copied: they must stay as they are while the factors are in use.
 
         Raises
         ------

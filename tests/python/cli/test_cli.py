@@ -22,13 +22,49 @@ def umform_cli(*arguments):
     return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
 
 
-def test_version_without_loading_numpy():
-    code = (
-        "import sys; from umform.cli import main; sys.argv = ['umform', '--version']\n"
-        "try: main()\nexcept SystemExit: print('numpy' in sys.modules, 'rich' in sys.modules)"
-    )
+#: What takes longer to load than all of `umform --version`.
+HEAVY = {"numpy", "scipy", "matplotlib", "h5py", "meshio", "pydantic", "rich", "pyvista", "vtk", "umform._core"}
+
+
+def loaded_by(code):
+    """Modules that Python has loaded at the end of a program."""
+    code = f"import sys\ntry:\n    {code}\nexcept SystemExit: pass\nprint(*sys.modules)"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert run.stdout.split() == ["umform", umform.__version__, "False", "False"]
+    return set(run.stdout.split())
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "import umform; umform.__all__; umform.UmformError",
+        "from umform.cli import main; sys.argv = ['umform', '--version']; main()",
+    ],
+)
+def test_what_needs_no_numbers_loads_nothing_heavy(code):
+    loaded = loaded_by(code)
+    assert "umform" in loaded
+    assert not loaded & HEAVY
+
+
+def test_a_public_name_loads_its_own_home_only():
+    loaded = loaded_by("import umform as uf; uf.Model")
+    assert "umform.model" in loaded
+    assert not loaded & {"matplotlib", "h5py", "meshio", "pydantic", "rich", "umform.report", "umform.deck"}
+
+
+def test_version_is_printed():
+    assert umform_cli("--version").stdout.split() == ["umform", umform.__version__]
+
+
+def test_timing_sums_up_all_runs(tmp_path):
+    run = umform_cli("demo", "free-bending", "--out", tmp_path, *RUN, "--contact", "nodes", "--timing")
+    assert run.exit_code == 0, run.output
+    table = run.stdout[run.stdout.index("Where the time went") :]
+    rows = {" ".join(words[:-4]): words[-4:] for line in table.splitlines() if len(words := line.split()) > 4}
+    assert rows["elements"][2] == rows["contact and pressure"][2]  # a call of each in each evaluation
+    assert 2 * 30 < int(rows["factorisation"][2]) < int(rows["elements"][2])
+    whole = next(line for line in table.splitlines() if line.split()[:1] == ["all"])
+    assert whole.split()[2:] == ["100.0", "2", "runs"]
 
 
 def test_elements_are_listed():

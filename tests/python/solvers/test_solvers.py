@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -82,6 +83,35 @@ def test_definite_again_after_indefinite(name):
     assert solver.factor(stored(sheet(4, shift=1.5))[1]).negative_pivots > 0
     assert solver.factor(values).negative_pivots == 0
     np.testing.assert_allclose(sheet(4) @ solver.solve(np.ones(pattern.n)), 1.0, rtol=1e-10)
+
+
+@needs_mkl
+@pytest.mark.parametrize("symmetric", [True, False])
+def test_pardiso_reads_the_values_where_they_are(symmetric):
+    """Python's memory grows by less than half a matrix during a factorisation, and that is given back."""
+    matrix = np.random.default_rng(2).normal(size=(200, 200)) + 200.0 * np.eye(200)
+    pattern, values = stored(matrix + matrix.T if symmetric else matrix, symmetric)
+    solver = make_solver(pattern, "pardiso")
+    solver.factor(values)
+    tracemalloc.start()
+    solver.factor(values)
+    kept, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 0.5 * values.nbytes
+    assert kept < 0.1 * values.nbytes
+
+
+@pytest.mark.parametrize("name", GENERAL)
+@pytest.mark.parametrize("large", [np.inf, 1e200, -1e300])
+def test_large_values_are_no_infinity(name, large):
+    pattern, values = stored(sheet(3) if name == "superlu" else unsymmetric(3), name == "superlu")
+    solver = make_solver(pattern, name)
+    values[3] = large
+    if np.isinf(large):
+        with pytest.raises(NotFinite, match="not finite"):
+            solver.factor(values)
+    else:
+        assert pattern.checked(values) is values
 
 
 @pytest.mark.parametrize("name", GENERAL)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,7 @@ from umform.results import Result
 from umform.shape import Shape
 from umform.steps import Move, Release, solve
 from umform.surfaces import Cylinder
+from umform.timing import Timing
 
 Floats = NDArray[np.float64]
 
@@ -54,6 +55,8 @@ class Bending:
         What the run had to say.
     failure : str
         Why the case ended early; empty if it is complete.
+    timing : Timing
+        Where the time went.
     result : Result or None
         Everything else; None for a case that ran in another process.
     """
@@ -68,6 +71,7 @@ class Bending:
     seconds: float
     warnings: tuple[str, ...] = ()
     failure: str = ""
+    timing: Timing = field(default_factory=Timing)
     result: Result | None = None
 
     @property
@@ -250,6 +254,7 @@ def measured(case: FreeBending, result: Result, failure: Exception | None = None
         seconds=result.seconds,
         warnings=(*_cautions(case, result.model.mesh.cell), *result.warnings),
         failure=failure_text(failure),
+        timing=result.timing,
         result=result,
     )
 

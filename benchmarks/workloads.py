@@ -1,0 +1,83 @@
+"""Workloads of a second or so, by the public interface alone, so that any commit can run them; CPU seconds as JSON.
+
+``compare.py`` runs them for two commits in turns; by itself it prints the numbers of the umform that Python finds.
+"""
+
+from __future__ import annotations
+
+import json
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+import umform as uf
+
+STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
+
+
+def cpu_seconds(work: Callable[[], object]) -> float:
+    """CPU seconds of this process in some work."""
+    start = time.process_time()
+    work()
+    return time.process_time() - start
+
+
+def start_up(*words: str) -> float:
+    """CPU seconds of five starts of Python with these words."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    for _ in range(5):
+        subprocess.run([sys.executable, *words], check=True, stdout=subprocess.DEVNULL)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def evaluations(element: str, cells: tuple[int, int]) -> Callable[[], object]:
+    """Residuals and tangents of a sheet that flows everywhere."""
+    cell = "hex8" if element.startswith("ANS") else "hex18"
+    mesh = uf.mesh.strip(length=100.0, width=100.0, thickness=1.0, cells=cells, cell=cell)
+    model = uf.Model(mesh, element, material=STEEL)
+    model.fix("x0")
+    x, y, z = mesh.points.T
+    u = np.stack([4e-3 * x + 1e-3 * y, -1e-3 * y, -2e-3 * z + 1e-5 * x * y], axis=1).ravel()
+    model.evaluate(u)
+    return lambda: [model.evaluate(u) for _ in range(10)]
+
+
+def free_bending() -> object:
+    """Half of the stroke of the demo on its coarsest mesh: contact, plasticity, a narrow band, much Python."""
+    mesh = uf.mesh.strip(length=60, width=10, thickness=1, cells=(24, 1))
+    model = uf.Model(mesh, "ANS3DEAS", material=STEEL)
+    model.symmetry("x0", normal="x")
+    model.fix(lambda x, y, z: (x < 1e-9) & (y < 1e-9) & (z < 0), "y")
+    punch = model.prescribe("x0_lower", "z", name="punch")
+    model.contact("lower", uf.Cylinder(centre=(25, 0, -20.5), axis="y", radius=20), penalty=100, points=2)
+    return uf.solve(model, uf.Move(punch, to=-7.5, steps=100), frames=0, progress=False)
+
+
+def bent_plate() -> object:
+    """A clamped elastic plate of 50 x 50 elements, bent far: the sparse solver."""
+    mesh = uf.mesh.strip(length=50.0, width=50.0, thickness=1.0, cells=(50, 50))
+    model = uf.Model(mesh, "ANS3DEAS", material=uf.SVK(E=210e3, nu=0.3))
+    model.fix("x0")
+    edge = model.prescribe("x1_lower", "z", name="edge")
+    return uf.solve(model, uf.Move(edge, to=8.0, steps=2), frames=0, progress=False)
+
+
+def workloads() -> Iterator[tuple[str, float]]:
+    """Names and CPU seconds, one after the other."""
+    uf.set_threads(1)
+    yield "python -c pass, 5 times", start_up("-c", "pass")
+    yield "umform --version, 5 times", start_up("-m", "umform.cli", "--version")
+    yield "import umform; umform.Model, 5 times", start_up("-c", "import umform; umform.Model")
+    yield "evaluate ANS3DEAS, J2", cpu_seconds(evaluations("ANS3DEAS", (50, 50)))
+    yield "evaluate MI9K3DEAS, J2", cpu_seconds(evaluations("MI9K3DEAS", (16, 16)))
+    yield "free bending 24x1", cpu_seconds(free_bending)
+    yield "bent plate 50x50", cpu_seconds(bent_plate)
+
+
+if __name__ == "__main__":
+    print(json.dumps(dict(workloads()), indent=1))

@@ -1,0 +1,31 @@
+"""``--timing``: the table of where the time went."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from umform.cli.root import console
+
+if TYPE_CHECKING:
+    from umform.timing import Timing
+
+Timed = Annotated[bool, typer.Option("--timing", help="Show where the time went.")]
+
+
+def show_timing(timing: Timing, title: str = "Where the time went") -> None:
+    """Print seconds, shares and calls of the parts."""
+    from rich import box
+    from rich.table import Table
+
+    table = Table("part", title=title, box=box.SIMPLE_HEAD)
+    for name in ("s", "%", "calls", "ms a call"):
+        table.add_column(name, justify="right")
+    for name, seconds, share, calls in timing.rows():
+        each = "" if calls is None else f"{1e3 * seconds / calls:.3f}"
+        table.add_row(name, f"{seconds:.3f}", f"{100 * share:.1f}", "" if calls is None else str(calls), each)
+    table.add_section()
+    runs = f"{timing.run.calls} run{'s' if timing.run.calls > 1 else ''}"
+    table.add_row("all", f"{timing.total:.3f}", "100.0", runs, "")
+    console().print(table)

@@ -1,0 +1,180 @@
+"""Where the time of a run goes: seconds and calls of its parts, at the cost of two looks at the clock for each call.
+
+>>> timing = Timing()
+>>> with timing.elements:
+...     _ = sum(range(1000))
+>>> timing.elements.calls
+1
+"""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from types import TracebackType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.solvers import Factorisation, Pattern, SparseSolver
+
+Floats = NDArray[np.float64]
+
+
+class Part:
+    """Adds up what is spent inside of its ``with`` blocks, which never stand in each other.
+
+    Attributes
+    ----------
+    name : str
+        For tables.
+    seconds : float
+        Wall time so far.
+    calls : int
+        Number of blocks so far.
+    """
+
+    __slots__ = ("_start", "calls", "name", "seconds")
+
+    def __init__(self, name: str) -> None:
+        self.name, self.seconds, self.calls, self._start = name, 0.0, 0, 0.0
+
+    def __enter__(self) -> None:
+        self._start = clock.perf_counter()
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.seconds += clock.perf_counter() - self._start
+        self.calls += 1
+
+
+class Timing:
+    """Seconds and calls of the parts of a run; no part lies within another, but all within `run` or in `files`.
+
+    Attributes
+    ----------
+    run : Part
+        The whole of it: :func:`umform.solve`.
+    elements : Part
+        Residual and tangent of the elements with their scatter into the matrix; one call an evaluation.
+    recovery : Part
+        Enhanced parameters after an increment.
+    contact : Part
+        Facets against tools, and follower pressures.
+    ties : Part
+        Reduction of the matrix by the ties.
+    analysis : Part
+        Order of elimination, once for a pattern.
+    factorisation, solve : Part
+        What they say.
+    output : Part
+        Rows and frames of the result, checkpoints.
+    files : Part
+        Tables, fields, pictures and pages after the run.
+    """
+
+    def __init__(self) -> None:
+        self.run = Part("run")
+        self.elements = Part("elements")
+        self.recovery = Part("enhanced parameters")
+        self.contact = Part("contact and pressure")
+        self.ties = Part("reduction of ties")
+        self.analysis = Part("analysis")
+        self.factorisation = Part("factorisation")
+        self.solve = Part("solve")
+        self.output = Part("history, frames")
+        self.files = Part("files")
+
+    @property
+    def parts(self) -> list[Part]:
+        """All parts of the run and the files, without the whole."""
+        return [part for part in vars(self).values() if part is not self.run]
+
+    @property
+    def total(self) -> float:
+        """Seconds of run and files."""
+        return self.run.seconds + self.files.seconds
+
+    @property
+    def rest(self) -> float:
+        """Seconds of the run outside of all parts: Python itself."""
+        return self.total - sum(part.seconds for part in self.parts)
+
+    def rows(self) -> list[tuple[str, float, float, int | None]]:
+        """Name, seconds, share of the total and calls of each part that was called, and of the rest of Python."""
+        whole = self.total or 1.0
+        rows: list[tuple[str, float, float, int | None]] = [
+            (part.name, part.seconds, part.seconds / whole, part.calls) for part in self.parts if part.calls
+        ]
+        return [*rows, ("rest of Python", self.rest, self.rest / whole, None)]
+
+    def record(self) -> dict[str, dict[str, float]]:
+        """Seconds and calls by the names of the attributes, for JSON."""
+        parts = {name: {"seconds": part.seconds, "calls": part.calls} for name, part in vars(self).items()}
+        return {**parts, "rest": {"seconds": self.rest}}
+
+    @classmethod
+    def sum(cls, timings: Iterable[Timing]) -> Timing:
+        """All of several runs together."""
+        whole = cls()
+        for timing in timings:
+            for into, part in zip(vars(whole).values(), vars(timing).values(), strict=True):
+                into.seconds += part.seconds
+                into.calls += part.calls
+        return whole
+
+
+_listening: ContextVar[list[Timing] | None] = ContextVar("_listening", default=None)
+
+
+@contextmanager
+def timings() -> Iterator[list[Timing]]:
+    """List the timings of all runs that begin inside of the ``with`` block, in this process."""
+    found: list[Timing] = []
+    token = _listening.set(found)
+    try:
+        yield found
+    finally:
+        _listening.reset(token)
+
+
+def new_timing() -> Timing:
+    """Timing of a run that begins; whoever listens hears of it."""
+    timing = Timing()
+    found = _listening.get()
+    if found is not None:
+        found.append(timing)
+    return timing
+
+
+class TimedSolver:
+    """A sparse solver on the clock of a run.
+
+    Parameters
+    ----------
+    solver : SparseSolver
+        The solver, which has analysed its pattern.
+    timing : Timing
+        Its parts `analysis`, `factorisation` and `solve` are counted.
+    """
+
+    def __init__(self, solver: SparseSolver, timing: Timing) -> None:
+        self.solver, self.timing, self.name = solver, timing, solver.name
+
+    def analyse(self, pattern: Pattern) -> None:
+        """See :class:`umform.solvers.SparseSolver`."""
+        with self.timing.analysis:
+            self.solver.analyse(pattern)
+
+    def factor(self, values: Floats) -> Factorisation:
+        """See :class:`umform.solvers.SparseSolver`."""
+        with self.timing.factorisation:
+            return self.solver.factor(values)
+
+    def solve(self, rhs: Floats) -> Floats:
+        """See :class:`umform.solvers.SparseSolver`."""
+        with self.timing.solve:
+            return self.solver.solve(rhs)

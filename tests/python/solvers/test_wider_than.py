@@ -1,0 +1,54 @@
+"""The walk that spares wide matrices the search for a narrow band."""
+
+from __future__ import annotations
+
+import logging
+
+import numpy as np
+import pytest
+
+import umform as uf
+from umform import solvers
+from umform.solvers import Pattern
+from umform.solvers.banded import Banded, wider_than
+
+
+def pattern_of(along, across, cell="hex8"):
+    mesh = uf.mesh.strip(float(along), float(across), 0.5, (along, across), cell=cell)
+    model = uf.Model(mesh, "ANS3DEAS" if cell == "hex8" else "MI9K3DEAS", material=uf.SVK(E=1.0, nu=0.3))
+    model.fix("x0")
+    return model.pattern
+
+
+def shuffled(pattern, seed=0):
+    """The same matrix with its equations in a random order."""
+    places = np.random.default_rng(seed).permutation(pattern.n)
+    i, j = places[pattern.rows], places[pattern.indices]
+    i, j = np.minimum(i, j), np.maximum(i, j)
+    order = np.lexsort((j, i))
+    indptr = np.searchsorted(i[order], np.arange(pattern.n + 1)).astype(np.int32)
+    return Pattern(pattern.n, indptr, j[order].astype(np.int32), True)
+
+
+@pytest.mark.parametrize("cells", [(24, 1), (48, 2), (10, 4), (6, 6), (20, 20)])
+@pytest.mark.parametrize("order", [lambda pattern: pattern, shuffled])
+def test_it_never_says_wider_than_what_is_found(cells, order):
+    pattern = order(pattern_of(*cells))
+    banded = Banded()
+    banded.analyse(pattern)
+    assert not wider_than(banded.bandwidth, pattern)
+    assert wider_than(0, pattern)
+
+
+def test_sheets_are_found_wide_and_strips_are_not():
+    assert wider_than(32, pattern_of(40, 40))
+    assert wider_than(32, pattern_of(20, 20, "hex18"))
+    assert not wider_than(32, pattern_of(100, 1))
+
+
+def test_a_wide_matrix_is_not_searched_for_a_band(monkeypatch, caplog):
+    pattern = pattern_of(60, 60)
+    monkeypatch.setattr(Banded, "analyse", lambda self, pattern: pytest.fail("searched"))
+    with caplog.at_level(logging.INFO, logger="umform.solvers"):
+        solver = solvers.make_solver(pattern)
+    assert solver.name in ("pardiso", "superlu")
