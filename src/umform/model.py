@@ -146,11 +146,13 @@ class Model(Supported, Loaded, Touched):
             du = self.displacement_of_supports(rates)
         product = None if du is None else Kdu
         failed, scale = self.block.evaluate(u, assembly.scatter, f, values, du, product)
+        round_off = 0.0
         for contact, scatter in zip(self.contacts, assembly.contact_scatter, strict=True):
             contact.place(self.time)
             shift = sum(rates.get(c, 0.0) * np.asarray(c.direction) for c in contact.translations)
             relative = None if du is None else (du.reshape(-1, 3) - shift).ravel()
             scale += contact.block.evaluate(u, scatter, f, values, relative, product)[1]
+            round_off += contact.block.round_off_squared
         for control, scatter in zip(self.of_kind(Pressure), assembly.pressure_scatter, strict=True):
             assert control.block is not None
             if rates.get(control, 0.0) != 0.0:
@@ -164,7 +166,7 @@ class Model(Supported, Loaded, Touched):
             if load.value != 0.0:
                 f -= load.value * load.vector
                 scale += load.value**2 * float(load.vector @ load.vector)
-        return Evaluation(f, assembly.reduce(values), Kdu, float(np.sqrt(scale)), failed)
+        return Evaluation(f, assembly.reduce(values), Kdu, float(np.sqrt(scale)), failed, float(np.sqrt(round_off)))
 
     def recover(self, du: Floats, s: float) -> None:
         """Update the enhanced parameters after ``u += s du``. eq. (2.19)"""

@@ -6,7 +6,7 @@ Convergence asks for a small residual AND a small increment, both without units:
 sum of squares of all element forces, the increment against the largest displacement. Neither can fall below round-off,
 so the floor that round-off sets is estimated in each iteration: a residual below it is small, and two in a row end the
 iteration even where the increment cannot become small (sheets so thin that round-off moves them).
-eqs. (5.8)-(5.11)
+eqs. (5.8)-(5.11), (5.36)
 """
 
 from __future__ import annotations
@@ -269,7 +269,7 @@ class Newton:
             if not np.isfinite(norm):
                 raise Failed("the residual is not finite", iterations)
             entered, left = int((active & ~previous_active).sum()), int((~active & previous_active).sum())
-            floor = self._floor(evaluation.values, u)
+            floor = self._floor(evaluation, u)
             small = norm <= max(options.residual * scale, floor) and increment <= options.increment
             settled = small and (not (entered or left) or extra >= 2)
             at_floor = at_floor + 1 if norm <= floor else 0
@@ -324,11 +324,11 @@ class Newton:
             self._pattern = pattern
         return self._solver
 
-    def _floor(self, values: Floats, u: Floats) -> float:
-        """Residual that round-off of the displacements leaves behind. eq. (5.10)"""
-        largest = float(np.abs(values).max(initial=0.0))
-        eps = float(np.finfo(float).eps)
-        return eps * largest * float(np.abs(u).max()) * math.sqrt(self.system.pattern.n)
+    def _floor(self, evaluation: Evaluation, u: Floats) -> float:
+        """Residual that round-off of displacements and of gaps leaves behind. eqs. (5.10), (5.36)"""
+        largest = float(np.abs(evaluation.values).max(initial=0.0))
+        of_displacements = largest * float(np.abs(u).max()) * math.sqrt(self.system.pattern.n)
+        return float(np.finfo(float).eps) * math.hypot(of_displacements, evaluation.round_off)
 
     def _record(
         self,

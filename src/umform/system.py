@@ -32,6 +32,10 @@ class Evaluation(Protocol):
         """Scale of the forces."""
 
     @property
+    def round_off(self) -> float:
+        """What a relative error of all positions makes of the residual of contact, over that error. eq. (5.36)"""
+
+    @property
     def failed(self) -> int:
         """First cell outside of the domain of its law, or -1."""
 
