@@ -75,7 +75,7 @@ class Contact:
     def __init__(self, mesh: Mesh, faces: Selector, tool: Surface, settings: ContactSettings, name: str) -> None:
         self.name = name
         self.tool = tool
-        self.penalty, self.points = settings.penalty, settings.points
+        self.points = settings.points
         self.allowed, self.augmented = settings.allowed, settings.augmented
         self.facets: Ids = mesh.facets(faces)
         #: Nodes of all cells that bear a facet, those of the far face too.
@@ -84,7 +84,7 @@ class Contact:
         at_nodes = isinstance(self.points, str)
         per_side = 1 if isinstance(self.points, str) else self.points
         self.block = _core.contact_block(self.facets, mesh.points, per_side, at_nodes, self._kernel)
-        self.block.penalty = self.penalty
+        self.penalty = settings.penalty
         #: Multipliers of the converged state at the contact points; zero without augmentation.
         self.multipliers: Floats = self.block.multipliers
         self.pose: tuple[Floats, Floats] = (np.eye(3), np.zeros(3))
@@ -92,8 +92,22 @@ class Contact:
         self.motion: Motion | None = None
         self.reference_point = np.zeros(3)
 
+    @property
+    def penalty(self) -> float:
+        """Pressure per penetration."""
+        return self.block.penalty
+
+    @penalty.setter
+    def penalty(self, value: float) -> None:
+        self.block.penalty = value
+
     def place(self, time: float) -> None:
         """Put the tool where its motions have it at ``time``. eq. (4.18)"""
+        self.pose = self._pose_at(time)
+        self.block.set_pose(*self.pose)
+
+    def _pose_at(self, time: float) -> tuple[Floats, Floats]:
+        """Rotation and shift of the tool at ``time``, at the present values of the controls."""
         shift, rotation = np.zeros(3), np.eye(3)
         for control in self.translations:
             shift += control.value * np.asarray(control.direction)
@@ -104,8 +118,14 @@ class Contact:
             shift += vector3(translation, where)
             rotation = Rotation.from_rotvec(vector3(turn, where)).as_matrix()
         centre = self.reference_point
-        self.pose = np.ascontiguousarray(rotation), centre + shift - rotation @ centre
-        self.block.set_pose(*self.pose)
+        return np.ascontiguousarray(rotation), centre + shift - rotation @ centre
+
+    def carried(self, x: Floats, time: float) -> Floats:
+        """Way of places (n, 3) of the tool, which stands at its pose, to where its function has them at ``time``."""
+        if self.motion is None:
+            return np.zeros_like(x)
+        (rotation, shift), (rotation_then, shift_then) = self.pose, self._pose_at(time)
+        return (x - shift) @ rotation @ rotation_then.T + shift_then - x
 
     @property
     def _shifted_gap(self) -> Floats:
@@ -128,12 +148,30 @@ class Contact:
         The points that are held now stay so to first order, and close their gaps: where the tool goes back, new
         multipliers on old gaps would let go of points that bear a pressure. eqs. (4.34), (4.35)
         """
-        at, held = self.at_points(), self.active()
-        weight = self.penalty * np.where(held, at.gap, 0.0) * at.area
+        at = self.at_points()
+        self._close(at.gap, change)
+        self.block.multipliers = at.pressure
+
+    def stiffen(self, penalty: float, change: Floats) -> None:
+        """Take another penalty, and add to the residual what lets the points that are held keep their pressure. eq. (4.38)
+
+        Parameters
+        ----------
+        penalty : float
+            The new penalty.
+        change : ndarray, shape (3 n,)
+            Gets what the first increment with the tangent of before has to answer.
+        """
+        self._close((1.0 - self.penalty / penalty) * self.block.gaps, change)
+        self.penalty = penalty
+
+    def _close(self, way: Floats, change: Floats) -> None:
+        """Add the forces by which the points that are held now go a way (points,) against their gaps."""
+        at = self.at_points()
+        weight = self.penalty * np.where(self.active(), way, 0.0) * at.area
         forces = (weight[:, None] * at.normal).reshape(len(self.facets), -1, 3)
         nodal = np.einsum("qa,eqk->eak", self.block.shape_values, forces)
         np.add.at(change.reshape(-1, 3), self.facets, nodal)
-        self.block.multipliers = at.pressure
 
     def commit(self) -> None:
         """Make the multipliers those of the converged state."""
