@@ -161,9 +161,11 @@ class Model(Supported, Loaded, Touched):
             shift = sum(rates.get(c, 0.0) * np.asarray(c.direction) for c in contact.translations)
             relative = None if du is None else (du.reshape(-1, 3) - shift).ravel()
             if relative is not None and until is not None:
-                relative -= contact.carried(self.mesh.points + u.reshape(-1, 3), until).ravel()
+                relative -= contact.carried((self.mesh.points.ravel() + u).reshape(-1, 3), until).ravel()
             scale += contact.block.evaluate(u, scatter, f, values, relative, product)[1]
             round_off += contact.block.round_off_squared
+            if until is not None:
+                contact.turn(until, Kdu)
         for control, scatter in zip(self.of_kind(Pressure), assembly.pressure_scatter, strict=True):
             assert control.block is not None
             if rates.get(control, 0.0) != 0.0:

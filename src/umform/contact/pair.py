@@ -121,11 +121,17 @@ class Contact:
         return np.ascontiguousarray(rotation), centre + shift - rotation @ centre
 
     def carried(self, x: Floats, time: float) -> Floats:
-        """Way of places (n, 3) of the tool, which stands at its pose, to where its function has them at ``time``."""
+        """Way of places (n, 3) of the tool, from where it stands to where its function has them at ``time``. eq. (4.37)"""
         if self.motion is None:
             return np.zeros_like(x)
         (rotation, shift), (rotation_then, shift_then) = self.pose, self._pose_at(time)
         return (x - shift) @ rotation @ rotation_then.T + shift_then - x
+
+    def turn(self, time: float, change: Floats) -> None:
+        """Add what the forces of the last evaluation change by as they turn with the tool until ``time``. eq. (4.37)"""
+        if self.motion is not None:
+            at, turned = self.at_points(), self._pose_at(time)[0] @ self.pose[0].T
+            self._spread(-(at.pressure * at.area)[:, None] * at.normal @ (turned - np.eye(3)).T, change)
 
     @property
     def _shifted_gap(self) -> Floats:
@@ -169,8 +175,11 @@ class Contact:
         """Add the forces by which the points that are held now go a way (points,) against their gaps."""
         at = self.at_points()
         weight = self.penalty * np.where(self.active(), way, 0.0) * at.area
-        forces = (weight[:, None] * at.normal).reshape(len(self.facets), -1, 3)
-        nodal = np.einsum("qa,eqk->eak", self.block.shape_values, forces)
+        self._spread(weight[:, None] * at.normal, change)
+
+    def _spread(self, forces: Floats, change: Floats) -> None:
+        """Add forces (points, 3) at the contact points to their nodes. eq. (4.9)"""
+        nodal = np.einsum("qa,eqk->eak", self.block.shape_values, forces.reshape(len(self.facets), -1, 3))
         np.add.at(change.reshape(-1, 3), self.facets, nodal)
 
     def commit(self) -> None:

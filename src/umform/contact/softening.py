@@ -11,57 +11,70 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.newton import Converged, Newton
+from umform.newton import Converged, Failed, Newton
 
 if TYPE_CHECKING:
+    from umform.contact.pair import Contact
     from umform.model import Model
 
 log = logging.getLogger("umform.contact")
 
-#: Parts of the penalty that come before it.
-_SOFTER = (1e-3, 1e-2, 1e-1)
+#: Powers of ten by which the penalty is softened at first: the second where the first is still too stiff.
+_SOFTER = (3, 6)
 
 
 def softened(model: Model, newton: Newton, start: NDArray[np.float64] | None) -> Converged:
-    """Find the equilibrium with a thousandth of the penalty, then stiffen it tenfold at a time. eq. (4.38)
+    """Find the equilibrium with a part of the penalty, and stiffen it tenfold at a time. docs/theory, 4.14
 
     Parameters
     ----------
     model : Model
-        At its last converged state, with controls and time of the increment.
+        With the controls and the time of the increment, and contacts; its last evaluation was at ``model.u``.
     newton : Newton
         Method.
     start : ndarray, shape (3 n,), optional
-        Guess of the increment.
+        Guess of the increment; without it that of the tangent.
+
+    Returns
+    -------
+    Converged
+        With the iterations of all penalties.
 
     Raises
     ------
     Failed
-        If a penalty on the way does not converge; the model is reverted.
+        If no softer penalty leads to the equilibrium; the model is reverted, with its penalties.
     """
+    soft, softest = _SOFTER
+    try:
+        return _stiffened(model, newton, start, soft)
+    except Failed:
+        model.evaluate(model.u)  # the enhanced parameters of the next try are recovered with the blocks of this state
+    return _stiffened(model, newton, start, softest)
+
+
+def _stiffened(model: Model, newton: Newton, start: NDArray[np.float64] | None, powers: int) -> Converged:
+    """Equilibrium with 10^-powers of the penalty, then with ten times as much, up to all of it. eq. (4.39)"""
     with _own_penalties(model) as penalties:
-        _set(model, _SOFTER[0], penalties)
+        for contact, penalty in penalties.items():
+            contact.penalty = 10.0**-powers * penalty
         converged = newton.solve(start)
-        for part in (*_SOFTER[1:], 1.0):
+        for power in range(powers - 1, -1, -1):
             change = np.zeros_like(converged.u)
-            for contact, penalty in zip(model.contacts, penalties, strict=True):
-                contact.stiffen(part * penalty, change)
+            for contact, penalty in penalties.items():
+                contact.stiffen(10.0**-power * penalty, change)
             again = newton.go_on(converged, change)
             converged = replace(again, iterations=converged.iterations + again.iterations)
     log.debug("    by way of softer penalties, %d iterations", len(converged.iterations))
     return converged
 
 
-def _set(model: Model, part: float, penalties: list[float]) -> None:
-    for contact, penalty in zip(model.contacts, penalties, strict=True):
-        contact.penalty = part * penalty
-
-
 @contextmanager
-def _own_penalties(model: Model) -> Iterator[list[float]]:
+def _own_penalties(model: Model) -> Iterator[dict[Contact, float]]:
     """The penalties of the contacts, which they have again at the end, whatever happens."""
-    penalties = [contact.penalty for contact in model.contacts]
+    penalties = {contact: contact.penalty for contact in model.contacts}
     try:
         yield penalties
     finally:
-        _set(model, 1.0, penalties)
+        for contact, penalty in penalties.items():
+            contact.penalty = penalty
