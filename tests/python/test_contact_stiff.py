@@ -26,8 +26,8 @@ def three_points(penalty, points, *, radius=20.0, length=40.0, thickness=0.5, ce
     model.symmetry("x0", "x")
     model.fix(np.arange(len(sheet.points)), "y")
     model.fix("x1_lower", "z")
-    centre = np.array(far) + (0.0, 0.0, radius + 0.5 * thickness)
-    contact = model.contact("upper", Cylinder(tuple(centre), "y", radius), penalty=penalty, points=points)
+    centre = (far[0], far[1], far[2] + radius + 0.5 * thickness)
+    contact = model.contact("upper", Cylinder(centre, "y", radius), penalty=penalty, points=points)
     return model, model.drive(contact, "-z", "ram")
 
 
@@ -66,7 +66,7 @@ def test_the_floor_is_above_what_is_attained_and_not_far_above(penalty, points, 
 
 @pytest.mark.parametrize(("penalty", "points"), [(1e8, 2), (1e8, "nodes"), (1e9, "nodes")])
 def test_stiff_runs_converge_at_the_tolerance_of_the_house_and_to_the_force_of_softer_ones(penalty, points):
-    """The tolerance is far below the floor here; the force is that of a penalty whose floor is far below the tolerance."""
+    """Their tolerance is below the floor; the force is that of a penalty whose floor is far below the tolerance."""
     stiff, soft = three_points(penalty, points), three_points(1e6, points)
     result = solve(stiff[0], Move(stiff[1], 2.0, steps=5, cuts=0), frames=0)
     expected = solve(soft[0], Move(soft[1], 2.0, steps=5), frames=0)
@@ -76,8 +76,8 @@ def test_stiff_runs_converge_at_the_tolerance_of_the_house_and_to_the_force_of_s
 
 
 def test_the_scale_of_round_off_by_hand():
-    """One facet of area 1 that lies flat: |x| at its points, no curvature; each node has the share N_a of the points."""
-    sheet = strip(1.0, 1.0, 0.5, (1, 1)).transformed(lambda x: x + (3.0, 0.0, 4.25))
+    """One facet of area 1 that lies flat: |x| at its point, no curvature; each node has a quarter of it."""
+    sheet = strip(1.0, 1.0, 0.5, (1, 1)).transformed(lambda x: x + np.array([3.0, 0.0, 4.25]))
     model = Model(sheet, material=ELASTIC)
     contact = model.contact("lower", Plane((0.0, 0.0, 4.0)), penalty=7.0, points=1)
     model.evaluate(model.u)

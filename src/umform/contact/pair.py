@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from umform import _core
 from umform.boundary import Control, vector3
 from umform.contact.settings import ContactSettings
-from umform.mesh import Ids, Mesh, Selector
+from umform.mesh import FACE_NODES, Ids, Mesh, Selector
 from umform.surfaces import Surface
 
 Floats = NDArray[np.float64]
@@ -121,7 +121,7 @@ class Contact:
         return np.ascontiguousarray(rotation), centre + shift - rotation @ centre
 
     def carried(self, x: Floats, time: float) -> Floats:
-        """Way of places (n, 3) of the tool, from where it stands to where its function has them at ``time``. eq. (4.37)"""
+        """Way of places (n, 3) of the tool, from where it stands to where it is at ``time`` by its function. eq. (4.37)"""
         if self.motion is None:
             return np.zeros_like(x)
         (rotation, shift), (rotation_then, shift_then) = self.pose, self._pose_at(time)
@@ -159,14 +159,14 @@ class Contact:
         self.block.multipliers = at.pressure
 
     def stiffen(self, penalty: float, change: Floats) -> None:
-        """Take another penalty, and add to the residual what lets the points that are held keep their pressure. eq. (4.38)
+        """Take another penalty, and add to the residual what lets the points that are held keep their pressure.
 
         Parameters
         ----------
         penalty : float
             The new penalty.
         change : ndarray, shape (3 n,)
-            Gets what the first increment with the tangent of before has to answer.
+            Gets what the first increment with the tangent of before has to answer. eq. (4.39)
         """
         self._close((1.0 - self.penalty / penalty) * self.block.gaps, change)
         self.penalty = penalty
@@ -221,12 +221,12 @@ class Contact:
     def at_nodes(self, u: Floats, mesh: Mesh) -> tuple[Floats, Floats]:
         """Pressure and gap at the nodes of the facets; zero and NaN at other nodes; two arrays of shape (nodes,).
 
-        The pressure is the average of that at the contact points, weighted by N_a and their areas; the gap is measured
-        at the nodes themselves.
+        The pressure is the average of that at the contact points, weighted by their areas and the hat functions of the
+        nodes, which are not negative and have the sum one. eq. (4.38). The gap is measured at the nodes themselves.
         """
         at = self.at_points()
-        N = self.block.shape_values
-        weight = N[None, :, :] * at.area.reshape(len(self.facets), -1, 1)  # [facet][point][node]
+        hats = hat_functions(self.block.shape_values)
+        weight = hats[None, :, :] * at.area.reshape(len(self.facets), -1, 1)  # [facet][point][node]
         share = np.einsum("eqa,eq->ea", weight, at.pressure.reshape(len(self.facets), -1))
         count = len(mesh.points)
         total, area = np.zeros(count), np.zeros(count)
@@ -242,3 +242,23 @@ class Contact:
         """Signed distance of positions (n, 3) to the tool where it stands now; shape (n,)."""
         rotation, shift = self.pose
         return self._kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0]
+
+
+def hat_functions(N: Floats) -> Floats:
+    """Piecewise bilinear functions between the nodes of a face at the places where its shape functions are N.
+
+    Parameters
+    ----------
+    N : ndarray, shape (points, nodes)
+        Shape functions of a face of 4 or 9 nodes.
+
+    Returns
+    -------
+    ndarray, shape (points, nodes)
+        N itself on 4-node faces; on 9-node faces the hats (1 - |r - r_a|)(1 - |s - s_a|) of their four quarters.
+    """
+    if N.shape[1] == 4:
+        return N
+    distance = np.abs((N @ FACE_NODES)[:, None, :] - FACE_NODES)
+    hats: Floats = np.maximum(1.0 - distance, 0.0).prod(axis=-1)
+    return hats
