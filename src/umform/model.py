@@ -195,6 +195,10 @@ class Model(Supported, Loaded, Touched):
             return np.zeros(0, dtype=bool)
         return np.concatenate([contact.active() for contact in self.contacts])
 
+    def flowing(self) -> NDArray[np.uint8]:
+        """1 for each point of the material whose history the last evaluation has changed, else 0."""
+        return self.block.flowing
+
     def commit(self, u: Floats) -> None:
         """Make ``u`` and the trial history of the last evaluation the converged state."""
         self.block.commit()

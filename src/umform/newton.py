@@ -83,6 +83,8 @@ class Iteration:
         Negative pivots of the tangent, where the solver tells.
     seconds : float
         Wall time.
+    switched : int
+        Points of the material that began or ceased to flow since the iteration before.
     """
 
     number: int
@@ -94,6 +96,7 @@ class Iteration:
     step_length: float
     negative_pivots: int | None
     seconds: float
+    switched: int = 0
 
 
 class Failed(Exception):
@@ -259,6 +262,7 @@ class Newton:
         evaluation = corrector.evaluate(u)
         active = system.active_set()
         previous_active = active
+        flowing = previous_flowing = system.flowing()
         extra = at_floor = 0
 
         for number in range(1, options.max_iterations + 1):
@@ -269,13 +273,24 @@ class Newton:
             if not np.isfinite(norm):
                 raise Failed("the residual is not finite", iterations)
             entered, left = int((active & ~previous_active).sum()), int((~active & previous_active).sum())
+            switched = int((flowing != previous_flowing).sum())
             floor = self._floor(evaluation, u)
             small = norm <= max(options.residual * scale, floor) and increment <= options.increment
             settled = small and (not (entered or left) or extra >= 2)
             at_floor = at_floor + 1 if norm <= floor else 0
             if settled or at_floor >= 2:
                 self._record(
-                    iterations, number, norm / scale, increment, 0.0, entered, left, step_length, pivots, start
+                    iterations,
+                    number,
+                    norm / scale,
+                    increment,
+                    0.0,
+                    entered,
+                    left,
+                    step_length,
+                    pivots,
+                    start,
+                    switched,
                 )
                 return Converged(u, evaluation, iterations)
             extra += int(small)
@@ -284,10 +299,13 @@ class Newton:
             pivots = solver.factor(evaluation.values).negative_pivots
             du = corrector.direction(solver, u, evaluation)
             energy = abs(float(r @ system.restrict(du)))
-            self._record(iterations, number, norm / scale, increment, energy, entered, left, step_length, pivots, start)
+            self._record(
+                iterations, number, norm / scale, increment, energy, entered, left, step_length, pivots, start, switched
+            )
             u, evaluation, step_length = self._advance(u, du, r, corrector)
             increment = step_length * _size(du, u)
             previous_active, active = active, system.active_set()
+            previous_flowing, flowing = flowing, system.flowing()
         raise Failed(f"no convergence in {options.max_iterations} iterations", iterations)
 
     def _advance(self, u: Floats, du: Floats, r: Floats, corrector: Corrector) -> tuple[Floats, Evaluation, float]:
@@ -342,18 +360,19 @@ class Newton:
         step_length: float,
         pivots: int | None,
         start: float,
+        switched: int,
     ) -> None:
-        record = Iteration(
-            number, residual, increment, energy, entered, left, step_length, pivots, clock.perf_counter() - start
-        )
+        seconds = clock.perf_counter() - start
+        record = Iteration(number, residual, increment, energy, entered, left, step_length, pivots, seconds, switched)
         iterations.append(record)
         log.debug(
-            "    iteration %2d  residual %.3e  increment %.3e  contact +%d -%d%s",
+            "    iteration %2d  residual %.3e  increment %.3e  contact +%d -%d%s%s",
             number,
             residual,
             increment,
             entered,
             left,
+            f"  flow switched {switched}" if switched else "",
             f"  negative pivots {pivots}" if pivots else "",
         )
         for callback in self.callbacks:

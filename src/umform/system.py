@@ -70,6 +70,9 @@ class System(Protocol):
     def active_set(self) -> NDArray[np.bool_]:
         """Contact points that penetrate."""
 
+    def flowing(self) -> NDArray[np.uint8]:
+        """1 for each point of the material whose history the last evaluation has changed, else 0."""
+
     def commit(self, u: Floats) -> None:
         """Accept."""
 

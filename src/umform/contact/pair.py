@@ -121,7 +121,7 @@ class Contact:
         return np.ascontiguousarray(rotation), centre + shift - rotation @ centre
 
     def carried(self, x: Floats, time: float) -> Floats:
-        """Way of places (n, 3) of the tool, from where it stands to where it is at ``time`` by its function. eq. (4.37)"""
+        """Way of places (n, 3) of the tool, from where it stands to where it will be at ``time``. eq. (4.37)"""
         if self.motion is None:
             return np.zeros_like(x)
         (rotation, shift), (rotation_then, shift_then) = self.pose, self._pose_at(time)
