@@ -14,7 +14,7 @@ _LIMITS = """\
 * Statics: there is no mass and no inertia.
 * Penalty contact: a sheet sinks into a tool by pressure / penalty.
 * The plastic law is isotropic: no anisotropy of rolled sheet, no Bauschinger effect in reverse bending.
-* With a penalty of 1000 E/h and more an increment may be cut a hundred times and more on its way; the automatic
+* With a penalty of 1000 E/h and more a run may be cut a hundred times and more on its way; the automatic
   penalty is softer.
 * A strip that is 10000 times as long as thick, of elements 300 times as long as thick, has a condition number above
   1e16: its first touch ends as a singular matrix.
