@@ -161,6 +161,7 @@ class Newton:
         self._solver: SparseSolver | None = None
         self._pattern: Pattern | None = None
         self.callbacks: list[Callable[[Iteration], None]] = []
+        self._flowing: NDArray[np.uint8] | None = None  # in the iteration before
 
     @property
     def solver(self) -> str:
@@ -262,7 +263,6 @@ class Newton:
         evaluation = corrector.evaluate(u)
         active = system.active_set()
         previous_active = active
-        flowing = previous_flowing = system.flowing()
         extra = at_floor = 0
 
         for number in range(1, options.max_iterations + 1):
@@ -273,24 +273,14 @@ class Newton:
             if not np.isfinite(norm):
                 raise Failed("the residual is not finite", iterations)
             entered, left = int((active & ~previous_active).sum()), int((~active & previous_active).sum())
-            switched = int((flowing != previous_flowing).sum())
-            floor = self._floor(evaluation, u)
+            floor = self._floor(evaluation.values, u)
+            floor = math.hypot(floor, self._floor_of_gaps(evaluation))
             small = norm <= max(options.residual * scale, floor) and increment <= options.increment
             settled = small and (not (entered or left) or extra >= 2)
             at_floor = at_floor + 1 if norm <= floor else 0
             if settled or at_floor >= 2:
                 self._record(
-                    iterations,
-                    number,
-                    norm / scale,
-                    increment,
-                    0.0,
-                    entered,
-                    left,
-                    step_length,
-                    pivots,
-                    start,
-                    switched,
+                    iterations, number, norm / scale, increment, 0.0, entered, left, step_length, pivots, start
                 )
                 return Converged(u, evaluation, iterations)
             extra += int(small)
@@ -299,13 +289,10 @@ class Newton:
             pivots = solver.factor(evaluation.values).negative_pivots
             du = corrector.direction(solver, u, evaluation)
             energy = abs(float(r @ system.restrict(du)))
-            self._record(
-                iterations, number, norm / scale, increment, energy, entered, left, step_length, pivots, start, switched
-            )
+            self._record(iterations, number, norm / scale, increment, energy, entered, left, step_length, pivots, start)
             u, evaluation, step_length = self._advance(u, du, r, corrector)
             increment = step_length * _size(du, u)
             previous_active, active = active, system.active_set()
-            previous_flowing, flowing = flowing, system.flowing()
         raise Failed(f"no convergence in {options.max_iterations} iterations", iterations)
 
     def _advance(self, u: Floats, du: Floats, r: Floats, corrector: Corrector) -> tuple[Floats, Evaluation, float]:
@@ -342,11 +329,11 @@ class Newton:
             self._pattern = pattern
         return self._solver
 
-    def _floor(self, evaluation: Evaluation, u: Floats) -> float:
-        """Residual that round-off of displacements and of gaps leaves behind. eqs. (5.10), (5.36)"""
-        largest = float(np.abs(evaluation.values).max(initial=0.0))
-        of_displacements = largest * float(np.abs(u).max()) * math.sqrt(self.system.pattern.n)
-        return float(np.finfo(float).eps) * math.hypot(of_displacements, evaluation.round_off)
+    def _floor(self, values: Floats, u: Floats) -> float:
+        """Residual that round-off of the displacements leaves behind. eq. (5.10)"""
+        largest = float(np.abs(values).max(initial=0.0))
+        eps = float(np.finfo(float).eps)
+        return eps * largest * float(np.abs(u).max()) * math.sqrt(self.system.pattern.n)
 
     def _record(
         self,
@@ -360,8 +347,10 @@ class Newton:
         step_length: float,
         pivots: int | None,
         start: float,
-        switched: int,
     ) -> None:
+        flowing, before = self.system.flowing(), self._flowing
+        switched = 0 if number == 1 or before is None else int((flowing != before).sum())
+        self._flowing = flowing
         seconds = clock.perf_counter() - start
         record = Iteration(number, residual, increment, energy, entered, left, step_length, pivots, seconds, switched)
         iterations.append(record)
@@ -377,6 +366,11 @@ class Newton:
         )
         for callback in self.callbacks:
             callback(record)
+
+    @staticmethod
+    def _floor_of_gaps(evaluation: Evaluation) -> float:
+        """Residual that round-off of the gaps leaves behind, whose positions are larger than displacements. eq. (5.36)"""
+        return float(np.finfo(float).eps) * evaluation.round_off
 
     @staticmethod
     def check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:

@@ -16,7 +16,6 @@ from umform.steps import Move, Release, solve
 from umform.surfaces import Cylinder, Plane
 
 ELASTIC = mt.SVK(E=1e5, nu=0.0)
-EPS = np.finfo(float).eps
 
 
 def three_points(penalty, points, *, radius=20.0, length=40.0, thickness=0.5, cells=24, far=(0.0, 0.0, 0.0)):
@@ -47,7 +46,9 @@ def attained(model, iterations=6):
         model.recover(du, 1.0)
         u += du
     model.revert()
-    return max(norms[1:]), newton._floor(model.evaluate(model.u), model.u)
+    evaluation = model.evaluate(model.u)
+    floor = math.hypot(newton._floor(evaluation.values, model.u), newton._floor_of_gaps(evaluation))
+    return max(norms[1:]), floor
 
 
 STIFF = [
