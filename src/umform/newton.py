@@ -369,7 +369,7 @@ class Newton:
 
     @staticmethod
     def _floor_of_gaps(evaluation: Evaluation) -> float:
-        """Residual that round-off of the gaps leaves behind, whose positions are larger than displacements. eq. (5.36)"""
+        """Residual that round-off of the gaps leaves behind. eqs. (5.35), (5.36)"""
         return float(np.finfo(float).eps) * evaluation.round_off
 
     @staticmethod

@@ -75,7 +75,7 @@ class Contact:
     def __init__(self, mesh: Mesh, faces: Selector, tool: Surface, settings: ContactSettings, name: str) -> None:
         self.name = name
         self.tool = tool
-        self.points = settings.points
+        self.penalty, self.points = settings.penalty, settings.points
         self.allowed, self.augmented = settings.allowed, settings.augmented
         self.facets: Ids = mesh.facets(faces)
         #: Nodes of all cells that bear a facet, those of the far face too.
@@ -84,22 +84,13 @@ class Contact:
         at_nodes = isinstance(self.points, str)
         per_side = 1 if isinstance(self.points, str) else self.points
         self.block = _core.contact_block(self.facets, mesh.points, per_side, at_nodes, self._kernel)
-        self.penalty = settings.penalty
+        self.block.penalty = self.penalty
         #: Multipliers of the converged state at the contact points; zero without augmentation.
         self.multipliers: Floats = self.block.multipliers
         self.pose: tuple[Floats, Floats] = (np.eye(3), np.zeros(3))
         self.translations: list[ToolMotion] = []
         self.motion: Motion | None = None
         self.reference_point = np.zeros(3)
-
-    @property
-    def penalty(self) -> float:
-        """Pressure per penetration."""
-        return self.block.penalty
-
-    @penalty.setter
-    def penalty(self, value: float) -> None:
-        self.block.penalty = value
 
     def place(self, time: float) -> None:
         """Put the tool where its motions have it at ``time``. eq. (4.18)"""
@@ -120,23 +111,21 @@ class Contact:
         centre = self.reference_point
         return np.ascontiguousarray(rotation), centre + shift - rotation @ centre
 
-    def carried(self, x: Floats, time: float) -> Floats:
-        """Way of places (n, 3) of the tool, from where it stands to where it will be at ``time``. eq. (4.37)"""
-        if self.motion is None:
-            return np.zeros_like(x)
-        (rotation, shift), (rotation_then, shift_then) = self.pose, self._pose_at(time)
-        return (x - shift) @ rotation @ rotation_then.T + shift_then - x
-
-    def turn(self, time: float, change: Floats) -> None:
-        """Add what the forces of the last evaluation change by as they turn with the tool until ``time``. eq. (4.37)"""
-        if self.motion is not None:
-            at, turned = self.at_points(), self._pose_at(time)[0] @ self.pose[0].T
-            self._spread(-(at.pressure * at.area)[:, None] * at.normal @ (turned - np.eye(3)).T, change)
-
     @property
     def _shifted_gap(self) -> Floats:
         """Gap less multiplier over penalty: what pressure and active set are told by. eq. (4.33)"""
         return self.block.gaps - self.block.multipliers / self.penalty
+
+    @property
+    def penalty(self) -> float:
+        """Pressure per penetration."""
+        return self._penalty
+
+    @penalty.setter
+    def penalty(self, value: float) -> None:
+        self._penalty = value
+        if "block" in vars(self):
+            self.block.penalty = value
 
     def active(self) -> NDArray[np.bool_]:
         """Which points are held by the tool, of the last evaluation."""
@@ -181,6 +170,19 @@ class Contact:
         """Add forces (points, 3) at the contact points to their nodes. eq. (4.9)"""
         nodal = np.einsum("qa,eqk->eak", self.block.shape_values, forces.reshape(len(self.facets), -1, 3))
         np.add.at(change.reshape(-1, 3), self.facets, nodal)
+
+    def carried(self, x: Floats, time: float) -> Floats:
+        """Way of places (n, 3) of the tool, from where it stands to where it will be at ``time``. eq. (4.37)"""
+        if self.motion is None:
+            return np.zeros_like(x)
+        (rotation, shift), (rotation_then, shift_then) = self.pose, self._pose_at(time)
+        return (x - shift) @ rotation @ rotation_then.T + shift_then - x
+
+    def turn(self, time: float, change: Floats) -> None:
+        """Add what the forces of the last evaluation change by as they turn with the tool until ``time``. eq. (4.37)"""
+        if self.motion is not None:
+            at, turned = self.at_points(), self._pose_at(time)[0] @ self.pose[0].T
+            self._spread(-(at.pressure * at.area)[:, None] * at.normal @ (turned - np.eye(3)).T, change)
 
     def commit(self) -> None:
         """Make the multipliers those of the converged state."""
