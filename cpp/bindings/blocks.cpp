@@ -145,6 +145,15 @@ void bind_blocks(nb::module_& m) {
             },
             nb::sig("def state(self) -> NDArray[float64]"), "Converged history (elements, points, state_size).")
         .def_prop_ro(
+            "flowing",
+            [](const ShellBlock& b) {
+                std::vector<std::uint8_t> flows = b.flowing();
+                const std::size_t points = flows.size();
+                return to_numpy(std::move(flows), {points});
+            },
+            nb::sig("def flowing(self) -> NDArray[uint8]"),
+            "For each point 1 where the last evaluation has changed its history, else 0; empty without a history.")
+        .def_prop_ro(
             "alpha",
             [](const ShellBlock& b) {
                 return to_numpy(b.alpha(), {static_cast<std::size_t>(b.connectivity().size()),
@@ -217,6 +226,8 @@ void bind_blocks(nb::module_& m) {
         .def_prop_ro(
             "areas", [](const ContactBlock& b) { return to_numpy(b.areas(), {b.areas().size()}); },
             nb::sig("def areas(self) -> NDArray[float64]"))
+        .def_prop_ro("round_off_squared", &ContactBlock::round_off_squared,
+                     "Square of what a relative error 1 of all positions makes of the residual, at the last evaluation.")
         .def_prop_rw(
             "multipliers", [](const ContactBlock& b) { return to_numpy(b.multipliers(), {b.multipliers().size()}); },
             [](ContactBlock& b, const Input& values) {

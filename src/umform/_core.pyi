@@ -7,7 +7,7 @@ import enum
 
 
 from collections.abc import Callable
-from numpy import float64, int32, int64
+from numpy import float64, int32, int64, uint8
 from numpy.typing import NDArray
 
 def gauss(n: int) -> tuple[NDArray[float64], NDArray[float64]]:
@@ -199,6 +199,12 @@ class ShellBlock:
         """Converged history (elements, points, state_size)."""
 
     @property
+    def flowing(self) -> NDArray[uint8]:
+        """
+        For each point 1 where the last evaluation has changed its history, else 0; empty without a history.
+        """
+
+    @property
     def alpha(self) -> NDArray[float64]:
         """Converged enhanced parameters (elements, modes)."""
 
@@ -261,6 +267,12 @@ class ContactBlock:
 
     @property
     def areas(self) -> NDArray[float64]: ...
+
+    @property
+    def round_off_squared(self) -> float:
+        """
+        Square of what a relative error 1 of all positions makes of the residual, at the last evaluation.
+        """
 
     @property
     def multipliers(self) -> NDArray[float64]:

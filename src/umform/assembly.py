@@ -38,6 +38,8 @@ class Evaluation:
         Root of the sum of squares of all element forces, the scale of a residual. eq. (5.8)
     failed : int
         First cell whose strain left the domain of its law, or -1.
+    round_off : float
+        What a relative error of all positions makes of the residual of contact, over that error. eq. (5.36)
     """
 
     residual: Floats
@@ -45,6 +47,7 @@ class Evaluation:
     predictor: Floats
     force_scale: float
     failed: int
+    round_off: float = 0.0
 
 
 @dataclass(frozen=True)

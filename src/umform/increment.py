@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.boundary import Control
-from umform.contact import ToolMotion
 from umform.contact.augmentation import augmented
+from umform.contact.softening import softened
 from umform.errors import NoConvergence
 from umform.model import Model
 from umform.newton import Converged, Failed, Iteration, Newton
@@ -116,9 +116,10 @@ def take_increment(
 
 
 def _converged(run: Run, before: Mapping[Control, float], time: float, extrapolation: float | None) -> Converged:
-    """Equilibrium at the new values, from the first start that leads there: extrapolation, tangent, tangent and search.
+    """Equilibrium at the new values, from the first start that leads there. docs/theory, 4.13
 
-    The search is for driven tools: where one row of points holds the sheet, a full step may lose it.
+    The extrapolation, then the tangent; with contact the tangent and a line search, for where one row of points holds
+    the sheet a full step may lose it; and softer penalties, for a stiff tool may come to where nothing touched before.
     """
     newton = run.newton
     if extrapolation is not None and run.last_du is not None and newton.options.extrapolate:
@@ -126,14 +127,18 @@ def _converged(run: Run, before: Mapping[Control, float], time: float, extrapola
             return newton.solve(extrapolation * run.last_du)
         except Failed:  # it may have gone too far
             pass
-    if not any(isinstance(control, ToolMotion) for control in before):
+    if not run.model.contacts:
         return newton.solve(None)
+    failures = []
+    for search in (False,) if newton.options.line_search else (False, True):
+        try:
+            return newton.solve(_tangent(run, before, time), line_search=search)
+        except Failed as failure:
+            failures.append(failure)
     try:
-        return newton.solve(_tangent(run, before, time))
+        return softened(run.model, newton, _tangent(run, before, time))
     except Failed:
-        if newton.options.line_search:
-            raise
-    return newton.solve(_tangent(run, before, time), line_search=True)
+        raise failures[-1] from None  # what fails is the increment with the penalty of the user
 
 
 def _tangent(run: Run, before: Mapping[Control, float], time: float) -> Floats | None:
@@ -146,7 +151,7 @@ def _tangent(run: Run, before: Mapping[Control, float], time: float) -> Floats |
     rates = {control: after[control] - value for control, value in before.items()}
 
     def increment() -> Floats:
-        evaluation = model.evaluate(model.u, rates=rates)
+        evaluation = model.evaluate(model.u, rates=rates, until=time_after)
         newton.check_domain(evaluation, [])
         solver = newton.ready_solver()
         solver.factor(evaluation.values)

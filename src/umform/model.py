@@ -141,7 +141,13 @@ class Model(Supported, Loaded, Touched):
         """Displacement of all degrees of freedom, shape (3 n,), that the unknowns make. eq. (5.17)"""
         return self._assembly().unknowns.extend(x)
 
-    def evaluate(self, u: Floats, du: Floats | None = None, rates: Mapping[Control, float] | None = None) -> Evaluation:
+    def evaluate(
+        self,
+        u: Floats,
+        du: Floats | None = None,
+        rates: Mapping[Control, float] | None = None,
+        until: float | None = None,
+    ) -> Evaluation:
         """Residual and tangent at ``u``, at the present values of controls and time; changes no converged history.
 
         Parameters
@@ -153,21 +159,30 @@ class Model(Supported, Loaded, Touched):
         rates : mapping of Control to float, optional
             Rates of the controls instead of ``du``: the predictor is the rate of the residual while the unknowns are
             held. eq. (5.21)
+        until : float, optional
+            With ``rates``, that are then changes: the time at which tools that move by a function of time arrive, whose
+            way counts too. eq. (4.37)
         """
         assembly = self._assembly()
         f, values, Kdu = np.zeros(u.size), np.zeros(assembly.entries), np.zeros(u.size)
         rates = rates or {}
-        if rates:
+        if rates or until is not None:
             du = self.displacement_of_supports(rates)
         product = None if du is None else Kdu
         with self.timing.elements:
             failed, scale = self.block.evaluate(u, assembly.scatter, f, values, du, product)
+        round_off = 0.0
         for contact, scatter in zip(self.contacts, assembly.contact_scatter, strict=True):
             with self.timing.contact:
                 contact.place(self.time)
                 shift = sum(rates.get(c, 0.0) * np.asarray(c.direction) for c in contact.translations)
                 relative = None if du is None else (du.reshape(-1, 3) - shift).ravel()
+                if relative is not None and until is not None:
+                    relative -= contact.carried((self.mesh.points.ravel() + u).reshape(-1, 3), until).ravel()
                 scale += contact.block.evaluate(u, scatter, f, values, relative, product)[1]
+                round_off += contact.block.round_off_squared
+                if until is not None:
+                    contact.turn(until, Kdu)
         for control, scatter in zip(self.of_kind(Pressure), assembly.pressure_scatter, strict=True):
             assert control.block is not None
             if rates.get(control, 0.0) != 0.0:
@@ -185,7 +200,7 @@ class Model(Supported, Loaded, Touched):
         if self.ties:
             with self.timing.ties:
                 values = assembly.reduce(values)
-        return Evaluation(f, values, Kdu, float(np.sqrt(scale)), failed)
+        return Evaluation(f, values, Kdu, float(np.sqrt(scale)), failed, float(np.sqrt(round_off)))
 
     def recover(self, du: Floats, s: float) -> None:
         """Update the enhanced parameters after ``u += s du``. eq. (2.19)"""
@@ -201,6 +216,10 @@ class Model(Supported, Loaded, Touched):
         if not self.contacts:
             return np.zeros(0, dtype=bool)
         return np.concatenate([contact.active() for contact in self.contacts])
+
+    def flowing(self) -> NDArray[np.uint8]:
+        """1 for each point of the material whose history the last evaluation has changed, else 0."""
+        return self.block.flowing
 
     def commit(self, u: Floats) -> None:
         """Make ``u`` and the trial history of the last evaluation the converged state."""

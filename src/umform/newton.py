@@ -6,7 +6,7 @@ Convergence asks for a small residual AND a small increment, both without units:
 sum of squares of all element forces, the increment against the largest displacement. Neither can fall below round-off,
 so the floor that round-off sets is estimated in each iteration: a residual below it is small, and two in a row end the
 iteration even where the increment cannot become small (sheets so thin that round-off moves them).
-eqs. (5.8)-(5.11)
+eqs. (5.8)-(5.11), (5.36)
 """
 
 from __future__ import annotations
@@ -94,6 +94,8 @@ class Iteration:
         Negative pivots of the tangent, where the solver tells.
     seconds : float
         Wall time.
+    switched : int
+        Points of the material that began or ceased to flow since the iteration before.
     """
 
     number: int
@@ -105,6 +107,7 @@ class Iteration:
     step_length: float
     negative_pivots: int | None
     seconds: float
+    switched: int = 0
 
 
 class Failed(Exception):
@@ -182,6 +185,7 @@ class Newton:
         self._solver: TimedSolver | None = None
         self._pattern: Pattern | None = None
         self.callbacks: list[Callable[[Iteration], None]] = []
+        self._flowing: NDArray[np.uint8] | None = None  # in the iteration before
 
     @property
     def solver(self) -> str:
@@ -295,6 +299,7 @@ class Newton:
                 raise Failed("the residual is not finite", iterations)
             entered, left = int((active & ~previous_active).sum()), int((~active & previous_active).sum())
             floor = self._floor(evaluation.values, u)
+            floor = math.hypot(floor, self._floor_of_gaps(evaluation))
             small = norm <= max(options.residual * scale, floor) and increment <= options.increment
             settled = small and (not (entered or left) or extra >= 2)
             at_floor = at_floor + 1 if norm <= floor else 0
@@ -370,21 +375,29 @@ class Newton:
         pivots: int | None,
         start: float,
     ) -> None:
-        record = Iteration(
-            number, residual, increment, energy, entered, left, step_length, pivots, clock.perf_counter() - start
-        )
+        flowing, before = self.system.flowing(), self._flowing
+        switched = 0 if number == 1 or before is None else int((flowing != before).sum())
+        self._flowing = flowing
+        seconds = clock.perf_counter() - start
+        record = Iteration(number, residual, increment, energy, entered, left, step_length, pivots, seconds, switched)
         iterations.append(record)
         log.debug(
-            "    iteration %2d  residual %.3e  increment %.3e  contact +%d -%d%s",
+            "    iteration %2d  residual %.3e  increment %.3e  contact +%d -%d%s%s",
             number,
             residual,
             increment,
             entered,
             left,
+            f"  flow switched {switched}" if switched else "",
             f"  negative pivots {pivots}" if pivots else "",
         )
         for callback in self.callbacks:
             callback(record)
+
+    @staticmethod
+    def _floor_of_gaps(evaluation: Evaluation) -> float:
+        """Residual that round-off of the gaps leaves behind. eqs. (5.35), (5.36)"""
+        return float(np.finfo(float).eps) * evaluation.round_off
 
     @staticmethod
     def check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:

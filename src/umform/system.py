@@ -32,6 +32,10 @@ class Evaluation(Protocol):
         """Scale of the forces."""
 
     @property
+    def round_off(self) -> float:
+        """What a relative error of all positions makes of the residual of contact, over that error. eq. (5.36)"""
+
+    @property
     def failed(self) -> int:
         """First cell outside of the domain of its law, or -1."""
 
@@ -69,6 +73,9 @@ class System(Protocol):
 
     def active_set(self) -> NDArray[np.bool_]:
         """Contact points that penetrate."""
+
+    def flowing(self) -> NDArray[np.uint8]:
+        """1 for each point of the material whose history the last evaluation has changed, else 0."""
 
     def commit(self, u: Floats) -> None:
         """Accept."""

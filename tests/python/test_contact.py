@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from umform import boundary, fields
+from umform import _core, boundary, fields
 from umform import materials as mt
+from umform.contact.pair import hat_functions
 from umform.errors import InvalidValue, NoConvergence, NotFinite, RigidBodyMotion
 from umform.mesh import strip
 from umform.model import Model
@@ -239,6 +240,31 @@ def test_moment_about_another_point_is_shifted_by_the_force(build):
     force, moment = contact.resultant()
     about = np.array([3.0, -1.0, 2.0])
     np.testing.assert_allclose(contact.resultant(about)[1], moment - np.cross(about, force), atol=1e-13)
+
+
+@pytest.mark.parametrize("cell", ["hex8", "hex18"])
+@pytest.mark.parametrize("points", [2, 3, 5, "nodes"])
+def test_nodes_do_not_pull_and_carry_what_the_points_carry(build, cell, points):
+    """Beside the edge of a contact that covers a part of a face, where a 9-node shape function is negative."""
+    mesh = plate(cell, build, amount=0.05)
+    model, contact = contact_of(mesh, Sphere((0.2, 0.1, -1.0), 1.0), points, cell=cell)
+    model.evaluate(np.tile([0.0, 0.0, -0.1], len(mesh.points)))
+    at, (pressure, _) = contact.at_points(), contact.at_nodes(np.tile([0.0, 0.0, -0.1], len(mesh.points)), mesh)
+    assert 0 < contact.active().sum() < contact.active().size
+    assert pressure.min() == 0.0
+    assert pressure.max() <= at.pressure.max()
+    hats = hat_functions(contact.block.shape_values)
+    np.testing.assert_allclose(hats.sum(axis=1), 1.0, atol=1e-14)
+    areas = np.zeros(len(mesh.points))
+    np.add.at(areas, contact.facets, np.einsum("qa,eq->ea", hats, at.area.reshape(len(contact.facets), -1)))
+    assert pressure @ areas == pytest.approx(at.pressure @ at.area, rel=1e-12)
+
+
+def test_hats_of_a_9_node_face_are_bilinear_between_its_nodes():
+    N = _core.shell_functions(18, np.array([[-0.5, 0.25, -1.0], [1.0, -1.0, -1.0], [0.0, 0.0, -1.0]]))[0][:, :9]
+    quarter = np.zeros(9)
+    quarter[[3, 6, 7, 8]] = 0.125, 0.125, 0.375, 0.375  # (-1, 1), (0, 1), (-1, 0) and the centre around (-0.5, 0.25)
+    np.testing.assert_allclose(hat_functions(N), [quarter, np.eye(9)[1], np.eye(9)[8]], atol=1e-14)
 
 
 def test_a_driven_tool_feels_the_force_along_its_way(build):

@@ -231,7 +231,7 @@ class Scalar:
         r = np.array([self.residual(self.x)])
         return SimpleNamespace(
             residual=r, values=np.array([self.slope(self.x)]), predictor=np.zeros(1),
-            force_scale=self.scale, failed=failed,
+            force_scale=self.scale, failed=failed, round_off=0.0,
         )  # fmt: skip
 
     def recover(self, du, s):
@@ -242,6 +242,9 @@ class Scalar:
 
     def active_set(self):
         return np.array(self.active(self.x), dtype=bool)
+
+    def flowing(self):
+        return np.zeros(0, dtype=np.uint8)
 
     def commit(self, u):
         self.calls.append("commit")

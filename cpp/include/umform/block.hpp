@@ -97,6 +97,14 @@ class ShellBlock {
     void revert() { alpha_ = alpha_before_ = alpha_converged_; }
 
     const std::vector<double>& state() const { return state_; }
+    /// For each point, whether the last `evaluate` has changed its history: 1 where the material flows.
+    std::vector<std::uint8_t> flowing() const {
+        const std::size_t size = state_size(), count = size > 0 ? state_.size() / size : 0;
+        std::vector<std::uint8_t> flows(count);
+        for (std::size_t q = 0; q < count; ++q)
+            flows[q] = !std::equal(state_.begin() + q * size, state_.begin() + (q + 1) * size, trial_.begin() + q * size);
+        return flows;
+    }
     const std::vector<double>& alpha() const { return alpha_converged_; }
     void restore(const double* state, const double* alpha) {
         state_.assign(state, state + state_.size());

@@ -38,6 +38,9 @@ class ContactBlock {
     const std::vector<double>& gaps() const { return g_; }
     const std::vector<double>& normals() const { return n_; }
     const std::vector<double>& areas() const { return area_; }
+    /// Square of what a relative error of all positions makes of the residual, over the square of that error, at the last
+    /// `evaluate`. eq. (5.36)
+    virtual double round_off_squared() const = 0;
     /// Pressures at the contact points that are there without a penetration, zero or more.
     const std::vector<double>& multipliers() const { return multiplier_; }
     void set_multipliers(const double* values) { multiplier_.assign(values, values + multiplier_.size()); }
@@ -45,6 +48,20 @@ class ContactBlock {
   protected:
     /// Gap less multiplier over penalty: a point is held where it is not positive, with -penalty times it. eq. (4.33)
     double shifted_gap(int q) const { return g_[q] - multiplier_[q] / penalty; }
+
+    /// Length of the largest number that the gap of point q is a difference of: the position in space, that of the tool,
+    /// or the distance from the centre of curvature, 1/|H|. eq. (5.35)
+    double largest_length(int q) const {
+        const double *x = x_.data() + 3 * q, *H = H_.data() + 9 * q;
+        const double place = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) + std::sqrt(dot(pose.c, pose.c));
+        double curvature = 0.0;
+        for (int i = 0; i < 9; ++i) curvature += H[i] * H[i];
+        curvature = std::sqrt(curvature);
+        return curvature * flattest * place > 1.0 ? place + 1.0 / curvature : place;
+    }
+
+    /// Radii above so many times the place of a point are those of a plane, whose H may be noise.
+    static constexpr double flattest = 1e3;
 
     std::vector<double> x_, g_, n_, H_;  // at the contact points of the last `locate`
     std::vector<double> area_;           // [facet][point] reference area of a contact point
@@ -92,6 +109,22 @@ class ContactBlockOf final : public ContactBlock {
             }
         surface_->gap(points(), x_.data(), g_.data(), n_.data(), H_.data());
         for (int q = 0; q < points(); ++q) to_space(q);
+    }
+
+    double round_off_squared() const override {
+        const int per_facet = static_cast<int>(N_.size());
+        double sum = 0.0;
+        for (int e = 0; e < part_.size(); ++e) {
+            Values force{};  // the points of a facet share its nodes: their errors may all point one way
+            for (int q = 0; q < per_facet; ++q) {
+                const int point = e * per_facet + q;
+                if (shifted_gap(point) > 0.0) continue;
+                const double weight = penalty * area_[point] * largest_length(point);
+                for (int a = 0; a < Nodes; ++a) force[a] += weight * std::abs(N_[q][a]);
+            }
+            for (const double value : force) sum += value * value;
+        }
+        return sum;
     }
 
     /// f_a = penalty int g~ n N_a,  K_ab = penalty int N_a N_b (n n^T + g~ H) over the points whose shifted gap g~ is not

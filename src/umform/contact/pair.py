@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from umform import _core
 from umform.boundary import Control, vector3
 from umform.contact.settings import ContactSettings
-from umform.mesh import Ids, Mesh, Selector
+from umform.mesh import FACE_NODES, Ids, Mesh, Selector
 from umform.surfaces import Surface
 
 Floats = NDArray[np.float64]
@@ -94,6 +94,11 @@ class Contact:
 
     def place(self, time: float) -> None:
         """Put the tool where its motions have it at ``time``. eq. (4.18)"""
+        self.pose = self._pose_at(time)
+        self.block.set_pose(*self.pose)
+
+    def _pose_at(self, time: float) -> tuple[Floats, Floats]:
+        """Rotation and shift of the tool at ``time``, at the present values of the controls."""
         shift, rotation = np.zeros(3), np.eye(3)
         for control in self.translations:
             shift += control.value * np.asarray(control.direction)
@@ -104,13 +109,23 @@ class Contact:
             shift += vector3(translation, where)
             rotation = Rotation.from_rotvec(vector3(turn, where)).as_matrix()
         centre = self.reference_point
-        self.pose = np.ascontiguousarray(rotation), centre + shift - rotation @ centre
-        self.block.set_pose(*self.pose)
+        return np.ascontiguousarray(rotation), centre + shift - rotation @ centre
 
     @property
     def _shifted_gap(self) -> Floats:
         """Gap less multiplier over penalty: what pressure and active set are told by. eq. (4.33)"""
         return self.block.gaps - self.block.multipliers / self.penalty
+
+    @property
+    def penalty(self) -> float:
+        """Pressure per penetration."""
+        return self._penalty
+
+    @penalty.setter
+    def penalty(self, value: float) -> None:
+        self._penalty = value
+        if "block" in vars(self):
+            self.block.penalty = value
 
     def active(self) -> NDArray[np.bool_]:
         """Which points are held by the tool, of the last evaluation."""
@@ -128,12 +143,46 @@ class Contact:
         The points that are held now stay so to first order, and close their gaps: where the tool goes back, new
         multipliers on old gaps would let go of points that bear a pressure. eqs. (4.34), (4.35)
         """
-        at, held = self.at_points(), self.active()
-        weight = self.penalty * np.where(held, at.gap, 0.0) * at.area
-        forces = (weight[:, None] * at.normal).reshape(len(self.facets), -1, 3)
-        nodal = np.einsum("qa,eqk->eak", self.block.shape_values, forces)
-        np.add.at(change.reshape(-1, 3), self.facets, nodal)
+        at = self.at_points()
+        self._close(at.gap, change)
         self.block.multipliers = at.pressure
+
+    def stiffen(self, penalty: float, change: Floats) -> None:
+        """Take another penalty, and add to the residual what lets the points that are held keep their pressure.
+
+        Parameters
+        ----------
+        penalty : float
+            The new penalty.
+        change : ndarray, shape (3 n,)
+            Gets what the first increment with the tangent of before has to answer. eq. (4.39)
+        """
+        self._close((1.0 - self.penalty / penalty) * self.block.gaps, change)
+        self.penalty = penalty
+
+    def _close(self, way: Floats, change: Floats) -> None:
+        """Add the forces by which the points that are held now go a way (points,) against their gaps."""
+        at = self.at_points()
+        weight = self.penalty * np.where(self.active(), way, 0.0) * at.area
+        self._spread(weight[:, None] * at.normal, change)
+
+    def _spread(self, forces: Floats, change: Floats) -> None:
+        """Add forces (points, 3) at the contact points to their nodes. eq. (4.9)"""
+        nodal = np.einsum("qa,eqk->eak", self.block.shape_values, forces.reshape(len(self.facets), -1, 3))
+        np.add.at(change.reshape(-1, 3), self.facets, nodal)
+
+    def carried(self, x: Floats, time: float) -> Floats:
+        """Way of places (n, 3) of the tool, from where it stands to where it will be at ``time``. eq. (4.37)"""
+        if self.motion is None:
+            return np.zeros_like(x)
+        (rotation, shift), (rotation_then, shift_then) = self.pose, self._pose_at(time)
+        return (x - shift) @ rotation @ rotation_then.T + shift_then - x
+
+    def turn(self, time: float, change: Floats) -> None:
+        """Add what the forces of the last evaluation change by as they turn with the tool until ``time``. eq. (4.37)"""
+        if self.motion is not None:
+            at, turned = self.at_points(), self._pose_at(time)[0] @ self.pose[0].T
+            self._spread(-(at.pressure * at.area)[:, None] * at.normal @ (turned - np.eye(3)).T, change)
 
     def commit(self) -> None:
         """Make the multipliers those of the converged state."""
@@ -174,12 +223,12 @@ class Contact:
     def at_nodes(self, u: Floats, mesh: Mesh) -> tuple[Floats, Floats]:
         """Pressure and gap at the nodes of the facets; zero and NaN at other nodes; two arrays of shape (nodes,).
 
-        The pressure is the average of that at the contact points, weighted by N_a and their areas; the gap is measured
-        at the nodes themselves.
+        The pressure is the average of that at the contact points, weighted by their areas and the hat functions of the
+        nodes, which are not negative and have the sum one. eq. (4.38). The gap is measured at the nodes themselves.
         """
         at = self.at_points()
-        N = self.block.shape_values
-        weight = N[None, :, :] * at.area.reshape(len(self.facets), -1, 1)  # [facet][point][node]
+        hats = hat_functions(self.block.shape_values)
+        weight = hats[None, :, :] * at.area.reshape(len(self.facets), -1, 1)  # [facet][point][node]
         share = np.einsum("eqa,eq->ea", weight, at.pressure.reshape(len(self.facets), -1))
         count = len(mesh.points)
         total, area = np.zeros(count), np.zeros(count)
@@ -195,3 +244,23 @@ class Contact:
         """Signed distance of positions (n, 3) to the tool where it stands now; shape (n,)."""
         rotation, shift = self.pose
         return self._kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0]
+
+
+def hat_functions(N: Floats) -> Floats:
+    """Piecewise bilinear functions between the nodes of a face at the places where its shape functions are N.
+
+    Parameters
+    ----------
+    N : ndarray, shape (points, nodes)
+        Shape functions of a face of 4 or 9 nodes.
+
+    Returns
+    -------
+    ndarray, shape (points, nodes)
+        N itself on 4-node faces; on 9-node faces the hats (1 - |r - r_a|)(1 - |s - s_a|) of their four quarters.
+    """
+    if N.shape[1] == 4:
+        return N
+    distance = np.abs((N @ FACE_NODES)[:, None, :] - FACE_NODES)
+    hats: Floats = np.maximum(1.0 - distance, 0.0).prod(axis=-1)
+    return hats

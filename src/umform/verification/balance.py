@@ -1,16 +1,15 @@
-"""What every nonlinear run is asked: do work and forces balance, does Newton converge quadratically?"""
+"""What every nonlinear run is asked: do work and forces balance, does Newton converge quadratically, or why not?"""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
-from statistics import median
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from umform.verification.newton_order import NewtonOrder, measure
+
 if TYPE_CHECKING:
-    from umform.newton import Iteration
     from umform.results import Result
 
 
@@ -28,11 +27,8 @@ class BalanceRow:
         Largest difference of external work and energies in the run, over the largest energy in the run.
     force, moment : float
         Largest resultant of all external forces and their moments, over the sum of their sizes.
-    order : float or None
-        Order of Newton's method: median over the increments of the order of the last steps, None where no increment
-        has enough iterations above round-off.
-    measured : int
-        Number of increments that have: short increments converge in fewer iterations than tell an order.
+    newton : NewtonOrder
+        Order of Newton's method, and the reasons where it is low.
     """
 
     case: str
@@ -42,15 +38,13 @@ class BalanceRow:
     drift: float
     force: float
     moment: float
-    order: float | None
-    measured: int
+    newton: NewtonOrder
 
 
 def balance_row(case: str, run: str, result: Result) -> BalanceRow:
     """Balance of a result."""
     balance = result.balance()
     energy = balance.elastic + balance.plastic + balance.contact
-    orders = [order for iterations in result.iterations if (order := newton_order(iterations)) is not None]
     return BalanceRow(
         case=case,
         run=run,
@@ -59,24 +53,5 @@ def balance_row(case: str, run: str, result: Result) -> BalanceRow:
         drift=float(np.abs(balance.external_work - energy).max() / (np.abs(energy).max() or 1.0)),
         force=float(np.abs(balance.force_imbalance).max()),
         moment=float(np.abs(balance.moment_imbalance).max()),
-        order=median(orders) if orders else None,
-        measured=len(orders),
+        newton=measure(result.iterations),
     )
-
-
-def newton_order(iterations: list[Iteration]) -> float | None:
-    """Order of convergence p of the last two steps of an increment, |e_(k+1)| ~ |e_k|^p.
-
-    The error is measured by the energy r . du of the increment, whose root is a norm of it. An energy at round-off
-    tells nothing: round-off is where the residual of the last iteration is, at the lowest.
-    """
-    if not iterations:
-        return None
-    noise = max(1e-11, 30.0 * iterations[-1].residual)
-    sizes = [math.sqrt(record.energy) for record in iterations if record.energy > 0.0 and record.residual > noise]
-    if len(sizes) < 3:
-        return None
-    before, middle, last = sizes[-3:]
-    if not last < middle < before:
-        return None
-    return math.log(last / middle) / math.log(middle / before)

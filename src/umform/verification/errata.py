@@ -14,9 +14,10 @@ _LIMITS = """\
 * Statics: there is no mass and no inertia.
 * Penalty contact: a sheet sinks into a tool by pressure / penalty.
 * The plastic law is isotropic: no anisotropy of rolled sheet, no Bauschinger effect in reverse bending.
-* Pressure at the nodes of 9-node faces can be slightly negative beside the edge of a contact: it is an average with
-  the shape functions as weights, and these change their sign. At the contact points it is right.
-* A release from a tool with a penalty of some 100 E/h can fail close to zero force; the automatic penalty is softer.
+* With a penalty of 1000 E/h and more a run may be cut a hundred times and more on its way; the automatic
+  penalty is softer.
+* A strip that is 10000 times as long as thick, of elements 300 times as long as thick, has a condition number above
+  1e16: its first touch ends as a singular matrix.
 * In air bending one layer of elements bends more sharply than two or more at the same stroke: take two layers.
 * Results after the onset of necking or of a plastic hinge without hardening depend on the mesh: the law has no length.
 """

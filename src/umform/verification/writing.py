@@ -11,6 +11,7 @@ from umform.report.versions import versions
 from umform.verification.balance import BalanceRow
 from umform.verification.case import Case, Chapter
 from umform.verification.checks import Check, Verdict
+from umform.verification.newton_order import LOW, REASONS
 from umform.verification.page import Page, StudyRecord
 
 
@@ -77,14 +78,16 @@ def page_text(page: Page) -> str:
 _BALANCE = (
     "External work against stored, dissipated and contact energy (largest drift over the largest energy); resultant "
     "of all external forces and moments over the sum of their sizes; order of Newton's method: median of the order of "
-    "the last steps, over so many increments as have enough iterations to tell one (in brackets). Below 2: contact "
-    "points or yielding change up to the end of an increment, or membrane and bending errors fall in turns."
+    "the last steps, over so many increments as have enough iterations to tell one (in brackets). The last column says "
+    f"how many increments have an order below {LOW:g}, by what was recorded in their last two steps: "
+    + "; ".join(f"*{word}*: {meaning}" for word, meaning in REASONS.items())
+    + "."
 )
 
 
 def balancemarkdown_table(rows: Sequence[BalanceRow], with_case: bool = False) -> str:
     """Balances as a table."""
-    columns = ("run", "increments", "iterations", "drift", "force", "moment", "order of Newton")
+    columns = ("run", "increments", "iterations", "drift", "force", "moment", "order of Newton", "low, and why")
     cells = [
         (
             f"[{row.case}]({row.case}.md): {row.run}" if with_case else row.run,
@@ -93,7 +96,8 @@ def balancemarkdown_table(rows: Sequence[BalanceRow], with_case: bool = False) -
             f"{row.drift:.1e}",
             f"{row.force:.1e}",
             f"{row.moment:.1e}",
-            "-" if row.order is None else f"{row.order:.2f} ({row.measured})",
+            "-" if row.newton.order is None else f"{row.newton.order:.2f} ({row.newton.measured})",
+            row.newton.why(),
         )
         for row in rows
     ]

@@ -5,9 +5,7 @@ from __future__ import annotations
 import pytest
 
 import umform as uf
-from umform.newton import Iteration
 from umform.verification import Case, Chapter, Page, Variant, book
-from umform.verification.balance import newton_order
 from umform.verification.checks import Verdict
 from umform.verification.convergence import normalised, show, study
 from umform.verification.errata import errata_text
@@ -106,37 +104,3 @@ def test_the_variants_are_the_seven_elements_twice():
 def test_drawn_from_nothing():
     assert "None." in errata_text({})
     assert "0 / 0" not in which_element_text({})
-
-
-def records(errors, last=1e-15):
-    """Iterations with these errors, and one more with a residual at round-off."""
-    return [
-        Iteration(
-            number=k,
-            residual=error,
-            increment=error,
-            energy=0.0 if error == last else error**2,
-            entered=0,
-            left=0,
-            step_length=1.0,
-            negative_pivots=None,
-            seconds=0.0,
-        )
-        for k, error in enumerate([*errors, last], start=1)
-    ]
-
-
-@pytest.mark.parametrize("order", [1.0, 1.5, 2.0])
-def test_order_of_newton(order):
-    errors = [0.3, *[0.3 ** (order**k) for k in range(1, 4)]] if order > 1 else [0.1, 0.03, 0.009, 0.0027]
-    assert newton_order(records(errors)) == pytest.approx(order, rel=1e-6)
-
-
-def test_an_error_at_round_off_tells_no_order():
-    errors = [0.1, 0.01, 1e-4]
-    assert newton_order(records([*errors, 2e-9], last=1e-9)) == pytest.approx(2.0)
-
-
-def test_no_order_from_too_few_iterations_or_without_progress():
-    assert newton_order(records([0.1, 0.01])) is None
-    assert newton_order(records([0.1, 0.2, 0.1])) is None

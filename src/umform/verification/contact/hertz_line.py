@@ -79,7 +79,7 @@ def by_rules(page: Page) -> None:
     page.table("Contact rules; everything over Hertz", ("element, rule", *columns), rows)
     page.text(
         "The peak at points is the largest penalty times penetration of a single point; the peak at nodes is the "
-        "largest of the averages that are weighted by the shape functions (with the nodal rule they are the same). "
+        "largest of the averages of eq. (4.38), whose weights are not negative (the same with the nodal rule). "
         "Three or more points on 4-node faces ask a straight chord to follow a circle: within a face the gap varies "
         "by h^2/8R, the pressure at the points by the penalty times this, and its largest value says nothing. The "
         "averages do not feel it."
