@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from os import PathLike
 from typing import Any
 
 from umform.arc import Arc, Following
-from umform.checkpoint import Checkpoints, take_up
+from umform.checkpoint import Checkpoints, read_checkpoint, take_up
 from umform.contact.augmentation import refuse_on_an_arc, warn_of_penetration
 from umform.errors import InvalidValue
 from umform.fingerprint import fingerprint
@@ -38,6 +38,7 @@ def solve(
     progress: bool | None = None,
     checkpoint: str | PathLike[str] | None = None,
     every: float = 60.0,
+    note: Mapping[str, Any] | None = None,
 ) -> Result:
     """Solve a model step by step.
 
@@ -60,6 +61,8 @@ def solve(
         the run up from it.
     every : float
         Seconds between two checkpoints, at least; 0 writes one after each increment.
+    note : mapping of str to object, optional
+        Texts and numbers that are kept in the checkpoint, see :func:`umform.checkpoint.read_checkpoint`: a deck.
 
     Returns
     -------
@@ -81,7 +84,9 @@ def solve(
     Ctrl-C ends the run after the present increment, the second one at once.
     """
     run, sequence = _ready(model, steps, solver, options, frames)
-    checkpoints = _checkpoints(run, sequence, checkpoint, every)
+    checkpoints = None
+    if checkpoint is not None:
+        checkpoints = Checkpoints(checkpoint, every, fingerprint(model, sequence, run.newton, frames), note)
     run.history = model.block.state
     run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
     return _go_on(run, sequence, progress_bar(progress), checkpoints)
@@ -126,9 +131,9 @@ def resume(
     The bits are the same on the same machine with the same versions of Python's packages, see docs/long-runs.md.
     """
     run, sequence = _ready(model, steps, solver, options, frames)
-    checkpoints = _checkpoints(run, sequence, path, every)
-    assert checkpoints is not None
-    memory = take_up(run, path, checkpoints.fingerprint)
+    tree = read_checkpoint(path)
+    checkpoints = Checkpoints(path, every, fingerprint(model, sequence, run.newton, frames), tree["note"])
+    memory = take_up(run, path, tree, checkpoints.fingerprint)
     if memory is not None:
         step = sequence[run.number - 1]
         run.loop = _LOOPS[type(step)].recall(run, step, memory)
@@ -158,12 +163,6 @@ def _ready(
     run = Run(model, Newton(model, options, solver), Result(model), frames)
     run.result.solver = run.newton.solver
     return run, sequence
-
-
-def _checkpoints(run: Run, steps: Sequence[Step], path: str | PathLike[str] | None, every: float) -> Checkpoints | None:
-    if path is None:
-        return None
-    return Checkpoints(path, every, fingerprint(run.model, steps, run.newton, run.frames))
 
 
 def _go_on(

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from umform.errors import InvalidValue, UmformError
 from umform.report.facets import smooth_groups
 from umform.report.packing import Quantised, pack
-from umform.shape import _outer_faces
+from umform.shape import outer_quads
 from umform.surfaces import Tool
 from umform.surfaces.triangles import Box3, Triangles
 
@@ -65,7 +65,7 @@ class Scene:
 def scene_of(result: Result) -> Scene:
     """The scene of a result; without kept frames, its last state only."""
     mesh = result.model.mesh
-    faces, owners = _outer_faces(mesh.connectivity.astype(np.int64))
+    faces, owners = outer_quads(mesh.connectivity.astype(np.int64))
     nodes, faces = np.unique(faces, return_inverse=True)
     cells, owners = np.unique(owners, return_inverse=True)
     faces = faces.reshape(-1, 4)
