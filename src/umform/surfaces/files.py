@@ -17,7 +17,7 @@ def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> P
     Parameters
     ----------
     tool : Tool
-        Any tool that knows its shape.
+        Any tool; one that knows only its distance is sampled, its edges are then cut off.
     path : str or Path
         A file that ends in .stl, .vtk, .vtu, .ply or .obj.
     box : tuple of two points

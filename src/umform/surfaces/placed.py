@@ -46,7 +46,7 @@ class Placed(Tool):
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Those of the tool, placed; a mirror turns them over."""
         if not isinstance(self.tool, Tool):
-            return super().facets(centre, reach, chord)
+            return super().facets(centre, reach, chord)  # by samples
         Q, c = np.array(self.matrix), np.array(self.shift)
         own = self.tool.facets((centre - c) @ Q, reach, chord)
         step = 1 if np.linalg.det(Q) > 0 else -1

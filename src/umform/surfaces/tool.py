@@ -109,13 +109,13 @@ class Tool(ABC):
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Triangles of the surface that cover at least the ball about ``centre`` with the radius ``reach``.
 
+        Tools that know their shape give their own; of any other the distance is sampled.
+
         Raises
         ------
         InvalidValue
-            If the tool does not know its shape.
+            If the distance cannot be sampled.
         """
-        raise InvalidValue(
-            "this tool does not know its shape, only the distance to it",
-            where=type(self).__name__,
-            remedy="a tool of your own needs a method facets(centre, reach, chord) to be drawn",
-        )
+        from umform.surfaces.sampled import sampled  # most tools do without
+
+        return sampled(self.kernel().gap, centre, reach, chord)

@@ -10,7 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from umform import _core
 from umform.errors import InvalidValue, NotFinite
+from umform.surfaces.sampled import sampled
 from umform.surfaces.tool import Tool
+from umform.surfaces.triangles import Triangles
 
 Floats = NDArray[np.float64]
 
@@ -69,6 +71,10 @@ class UserSurface(Tool):
                 )
             arrays.append(array)
         return arrays[0], arrays[1], arrays[2]
+
+    def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
+        """Triangles from samples of the function, which may say NaN away from the tool."""
+        return sampled(self.function, centre, reach, chord)
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
