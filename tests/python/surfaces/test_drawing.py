@@ -170,11 +170,7 @@ def test_samples_of_a_level_set_lie_on_it():
     def ellipsoid(x):
         s = np.sqrt(np.einsum("qi,ij,qj->q", x, A, x))
         with np.errstate(all="ignore"):
-            return (
-                3.0 * (s - 1.0),
-                3.0 * x @ A / s[:, None],
-                3.0 * np.broadcast_to(A, (len(x), 3, 3)) / s[:, None, None],
-            )
+            return 3.0 * (s - 1.0), 3.0 * x @ A / s[:, None], 3.0 * A / s[:, None, None]
 
     surface = UserSurface(ellipsoid).triangles(BOX, 0.05)
     volume = np.einsum("ti,ti->", surface.corners.mean(axis=1), surface.area_vectors) / 3
