@@ -56,7 +56,13 @@ class Tool(ABC):
         """
         points = np.ascontiguousarray(x, dtype=float)
         if points.ndim != 2 or points.shape[1] != 3:
-            raise InvalidValue("positions must have the shape (n, 3)", where="gap", value=points.shape)
+            raise InvalidValue(
+                "positions must have the shape (n, 3)",
+                where="gap",
+                value=points.shape,
+                cause="one point, or points as columns",
+                remedy="np.atleast_2d(x), or x.T",
+            )
         return self.kernel().gap(points)
 
     def moved(self, translation: Point = (0.0, 0.0, 0.0), rotation: Point = (0.0, 0.0, 0.0)) -> Placed:

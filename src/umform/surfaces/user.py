@@ -52,14 +52,22 @@ class UserSurface(Tool):
         shapes = ((len(x),), (len(x), 3), (len(x), 3, 3))
         if not isinstance(answer, tuple) or len(answer) != 3:
             raise InvalidValue(
-                "a surface function must return three arrays: g, n, H", where=self.name, value=type(answer).__name__
+                "a surface function must return three arrays: g, n, H",
+                where=self.name,
+                value=type(answer).__name__,
+                cause="only the distance is returned, or an array of all",
+                remedy="return g, n, H: distance (n,), normal (n, 3), Hessian of the distance (n, 3, 3)",
             )
         arrays = []
         for name, shape, values in zip(("g", "n", "H"), shapes, answer, strict=True):
             array = np.ascontiguousarray(values, dtype=float)
             if array.shape != shape:
                 raise InvalidValue(
-                    f"{name} of a surface function must have shape {shape}", where=self.name, value=array.shape
+                    f"{name} of a surface function must have shape {shape}",
+                    where=self.name,
+                    value=array.shape,
+                    cause="a constant that was not repeated for each point, or points as columns",
+                    remedy="np.broadcast_to repeats a constant",
                 )
             if not np.isfinite(array).all():
                 at = int(np.argwhere(~np.isfinite(array))[0][0])
