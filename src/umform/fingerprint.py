@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 import umform
-from umform.boundary import Control, Pressure
+from umform.boundary import Control
 from umform.contact import Contact
 from umform.model import Model
 from umform.newton import Newton
@@ -94,8 +94,6 @@ def digest(*arrays: Any) -> str:
 def _control(control: Control) -> str:
     """All of a control but its value."""
     entries = {name: value for name, value in vars(control).items() if name != "value"}
-    if isinstance(control, Pressure) and control.block is not None:
-        entries["block"] = control.block.connectivity
     return f"{type(control).__qualname__} {text(entries)}"
 
 
