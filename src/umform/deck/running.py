@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +12,8 @@ from umform.deck.kept import Kept
 from umform.deck.problem import Problem
 from umform.processes.bending.staging import Staging, staging
 from umform.results import Result
+
+log = logging.getLogger("umform")
 
 #: The deck as it was run, beside what came of it.
 COPY = "as-run.toml"
@@ -90,6 +93,8 @@ def run(
     place = out if out is not None else folder_of(deck)
     kept = Kept(deck, Path(place), solver)
     path = Path(checkpoint) if checkpoint is not None else kept.out / CHECKPOINT
+    if path.is_file():
+        log.warning("a run was stopped here, and %s is written over now; umform resume would have gone on", path)
 
     def solve() -> Result:
         note = kept.note(path)

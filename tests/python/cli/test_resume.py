@@ -148,6 +148,13 @@ def stopped(tmp_path, monkeypatch):
     return folder / "results" / "checkpoint.h5"
 
 
+def test_a_run_that_begins_anew_says_that_it_writes_over_a_checkpoint(stopped, caplog):
+    answer = umform("run", stopped.parents[1] / "deck.toml", "--out", stopped.parent, "--set", "steps.0.increments=6")
+    assert answer.exit_code == 0, answer.output
+    assert f"{stopped} is written over now; umform resume would have gone on" in caplog.text
+    assert not stopped.exists()
+
+
 def test_the_mesh_file_is_found_again_also_where_all_has_moved(stopped, tmp_path, monkeypatch):
     shutil.copytree(tmp_path / "here", tmp_path / "copy")
     monkeypatch.chdir(tmp_path / "here" / "results")

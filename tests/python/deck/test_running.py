@@ -1,4 +1,5 @@
 import csv
+from html import escape
 
 import pytest
 from typer.testing import CliRunner
@@ -52,6 +53,7 @@ def test_run_writes_everything(deck, tmp_path):
     assert "Written to" in answer.output
     copy = (out / "as-run.toml").read_text()
     assert copy == "# run with --set steps.0.increments=3\n" + deck.read_text()
+    assert escape(copy) in (out / "report.html").read_text()
     assert umform("check", out / "as-run.toml").exit_code == 0
 
 
