@@ -94,7 +94,7 @@ def run(
     kept = Kept(deck, Path(place), solver)
     path = Path(checkpoint) if checkpoint is not None else kept.out / CHECKPOINT
     if path.is_file():
-        log.warning("a run was stopped here, and %s is written over now; umform resume would have gone on", path)
+        log.warning("a run was stopped here, and %s will be written over; umform resume would go on with it", path)
 
     def solve() -> Result:
         note = kept.note(path)

@@ -151,7 +151,7 @@ def stopped(tmp_path, monkeypatch):
 def test_a_run_that_begins_anew_says_that_it_writes_over_a_checkpoint(stopped, caplog):
     answer = umform("run", stopped.parents[1] / "deck.toml", "--out", stopped.parent, "--set", "steps.0.increments=6")
     assert answer.exit_code == 0, answer.output
-    assert f"{stopped} is written over now; umform resume would have gone on" in caplog.text
+    assert f"{stopped} will be written over; umform resume would go on with it" in caplog.text
     assert not stopped.exists()
 
 
