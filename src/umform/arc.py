@@ -158,14 +158,12 @@ class Following:
         """The loop as it stood."""
         path = _Resumed(run, step, memory["path"])
         critical = CriticalPoints(run.result, path.line.text, f"step {run.number}")
-        kept = memory["critical"]
-        critical._last, critical._turns, critical._silent = path.state, kept["turns"], kept["silent"]
-        critical._counted = None if kept["counted"] is None else PathState(**kept["counted"])
+        critical.recall(path.state, memory["critical"])
         return cls(path, critical, memory["length"], memory["count"], memory["done"])
 
     def memory(self) -> dict[str, Any]:
         """All that the loop remembers."""
-        path, critical = self.path, self.critical
+        path = self.path
         return {
             "path": {
                 "starts": [start for start, _ in path.line.ends.values()],
@@ -174,11 +172,7 @@ class Following:
                 "first": path.first,
                 "state": vars(path.state),
             },
-            "critical": {
-                "counted": None if critical._counted is None else vars(critical._counted),
-                "turns": critical._turns,
-                "silent": critical._silent,
-            },
+            "critical": self.critical.memory(),
             "length": self.length,
             "count": self.count,
             "done": self.done,

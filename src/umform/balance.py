@@ -8,7 +8,9 @@ measures the increments; it falls with their square. docs/theory, 5.11
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -195,6 +197,25 @@ class ExternalWork:
             self.value += self._work(self._before, state)
         self._before = state
         self.imbalances.append(self._imbalance(state))
+
+    def memory(self) -> dict[str, Any]:
+        """All that the work of later states follows from, beside the model itself."""
+        imbalances = np.array(self.imbalances)
+        return {"value": self.value, "imbalances": imbalances, "largest": self._largest, "length": self._length}
+
+    def recall(self, memory: Mapping[str, Any], residual: Floats) -> None:
+        """Go on with the work of a run that was kept; the model has been evaluated at its last state.
+
+        Parameters
+        ----------
+        memory : mapping
+            What `memory` has given.
+        residual : ndarray, shape (3 n,)
+            Residual of that state.
+        """
+        self.advance(residual)
+        self.imbalances = [(force, moment) for force, moment in memory["imbalances"].tolist()]
+        self.value, self._largest, self._length = memory["value"], memory["largest"], memory["length"]
 
     def _nodal_forces(self, residual: Floats) -> Floats:
         """Dead loads, pressures and reactions on the nodes."""

@@ -53,9 +53,10 @@ class Load(Control):
 
 @dataclass(eq=False, repr=False)
 class Pressure(Control):
-    """A follower pressure ``value`` against the outward normal of faces."""
+    """A follower pressure ``value`` against the outward normal of faces, given by their nodes."""
 
     block: _core.PressureBlock | None = None
+    facets: Ids = field(default_factory=lambda: np.empty((0, 4), dtype=np.int32))
 
 
 def vector3(values: ArrayLike, where: str) -> Floats:

@@ -7,6 +7,7 @@ the evaluation is made again, from the history that it had read. docs/long-runs.
 from __future__ import annotations
 
 import time as clock
+from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -40,6 +41,8 @@ class Checkpoints:
         Seconds between two of them, at least; 0: one after each increment.
     fingerprint : dict of str to str
         What the run is made of.
+    note : dict, optional
+        What else the file holds, see :func:`umform.io.trees.write_tree`: the deck that the run was built from.
 
     Attributes
     ----------
@@ -54,10 +57,23 @@ class Checkpoints:
         If the seconds are not a number, zero or more.
     """
 
-    def __init__(self, path: str | PathLike[str], every: float, fingerprint: dict[str, str]) -> None:
+    def __init__(
+        self,
+        path: str | PathLike[str],
+        every: float,
+        fingerprint: dict[str, str],
+        note: Mapping[str, Any] | None = None,
+    ) -> None:
         if not 0.0 <= every < np.inf:
-            raise InvalidValue("checkpoints are written every so many seconds, 0 or more", value=every)
+            raise InvalidValue(
+                "checkpoints are written every so many seconds, 0 or more",
+                where="every",
+                value=every,
+                cause="a sign, or a number that is not finite",
+                remedy="0 writes one after each increment; leave the checkpoint out to write none",
+            )
         self.path, self.every, self.fingerprint = Path(path), every, fingerprint
+        self.note = dict(note or {})
         self._last, self._cost, self.problem = clock.perf_counter(), 0.0, ""
         trial = PendingFile(self.path)  # better now than after an hour
         trial.__enter__()
@@ -72,7 +88,7 @@ class Checkpoints:
         """Write the state of a run between two increments; if that fails, the result is warned and the run goes on."""
         start = clock.perf_counter()
         try:
-            write_tree(self.path, {"fingerprint": self.fingerprint, **_tree(run)}, _KIND)
+            write_tree(self.path, {"fingerprint": self.fingerprint, "note": self.note, **_tree(run)}, _KIND)
         except FileProblem as problem:
             if problem.cause != self.problem:  # say it once
                 run.result.warn(f"no checkpoint was written to {self.path}: {problem.cause}; what was there stays")
@@ -83,7 +99,20 @@ class Checkpoints:
         self._cost = self._last - start
 
 
-def take_up(run: Run, path: str | PathLike[str], fingerprint: dict[str, str]) -> dict[str, Any] | None:
+def read_checkpoint(path: str | PathLike[str]) -> dict[str, Any]:
+    """What a checkpoint holds; its ``note`` is what :func:`umform.solve` was told to keep with it.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read, is damaged, or is no checkpoint.
+    """
+    return read_tree(path, _KIND)
+
+
+def take_up(
+    run: Run, path: str | PathLike[str], tree: Mapping[str, Any], fingerprint: dict[str, str]
+) -> dict[str, Any] | None:
     """Let a run that has not begun stand where its checkpoint says.
 
     Parameters
@@ -91,7 +120,9 @@ def take_up(run: Run, path: str | PathLike[str], fingerprint: dict[str, str]) ->
     run : Run
         The run, with its model.
     path : str or PathLike
-        The checkpoint.
+        The checkpoint, for messages.
+    tree : mapping
+        What it holds.
     fingerprint : dict of str to str
         What the run is made of.
 
@@ -103,9 +134,8 @@ def take_up(run: Run, path: str | PathLike[str], fingerprint: dict[str, str]) ->
     Raises
     ------
     FileProblem
-        If the file cannot be read, or belongs to another run.
+        If the file belongs to another run.
     """
-    tree = read_tree(path, _KIND)
     _refuse_another_run(path, tree["fingerprint"], fingerprint)
     model, snapshot = run.model, Snapshot(**tree["model"])
     model.restore(snapshot)
@@ -114,8 +144,8 @@ def take_up(run: Run, path: str | PathLike[str], fingerprint: dict[str, str]) ->
     model.block.restore(snapshot.state, snapshot.alpha)
     run.number, run.last_du, run.history = tree["number"], tree["last_du"], tree["history"]
     solver = run.newton.ready_solver().solver
-    if isinstance(solver, Pardiso) and solver._handle.kind != tree["factors"]:
-        solver._start(tree["factors"])
+    if isinstance(solver, Pardiso):
+        solver.recall(tree["factors"])
     _recall_result(run.result, tree["result"])
     memory: dict[str, Any] | None = tree["loop"]
     return memory
@@ -126,7 +156,7 @@ def _tree(run: Run) -> dict[str, Any]:
     return {
         "number": run.number,
         # The one solver with a memory: once it needs the factors of an indefinite matrix, it stays with them.
-        "factors": solver._handle.kind if isinstance(solver, Pardiso) else None,
+        "factors": solver.memory() if isinstance(solver, Pardiso) else None,
         "loop": None if run.loop is None else run.loop.memory(),
         "model": vars(run.model.snapshot()),
         "history": run.history,
@@ -145,7 +175,7 @@ def _refuse_another_run(path: str | PathLike[str], there: dict[str, str], here: 
         where=str(path),
         value="different: " + ", ".join(different),
         cause=f"{part}: {_around(there.get(part, ''), here[part])}",
-        remedy="call resume with what solve was called with, or begin anew with solve",
+        remedy="take it up with what it was begun with, the same files too, or begin anew",
     )
 
 

@@ -6,8 +6,9 @@ does not. docs/theory, 5.12
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,6 +62,17 @@ class CriticalPoints:
         self._counted: PathState | None = None  # the last state with a known number of negative pivots
         self._turns = 0  # limit points since then
         self._silent = False
+
+    def memory(self) -> dict[str, Any]:
+        """All that it remembers of the states before the last one."""
+        counted = None if self._counted is None else vars(self._counted)
+        return {"counted": counted, "turns": self._turns, "silent": self._silent}
+
+    def recall(self, last: PathState, memory: Mapping[str, Any]) -> None:
+        """Go on from the last state of a path that was kept."""
+        counted = memory["counted"]
+        self._last, self._counted = last, None if counted is None else PathState(**counted)
+        self._turns, self._silent = memory["turns"], memory["silent"]
 
     def advance(self, state: PathState) -> None:
         """Go on to the next converged state."""

@@ -109,8 +109,9 @@ class Loaded(Controlled):
         Pressure
             The control whose value (force per current area) steps move.
         """
-        block = _core.pressure_block(self.mesh.facets(faces), self.mesh.points)
-        return self._add(Pressure(name or self._name("pressure"), block=block))
+        facets = self.mesh.facets(faces)
+        block = _core.pressure_block(facets, self.mesh.points)
+        return self._add(Pressure(name or self._name("pressure"), block=block, facets=facets))
 
     def _load(self, vector: Floats, name: str) -> Load:
         return self._add(Load(name, vector=vector))

@@ -16,7 +16,13 @@ from umform.errors import HardeningNotMonotone, InvalidValue, NotFinite
 def _finite(where: str, **values: float) -> None:
     for name, value in values.items():
         if not math.isfinite(value):
-            raise NotFinite(f"{name} is not a finite number", where=where, value=value)
+            raise NotFinite(
+                f"{name} is not a finite number",
+                where=where,
+                value=value,
+                cause="an earlier computation, or an empty cell of a table",
+                remedy="give a finite number",
+            )
 
 
 @dataclass(frozen=True, init=False)
@@ -50,15 +56,27 @@ class Elastic:
                     "E must be positive and nu between -1 and 0.5",
                     where=where,
                     value=f"E={E}, nu={nu}",
+                    cause="a sign, a stress in place of a ratio, or the two exchanged",
                     remedy="nearly incompressible: nu = 0.4999",
                 )
             kappa, mu = E / (3 * (1 - 2 * nu)), E / (2 * (1 + nu))
         elif kappa is not None and mu is not None and E is None and nu is None:
             _finite(where, kappa=kappa, mu=mu)
             if not kappa > 0 or not mu > 0:
-                raise InvalidValue("kappa and mu must be positive", where=where, value=f"kappa={kappa}, mu={mu}")
+                raise InvalidValue(
+                    "kappa and mu must be positive",
+                    where=where,
+                    value=f"kappa={kappa}, mu={mu}",
+                    cause="a sign, or Lamé's constants in place of the moduli",
+                    remedy="kappa = lambda + 2 mu / 3; or give E and nu",
+                )
         else:
-            raise InvalidValue("give E and nu, or kappa and mu", where=where)
+            raise InvalidValue(
+                "give E and nu, or kappa and mu",
+                where=where,
+                cause="one of a pair is missing, or both pairs are given",
+                remedy="two constants: J2(E=210e3, nu=0.3, ...) for one",
+            )
         object.__setattr__(self, "kappa", float(kappa))
         object.__setattr__(self, "mu", float(mu))
 
@@ -132,7 +150,13 @@ class Hardening(Protocol):
 
 def _check_yield(where: str, yield_stress: float) -> None:
     if not yield_stress > 0:
-        raise InvalidValue("the yield stress must be positive", where=where, value=yield_stress)
+        raise InvalidValue(
+            "the yield stress must be positive",
+            where=where,
+            value=yield_stress,
+            cause="a sign, or zero for an elastic material",
+            remedy="SVK or a neo-Hooke for an elastic material",
+        )
 
 
 @dataclass(frozen=True)
@@ -210,7 +234,13 @@ class Swift:
     def __post_init__(self) -> None:
         _finite("Swift", strength=self.strength, offset=self.offset, exponent=self.exponent)
         if not self.strength > 0 or not self.offset > 0 or not 0 <= self.exponent <= 1:
-            raise InvalidValue("K and e0 must be positive and n between 0 and 1", where="Swift", value=self)
+            raise InvalidValue(
+                "K and e0 must be positive and n between 0 and 1",
+                where="Swift",
+                value=self,
+                cause="a sign, per cent, or the three in another order",
+                remedy="Swift(strength=520.0, offset=0.004, exponent=0.22)",
+            )
 
     def curve(self) -> _core.Hardening:
         """The curve as the kernels take it."""
@@ -240,6 +270,8 @@ class Table:
                 "a hardening table needs two or more pairs",
                 where="Table",
                 value=f"{len(self.eqps)} strains, {len(self.stress)} stresses",
+                cause="columns of different length, or one point only",
+                remedy="one stress for each plastic strain; Perfect for a constant one",
             )
         for row, (e, s) in enumerate(zip(self.eqps, self.stress, strict=True)):
             _finite(f"Table, row {row}", eqps=e, stress=s)
@@ -256,6 +288,7 @@ class Table:
                 "a hardening table starts at plastic strain 0",
                 where="Table, row 0",
                 value=self.eqps[0],
+                cause="the curve of a tensile test as it was measured",
                 remedy="give the plastic strain, not the total one",
             )
         _check_yield("Table, row 0", self.stress[0])
@@ -294,6 +327,7 @@ class J2(Elastic):
                 "hardening must be a hardening curve",
                 where="J2",
                 value=hardening,
+                cause="a number, or the name of a curve in place of a curve",
                 remedy="Perfect(160.0) or another of Linear, Voce, LinearVoce, Swift, Table",
             )
         object.__setattr__(self, "hardening", hardening)

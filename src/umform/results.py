@@ -135,22 +135,12 @@ class Result:
 
     def work_memory(self) -> dict[str, Any]:
         """All that the external work of later states follows from, beside the model itself."""
-        work = self._work
-        return {
-            "residual": self._residual,
-            "value": work.value,
-            "imbalances": np.array(work.imbalances),
-            "largest": work._largest,
-            "length": work._length,
-        }
+        return {"residual": self._residual, **self._work.memory()}
 
     def recall_work(self, memory: dict[str, Any]) -> None:
         """Go on with the external work of a run that was kept; the model has been evaluated at its last state."""
-        work = self._work
         self._residual = memory["residual"]
-        work.advance(self._residual)
-        work.imbalances = [(force, moment) for force, moment in memory["imbalances"].tolist()]
-        work.value, work._largest, work._length = memory["value"], memory["largest"], memory["length"]
+        self._work.recall(memory, self._residual)
 
     def note(self, message: str) -> None:
         """Keep an event, lift-off for instance, and log it."""
@@ -252,17 +242,29 @@ class Result:
 
         return plot_history(self, x, [y] if isinstance(y, str) else y, path)
 
-    def report(self, path: str | Path) -> Path:
-        """Write one self-contained HTML page: curves, last shape, history, settings, versions.
+    def report(self, path: str | Path, *, deck: str = "") -> Path:
+        """Write one self-contained HTML page: the shape in 3D, curves, events, history, settings, deck, versions.
 
         Parameters
         ----------
         path : str or Path
             The page, ending in .html.
+        deck : str, optional
+            The input that the result comes from, to be kept in the page.
+
+        Returns
+        -------
+        Path
+            The page.
+
+        Raises
+        ------
+        InvalidValue
+            If the name does not end in .html.
         """
         from umform.report.page import write_report
 
-        return write_report(self, path)
+        return write_report(self, path, deck=deck)
 
     def summary(self) -> dict[str, Any]:
         """Numbers that describe the run."""

@@ -48,7 +48,7 @@ class Shape:
         mesh = result.model.mesh
         if not result.frames:
             return cls.displaced(mesh, result.model.u.reshape(-1, 3))
-        quads, owners = _outer_faces(mesh.connectivity.astype(np.int64))
+        quads, owners = outer_quads(mesh.connectivity.astype(np.int64))
         kept = result.frames[frame]
         values = {name: field[owners] for name, field in kept.cells.items() if field.ndim == 1}
         values |= {name: field[quads].mean(axis=1) for name, field in kept.points.items() if field.ndim == 1}
@@ -57,7 +57,7 @@ class Shape:
     @classmethod
     def displaced(cls, mesh: Mesh, u: Floats) -> Shape:
         """Shape of a mesh under displacements (n, 3), with their size as the field ``displacement``."""
-        quads, _ = _outer_faces(mesh.connectivity.astype(np.int64))
+        quads, _ = outer_quads(mesh.connectivity.astype(np.int64))
         return cls(mesh.points + u, quads, {"displacement": np.linalg.norm(u, axis=1)[quads].mean(axis=1)})
 
     def mirrored(self, axis: int) -> Shape:
@@ -72,8 +72,21 @@ class Shape:
         )
 
 
-def _outer_faces(cells: Ids) -> tuple[Ids, Ids]:
-    """Faces that belong to one cell only, and the number of this cell."""
+def outer_quads(cells: Ids) -> tuple[Ids, Ids]:
+    """Faces that belong to one cell only, as quadrilaterals.
+
+    Parameters
+    ----------
+    cells : ndarray of int, shape (m, 8) or (m, 18)
+        Node ids.
+
+    Returns
+    -------
+    quads : ndarray of int, shape (k, 4)
+        Counter-clockwise from outside; faces of 9 nodes come in four parts.
+    owners : ndarray of int, shape (k,)
+        Cell of each.
+    """
     half = cells.shape[1] // 2
     parts = np.concatenate([_PARTS[2 * half], _PARTS[2 * half] + half], axis=1)
     faces = cells[:, parts][:, :, _SIDES].reshape(-1, 4)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from os import PathLike
 from typing import Any
 
 from umform.arc import Arc, Following
-from umform.checkpoint import Checkpoints, take_up
+from umform.checkpoint import Checkpoints, read_checkpoint, take_up
 from umform.contact.augmentation import refuse_on_an_arc, warn_of_penetration
 from umform.errors import InvalidValue
 from umform.fingerprint import fingerprint
@@ -39,6 +39,7 @@ def solve(
     progress: bool | None = None,
     checkpoint: str | PathLike[str] | None = None,
     every: float = 60.0,
+    note: Mapping[str, Any] | None = None,
 ) -> Result:
     """Solve a model step by step.
 
@@ -61,6 +62,8 @@ def solve(
         the run up from it.
     every : float
         Seconds between two checkpoints, at least; 0 writes one after each increment.
+    note : mapping of str to object, optional
+        Texts and numbers that are kept in the checkpoint, see :func:`umform.checkpoint.read_checkpoint`: a deck.
 
     Returns
     -------
@@ -84,7 +87,9 @@ def solve(
     timing = new_timing()
     with timing.run:
         run, sequence = _ready(model, steps, solver, options, frames, timing)
-        checkpoints = _checkpoints(run, sequence, checkpoint, every)
+        checkpoints = None
+        if checkpoint is not None:
+            checkpoints = Checkpoints(checkpoint, every, fingerprint(model, sequence, run.newton, frames), note)
         run.history = model.block.state
         run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
         return _go_on(run, sequence, progress_bar(progress), checkpoints)
@@ -131,9 +136,9 @@ def resume(
     timing = new_timing()
     with timing.run:
         run, sequence = _ready(model, steps, solver, options, frames, timing)
-        checkpoints = _checkpoints(run, sequence, path, every)
-        assert checkpoints is not None
-        memory = take_up(run, path, checkpoints.fingerprint)
+        tree = read_checkpoint(path)
+        checkpoints = Checkpoints(path, every, fingerprint(model, sequence, run.newton, frames), tree["note"])
+        memory = take_up(run, path, tree, checkpoints.fingerprint)
         if memory is not None:
             step = sequence[run.number - 1]
             run.loop = _LOOPS[type(step)].recall(run, step, memory)
@@ -169,12 +174,6 @@ def _ready(
     run = Run(model, Newton(model, options, solver, timing), Result(model, timing), frames)
     run.result.solver = run.newton.solver
     return run, sequence
-
-
-def _checkpoints(run: Run, steps: Sequence[Step], path: str | PathLike[str] | None, every: float) -> Checkpoints | None:
-    if path is None:
-        return None
-    return Checkpoints(path, every, fingerprint(run.model, steps, run.newton, run.frames))
 
 
 def _go_on(

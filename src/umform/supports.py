@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +34,7 @@ class Supported(Controlled):
         self._fixed = np.zeros(3 * len(mesh.points), dtype=bool)
 
     def fix(self, nodes: Selector, directions: str = "xyz") -> None:
-        """Hold nodes in one or more of the directions x, y, z.
+        """Hold nodes in one or more of the directions x, y, z; both nodes of a hinge may be held, it then has no say.
 
         Parameters
         ----------
@@ -51,10 +51,13 @@ class Supported(Controlled):
         ids = self.mesh.nodes(nodes)
         for direction in directions:
             dofs = 3 * ids + _direction_number(direction)
-            taken = self._taken()
+            held = self._fixed.copy()
+            held[dofs] = True
+            ties = [_without_held(tie, held) for tie in self.ties]
+            taken = self._taken(ties)
             del taken[_HELD]  # to hold a node twice does no harm
             _refuse_twice(dofs, direction, taken, _HELD)
-            self._fixed[dofs] = True
+            self._fixed, self.ties = held, ties
         self._assembled = None
 
     def symmetry(self, nodes: Selector, normal: str) -> None:
@@ -92,13 +95,14 @@ class Supported(Controlled):
             If a displacement is held, prescribed or tied already.
         """
         dofs = (3 * self.mesh.nodes(nodes) + _direction_number(direction)).astype(np.int32)
-        _refuse_twice(dofs, direction, self._taken(), name or "this one")
+        _refuse_twice(dofs, direction, self._taken(self.ties), name or "this one")
         return self._add(Prescribed(name or self._name("displacement"), dofs=dofs))
 
     def hinge(self, nodes: Selector, directions: str = "xyz") -> None:
         """Hold the mid-line of the sheet at an edge, about which its section may rotate.
 
-        The mean of the displacements of the lower and the upper node of each pair is zero. eq. (5.16)
+        The mean of the displacements of the lower and the upper node of each pair is zero. eq. (5.16) Where both are
+        held already, by a plane of symmetry for one, that is so without a hinge.
 
         Parameters
         ----------
@@ -110,7 +114,8 @@ class Supported(Controlled):
         Raises
         ------
         InvalidValue
-            If a node has no partner in the set, or is held, prescribed or tied already in a direction.
+            If a node has no partner in the set, is prescribed or tied already in a direction, or is held without its
+            partner.
 
         Examples
         --------
@@ -160,10 +165,11 @@ class Supported(Controlled):
 
     def _tie(self, nodes: Selector, direction: str, control: MidLine | None, by: str) -> Ids:
         dofs = (3 * node_pairs(self.mesh, nodes) + _direction_number(direction)).astype(np.int32)
-        _refuse_twice(dofs.ravel(), direction, self._taken(), by)
-        self.ties.append(Tie(dofs, control))
+        tie = _without_held(Tie(dofs, control), self._fixed)
+        _refuse_twice(tie.dofs.ravel(), direction, self._taken(self.ties), by)
+        self.ties.append(tie)
         self._assembled = None
-        return dofs.ravel()
+        return tie.dofs.ravel()
 
     def constrained(self) -> NDArray[np.bool_]:
         """Which degrees of freedom are held or prescribed; tied ones are not."""
@@ -194,19 +200,30 @@ class Supported(Controlled):
         """Displacement that supports prescribe at the present values of the controls; zero elsewhere."""
         return self.displacement_of_supports({control: control.value for control in self.controls})
 
-    def _taken(self) -> dict[str, Ids]:
+    def _taken(self, ties: Sequence[Tie]) -> dict[str, Ids]:
         """Degrees of freedom that are spoken for, and by whom."""
         taken = {_HELD: np.flatnonzero(self._fixed).astype(np.int32)}
         taken |= {control.name: control.dofs for control in self.of_kind(Prescribed)}
-        for tie in self.ties:
+        for tie in ties:
             by = "hinge" if tie.control is None else tie.control.name
             taken[by] = np.concatenate([taken.get(by, np.empty(0, dtype=np.int32)), tie.dofs.ravel()])
         return taken
 
 
+def _without_held(tie: Tie, held: NDArray[np.bool_]) -> Tie:
+    """A hinge without the pairs whose nodes are both held: their mean is zero as it is."""
+    return tie if tie.control is not None else Tie(tie.dofs[~held[tie.dofs].all(axis=1)], None)
+
+
 def _direction_number(name: str) -> int:
     if name not in DIRECTIONS:
-        raise InvalidValue("a direction is x, y or z", value=name)
+        raise InvalidValue(
+            "a direction is x, y or z",
+            where="supports",
+            value=name,
+            cause="another letter, or a vector",
+            remedy="fix takes letters such as xz; all others take one of x, y, z",
+        )
     return DIRECTIONS[name]
 
 
@@ -218,5 +235,6 @@ def _refuse_twice(dofs: Ids, direction: str, taken: Mapping[str, Ids], by: str) 
                 "a displacement is prescribed twice",
                 where=f"node {shared[0] // 3}, direction {direction}",
                 value=f"by {other} and by {by}",
-                remedy="take the node out of one of the sets",
+                cause="two supports ask for it",
+                remedy="take the node out of one of the sets; a hinge bears a node that is held if its partner is too",
             )

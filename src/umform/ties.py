@@ -61,6 +61,7 @@ def node_pairs(mesh: Mesh, nodes: Selector) -> Ids:
     if any(len(np.unique(side)) < len(links) for side in links.T):
         raise InvalidValue(
             "lower and upper nodes do not pair up",
+            where="mesh",
             cause="neighbouring cells do not agree on the direction through the thickness",
             remedy="order the nodes of all cells from the same face of the sheet",
         )

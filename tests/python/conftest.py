@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -133,7 +134,15 @@ def jittered(mesh, amount, seed=5, normal=0.0):
 
 
 def free_bending(
-    cells=(12, 1), element="ANS3DEAS", points=2, length_unit=1.0, force_unit=1.0, material=None, **options
+    cells=(12, 1),
+    element="ANS3DEAS",
+    points=2,
+    length_unit=1.0,
+    force_unit=1.0,
+    material=None,
+    penalty=100.0,
+    radius=20.0,
+    **options,
 ):
     """A strip bent freely over a cylinder by its clamped end; units as multiples of mm and N."""
     stress = force_unit / length_unit**2
@@ -147,8 +156,8 @@ def free_bending(
     model.symmetry("x0", normal="x")
     model.symmetry(lambda x, y, z: (x < 1e-9 * L) & (y < 1e-9 * L) & (z < 0), normal="y")
     punch = model.prescribe("x0_lower", "z", "punch")
-    tool = Cylinder(centre=(25 * L, 0, -20.5 * L), axis="y", radius=20 * L)
-    contact = model.contact("lower", tool, penalty=100 * stress / L, points=points, name="tool")
+    tool = Cylinder(centre=(25 * L, 0, -(radius + 0.5) * L), axis="y", radius=radius * L)
+    contact = model.contact("lower", tool, penalty=penalty * stress / L, points=points, name="tool")
     return SimpleNamespace(model=model, punch=punch, contact=contact, unit=L, force_unit=force_unit)
 
 
@@ -171,12 +180,55 @@ def cantilever(load=0.5, cells=(6, 1), element="ANS3DEAS", material=None):
     return model, tip
 
 
+def arch(cells=8, element="ANS3DEAS"):
+    """Half of a shallow arch of two straight bars, L = 10 each, hinged on its mid-line at the support and at the top.
+
+    The top may rotate by symmetry only; a bar is a plate in plane strain, which makes it a von Mises arch of shells.
+    """
+    cell = "hex18" if "9K" in element else "hex8"
+    mesh = strip(10.0, 1.0, 0.8, (cells, 1), cell=cell)  # so thick that no bar buckles
+    x = mesh.points[:, :1] - mesh.points[:, 0].min()
+    mesh = mesh.transformed(lambda points: points + np.array([0.0, 0.0, 0.6]) * (1 - x / 10.0))
+    model = Model(mesh, element, material=mt.SVK(E=1000.0, nu=0.0))
+    model.hinge("x1", "xz")
+    model.hinge("x0", "x")  # the symmetry plane, without a moment
+    for side in ("y0", "y1"):
+        model.symmetry(side, "y")
+    return model
+
+
+def loaded_arch(**options):
+    """The arch under forces that add up to 1 at the top."""
+    model = arch(**options)
+    nodes = model.mesh.nodes("x0")
+    return model, model.force(nodes, (0.0, 0.0, -1.0 / len(nodes)), "load")
+
+
+def limit_loads(result):
+    """Loads of the limit points that the events tell."""
+    found = [re.search(r"limit point.* = (\S+?)(;|$)", event) for event in result.events]
+    return [float(match[1]) for match in found if match]
+
+
+def thickness_vectors(mesh):
+    half = mesh.connectivity.shape[1] // 2
+    return mesh.points[mesh.connectivity[:, half:]] - mesh.points[mesh.connectivity[:, :half]]
+
+
+def volume(mesh):
+    x, w = _core.gauss(3)
+    q = np.stack(np.meshgrid(x, x, x, indexing="ij"), -1).reshape(-1, 3)
+    dN = _core.shell_functions(mesh.connectivity.shape[1], q)[1]
+    J = np.linalg.det(np.einsum("qia,eak->eqik", dN, mesh.points[mesh.connectivity]))
+    return float((J @ np.einsum("i,j,k->ijk", w, w, w).ravel()).sum())
+
+
 @pytest.fixture
 def materials():
     return MATERIALS
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def build():
     """Builders of small models and the functions that look at them."""
     return SimpleNamespace(
@@ -189,6 +241,11 @@ def build():
         free_bending=free_bending,
         bar=bar,
         cantilever=cantilever,
+        arch=arch,
+        loaded_arch=loaded_arch,
+        limit_loads=limit_loads,
+        thickness_vectors=thickness_vectors,
+        volume=volume,
     )
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import copy
 import inspect
 import pickle
+from pathlib import Path
 
 import pytest
 
@@ -75,3 +77,20 @@ def test_kin_of_builtin_errors_are_caught_as_such(kind, builtin):
 def test_every_class_has_a_sentence_of_documentation(kind):
     assert kind.__doc__
     assert kind.__doc__ != UmformError.__doc__ or kind is UmformError
+
+
+SOURCE = Path(umform.__file__).parent
+FILES = [SOURCE / f"{name}.py" for name in ("materials", "ties", "supports")] + sorted(SOURCE.glob("surfaces/*.py"))
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_what_users_meet_first_is_refused_with_place_cause_and_remedy(file):
+    """Parameters of materials, tools and supports: each refusal says where, why, and what to do."""
+    for node in ast.walk(ast.parse(file.read_text())):
+        if (
+            isinstance(node, ast.Raise)
+            and isinstance(node.exc, ast.Call)
+            and hasattr(errors, ast.unparse(node.exc.func))
+        ):
+            given = {keyword.arg for keyword in node.exc.keywords}
+            assert {"where", "cause", "remedy"} <= given, f"line {node.lineno}: {ast.unparse(node.exc)}"

@@ -132,6 +132,45 @@ def test_a_tied_node_can_be_neither_fixed_nor_prescribed():
     model.symmetry("x0", "y")  # another direction
 
 
+def held_first(model):
+    model.symmetry("y0", "y")
+    model.hinge("x0", "xyz")
+
+
+def hinged_first(model):
+    model.hinge("x0", "xyz")
+    model.symmetry("y0", "y")
+
+
+@pytest.mark.parametrize("hold", [held_first, hinged_first])
+def test_a_hinge_goes_with_a_plane_of_symmetry_that_holds_both_nodes(hold):
+    """The same state as with the hinge on the other nodes only, whichever support comes first."""
+
+    def pulled(supports):
+        model = Model(strip(10.0, 1.0, 0.2, (4, 2)), material=ELASTIC)
+        supports(model)
+        model.hinge("x1", "z")
+        solve(model, Move(model.force("x1", (1.0, 0.0, 0.0)), 5.0, steps=1), progress=False)
+        return model
+
+    def apart(model):
+        model.symmetry("y0", "y")
+        model.hinge("x0", "xz")
+        model.hinge(np.setdiff1d(model.mesh.nodes("x0"), model.mesh.nodes("y0")), "y")
+
+    model, other = pulled(hold), pulled(apart)
+    assert sum(len(tie.dofs) for tie in model.ties) == sum(len(tie.dofs) for tie in other.ties)
+    np.testing.assert_allclose(model.u, other.u, rtol=0.0, atol=1e-12 * np.abs(other.u).max())
+    assert np.abs(model.u).max() > 0.0
+
+
+def test_a_hinge_beside_one_node_that_is_held_says_what_to_do():
+    model = Model(strip(10.0, 1.0, 0.2, (4, 1)), material=ELASTIC)
+    model.fix("x0_upper", "z")
+    with pytest.raises(InvalidValue, match="if its partner is too"):
+        model.hinge("x0", "z")
+
+
 def test_the_rotation_about_a_hinge_is_seen():
     model = Model(strip(10.0, 1.0, 0.2, (4, 1)), material=ELASTIC)
     model.hinge("x0")

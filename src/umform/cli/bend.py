@@ -57,6 +57,9 @@ def bend(
     increment: Annotated[float, _option("Way of the punch in an increment, over the opening.", _SOLUTION)] = 0.00625,
     tolerance: Annotated[float, _option("Of the angle that is looked for, in degrees.", _SOLUTION)] = 0.02,
     processes: Annotated[int | None, _option("Runs of the budget at a time.", _SOLUTION)] = None,
+    print_deck: Annotated[
+        bool, typer.Option("--print-deck", help="Print the bend as a deck for `umform run`, and run nothing else.")
+    ] = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -98,6 +101,11 @@ def bend(
     with timings() as spent:
         if angle is not None:
             case = find_stroke(case, angle, tolerance=tolerance).case
+        if print_deck:
+            from umform.deck import deck_of
+
+            typer.echo(deck_of(case), nl=False)
+            return
         rows = bending_table(case, strokes) if strokes else []
         done = air_bending(case)
     errors = error_budget(case, done.measures, processes=processes) if budget else None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -16,6 +17,10 @@ if TYPE_CHECKING:
     from umform.deck.running import Outcome
     from umform.results import Result
 
+Every = Annotated[
+    float, typer.Option(metavar="SECONDS", help="Seconds between two checkpoints; 0: one after each increment.")
+]
+
 
 @app.command()
 def run(
@@ -25,26 +30,32 @@ def run(
     ] = None,
     solver: Annotated[str | None, typer.Option(help="Another sparse solver than that of the deck.")] = None,
     changes: Changes = None,
+    checkpoint: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Keep the state of the run here; default: checkpoint.h5 beside the results."),
+    ] = None,
+    every: Every = 60.0,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
     """Solve a deck: history, fields, report, pictures, and a copy of the deck.
 
-    What was reached is written even if Newton's method gives up (exit code 1) or Ctrl-C ends the run (130).
+    What was reached is written even if Newton's method gives up (exit code 1) or Ctrl-C ends the run (130). A run that
+    was stopped goes on with `umform resume`.
     """
     from umform.deck import running
 
     with told():
         loaded, problem = build(deck, changes or ())
-        outcome = running.run(loaded, problem, out, solver=solver)
-    _show(outcome)
+        outcome = running.run(loaded, problem, out, solver=solver, checkpoint=checkpoint, every=every)
+    show(outcome)
     if timing:
         show_timing(outcome.result.timing)
-    _end(outcome.ended_by)
+    end(outcome)
 
 
-def _show(outcome: Outcome) -> None:
+def show(outcome: Outcome) -> None:
     """The table, what happened, and where the files are."""
     from umform.report.repeats import counted
 
@@ -78,12 +89,15 @@ def _table(result: Result) -> object:
     return table
 
 
-def _end(error: BaseException | None) -> None:
+def end(outcome: Outcome) -> None:
     """The message and the exit code of a run that has ended early."""
+    error = outcome.ended_by
     if error is None:
         return
     if isinstance(error, KeyboardInterrupt):
         typer.echo("\numform: interrupted; what was reached is written", err=True)
+        if outcome.checkpoint:
+            typer.echo(f"  go on with: umform resume {shlex.quote(str(outcome.checkpoint))}", err=True)
         raise typer.Exit(INTERRUPTED)
     if isinstance(error, UmformError):
         typer.echo(f"umform: {error}", err=True)

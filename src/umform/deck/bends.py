@@ -1,4 +1,4 @@
-"""Whether mesh and element can follow the bends that the tools ask for.
+"""Whether mesh, element and hardening curve can follow the bends that the tools ask for.
 
 A sheet of thickness h on a radius R strains by h / (2 R + h) at its surfaces. Rules of thumb: an element should span
 some 10 degrees of the smallest radius, and the false moment of sharp-bend locking should stay below a few per cent of
@@ -18,7 +18,7 @@ from umform.deck.deck import Deck
 from umform.deck.findings import Finding, ok, warning
 from umform.deck.problem import Problem
 from umform.deck.tools import ToolPart, along, smallest_radius
-from umform.materials import J2
+from umform.materials import J2, Table
 from umform.model import Model
 
 #: Degrees of a tool radius that one element may span.
@@ -85,9 +85,21 @@ def through_thickness(model: Model, material: J2, h: float, radius: float, tool:
     else:
         yield ok("element", f"{text}: thickness order {order} can follow")
     least = _SHARP_POINTS if strain > _SHARP else _POINTS
-    points = model.thickness_points
+    layers = layers_of(model, h)
+    points = layers * model.thickness_points
     if points < least and strain > first_yield(material) / material.E:
-        yield warning("element", f"{points} thickness points for a strain of {100 * strain:.3g} %", f"take {least}")
+        remedy = f"take {math.ceil(least / layers)}" + (" in each layer" if layers > 1 else "")
+        yield warning("element", f"{points} thickness points for a strain of {100 * strain:.3g} %", remedy)
+    curve = material.hardening
+    if isinstance(curve, Table) and curve.eqps[-1] < strain:
+        text = f"the hardening curve ends at a plastic strain of {curve.eqps[-1]:.3g}, the bend asks for {strain:.3g}"
+        yield warning("material", text, "go on with the curve: behind its end the yield stress stays as it is")
+
+
+def layers_of(model: Model, h: float) -> int:
+    """Cells that lie on each other in a sheet of a thickness."""
+    lower, upper = np.split(model.mesh.points[model.mesh.connectivity], 2, axis=1)
+    return max(1, round(h / float(np.median(np.linalg.norm(upper - lower, axis=-1)))))
 
 
 def first_yield(material: J2) -> float:

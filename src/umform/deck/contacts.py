@@ -1,8 +1,7 @@
-"""The contacts of a deck: faces, a tool, a penalty, and what moves the tool in time."""
+"""The contacts of a deck: faces, a tool, a penalty or the penetration that is allowed, and what moves the tool."""
 
 from __future__ import annotations
 
-import inspect
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
@@ -14,7 +13,6 @@ from pydantic_core import PydanticCustomError
 from umform.contact import Contact, Motion
 from umform.deck.parts import Name, Part, Positive, Vector
 from umform.deck.selection import Selection, faces_of
-from umform.errors import InvalidValue
 from umform.model import Model
 from umform.surfaces import Tool
 
@@ -80,43 +78,33 @@ class ContactPart(Part):
     faces: Selection
     """Lower or upper faces of the sheet."""
     penalty: Positive | None = None
-    """Contact pressure per penetration."""
+    """Contact pressure per penetration; without it, it follows from the penetration that is allowed."""
     penetration: Positive | None = None
-    """Penetration that is allowed, from which the penalty follows."""
+    """Penetration that is allowed; by default 1/200 of the thickness."""
     augmented: bool = False
     """Multipliers take the penetration away that is not allowed."""
     points: Points = 2
-    """Contact points per direction of a face, 1 to 10, or at the nodes."""
+    """Contact points per direction of a face, 1 to 10; at the nodes; or as many as the tool needs (auto)."""
     motion: MotionPart | None = None
     """Motion in time."""
 
     @model_validator(mode="after")
     def _is_one(self) -> ContactPart:
         if self.penalty is not None and self.penetration is not None and not self.augmented:
-            raise PydanticCustomError("penalty", "give the penalty or the penetration, and not both")
+            raise PydanticCustomError("penalty", "give the penalty or the penetration, and not both, unless augmented")
         return self
 
     def add_to(self, model: Model, tool: Tool, name: str) -> Contact:
         """Let the model touch the tool."""
-        given = {"penalty": self.penalty, "penetration": self.penetration, "augmented": self.augmented or None}
-        options: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
-        known = inspect.signature(model.contact).parameters
-        for key, value in options.items():
-            if key not in known:
-                raise InvalidValue(
-                    "this version of umform does not know that of a contact",
-                    where=key,
-                    value=value,
-                    cause="an older version than the deck",
-                    remedy="penalty = expected contact pressure / penetration that you allow",
-                )
-        if "penalty" not in options and known["penalty"].default is inspect.Parameter.empty:
-            raise InvalidValue(
-                "the key penalty is missing: contact pressure per penetration",
-                cause="it was left out",
-                remedy="penalty = expected contact pressure / penetration that you allow",
-            )
-        contact = model.contact(faces_of(model.mesh, self.faces), tool, points=self.points, name=name, **options)
+        contact = model.contact(
+            faces_of(model.mesh, self.faces),
+            tool,
+            penalty=self.penalty,
+            penetration=self.penetration,
+            augmented=self.augmented,
+            points=self.points,
+            name=name,
+        )
         if self.motion is not None:
             model.set_motion(contact, self.motion.build(), self.motion.about)
         return contact

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from umform.contact.encounter import sheet_thickness
-from umform.deck import bends
+from umform.deck import bends, fineness
 from umform.deck.contents import Contents
 from umform.deck.deck import Deck
 from umform.deck.findings import Finding, error, ok, warning
@@ -17,6 +17,7 @@ from umform.deck.problem import Problem
 from umform.deck.references import references
 from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallowsSheet
 from umform.materials import J2, Elastic
+from umform.mesh.quality import jacobians
 from umform.model import Model
 from umform.newton import Newton
 
@@ -24,6 +25,8 @@ from umform.newton import Newton
 _OVERLAP = 0.02
 #: Iterations of an increment, on an average.
 _ITERATIONS = 4
+#: Smallest Jacobian of a cell over its largest one.
+_DISTORTED = 0.2
 #: A penalty stiffer than the sheet across its thickness by more than this spoils the condition of the tangent.
 _STIFF = 100.0
 #: Strain at first yield of sheet metals, with some room on both sides.
@@ -50,17 +53,24 @@ def look(deck: Deck, problem: Problem) -> Iterator[Finding]:
         yield motions(problem.model)
         yield from gaps(problem)
         yield from bends.look(deck, problem)
+        yield from fineness.look(deck, problem)
         yield from units(problem.model, deck.contents)
         yield from idle(deck)
         yield effort(deck.contents, problem)
 
 
 def mesh(model: Model) -> Finding:
-    """Size of the model."""
-    points, cells = model.mesh.points, len(model.mesh.connectivity)
+    """Size of the model, and its most distorted cell."""
+    points, cells = model.mesh.points, model.mesh.connectivity
     sizes = " x ".join(f"{size:.4g}" for size in np.ptp(points, axis=0))
-    text = f"{cells} {model.mesh.cell}, {len(points)} nodes, {model.pattern.n} unknowns; the sheet spans {sizes}"
-    return ok("mesh", text)
+    text = f"{len(cells)} {model.mesh.cell}, {len(points)} nodes, {model.pattern.n} unknowns; the sheet spans {sizes}"
+    J = jacobians(points, cells)
+    ratios = J.min(axis=1) / J.max(axis=1)
+    worst = int(np.argmin(ratios))
+    if ratios[worst] >= _DISTORTED:
+        return ok("mesh", text)
+    text += f"; in cell {worst} the Jacobian falls to {ratios[worst]:.2g} of its largest value"
+    return warning("mesh", text, "cells nearer to parallelograms, mid-side nodes nearer to the middle")
 
 
 def motions(model: Model) -> Finding:
@@ -143,9 +153,11 @@ def effort(contents: Contents, problem: Problem) -> Finding:
     newton = Newton(model, problem.options, problem.solver)
     try:
         solver = newton.ready_solver()
-        start = clock.perf_counter()
-        solver.factor(model.evaluate(model.u).values)
-        seconds = clock.perf_counter() - start
+        seconds = np.inf
+        for _ in range(2):  # the first one is slow: memory is new, and libraries wake up
+            start = clock.perf_counter()
+            solver.factor(model.evaluate(model.u).values)
+            seconds = min(seconds, clock.perf_counter() - start)
     except (SingularMatrix, NotFinite) as refusal:
         remedy = "let tools touch the sheet at the start, or hold it"
         return warning("effort", f"there is no tangent at the start: {refusal.what}", remedy)

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 from pydantic_core import PydanticCustomError
 
-from umform import materials
-from umform.deck.parts import NotNegative, Part, Positive
-from umform.errors import InvalidValue
+from umform import materials, sheet_metals
+from umform.deck.parts import NotNegative, Part, Positive, told_by
 from umform.materials import Hardening, Material
 
 Fraction = Annotated[float, Field(ge=0, le=1)]
@@ -195,26 +193,7 @@ class FromLibrary(Part):
 
     def build(self) -> Material:
         """The law of the sheet metal."""
-        try:
-            library = importlib.import_module("umform.sheet_metals")
-        except ModuleNotFoundError:
-            raise InvalidValue(
-                "this version of umform has no library of sheet metals",
-                where="library",
-                value=self.library,
-                cause="an older version than the deck",
-                remedy="give the law and its constants: law = 'J2', E, nu, hardening",
-            ) from None
-        metal = library.get(self.library)
-        law: Material = metal if isinstance(metal, Material) else metal.law  # a law, or a metal that has one
-        return law
-
-
-def _kind(value: Any) -> str | None:
-    if isinstance(value, dict):
-        word = "library" if "library" in value else value.get("law")
-        return word if isinstance(word, str) else None
-    return "library" if isinstance(value, FromLibrary) else getattr(value, "law", None)
+        return sheet_metals.get(self.library).law
 
 
 MaterialPart = Annotated[
@@ -224,7 +203,7 @@ MaterialPart = Annotated[
     | Annotated[J2, Tag("J2")]
     | Annotated[FromLibrary, Tag("library")],
     Discriminator(
-        _kind,
+        told_by("law", "library"),
         custom_error_type="law",
         custom_error_message="a material has law = SVK, NeoHooke, NeoHookePower or J2, or library = a name",
         custom_error_context={"key": "law", "expected_tags": "'SVK', 'NeoHooke', 'NeoHookePower', 'J2'"},

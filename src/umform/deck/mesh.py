@@ -1,4 +1,4 @@
-"""The mesh of a deck: a strip, a grid, or a file."""
+"""The mesh of a deck: a strip, a grid, or a file of hexahedra or quadrilaterals."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pydantic import Discriminator, Field, Strict, Tag, model_validator
 from pydantic_core import PydanticCustomError
 
 from umform import mesh
-from umform.deck.parts import Pair, Part, Positive
+from umform.deck.parts import Pair, Part, Positive, Vector, told_by, word_or_array
 from umform.mesh import Floats, Mesh
 
 Divisions = Annotated[int, Field(ge=1, le=100_000)]
@@ -98,16 +98,49 @@ class Grid(Part):
         return mesh.grid(self.x, self.y, self.z, cell)
 
 
+Through = Annotated[
+    Annotated[str, Field(min_length=1), Tag("word")] | Annotated[Vector, Tag("array")],
+    Discriminator(
+        word_or_array,
+        custom_error_type="through",
+        custom_error_message="Input should be thinnest, an axis such as z or -z, the name of a set, or three numbers",
+    ),
+]
+
+
 class File(Part):
-    """A file that umform.mesh.read reads; its groups of nodes are sets, and so are its faces lower and upper."""
+    """Hexahedra of a file; its groups of nodes and cells are sets of nodes, its faces have the sets lower and upper."""
 
     file: Annotated[str, Field(min_length=1)]
     """Path, from the folder of the deck."""
+    through: Through | None = None
+    """Direction through the thickness, to the upper face: thinnest, an axis, a vector, or the name of a set with all
+    nodes of the lower face. Without it the first nodes of each cell are those of its lower face."""
 
     def build(self, cell: str, folder: Path) -> Mesh:
         """The mesh; whether it fits the element is up to the model."""
         del cell
-        return mesh.read(folder / self.file)
+        return mesh.read(folder / self.file, self.through)
+
+
+class Shell(Part):
+    """Quadrilaterals of a file, thickened along their normals; the set NAME has the nodes of both faces, NAME_lower and
+    NAME_upper those of one.
+    """
+
+    file: Annotated[str, Field(min_length=1)]
+    """Path, from the folder of the deck."""
+    thickness: Positive
+    """Thickness."""
+    surface: Literal["middle", "lower", "upper"] = "middle"
+    """What the file has: the mid-surface, the lower or the upper face."""
+    kink: Annotated[float, Field(gt=0, lt=180)] = 100.0
+    """Largest angle in degrees between the quadrilaterals at a node."""
+
+    def build(self, cell: str, folder: Path) -> Mesh:
+        """The mesh; whether it fits the element is up to the model."""
+        del cell
+        return mesh.read_shell(folder / self.file, self.thickness, surface=self.surface, kink=self.kink)
 
 
 def _refuse_too_many(cells: int) -> None:
@@ -115,18 +148,25 @@ def _refuse_too_many(cells: int) -> None:
         raise PydanticCustomError("cells", "{cells} cells are more than {most}", {"cells": cells, "most": _MOST_CELLS})
 
 
+#: Keys that tell a surface to be thickened from hexahedra.
+_OF_SHELLS = {"thickness", "surface", "kink"}
+
+
+_generator_or_file = told_by("generator", "file")
+
+
 def _kind(value: Any) -> str | None:
-    if isinstance(value, dict):
-        word = "file" if "file" in value else value.get("generator")
-        return word if isinstance(word, str) else None
-    return "file" if isinstance(value, File) else getattr(value, "generator", None)
+    if isinstance(value, Shell) or (isinstance(value, dict) and "file" in value and value.keys() & _OF_SHELLS):
+        return "shell"
+    return _generator_or_file(value)
 
 
 MeshPart = Annotated[
     Annotated[Strip, Tag("strip")]
     | Annotated[Strip, Tag("plate")]
     | Annotated[Grid, Tag("grid")]
-    | Annotated[File, Tag("file")],
+    | Annotated[File, Tag("file")]
+    | Annotated[Shell, Tag("shell")],
     Discriminator(
         _kind,
         custom_error_type="mesh",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Strict, Tag
@@ -38,6 +39,18 @@ def number_or_array(value: Any) -> str | None:
     return "array" if isinstance(value, list | tuple) else "number"
 
 
+def told_by(key: str, other: str) -> Callable[[Any], str | None]:
+    """What tells kinds of a table apart: the word of a key; or the name of another key that stands in its place."""
+
+    def kind(value: Any) -> str | None:
+        if isinstance(value, dict):
+            word = other if other in value else value.get(key)
+            return word if isinstance(word, str) else None
+        return other if hasattr(value, other) else getattr(value, key, None)
+
+    return kind
+
+
 #: "x", "-z", ..., or three numbers.
 Way = Annotated[
     Annotated[Literal["x", "y", "z", "-x", "-y", "-z"], Tag("word")] | Annotated[Vector, Tag("array")],
@@ -60,5 +73,6 @@ __all__ = [
     "Vector",
     "Way",
     "number_or_array",
+    "told_by",
     "word_or_array",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from umform.materials import Material
 from umform.model import Model
 from umform.newton import Newton, NewtonOptions
 from umform.results import Result
-from umform.steps import Step, solve
+from umform.steps import Step, resume, solve
 from umform.surfaces import Tool
 from umform.technology import Element
 
@@ -54,16 +55,16 @@ class Problem:
     solver: str
     frames: int
 
-    def solve(self, *, solver: str | None = None, progress: bool | None = None) -> Result:
-        """Solve the problem, see :func:`umform.solve`."""
-        return solve(
-            self.model,
-            self.steps,
-            solver=solver or self.solver,
-            options=self.options,
-            frames=self.frames,
-            progress=progress,
-        )
+    def solve(self, *, solver: str | None = None, **options: Any) -> Result:
+        """Solve the problem; ``progress``, ``checkpoint``, ``every`` and ``note`` as for :func:`umform.solve`."""
+        return solve(self.model, self.steps, **self._settings(solver), **options)
+
+    def resume(self, path: str | PathLike[str], *, solver: str | None = None, **options: Any) -> Result:
+        """Take up a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
+        return resume(path, self.model, self.steps, **self._settings(solver), **options)
+
+    def _settings(self, solver: str | None) -> dict[str, Any]:
+        return {"solver": solver or self.solver, "options": self.options, "frames": self.frames}
 
 
 def build(contents: Contents, source: Source) -> Problem:

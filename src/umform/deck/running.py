@@ -1,18 +1,24 @@
-"""Run a deck and write what comes out; what was reached is written whatever ends the run."""
+"""Run a deck, or take its run up, and write what comes out; what was reached is written whatever ends the run."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import logging
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from umform.deck.deck import Deck
+from umform.deck.kept import Kept
 from umform.deck.problem import Problem
 from umform.processes.bending.staging import Staging, staging
 from umform.results import Result
 
+log = logging.getLogger("umform")
+
 #: The deck as it was run, beside what came of it.
 COPY = "as-run.toml"
+#: Where the state of a run is kept unless another file is asked for; taken away when the run has ended by itself.
+CHECKPOINT = "checkpoint.h5"
 _FILES = ("history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", COPY)
 
 
@@ -28,11 +34,14 @@ class Outcome:
         What was written.
     ended_by : BaseException or None
         What ended the run early.
+    checkpoint : Path or None
+        File that the run can be taken up from; None if there is none.
     """
 
     result: Result
     files: list[Path]
     ended_by: BaseException | None
+    checkpoint: Path | None = None
 
 
 def folder_of(deck: Deck) -> Path:
@@ -48,6 +57,8 @@ def run(
     *,
     solver: str | None = None,
     progress: bool | None = None,
+    checkpoint: str | Path | None = None,
+    every: float = 60.0,
 ) -> Outcome:
     """Solve the problem of a deck and write its files, each of them whole or not at all.
 
@@ -63,6 +74,11 @@ def run(
         Another sparse solver than that of the deck.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
+    checkpoint : str or Path, optional
+        File that the state of the run is kept in, with the deck; default checkpoint.h5 in the folder, which is taken
+        away when the run has ended by itself.
+    every : float
+        Seconds between two checkpoints, at least; 0 writes one after each increment.
 
     Returns
     -------
@@ -74,23 +90,78 @@ def run(
     UmformError
         If the model cannot be solved as it stands, or the folder cannot be written.
     """
-    with staging(out if out is not None else folder_of(deck), _FILES) as stage:
-        ended_by: BaseException | None = None
+    place = out if out is not None else folder_of(deck)
+    kept = Kept(deck, Path(place), solver)
+    path = Path(checkpoint) if checkpoint is not None else kept.out / CHECKPOINT
+    if path.is_file():
+        log.warning("a run was stopped here, and %s will be written over; umform resume would go on with it", path)
+
+    def solve() -> Result:
+        note = kept.note(path)
+        return problem.solve(solver=solver, progress=progress, checkpoint=path, every=every, note=note)
+
+    return _finish(kept, problem, place, path, solve)
+
+
+def resume(
+    checkpoint: str | Path, out: str | Path | None = None, *, progress: bool | None = None, every: float = 60.0
+) -> Outcome:
+    """Take up the run of a deck from its checkpoint, and write its files as if it had never been stopped.
+
+    Parameters
+    ----------
+    checkpoint : str or Path
+        The file, which the run goes on to write.
+    out : str or Path, optional
+        Folder; default that of the run.
+    progress, every
+        See :func:`run`.
+
+    Returns
+    -------
+    Outcome
+        See :func:`run`.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read, has no deck, or does not fit what the deck builds now.
+    UmformError
+        If nothing can be built from the deck any more, a mesh file that is gone for one.
+    """
+    path = Path(checkpoint)
+    kept = Kept.read(path)
+    problem = kept.deck.build()
+
+    def solve() -> Result:
+        return problem.resume(path, solver=kept.solver, progress=progress, every=every)
+
+    return _finish(kept, problem, out if out is not None else kept.out, path, solve)
+
+
+def _finish(kept: Kept, problem: Problem, out: str | Path, checkpoint: Path, solve: Callable[[], Result]) -> Outcome:
+    """Solve, write what came of it, and take the checkpoint away if nobody has asked for it or needs it."""
+    ended_by: BaseException | None = None
+    with staging(out, _FILES) as stage:
         try:
-            result = problem.solve(solver=solver, progress=progress)
+            result = solve()
         except BaseException as error:
             reached: Result | None = getattr(error, "result", None)
             if reached is None or not reached.frames:
                 raise
             result, ended_by = reached, error
         with result.timing.files:
-            return Outcome(result, write(deck, problem, result, stage), ended_by)
+            files = write(kept.deck, problem, result, stage)
+        stopped = isinstance(ended_by, KeyboardInterrupt)
+        if not stopped and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():
+            checkpoint.unlink(missing_ok=True)
+    return Outcome(result, files, ended_by, checkpoint if stopped and checkpoint.exists() else None)
 
 
 def write(deck: Deck, problem: Problem, result: Result, stage: Staging) -> list[Path]:
     """Write the files that the deck asks for; numbers get their names before pictures are drawn."""
-    wanted, waiting = deck.contents.output, stage.waiting
-    (waiting / COPY).write_text("".join(_as_run(deck)), encoding="utf-8")
+    wanted, waiting, text = deck.contents.output, stage.waiting, as_run(deck)
+    (waiting / COPY).write_text(text, encoding="utf-8")
     if wanted.csv:
         result.write(waiting / "history.csv")
     if wanted.vtkhdf:
@@ -102,11 +173,11 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging) -> list[
         draw_curve(problem, result, waiting / "curve.png")
         draw_shape(result, waiting / "shape.png")
     if wanted.report:
-        result.report(waiting / "report.html")
+        result.report(waiting / "report.html", deck=text)
     return [*files, *stage.commit(["report.html", "curve.png", "shape.png"])]
 
 
-def _as_run(deck: Deck) -> Iterator[str]:
-    for key, value in deck.source.changes.items():
-        yield f"# run with --set {key}={value}\n"
-    yield deck.source.text
+def as_run(deck: Deck) -> str:
+    """Text of a deck, after lines that say which keys had other values."""
+    changes = (f"# run with --set {key}={value}\n" for key, value in deck.source.changes.items())
+    return "".join([*changes, deck.source.text])

@@ -28,7 +28,12 @@ def check_abaqus(path: Path) -> None:
     try:
         lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError as error:
-        raise FileProblem("the file cannot be read", where=str(path), cause=str(error)) from error
+        raise FileProblem(
+            "the mesh file cannot be read",
+            where=str(path),
+            cause=error.strerror or str(error),
+            remedy="look at the path: it is gone, has another name, or must not be read",
+        ) from error
     keyword = ""
     node_lists = 0
     named: list[tuple[str, str]] = []  # (NSET or ELSET, name)

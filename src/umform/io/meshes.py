@@ -100,7 +100,7 @@ def read_mesh_arrays(path: str | os.PathLike[str]) -> MeshArrays:
     if place.suffix.lower() in VTKHDF_SUFFIXES:
         X, cells = read_vtkhdf(place)
     else:
-        mesh = _read(place)
+        mesh = read_by_meshio(place)
         X, cells = _hexahedra(mesh, place)
         point_sets, cell_sets = _sets(mesh)
 
@@ -183,8 +183,14 @@ def write_mesh_arrays(
             ) from error
 
 
-def _read(path: Path) -> Any:
-    """Read a file through meshio, quietly."""
+def read_by_meshio(path: Path) -> Any:
+    """Read a file through meshio, quietly; all that meshio makes of it, as a ``meshio.Mesh``.
+
+    Raises
+    ------
+    FileProblem
+        The file cannot be read, or not without doubt about its meaning.
+    """
     if path.suffix.lower() == ".inp":
         check_abaqus(path)
     with _quiet() as said:
@@ -259,7 +265,7 @@ def _sets(mesh: Any) -> tuple[dict[str, IntArray], dict[str, dict[str, IntArray]
     point_sets = {name: np.unique(np.asarray(ids, dtype=np.int64)) for name, ids in mesh.point_sets.items()}
     cell_sets: dict[str, dict[str, IntArray]] = {}
     none = np.empty(0, dtype=np.int64)
-    for name, members in _groups(mesh).items():
+    for name, members in cell_groups(mesh).items():
         before = dict.fromkeys(CELL_TYPES, 0)
         for block, ids in zip(mesh.cells, members):
             chosen = none if ids is None else np.asarray(ids, dtype=np.int64)
@@ -275,8 +281,8 @@ def _sets(mesh: Any) -> tuple[dict[str, IntArray], dict[str, dict[str, IntArray]
     return point_sets, cell_sets
 
 
-def _groups(mesh: Any) -> dict[str, list[Any]]:
-    """Return for each named group of cells the members in each block of cells."""
+def cell_groups(mesh: Any) -> dict[str, list[Any]]:
+    """Members in each block of cells, or None, of each named group of cells of a ``meshio.Mesh``."""
     groups: dict[str, list[Any]] = {}
     tags = mesh.cell_data.get("gmsh:physical")
     if tags is not None:

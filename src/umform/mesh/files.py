@@ -49,7 +49,7 @@ def read(path: str | Path, through: str | ArrayLike | None = None) -> Mesh:
             value=name,
             remedy="leave out the direction through the thickness",
         )
-    raw = meshes._read(Path(path))
+    raw = meshes.read_by_meshio(Path(path))
     hexahedra = _cells(raw, path, ("hexahedron", "hexahedron20", "hexahedron27"), 3, "hexahedra with 8, 20 or 27 nodes")
     return orient(raw.points, hexahedra, _sets(raw, 3), through=through)
 
@@ -78,7 +78,7 @@ def read_shell(
     """
     from umform.io import meshes  # meshio is slow to import
 
-    raw = meshes._read(Path(path))
+    raw = meshes.read_by_meshio(Path(path))
     quads = _cells(raw, path, ("quad", "quad8", "quad9"), 2, "quadrilaterals with 4, 8 or 9 nodes")
     return thicken(_three(raw.points), quads, thickness, _sets(raw, 2), surface=surface, kink=kink)
 
@@ -106,7 +106,7 @@ def _sets(raw: Any, dimension: int) -> dict[str, Whole]:
     from umform.io import meshes  # meshio is slow to import
 
     sets: dict[str, Whole] = {name: np.unique(np.asarray(ids, dtype=np.int64)) for name, ids in raw.point_sets.items()}
-    for name, members in meshes._groups(raw).items():
+    for name, members in meshes.cell_groups(raw).items():
         for block, ids in zip(raw.cells, members):
             if ids is not None and len(ids) and block.dim <= dimension:
                 nodes = block.data[np.asarray(ids, dtype=np.int64)]

@@ -5,18 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import InvalidValue, UmformError
+from umform.errors import UmformError
 from umform.report.facets import smooth_groups
 from umform.report.packing import Quantised, pack
-from umform.shape import _outer_faces
+from umform.shape import outer_quads
 from umform.surfaces import Tool
-from umform.surfaces.triangles import Box3, Triangles
+from umform.surfaces.sampled import sampled
+from umform.surfaces.triangles import Box3, Triangles, inside_of
 
 if TYPE_CHECKING:
     from umform.contact import Contact
@@ -65,7 +67,7 @@ class Scene:
 def scene_of(result: Result) -> Scene:
     """The scene of a result; without kept frames, its last state only."""
     mesh = result.model.mesh
-    faces, owners = _outer_faces(mesh.connectivity.astype(np.int64))
+    faces, owners = outer_quads(mesh.connectivity.astype(np.int64))
     nodes, faces = np.unique(faces, return_inverse=True)
     cells, owners = np.unique(owners, return_inverse=True)
     faces = faces.reshape(-1, 4)
@@ -177,13 +179,13 @@ def _put_back(contact: Contact) -> Iterator[None]:
 
 def _surface(contact: Contact, poses: Poses, box: tuple[Floats, Floats]) -> Triangles:
     """Triangles of a tool, in its own frame, that come into the box at one frame at least."""
-    if not isinstance(contact.tool, Tool):
-        raise InvalidValue("this surface does not know its shape")
     low, high = box
     corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
     own = np.concatenate([(corners - shift) @ rotation for rotation, shift in zip(*poses, strict=True)])
     inner: Box3 = (tuple(own.min(axis=0)), tuple(own.max(axis=0)))
-    return contact.tool.triangles(inner, _CHORD * float(np.linalg.norm(high - low)))
+    tool = contact.tool
+    facets = tool.facets if isinstance(tool, Tool) else partial(sampled, tool.kernel().gap)
+    return inside_of(facets, inner, _CHORD * float(np.linalg.norm(high - low)))
 
 
 def _tool_arrays(name: str, surface: Triangles, poses: Poses) -> dict[str, NDArray[Any] | Quantised]:

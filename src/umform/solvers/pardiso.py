@@ -95,6 +95,15 @@ class Pardiso:
             self._check_residual(x, b)
         return x
 
+    def memory(self) -> int:
+        """What later answers follow from, beside the values: the kind of factors that the pattern has."""
+        return self._handle.kind
+
+    def recall(self, kind: int) -> None:
+        """Go on with the kind of factors of a run that was kept."""
+        if self._handle.kind != kind:
+            self._start(kind)
+
     def _start(self, kind: int) -> None:
         self._factored = False
         self._handle = _Handle(kind, self._matrix)

@@ -44,11 +44,21 @@ def rounded(corners: Sequence[Point2], radii: float | Sequence[float], closed: b
     count = len(at)
     if count < (3 if closed else 2):
         raise InvalidValue(
-            "a profile needs more corners", where="corners", value=count, remedy="3 if it is closed, 2 if it is open"
+            "a profile needs more corners",
+            where="corners",
+            value=count,
+            cause="a point or a line encloses nothing",
+            remedy="3 if it is closed, 2 if it is open",
         )
     for i in range(count if closed else count - 1):
         if not (at[(i + 1) % count] - at[i]).any():
-            raise InvalidValue("two corners that follow each other coincide", where=f"corner {i}", value=corners[i])
+            raise InvalidValue(
+                "two corners that follow each other coincide",
+                where=f"corner {i}",
+                value=corners[i],
+                cause="a corner was given twice",
+                remedy="take one of them out; a closed profile needs no last corner like the first",
+            )
     wanted = _radii(radii, count, closed)
     roundings = [
         _round(at[i - 1], at[i], at[(i + 1) % count], wanted[i], f"corner {i} at {_pair(at[i])}")
@@ -65,9 +75,21 @@ def _radii(radii: float | Sequence[float], count: int, closed: bool) -> list[flo
         return [not_negative(radii, "radii")] * count
     values = [not_negative(radius, f"radius of corner {i}") for i, radius in enumerate(radii)]
     if len(values) != count:
-        raise InvalidValue("there must be one radius for each corner", where="radii", value=f"{len(values)} of {count}")
+        raise InvalidValue(
+            "there must be one radius for each corner",
+            where="radii",
+            value=f"{len(values)} of {count}",
+            cause="a corner was added or left out",
+            remedy="one number for all corners, or a list as long as that of the corners",
+        )
     if not closed and (values[0] or values[-1]):
-        raise InvalidValue("the ends of an open profile are no corners", where="radii", value=(values[0], values[-1]))
+        raise InvalidValue(
+            "the ends of an open profile are no corners",
+            where="radii",
+            value=(values[0], values[-1]),
+            cause="a radius at an end, where there is nothing to round",
+            remedy="0 for the first and the last radius",
+        )
     return values
 
 
@@ -80,7 +102,12 @@ def _round(before: Floats, at: Floats, after: Floats, radius: float, where: str)
     first, second = (at - before) / np.hypot(*(at - before)), (after - at) / np.hypot(*(after - at))
     sine, cosine = first[0] * second[1] - first[1] * second[0], float(first @ second)
     if abs(sine) < 1e-9 and cosine < 0.0:
-        raise InvalidValue("the profile turns back on itself", where=where)
+        raise InvalidValue(
+            "the profile turns back on itself",
+            where=where,
+            cause="two edges lie on each other",
+            remedy="take out the corner, or move it aside",
+        )
     if radius == 0.0 or abs(sine) < 1e-9:
         return _Rounding(_pair(at), _pair(at), None, False, 0.0)
     setback = radius * abs(sine) / (1.0 + cosine)
@@ -108,6 +135,7 @@ def _joined(at: list[Floats], roundings: list[_Rounding], closed: bool) -> list[
                 where=f"edge from corner {i} at {_pair(at[i])} to corner {k} at {_pair(at[k])}",
                 value=f"the edge is {length:.6g} long, the fillets take {rounding.setback:.6g} and "
                 f"{following.setback:.6g} of it",
+                cause="the radii are larger than the edge bears",
                 remedy="smaller radii, or a longer edge",
             )
         if left > 1e-12 * length:

@@ -54,6 +54,7 @@ def refuse_crossings(segments: Sequence[Segment], closed: bool, endless: tuple[b
                     cause="corners in another order, or the open ends go on for ever towards each other"
                     if any(endless)
                     else "corners in another order",
+                    remedy="give the corners in the order of a walk with the solid on the left",
                 )
 
 

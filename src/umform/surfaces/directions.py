@@ -17,14 +17,31 @@ def unit_vector(direction: Direction, where: str) -> Point:
     if isinstance(direction, str):
         sign, name = (-1.0, direction[1:]) if direction.startswith("-") else (1.0, direction)
         if name not in _AXES:
-            raise InvalidValue("a direction is x, y, z, -x, -y, -z or three numbers", where=where, value=direction)
+            raise InvalidValue(
+                "a direction is x, y, z, -x, -y, -z or three numbers",
+                where=where,
+                value=direction,
+                cause="another word",
+                remedy="a word such as -z, or three numbers",
+            )
         direction = (sign * _AXES[name][0], sign * _AXES[name][1], sign * _AXES[name][2])
     vector = np.asarray(direction, dtype=float)
     if vector.shape != (3,) or not np.isfinite(vector).all():
-        raise NotFinite("a direction needs three finite numbers", where=where, value=direction)
+        raise NotFinite(
+            "a direction needs three finite numbers",
+            where=where,
+            value=direction,
+            cause="another count of numbers, nan or inf",
+            remedy="three numbers such as (0.0, 0.0, 1.0), or a word such as z",
+        )
     length = float(np.linalg.norm(vector))
     if length == 0.0:
-        raise InvalidValue("a direction must not be the zero vector", where=where)
+        raise InvalidValue(
+            "a direction must not be the zero vector",
+            where=where,
+            cause="a difference of two points that coincide",
+            remedy="three numbers that are not all zero",
+        )
     x, y, z = (float(c) for c in vector / length)
     return x, y, z
 
@@ -44,6 +61,7 @@ def right_angle(x: Direction, y: Direction, where: str) -> tuple[Point, Point]:
             "two directions must be at right angles",
             where=where,
             value=f"{float(np.degrees(np.arccos(cosine))):.6g} degrees between {x} and {y}",
+            cause="rounded numbers, or two directions chosen apart",
             remedy="give y as the cross product of x and a third direction",
         )
     return first, second
@@ -53,19 +71,37 @@ def point(values: ArrayLike, where: str, size: int = 3) -> list[float]:
     """Coordinates of a point as a list of finite numbers."""
     vector = np.asarray(values, dtype=float)
     if vector.shape != (size,) or not np.isfinite(vector).all():
-        raise NotFinite(f"a point needs {'two' if size == 2 else 'three'} finite numbers", where=where, value=values)
+        raise NotFinite(
+            f"a point needs {'two' if size == 2 else 'three'} finite numbers",
+            where=where,
+            value=values,
+            cause="another count of numbers, nan or inf",
+            remedy="give its coordinates as finite numbers",
+        )
     return [float(c) for c in vector]
 
 
 def positive(value: float, where: str, what: str = "radius") -> float:
     """A length that is finite and greater than zero."""
     if not (np.isfinite(value) and value > 0):
-        raise InvalidValue(f"the {what} must be positive", where=where, value=value)
+        raise InvalidValue(
+            f"the {what} must be positive",
+            where=where,
+            value=value,
+            cause="a sign, a missing value, nan or inf",
+            remedy="give a length above zero",
+        )
     return float(value)
 
 
 def not_negative(value: float, where: str, what: str = "radius") -> float:
     """A length that is finite and at least zero."""
     if not (np.isfinite(value) and value >= 0):
-        raise InvalidValue(f"the {what} must not be negative", where=where, value=value)
+        raise InvalidValue(
+            f"the {what} must not be negative",
+            where=where,
+            value=value,
+            cause="a sign, nan or inf",
+            remedy="give a length, or zero",
+        )
     return float(value)

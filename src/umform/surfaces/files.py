@@ -17,7 +17,7 @@ def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> P
     Parameters
     ----------
     tool : Tool
-        Any tool that knows its shape.
+        Any tool; one that knows only its distance is sampled, its edges are then cut off.
     path : str or Path
         A file that ends in .stl, .vtk, .vtu, .ply or .obj.
     box : tuple of two points
@@ -44,10 +44,17 @@ def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> P
             where="write_tool",
             value=str(path),
             cause="the end of the name",
+            remedy="write_tool(tool, 'tool.stl', box)",
         )
     surface = tool.triangles(box, chord)
     if len(surface.triangles) == 0:
-        raise InvalidValue("nothing of the tool lies in the box", where="write_tool", value=box)
+        raise InvalidValue(
+            "nothing of the tool lies in the box",
+            where="write_tool",
+            value=box,
+            cause="a box beside the tool, or wholly inside of it",
+            remedy="a box around the part of the surface that is wanted",
+        )
     import meshio  # slow to import, and so is umform.io, which reads with it
 
     from umform.io.atomic import PendingFile

@@ -40,13 +40,19 @@ class Placed(Tool):
         """The surface as the kernels take it."""
         Q = np.array([point(row, "Placed.matrix") for row in self.matrix])
         if np.abs(Q @ Q.T - np.eye(3)).max() > 1e-12:
-            raise InvalidValue("the matrix of a placed tool must be orthogonal", where="Placed.matrix", value=Q)
+            raise InvalidValue(
+                "the matrix of a placed tool must be orthogonal",
+                where="Placed.matrix",
+                value=Q,
+                cause="a matrix that stretches, or rounded numbers",
+                remedy="use moved and mirrored of the tool, which make it",
+            )
         return _core.placed(self.tool.kernel(), Q, point(self.shift, "Placed.shift"))
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Those of the tool, placed; a mirror turns them over."""
         if not isinstance(self.tool, Tool):
-            return super().facets(centre, reach, chord)
+            return super().facets(centre, reach, chord)  # by samples
         Q, c = np.array(self.matrix), np.array(self.shift)
         own = self.tool.facets((centre - c) @ Q, reach, chord)
         step = 1 if np.linalg.det(Q) > 0 else -1

@@ -93,6 +93,7 @@ class VDie(Section):
                     where="VDie.depth",
                     value=self.depth,
                     cause=f"the flanks meet at a depth of {half / slope:.6g}",
+                    remedy="a smaller depth, or none",
                 )
             bottom = [(left, -self.depth), (-left, -self.depth)]
         return _die(half, bottom, self.shoulder_radius, self.bottom_radius, "VDie")
@@ -207,6 +208,7 @@ class Punch(Section):
                     where="Punch.width",
                     value=self.width,
                     cause=f"the tip is round on a width of {2.0 * tangent:.6g}",
+                    remedy="a wider body, or a smaller tip_radius",
                 )
             edge = tip + half / math.tan(half_angle)
             right = [(half, edge), (half, edge + half)]
@@ -229,5 +231,11 @@ def _die(half: float, bottom: list[Point2], shoulder: float, radius: float, wher
 def _angle(degrees: float, where: str) -> float:
     """Angle in radians, between 0 and 180 degrees."""
     if not 0.0 < degrees < 180.0:
-        raise InvalidValue("the angle must lie between 0 and 180 degrees", where=where, value=degrees)
+        raise InvalidValue(
+            "the angle must lie between 0 and 180 degrees",
+            where=where,
+            value=degrees,
+            cause="radians, or the angle of bending in place of that between the flanks",
+            remedy="degrees between the flanks, 85 for instance",
+        )
     return math.radians(degrees)

@@ -45,7 +45,12 @@ class Profile:
     def __post_init__(self) -> None:
         object.__setattr__(self, "segments", tuple(self.segments))
         if not self.segments:
-            raise InvalidValue("a profile needs at least one segment", where="Profile")
+            raise InvalidValue(
+                "a profile needs at least one segment",
+                where="Profile",
+                cause="an empty list",
+                remedy="give lines and arcs, or corners to Profile.from_corners",
+            )
         for i, segment in enumerate(self.segments):
             segment.check(f"segment {i} of a profile")
         self._check_joints()
@@ -97,7 +102,12 @@ class Profile:
             If the profile is open.
         """
         if not self.closed:
-            raise InvalidValue("an open profile has no area", where="Profile.area")
+            raise InvalidValue(
+                "an open profile has no area",
+                where="Profile.area",
+                cause="it goes on for ever",
+                remedy="close it: closed=True with a last segment that ends where the first begins",
+            )
         return sum(segment.area for segment in self.segments)
 
     @property
@@ -142,8 +152,15 @@ class Profile:
                     "segments of a profile must meet",
                     where=where,
                     value=f"{one.end} and {other.start}",
+                    cause="a coordinate that was rounded, or segments in another order",
                     remedy="let each segment start where the one before has ended, or say closed=False",
                 )
             before, after = one.tangents()[1], other.tangents()[0]
             if before @ after < 0.0 and abs(before[0] * after[1] - before[1] * after[0]) < 1e-7:
-                raise InvalidValue("the profile turns back on itself", where=where, value=one.end)
+                raise InvalidValue(
+                    "the profile turns back on itself",
+                    where=where,
+                    value=one.end,
+                    cause="two segments lie on each other",
+                    remedy="take one of them out",
+                )

@@ -32,7 +32,13 @@ class Line:
         """Refuse a line of no length."""
         if self._vector(where).any():
             return
-        raise InvalidValue("a line must have a length", where=where, value=f"both ends at {self.start}")
+        raise InvalidValue(
+            "a line must have a length",
+            where=where,
+            value=f"both ends at {self.start}",
+            cause="a point was given twice",
+            remedy="take the line out",
+        )
 
     def _vector(self, where: str = "Line") -> Floats:
         return np.subtract(point(self.end, f"{where}.end", 2), point(self.start, f"{where}.start", 2))
@@ -89,12 +95,19 @@ class Arc:
         first = math.dist(point(self.start, f"{where}.start", 2), centre)
         last = math.dist(point(self.end, f"{where}.end", 2), centre)
         if min(first, last) == 0.0:
-            raise InvalidValue("an arc must have a radius", where=where, value=f"an end at the centre {self.centre}")
+            raise InvalidValue(
+                "an arc must have a radius",
+                where=where,
+                value=f"an end at the centre {self.centre}",
+                cause="the centre is given in place of an end",
+                remedy="the centre has the distance of the radius from both ends",
+            )
         if abs(first - last) > 1e-9 * max(first, last):
             raise InvalidValue(
                 "the ends of an arc must be at the same distance from its centre",
                 where=where,
                 value=f"{first:.12g} and {last:.12g}",
+                cause="rounded coordinates of the centre or of an end",
                 remedy="compute the centre from the ends and the radius",
             )
 

@@ -44,6 +44,7 @@ class Torus(Tool):
                 "a ring must have a hole",
                 where="Torus",
                 value=f"minor {self.minor}, major {self.major}",
+                cause="minor and major radius exchanged",
                 remedy="minor < major; for a solid disc with a round edge turn a profile of your own",
             )
         return Revolved(Profile.circle((self.major, 0.0), self.minor), self.centre, self.axis)
@@ -114,5 +115,7 @@ class Box(Tool):
                 "the radius of a box must be at most half of its smallest length",
                 where="Box.radius",
                 value=f"{self.radius}, half of the length {half.min()}",
+                cause="the box is thinner than its roundings",
+                remedy="a smaller radius, or a larger box",
             )
         return np.array([x, y, np.cross(x, y)]), np.maximum(half - self.radius, 0.0)

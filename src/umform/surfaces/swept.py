@@ -117,6 +117,7 @@ class Revolved(Tool):
                 "a line on the axis of revolution is no surface: none in an open profile, one at most in a closed one",
                 where="Revolved.profile",
                 value=f"segments {on_axis}",
+                cause="a part of the outline that the turning makes a line in space",
                 remedy="leave it out: an open profile may end on the axis",
             )
         if not self.profile.closed:
@@ -138,6 +139,7 @@ class Revolved(Tool):
                     raise InvalidValue(
                         "an open end of a profile must not run through the axis of revolution",
                         where=f"{'first' if i == 0 else 'last'} segment of Revolved.profile",
+                        cause="the end goes on beyond the axis, and would enter the solid again",
                         remedy="let it end on the axis, at x = 0",
                     )
         refuse_crossings(segments, False, (start == _ENDLESS, end == _ENDLESS), "Revolved")
@@ -151,6 +153,7 @@ def _refuse_endless_arcs(first: Segment, last: Segment, where: str) -> None:
                 "an open profile must begin and end with a line, that goes on for ever",
                 where=f"{name} segment of {where}.profile",
                 value=segment,
+                cause="an arc at an end, which would stop in space",
                 remedy="add a line, or close the profile",
             )
 
@@ -176,5 +179,6 @@ def _refuse_beyond_axis(segment: Segment, near: float, where: str) -> None:
             "a profile must stay on one side of the axis of revolution, x >= 0",
             where=where,
             value=f"x = {least:.6g}",
+            cause="the first coordinate is not the distance from the axis",
             remedy="an open profile may end on the axis",
         )

@@ -56,7 +56,13 @@ class Tool(ABC):
         """
         points = np.ascontiguousarray(x, dtype=float)
         if points.ndim != 2 or points.shape[1] != 3:
-            raise InvalidValue("positions must have the shape (n, 3)", where="gap", value=points.shape)
+            raise InvalidValue(
+                "positions must have the shape (n, 3)",
+                where="gap",
+                value=points.shape,
+                cause="one point, or points as columns",
+                remedy="np.atleast_2d(x), or x.T",
+            )
         return self.kernel().gap(points)
 
     def moved(self, translation: Point = (0.0, 0.0, 0.0), rotation: Point = (0.0, 0.0, 0.0)) -> Placed:
@@ -109,13 +115,13 @@ class Tool(ABC):
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Triangles of the surface that cover at least the ball about ``centre`` with the radius ``reach``.
 
+        Tools that know their shape give their own; of any other the distance is sampled.
+
         Raises
         ------
         InvalidValue
-            If the tool does not know its shape.
+            If the distance cannot be sampled.
         """
-        raise InvalidValue(
-            "this tool does not know its shape, only the distance to it",
-            where=type(self).__name__,
-            remedy="a tool of your own needs a method facets(centre, reach, chord) to be drawn",
-        )
+        from umform.surfaces.sampled import sampled  # most tools do without
+
+        return sampled(self.kernel().gap, centre, reach, chord)

@@ -88,7 +88,13 @@ def inside_of(facets: Callable[[Floats, float, float], Triangles], box: Box3, ch
     """
     low, high = (np.array(point(corner, "box")) for corner in box)
     if not (low < high).all():
-        raise InvalidValue("a box needs a lowest and a highest corner", where="box", value=box)
+        raise InvalidValue(
+            "a box needs a lowest and a highest corner",
+            where="box",
+            value=box,
+            cause="corners exchanged, or a box without thickness",
+            remedy="((x0, y0, z0), (x1, y1, z1)) with each first number below the second one",
+        )
     reach = 0.5 * float(np.linalg.norm(high - low))
     chord = not_negative(chord, "chord", "chord error") or 2e-3 * reach
     soup = facets(0.5 * (low + high), reach, chord).corners

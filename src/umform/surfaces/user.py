@@ -10,7 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from umform import _core
 from umform.errors import InvalidValue, NotFinite
+from umform.surfaces.sampled import sampled
 from umform.surfaces.tool import Tool
+from umform.surfaces.triangles import Triangles
 
 Floats = NDArray[np.float64]
 
@@ -50,14 +52,22 @@ class UserSurface(Tool):
         shapes = ((len(x),), (len(x), 3), (len(x), 3, 3))
         if not isinstance(answer, tuple) or len(answer) != 3:
             raise InvalidValue(
-                "a surface function must return three arrays: g, n, H", where=self.name, value=type(answer).__name__
+                "a surface function must return three arrays: g, n, H",
+                where=self.name,
+                value=type(answer).__name__,
+                cause="only the distance is returned, or an array of all",
+                remedy="return g, n, H: distance (n,), normal (n, 3), Hessian of the distance (n, 3, 3)",
             )
         arrays = []
         for name, shape, values in zip(("g", "n", "H"), shapes, answer, strict=True):
             array = np.ascontiguousarray(values, dtype=float)
             if array.shape != shape:
                 raise InvalidValue(
-                    f"{name} of a surface function must have shape {shape}", where=self.name, value=array.shape
+                    f"{name} of a surface function must have shape {shape}",
+                    where=self.name,
+                    value=array.shape,
+                    cause="a constant that was not repeated for each point, or points as columns",
+                    remedy="np.broadcast_to repeats a constant",
                 )
             if not np.isfinite(array).all():
                 at = int(np.argwhere(~np.isfinite(array))[0][0])
@@ -69,6 +79,10 @@ class UserSurface(Tool):
                 )
             arrays.append(array)
         return arrays[0], arrays[1], arrays[2]
+
+    def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
+        """Triangles from samples of the function, which may say NaN away from the tool."""
+        return sampled(self.function, centre, reach, chord)
 
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""

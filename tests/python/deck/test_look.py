@@ -81,6 +81,61 @@ def test_thickness_order_and_points(texts, found):
     assert levels(few) == [Level.OK, Level.WARNING]
 
 
+def test_layers_share_the_thickness_points(texts, found):
+    text = texts("air-bending")
+    many = found(text, "element", element__thickness_points=5, mesh__layers=2)
+    assert levels(many) == OK
+    few = found(text, "element", element__thickness_points=3, mesh__layers=2, element__name="ANS3DEAS")
+    assert few[-1].text.startswith("6 thickness points")
+    assert few[-1].remedy == "take 4 in each layer"
+
+
+def test_a_hardening_table_that_ends_before_the_bend(texts, found):
+    text = texts("air-bending")
+    curve = {"curve": "Table", "eqps": [0.0, 0.2], "stress": [200.0, 300.0]}
+    (short,) = found(text, "material", material={"law": "J2", "E": 210e3, "nu": 0.3, "hardening": curve})
+    assert short.level is Level.WARNING
+    assert "ends at a plastic strain of 0.2" in short.text
+    curve["eqps"] = [0.0, 0.5]
+    assert found(text, "material", material={"law": "J2", "E": 210e3, "nu": 0.3, "hardening": curve}) == []
+
+
+def test_contact_points(texts, found):
+    text = texts("free-bending")
+    for points in ("nodes", 1):
+        stairs = found(text, "contact cylinder", contacts__cylinder__points=points)
+        assert any("stairs" in finding.text and finding.level is Level.WARNING for finding in stairs)
+    assert not any("stairs" in finding.text for finding in found(text, "contact cylinder"))
+    large = found(text, "contact cylinder", element__name="MI9K3DEAS", mesh__cells=[12, 1])
+    assert any("points = 3 or more" in finding.remedy for finding in large)
+
+
+def test_ways_of_steps(strip, texts, found):
+    text = texts("free-bending")
+    assert levels(found(text, "step 1")) == OK
+    (fast,) = found(text, "step 1", steps__0__increments=20)
+    assert fast.level is Level.WARNING
+    assert fast.remedy == "increments = 30 or more"
+    (far,) = found(text, "step 1", steps__0__to__punch=-15000.0)
+    assert "farther than the sheet is long" in far.text
+    assert found(text, "step 2") == []  # a release ends where it ends
+    back = 'kind = "move"\nto = { punch = 5.0 }\nincrements = 1\n'
+    assert found(text + "\n[[steps]]\n" + back, "step 3") == []
+    assert levels(found(strip, "step 1", steps__0__increments=1)) == OK  # nothing is touched
+
+
+def test_distorted_cells(strip, found, tmp_path):
+    assert levels(found(strip, "mesh")) == OK
+    lines = 'generator = "grid"\nx = [0, 5, 10]\ny = [0, 2]\nz = [-0.5, 0.5]\n'
+    head, tail = strip.split('generator = "strip"')
+    deck = Deck.read(head + lines + tail[tail.index("[material]") :])
+    problem = deck.build()
+    problem.model.mesh.points[:2, 0] += 4.5
+    (bad,) = [finding for finding in look(deck, problem) if finding.about == "mesh"]
+    assert bad.level is Level.WARNING
+    assert "cell 0" in bad.text
+
+
 def test_locking_moment_is_that_of_the_theory():
     """The false moment (2.28), differentiated from its energy, over the plastic moment of plane strain."""
     kappa_over_y, h = 600.0, 2.0

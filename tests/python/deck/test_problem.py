@@ -1,11 +1,10 @@
-import inspect
-import sys
-from types import SimpleNamespace
+import json
 
 import numpy as np
 import pytest
 
 import umform as uf
+from umform import sheet_metals
 from umform.deck import Deck
 from umform.deck.tools import smallest_radius
 from umform.materials import J2, Swift
@@ -85,18 +84,10 @@ def test_elastic_laws(law, strip):
     assert (material.E, material.nu) == pytest.approx((210e3, 0.3))
 
 
-@pytest.mark.parametrize("wrap", [lambda law: law, lambda law: SimpleNamespace(law=law)])
-def test_a_metal_of_the_library(wrap, strip, monkeypatch):
-    law = uf.J2(E=70e3, nu=0.33, hardening=uf.Perfect(100.0))
-    monkeypatch.setitem(sys.modules, "umform.sheet_metals", SimpleNamespace(get={"metal": wrap(law)}.get))
-    text = strip.replace('law = "SVK"', 'library = "metal"').replace("E = 210e3", "").replace("nu = 0.3", "")
-    assert Deck.read(text).build().model.material is law
-
-
-def test_no_library_is_said_in_words(strip, errors, monkeypatch):
-    monkeypatch.setitem(sys.modules, "umform.sheet_metals", None)
-    text = strip.replace('law = "SVK"', 'library = "metal"').replace("E = 210e3", "").replace("nu = 0.3", "")
-    (told,) = errors(text)
+def test_a_metal_of_the_library(strip, errors):
+    text = strip.replace('law = "SVK"', 'library = "DC04"').replace("E = 210e3", "").replace("nu = 0.3", "")
+    assert Deck.read(text).build().model.material == sheet_metals.get("DC04").law
+    (told,) = errors(text.replace("DC04", "cheese"))
     assert "line 9, material.library" in told.where
 
 
@@ -190,19 +181,25 @@ def test_every_control_is_that_of_the_model(strip):
     assert problem.controls["drive"].direction == (0, 0, 1)
 
 
-@pytest.mark.parametrize("keys", ["penetration = 1e-3", "augmented = true", ""])
-def test_what_the_model_takes_of_a_contact_it_gets_and_all_else_is_refused_in_words(keys, strip, errors):
-    text = (strip + CONTROLS).replace("penalty = 1e3", keys)
-    known = inspect.signature(uf.Model.contact).parameters
-    key = keys.partition(" ")[0] or "penalty"
-    if key in known and known["penalty"].default is not inspect.Parameter.empty:
-        contact = Deck.read(text).build().contacts["floor"]
-        assert contact.penalty > 0
-        assert getattr(contact, "augmented", False) == (key == "augmented")
-    else:
-        told = errors(text)[0]
-        assert "contacts.floor" in told.where
-        assert key in told.where + told.what
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {},
+        {"penalty": 300.0},
+        {"penetration": 1e-3, "points": "auto"},
+        {"augmented": True},
+        {"penalty": 300.0, "penetration": 1e-3, "augmented": True},
+    ],
+    ids=str,
+)
+def test_contacts_are_those_of_the_model(keys, strip):
+    lines = [f"{key} = {json.dumps(value)}" for key, value in ({"points": 3} | keys).items()]
+    text = (strip + CONTROLS).replace("penalty = 1e3", "\n".join(lines)).replace('points = "nodes"', "")
+    contact = Deck.read(text).build().contacts["floor"]
+    model = uf.Model(uf.mesh.strip(10.0, 2.0, 1.0, (4, 2)), material=uf.SVK(E=210e3, nu=0.3))
+    same = model.contact("lower", uf.Plane((0, 0, -1)), **{"points": 3} | keys)
+    for name in ("penalty", "points", "allowed", "augmented"):
+        assert getattr(contact, name) == getattr(same, name)
 
 
 def test_penalty_and_penetration_are_not_both_given(strip, errors):

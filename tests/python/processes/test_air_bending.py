@@ -143,7 +143,7 @@ def test_a_sheet_against_a_flank_is_told():
     ("name", "value", "message"),
     [
         ("thickness", -1.0, "positive"),
-        ("opening", math.nan, "not a finite"),
+        ("opening", math.nan, "positive and finite"),
         ("die_angle", 190.0, "between 0 and 180"),
         ("punch_radius", 12.0, "wider than the opening"),
         ("die_radius", 40.0, "rounder than its flanks"),

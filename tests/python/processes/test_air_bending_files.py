@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import csv
 import json
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from html import escape
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from umform.cli import app
+from umform.errors import InvalidValue
+from umform.materials import J2, Perfect
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending import budget as budget_module
 from umform.processes.air_bending.budget import Budget, error_budget, refinements
+from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.files import write_files
 from umform.processes.air_bending.measures import QUANTITIES
 from umform.processes.air_bending.words import summary, summary_header
@@ -76,7 +80,7 @@ def test_tables_have_a_column_for_each_refinement(bend, errors):
 def test_all_files_are_written(tmp_path, bend, errors):
     files = write_files(tmp_path / "out", bend, [bend.measures], errors)
     assert sorted(file.name for file in files) == sorted(
-        ["curve.csv", "table.csv", "bend.json", "bend.vtkhdf", "report.html"]
+        ["curve.csv", "table.csv", "bend.json", "bend.vtkhdf", "bend.toml", "report.html"]
         + [f"{name}.{ending}" for name in ("curve", "shape", "drawing") for ending in ("png", "svg")]
     )
     record = json.loads((tmp_path / "out" / "bend.json").read_text())
@@ -88,6 +92,59 @@ def test_all_files_are_written(tmp_path, bend, errors):
     assert float(rows[-1]["stroke"]) == bend.stroke[-1]
     page = (tmp_path / "out" / "report.html").read_text()
     assert all(quantity.label in page for quantity in QUANTITIES.values())
+    deck = (tmp_path / "out" / "bend.toml").read_text()
+    assert deck == deck_of(bend.case)
+    assert escape(deck) in page
+
+
+def columns_of(path):
+    with path.open() as file:
+        header = file.readline().strip().split(",")
+        return dict(zip(header, np.loadtxt(file, delimiter=",").T, strict=True))
+
+
+@dataclass(frozen=True)
+class OwnCurve:
+    """A hardening curve that decks have no words for."""
+
+    stress: float
+
+    def curve(self):
+        return Perfect(self.stress).curve()
+
+
+def test_a_curve_of_the_user_leaves_out_the_deck(tmp_path, bend):
+    case = replace(bend.case, material=J2(E=210e3, nu=0.3, hardening=OwnCurve(200.0)))
+    with pytest.raises(InvalidValue, match="no words"):
+        deck_of(case)
+    files = write_files(tmp_path, replace(bend, case=case))
+    assert "bend.toml" not in {file.name for file in files}
+    assert "for umform run" not in (tmp_path / "report.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("scale", "changes"),
+    [
+        (2.0 / 2.0, ["--stroke", "1", *TYPED]),
+        (2.0 / 5.0, ["--angle", "170", "--tolerance", "0.5", "--width", "10", "--width-elements", "2",
+         "--penetration", "0.02", "--contact-points", "auto", "--yield-stress", "200",
+         "--hardening-modulus", "500", *TYPED]),
+    ],
+    ids=["plane strain", "finite width"],
+)  # fmt: skip
+def test_the_printed_deck_gives_the_curve_of_the_bend_and_its_way_back(scale, changes, tmp_path):
+    printed = CliRunner().invoke(app, ["bend", *changes, "--print-deck"])
+    assert printed.exit_code == 0, printed.output
+    (tmp_path / "deck.toml").write_text(printed.stdout)
+    bent = CliRunner().invoke(app, ["bend", *changes, "--out", str(tmp_path / "bend")])
+    assert bent.exit_code == 0, bent.output
+    assert (tmp_path / "bend" / "bend.toml").read_text() == printed.stdout
+    run = CliRunner().invoke(app, ["run", str(tmp_path / "deck.toml"), "--out", str(tmp_path / "run")])
+    assert run.exit_code == 0, run.output
+    curve, history = columns_of(tmp_path / "bend" / "curve.csv"), columns_of(tmp_path / "run" / "history.csv")
+    assert set(curve["step"]) == {0.0, 1.0, 2.0}
+    assert np.array_equal(curve["stroke"], history["stroke"])
+    assert np.array_equal(curve["force"], -scale * history["stroke_force"])
 
 
 def test_a_failed_refinement_does_not_spoil_the_files(tmp_path, bend):

@@ -23,6 +23,7 @@ FILES = {
     "free_bending.png",
     "free_bending.svg",
     "free_bending.vtkhdf",
+    "free_bending.toml",
     "report.html",
 }
 

@@ -117,15 +117,29 @@ def test_a_turning_tool_turns():
     np.testing.assert_allclose(poses[:, 0, 0], np.cos(0.1 * times), atol=1e-6)
 
 
-def test_a_tool_without_shape_is_left_out_with_a_note():
-    plane = uf.UserSurface(
-        lambda x: (x[:, 2] + 5.0, np.tile([0.0, 0, 1], (len(x), 1)), np.zeros((len(x), 3, 3))), name="floor"
-    )
-    scene = scene_of(bent(plane))
+def floor(x):
+    return x[:, 2] + 0.9, np.tile([0.0, 0, 1], (len(x), 1)), np.zeros((len(x), 3, 3))
+
+
+def test_a_function_is_drawn_from_its_samples():
+    scene = scene_of(bent(uf.UserSurface(floor, name="floor")))
+    assert scene.tools == ["tool"]
+    assert scene.notes == []
+    _, arrays = unpacked(scene.data)
+    np.testing.assert_allclose(arrays["tool 0 points"].reshape(-1, 3)[:, 2], -0.9, atol=1e-6)
+
+
+def test_a_function_that_fails_off_the_sheet_is_left_out_with_a_note():
+    def shy(x):
+        if np.abs(x).max() > 8.5:
+            raise ZeroDivisionError("too far away")
+        return floor(x)
+
+    scene = scene_of(bent(uf.UserSurface(shy, name="floor")))
     assert scene.tools == []
     (note,) = scene.notes
     assert "contact tool" in note
-    assert "does not know its shape" in note
+    assert "fails around the tool" in note
 
 
 def test_without_frames_the_last_state_is_drawn(result):

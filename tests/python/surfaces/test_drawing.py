@@ -19,6 +19,7 @@ from umform.surfaces import (
     Punch,
     Revolved,
     Sphere,
+    Tool,
     Torus,
     UDie,
     UserSurface,
@@ -110,8 +111,75 @@ def test_what_cannot_be_written_is_refused(tmp_path):
         write_tool(Plane(), tmp_path / "nowhere" / "plane.stl", BOX)
     mine = UserSurface(lambda x: (x[:, 2], x, x))
     for tool in (mine, mine.moved((0, 0, 1))):
-        with pytest.raises(InvalidValue, match="does not know its shape"):
+        with pytest.raises(InvalidValue, match="its function fails around the tool"):
             tool.triangles(BOX)
+
+
+def by_distance(tool):
+    """The function of a tool, as if a user had written it."""
+    return UserSurface(tool.kernel().gap)
+
+
+class OwnTool(Tool):
+    """A tool with a kernel and nothing else."""
+
+    def kernel(self):
+        return Sphere((0, 0, 1), 3.0).kernel()
+
+
+SAMPLED = {
+    "function": by_distance(Sphere((0, 0, 1), 3.0)),
+    "torus": by_distance(TOOLS["torus"]),
+    "bowl": by_distance(TOOLS["bowl"]),
+    "placed": by_distance(Sphere((0, 0, 0), 3.0)).moved((0, 0, 1), (0.1, 0.2, 0.3)),
+    "mirrored": by_distance(Sphere((2, 0, 0), 3.0)).mirrored("x"),
+    "kernel": OwnTool(),
+}
+
+
+@pytest.mark.parametrize("name", SAMPLED)
+def test_a_tool_that_knows_its_distance_only_is_sampled(name):
+    surface = SAMPLED[name].triangles(BOX, 0.05)
+    x = np.vstack([surface.points, surface.corners.mean(axis=1)])
+    g, n, _ = SAMPLED[name].kernel().gap(x)
+    assert np.abs(g).max() < 0.05
+    assert (np.einsum("ti,ti->t", surface.area_vectors, n[len(surface.points) :]) >= 0.0).all()
+    edges = np.vstack([surface.triangles[:, [i, (i + 1) % 3]] for i in range(3)])
+    assert {tuple(edge) for edge in edges} == {tuple(edge[::-1]) for edge in edges}  # closed
+    volume = np.einsum("ti,ti->", surface.corners.mean(axis=1), surface.area_vectors) / 3
+    exact = {"torus": 6 * math.pi**2, "bowl": -36 * math.pi}.get(name, 36 * math.pi)
+    assert volume == pytest.approx(exact, rel=0.02)
+
+
+def test_samples_see_one_sheet_of_a_plane_and_nothing_where_the_function_says_so():
+    def half(x):
+        g, n, H = Plane((0, 0, 1)).kernel().gap(x)
+        return np.where(x[:, 0] < 0.0, np.nan, g), n, H
+
+    whole = by_distance(Plane((0, 0, 1))).triangles(BOX)
+    assert np.linalg.norm(whole.area_vectors, axis=1).sum() == pytest.approx(130.0)
+    cut = UserSurface(half).triangles(BOX)
+    assert 0.4 * 130.0 < np.linalg.norm(cut.area_vectors, axis=1).sum() < 7.0 * 10.0 + 1e-9
+    assert len(by_distance(Plane((0, 0, 19))).triangles(BOX).triangles) == 0
+
+
+def test_samples_of_a_level_set_lie_on_it():
+    """A function that is close to a distance only, twice as steep as one at some places."""
+    A = np.diag(1.0 / np.square([5.0, 3.0, 2.0]))
+
+    def ellipsoid(x):
+        s = np.sqrt(np.einsum("qi,ij,qj->q", x, A, x))
+        with np.errstate(all="ignore"):
+            return 3.0 * (s - 1.0), 3.0 * x @ A / s[:, None], 3.0 * A / s[:, None, None]
+
+    surface = UserSurface(ellipsoid).triangles(BOX, 0.05)
+    volume = np.einsum("ti,ti->", surface.corners.mean(axis=1), surface.area_vectors) / 3
+    assert volume == pytest.approx(4.0 / 3.0 * math.pi * 30.0, rel=0.02)
+
+
+def test_a_sampled_tool_is_written(tmp_path):
+    path = write_tool(SAMPLED["torus"], tmp_path / "ring.stl", BOX, 0.1)
+    assert len(meshio.read(path).cells_dict["triangle"]) == len(SAMPLED["torus"].triangles(BOX, 0.1).triangles)
 
 
 def test_the_example_draws_all_tools(tmp_path, monkeypatch):

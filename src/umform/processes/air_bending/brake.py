@@ -72,13 +72,22 @@ def build(case: AirBending) -> tuple[Model, Control]:
 
 def loading(case: AirBending, punch: Control, stroke: float) -> Move:
     """Step that moves the punch to a stroke in increments of the case."""
-    way = abs(stroke - punch.value)
-    return Move(punch, to=stroke, steps=max(1, math.ceil(way / case.way - 1e-9)))
+    return Move(punch, to=stroke, steps=increments(case, abs(stroke - punch.value)))
+
+
+def increments(case: AirBending, way: float) -> int:
+    """Increments that a way of the punch takes."""
+    return max(1, math.ceil(way / case.way - 1e-9))
 
 
 def unloading(case: AirBending, punch: Control) -> Release:
     """Step that takes the punch back until its force is zero."""
-    return Release(punch, increment=_FIRST_BACK * case.thickness, tolerance=_ZERO_FORCE)
+    return Release(punch, **unloading_keys(case))
+
+
+def unloading_keys(case: AirBending) -> dict[str, float]:
+    """First increment and tolerance of the way back."""
+    return {"increment": _FIRST_BACK * case.thickness, "tolerance": _ZERO_FORCE}
 
 
 def force_per_width(case: AirBending, force: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -4,49 +4,89 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any
 
-from umform.errors import InvalidValue, NotFinite
+from umform.errors import InvalidValue
 from umform.materials import J2
+from umform.processes.rules import Rule, check_rules, length, number, positive, whole
 
 if TYPE_CHECKING:
     from umform.processes.air_bending.parameters import AirBending
 
-_LENGTHS = {
-    "thickness": "the thickness of the sheet, such as 2",
-    "opening": "the opening of the die, such as 8 times the thickness",
-    "die_radius": "the radius of the shoulders, such as 2",
-    "punch_radius": "the radius of the tip, such as 1.5",
-    "width": "the length of the bend, such as 50; leave it out for plane strain",
-    "stroke": "the way of the punch, downwards, such as 6",
-    "penalty": "pressure per penetration; leave it out for E / thickness",
-    "penetration": "a length such as thickness / 500; leave it out, or the penalty",
-    "increment": "a part of the opening, such as 0.00625",
-    "elements_per_thickness": "such as 3",
-}
-_OPTIONAL = ("width", "stroke", "penalty", "penetration")
-_COUNTS = {"layers": (1, 8), "thickness_points": (2, 15), "width_elements": (1, 1000), "contact_points": (1, 10)}
 #: A larger increment jumps over the first contact.
 _LARGEST_INCREMENT = 0.05
 
 
+def _angle(what: str) -> Rule:
+    return Rule(
+        lambda value: number(value) and 0.0 < value < 180.0,
+        f"{what} lies between 0 and 180 degrees",
+        "radians, or the angle of bending in place of that between the flanks",
+        "in degrees, such as 85",
+    )
+
+
+def _count(what: str, least: int, most: int, usual: str) -> Rule:
+    return Rule(
+        lambda value: whole(value, least, most),
+        f"{what} must be a whole number from {least} to {most}",
+        "zero, a sign, a fraction, or more than there are rules for",
+        f"such as {usual}",
+    )
+
+
+#: One rule a parameter; the element is looked up where the catalogue is.
+RULES: dict[str, Rule] = {
+    "thickness": length("the thickness of the sheet", "in mm, such as 2"),
+    "opening": length("the opening of the die", "in mm, such as 8 times the thickness"),
+    "die_angle": _angle("the angle between the flanks of the die"),
+    "die_radius": length("the radius of the shoulders", "in mm, such as 2"),
+    "punch_angle": _angle("the angle between the flanks of the punch"),
+    "punch_radius": length("the radius of the tip", "in mm, such as 1.5"),
+    "width": length("the length of the bend", "in mm, such as 50; leave it out for plane strain").optional(),
+    "stroke": length("the way of the punch", "in mm, downwards, such as 6").optional(),
+    "material": Rule(
+        lambda value: isinstance(value, J2),
+        "air bending needs a plastic material",
+        "an elastic law, or the name of a metal",
+        "a J2; umform.sheet_metals.get('DC04').law for one",
+    ),
+    "layers": _count("the number of layers", 1, 8, "2"),
+    "thickness_points": _count("the number of thickness points", 2, 15, "6"),
+    "elements_per_thickness": length("the number of elements on a thickness", "such as 3"),
+    "width_elements": _count("the number of elements over half of the width", 1, 1000, "3"),
+    "contact_points": Rule(
+        lambda value: value == "auto" if isinstance(value, str) else whole(value, 1, 10),
+        "contact points per direction must be a whole number from 1 to 10, or auto",
+        "more points than there are rules for, or all points of a facet instead of those of one direction",
+        "such as 5, or auto",
+    ),
+    "penalty": length("the penalty", "pressure per penetration; leave it out for E / thickness").optional(),
+    "penetration": length("the penetration", "such as thickness / 500; leave it out, or the penalty").optional(),
+    "increment": Rule(
+        lambda value: positive(value) and value <= _LARGEST_INCREMENT,
+        f"an increment is positive and at most {_LARGEST_INCREMENT} of the opening",
+        "a length in mm instead of a part of the opening, or a sign",
+        "0.00625 is usual",
+    ),
+}
+_WANTED = Rule(
+    lambda value: number(value) and 0.0 < value < 180.0,
+    "a bend has an angle between 0 and 180 degrees",
+    "the angle by which the sheet is bent in place of that between the legs, or a sign",
+    "in degrees, such as 90",
+)
+
+
 def check_parameters(values: Mapping[str, Any]) -> None:
-    """Refuse parameters that do not fit, each by itself.
+    """Refuse parameters that do not fit, each by itself, and a penalty beside the penetration that it follows from.
 
     Raises
     ------
     NotFinite, InvalidValue
         ``where`` is the name of the parameter.
     """
-    for name, remedy in _LENGTHS.items():
-        value = values[name]
-        if not (value is None and name in _OPTIONAL):
-            _check_positive(name, value, remedy)
-    for name in ("die_angle", "punch_angle"):
-        _check_positive(name, values[name], "in degrees, such as 85")
-        if not values[name] < 180.0:
-            raise InvalidValue("an angle of a tool lies between 0 and 180 degrees", where=name, value=values[name])
+    check_rules(values, RULES)
     if values["penalty"] is not None and values["penetration"] is not None:
         raise InvalidValue(
             "the penalty follows from the penetration that is allowed",
@@ -54,24 +94,6 @@ def check_parameters(values: Mapping[str, Any]) -> None:
             value=values["penetration"],
             cause="both are given",
             remedy="leave one of them out",
-        )
-    for name, (least, most) in _COUNTS.items():
-        value = values[name]
-        if name == "contact_points" and value == "auto":
-            continue
-        if isinstance(value, bool) or not isinstance(value, Integral) or not least <= int(value) <= most:
-            raise InvalidValue(f"{name} must be a whole number from {least} to {most}", where=name, value=value)
-    if values["increment"] > _LARGEST_INCREMENT:
-        raise InvalidValue(
-            f"an increment is at most {_LARGEST_INCREMENT} of the opening",
-            where="increment",
-            value=values["increment"],
-            cause="a length in mm instead of a part of the opening",
-            remedy="0.00625 is usual",
-        )
-    if not isinstance(values["material"], J2):
-        raise InvalidValue(
-            "air bending needs a plastic material", where="material", value=values["material"], remedy="a J2"
         )
 
 
@@ -145,9 +167,7 @@ def check_angle(case: AirBending, angle: float) -> None:
     InvalidValue
         If the angle is no angle of a bend, or not above those of punch and die.
     """
-    _check_positive("angle", angle, "in degrees, such as 90")
-    if angle >= 180.0:
-        raise InvalidValue("a bend has an angle below 180 degrees", where="angle", value=angle)
+    _WANTED.check("angle", angle)
     least = max(case.die_angle, case.punch_angle)
     if angle <= least:
         raise unreachable(angle, f"the larger of the angles of punch and die is {least:.4g}")
@@ -162,11 +182,3 @@ def unreachable(angle: float, cause: str) -> InvalidValue:
         cause=cause,
         remedy="punch and die of smaller angle, some degrees below the wanted one for springback",
     )
-
-
-def _check_positive(name: str, value: Any, remedy: str) -> None:
-    number = isinstance(value, Real) and not isinstance(value, bool)
-    if number and not math.isfinite(value):
-        raise NotFinite(f"{name} is not a finite number", where=name, value=value)
-    if not number or not value > 0:
-        raise InvalidValue(f"{name} must be a positive number", where=name, value=value, remedy=remedy)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from umform.errors import InvalidValue
 from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.budget import Budget
 from umform.processes.air_bending.case import AirBend
+from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces, tensile_strength
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
@@ -17,7 +20,7 @@ from umform.processes.air_bending.words import columns
 from umform.processes.bending.staging import staging
 from umform.report.versions import versions
 
-_DATA = ("curve.csv", "table.csv", "bend.json", "bend.vtkhdf")
+_DATA = ("curve.csv", "table.csv", "bend.json", "bend.vtkhdf", "bend.toml")
 _PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "drawing.png", "drawing.svg", "report.html")
 
 
@@ -29,8 +32,9 @@ def write_files(
     Parameters
     ----------
     out : str or Path
-        Folder for curve.csv, bend.json, bend.vtkhdf, curve, shape and drawing as .png and .svg, report.html, and
-        table.csv if there is a table; made if it is missing.
+        Folder for curve.csv, bend.json, bend.vtkhdf, bend.toml (the deck; not for a hardening curve of your own),
+        curve, shape and drawing as .png and .svg, report.html, and table.csv if there is a table; made if it is
+        missing.
     bend : AirBend
         The bend.
     table : sequence of Measures
@@ -55,12 +59,16 @@ def write_files(
             write_csv(here / "table.csv", columns(table))
         write_json(here / "bend.json", record(bend, table, budget))
         bend.result.write(here / "bend.vtkhdf")
+        deck = ""
+        with suppress(InvalidValue):  # a curve of the user has no words in a deck
+            deck = deck_of(bend.case)
+            (here / "bend.toml").write_text(deck, encoding="utf-8")
         files = stage.commit(_DATA)  # a picture that fails does not take the numbers along
         figures = {"curve": curves(bend, table), "shape": shapes(bend), "drawing": drawing(bend)}
         for name, figure in figures.items():
             for ending in (".png", ".svg"):
                 save(figure, here / (name + ending))
-        write_page(here / "report.html", bend, figures, table, budget)
+        write_page(here / "report.html", bend, figures, table, budget, deck)
         return [*files, *stage.commit(_PAGE)]
 
 

@@ -24,7 +24,12 @@ _BUDGET = (
 
 
 def write_page(
-    path: Path, bend: AirBend, figures: Mapping[str, Figure], table: Sequence[Measures], budget: Budget | None
+    path: Path,
+    bend: AirBend,
+    figures: Mapping[str, Figure],
+    table: Sequence[Measures],
+    budget: Budget | None,
+    deck: str = "",
 ) -> Path:
     """Write the report of a bend.
 
@@ -40,16 +45,18 @@ def write_page(
         Bending table; may be empty.
     budget : Budget or None
         Error budget.
+    deck : str
+        The bend as a deck; may be empty.
     """
     case = bend.case
     kind = "plane strain" if case.width is None else f"{case.width:g} mm wide"
     title = f"Air bending: {case.thickness:g} mm sheet, {case.opening:g} mm opening, {bend.measures.angle:.2f} degrees"
     lead = f"{kind}; {bend.iterations} Newton iterations in {bend.result.seconds:.1f} s"
-    return parts.write_html(path, title, lead, _parts(bend, figures, table, budget))
+    return parts.write_html(path, title, lead, _parts(bend, figures, table, budget, deck))
 
 
 def _parts(
-    bend: AirBend, figures: Mapping[str, Figure], table: Sequence[Measures], budget: Budget | None
+    bend: AirBend, figures: Mapping[str, Figure], table: Sequence[Measures], budget: Budget | None, deck: str
 ) -> Iterator[str]:
     for message in counted(bend.warnings):
         yield parts.note(message, bad=True)
@@ -78,5 +85,8 @@ def _parts(
     )
     yield parts.heading("Model")
     yield parts.pairs(settings(bend.result.model))
+    if deck:
+        yield parts.heading("Deck")
+        yield parts.folded("The input of this bend, for umform run", deck)
     yield parts.heading("Versions")
     yield parts.pairs(versions())

@@ -21,12 +21,16 @@ def half_sheet(case: AirBending) -> Mesh:
 
     With a width, y goes from the middle of the sheet to its edge; in plane strain over one element.
     """
+    return mesh.grid(*lines_of(case), catalogue_element(case.element).cell)
+
+
+def lines_of(case: AirBending) -> tuple[Floats, Floats, Floats]:
+    """Element borders along the sheet, across it and through its thickness."""
     if case.width is None:
         across: Floats = np.array([0.0, case.thickness])
     else:  # finer towards the edge, where the sheet curls
         across = mesh.graded(0.5 * case.width, case.width_elements, 0.5)
-    through = mesh.graded(case.thickness, case.layers)
-    return mesh.grid(lines_along(case), across, through, catalogue_element(case.element).cell)
+    return lines_along(case), across, mesh.graded(case.thickness, case.layers)
 
 
 def lines_along(case: AirBending) -> Floats:

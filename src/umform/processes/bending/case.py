@@ -187,12 +187,11 @@ def build(case: FreeBending) -> tuple[Model, Prescribed]:
     """Model of a case, and the control that pushes the strip down."""
     cell = cell_of(case.element)
     half_strip = mesh.strip(case.length, case.width, case.thickness, case.mesh, cell=cell)
-    curve = Linear(case.yield_stress, case.hardening) if case.hardening else Perfect(case.yield_stress)
     try:
         model = Model(
             half_strip,
             case.element,
-            material=J2(kappa=case.kappa, mu=case.mu, hardening=curve),
+            material=law_of(case),
             thickness_points=case.thickness_points,
             thickness_rule=case.thickness_rule,
             thickness_order=case.thickness_order,
@@ -207,6 +206,12 @@ def build(case: FreeBending) -> tuple[Model, Prescribed]:
     cylinder = Cylinder(case.centre, axis="y", radius=case.radius)
     model.contact("lower", cylinder, penalty=case.penalty, points=case.contact, name="cylinder")
     return model, punch
+
+
+def law_of(case: FreeBending) -> J2:
+    """Law of the strip."""
+    curve = Linear(case.yield_stress, case.hardening) if case.hardening else Perfect(case.yield_stress)
+    return J2(kappa=case.kappa, mu=case.mu, hardening=curve)
 
 
 def cell_of(name: str) -> str:

@@ -2,104 +2,66 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from numbers import Integral, Real
+from collections.abc import Mapping
 from typing import Any
 
-from umform.errors import InvalidValue, NotFinite
-
-
-@dataclass(frozen=True)
-class Rule:
-    """What a parameter must be.
-
-    Attributes
-    ----------
-    fits : callable
-        Says whether a value fits.
-    what : str
-        What is wrong if it does not.
-    cause, remedy : str
-        Why it is likely so, and what to do about it.
-    """
-
-    fits: Callable[[Any], bool]
-    what: str
-    cause: str
-    remedy: str
-
-
-def _whole(value: Any, least: int, most: float = math.inf) -> bool:
-    return not isinstance(value, bool) and isinstance(value, Integral) and least <= int(value) <= most
-
-
-def _number(value: Any) -> bool:
-    return not isinstance(value, bool) and isinstance(value, Real) and math.isfinite(value)
-
-
-def _positive(value: Any) -> bool:
-    return _number(value) and value > 0
+from umform.errors import InvalidValue
+from umform.processes.rules import Rule, check_rules, length, number, positive, whole
 
 
 def _two_counts(value: Any) -> bool:
-    return isinstance(value, tuple | list) and len(value) == 2 and all(_whole(count, 1) for count in value)
+    return isinstance(value, tuple | list) and len(value) == 2 and all(whole(count, 1) for count in value)
 
 
-def _length(what: str, usual: str) -> Rule:
-    return Rule(
-        _positive, f"{what} must be positive and finite", "a sign, or a missing value", f"in mm, such as {usual}"
-    )
+def _mm(what: str, usual: str) -> Rule:
+    return length(what, f"in mm, such as {usual}")
 
 
-def _stress(what: str, usual: str) -> Rule:
-    return Rule(
-        _positive, f"{what} must be positive and finite", "a sign, or a missing value", f"in MPa, such as {usual}"
-    )
+def _mpa(what: str, usual: str) -> Rule:
+    return length(what, f"in MPa, such as {usual}")
 
 
 #: One rule a parameter; element and solver are looked up where the catalogues are.
 RULES: dict[str, Rule] = {
-    "length": _length("the length of the half strip", "60"),
-    "width": _length("the width of the strip", "10"),
-    "thickness": _length("the thickness of the strip", "1"),
-    "radius": _length("the radius of the cylinder", "20"),
+    "length": _mm("the length of the half strip", "60"),
+    "width": _mm("the width of the strip", "10"),
+    "thickness": _mm("the thickness of the strip", "1"),
+    "radius": _mm("the radius of the cylinder", "20"),
     "tool_x": Rule(
-        _number,
+        number,
         "the x of the axis of the cylinder must be a finite number",
         "a missing value",
         "in mm, such as 25; the strip begins at 0",
     ),
     "tool_z": Rule(
-        lambda value: value is None or _number(value),
+        lambda value: value is None or number(value),
         "the z of the axis of the cylinder must be a finite number",
         "a missing value",
         "leave it out: then the cylinder touches the strip",
     ),
-    "kappa": _stress("the bulk modulus", "175000"),
-    "mu": _stress("the shear modulus", "80770"),
-    "yield_stress": _stress("the yield stress", "160"),
+    "kappa": _mpa("the bulk modulus", "175000"),
+    "mu": _mpa("the shear modulus", "80770"),
+    "yield_stress": _mpa("the yield stress", "160"),
     "hardening": Rule(
-        lambda value: _number(value) and value >= 0,
+        lambda value: number(value) and value >= 0,
         "the hardening modulus must be finite and not negative",
         "softening needs a length scale that this law does not have",
         "0 is perfect plasticity",
     ),
     "penalty": Rule(
-        _positive,
+        positive,
         "the penalty must be positive and finite",
         "a sign, or a missing value",
         "choose it from the penetration that you allow: expected pressure / penetration, such as 100",
     ),
     "stroke": Rule(
-        _positive,
+        positive,
         "the stroke must be positive and finite",
         "a sign: the stroke counts downwards",
         "in mm, such as 15",
     ),
     "steps": Rule(
-        lambda value: _whole(value, 1),
+        lambda value: whole(value, 1),
         "the number of increments must be a whole number from 1",
         "zero or a sign",
         "such as 300; with fewer than 60 the forces are coarse",
@@ -111,13 +73,13 @@ RULES: dict[str, Rule] = {
         "such as 24x1",
     ),
     "contact": Rule(
-        lambda value: value == "nodes" if isinstance(value, str) else _whole(value, 1, 10),
+        lambda value: value == "nodes" if isinstance(value, str) else whole(value, 1, 10),
         "contact points per direction must be 1 to 10, or nodes",
         "more points than there are rules for, or all points of a facet instead of those of one direction",
         "such as 2, 5 or nodes",
     ),
     "thickness_points": Rule(
-        lambda value: _whole(value, 2, 15),
+        lambda value: whole(value, 2, 15),
         "the number of thickness points must lie between 2 and 15",
         "there are no rules with fewer or more points",
         "such as 5, or 8 with a cubic thickness strain",
@@ -129,7 +91,7 @@ RULES: dict[str, Rule] = {
         "gauss, lobatto or split",
     ),
     "thickness_order": Rule(
-        lambda value: _whole(value, 1, 4),
+        lambda value: whole(value, 1, 4),
         "the order of the thickness strain must be 1 to 4",
         "there are no modes of other orders",
         "1 is the paper, 3 is for sharp bends",
@@ -152,11 +114,7 @@ def check_parameters(values: Mapping[str, Any]) -> None:
     InvalidValue
         If a value does not fit; ``where`` is the name of the parameter.
     """
-    for name, rule in RULES.items():
-        value = values[name]
-        if not rule.fits(value):
-            kind = NotFinite if isinstance(value, float) and not math.isfinite(value) else InvalidValue
-            raise kind(rule.what, where=name, value=_shown(value), cause=rule.cause, remedy=rule.remedy)
+    check_rules(values, RULES)
     _check_thickness(values["thickness_points"], values["thickness_order"], values["thickness_rule"])
 
 
@@ -177,10 +135,3 @@ def _check_thickness(points: int, order: int, rule: str) -> None:
             cause="it puts as many points into one half of the thickness as into the other",
             remedy=f"thickness_points={points - 1 if points == 15 else points + 1}",
         )
-
-
-def _shown(value: object) -> str:
-    """A value as it is written by hand: a mesh as 24x1."""
-    if isinstance(value, tuple | list):
-        return "x".join(map(str, value))
-    return str(value)

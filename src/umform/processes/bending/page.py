@@ -8,6 +8,7 @@ from pathlib import Path
 from umform.plotting import save
 from umform.processes.bending import table
 from umform.processes.bending.case import Bending
+from umform.processes.bending.deck import deck_of
 from umform.processes.bending.figure import curves, shapes
 from umform.processes.bending.parameters import RECONSTRUCTION
 from umform.report import parts
@@ -69,6 +70,8 @@ def write_page(folder: Path, runs: Sequence[Bending], pictured: Bending) -> list
         parts.heading("Settings"),
         parts.paragraph("Lengths in mm, forces in N, stresses in MPa."),
         parts.pairs(_settings(runs)),
+        parts.heading("Deck"),
+        parts.folded(f"The input of {pictured.case.name}, for umform run", deck_of(pictured.case)),
         parts.heading("Versions"),
         parts.pairs(versions() | {"solver used": ", ".join(sorted({run.solver for run in runs} - {""}))}),
     ]

@@ -15,6 +15,7 @@ from umform.errors import InvalidValue, UmformError
 from umform.io.tables import write_csv, write_json
 from umform.pool import run_all
 from umform.processes.bending.case import Bending, cell_of, check, failed, failure_text, free_bending
+from umform.processes.bending.deck import deck_of
 from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
 from umform.processes.bending.staging import staging
 from umform.progress import progress_bar
@@ -30,7 +31,7 @@ _SHARP = {"thickness_order": 3, "tie_E33": True, "thickness_points": 8}
 _FRAMES_WRITTEN, _FRAMES_KEPT = 60, 10
 
 
-_DATA = ("free_bending.csv", "free_bending.json", "free_bending.vtkhdf")
+_DATA = ("free_bending.csv", "free_bending.json", "free_bending.vtkhdf", "free_bending.toml")
 _PAGE = ("free_bending.png", "free_bending.svg", "report.html")
 
 log = logging.getLogger("umform.processes")
@@ -103,8 +104,8 @@ def demo(
     Parameters
     ----------
     out : str or Path
-        Folder for free_bending.csv, .json, .png, .svg, .vtkhdf and report.html; made if it is missing. The files get
-        their names when all runs have ended; the fields are missing if there are none.
+        Folder for free_bending.csv, .json, .png, .svg, .vtkhdf, .toml (the deck of the run in .vtkhdf) and
+        report.html; made if it is missing. The files get
     runs : sequence of FreeBending, optional
         Other cases than the 14 of the example.
     processes : int, optional
@@ -154,6 +155,7 @@ def demo(
                 tick=partial(bar, name),
             )
         _write_tables(stage.waiting, finished)
+        (stage.waiting / "free_bending.toml").write_text(deck_of(cases[pictured]), encoding="utf-8")
         files = stage.commit(_DATA)  # a picture that fails does not take the numbers along
         write_page(stage.waiting, finished, finished[pictured])
         return Outcome(finished, [*files, *stage.commit(_PAGE)])

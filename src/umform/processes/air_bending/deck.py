@@ -1,0 +1,67 @@
+"""The deck of a bend."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from umform.processes.air_bending.brake import OPTIONS, increments, unloading_keys
+from umform.processes.air_bending.checks import needed_stroke
+from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.sheet import lines_of
+from umform.processes.decks import Entry, deck_text, law_keys
+
+
+def deck_of(case: AirBending) -> str:
+    """Deck of a bend; what it builds gives the same history as `air_bending`, to the last bit.
+
+    Parameters
+    ----------
+    case : AirBending
+        The parameters, with a stroke.
+
+    Raises
+    ------
+    InvalidValue
+        If the case has no stroke, or a deck has no words for its hardening.
+    """
+    stroke = needed_stroke(case)
+    if case.width is None:
+        modelled, kind = case.thickness, "in plane strain"
+    else:
+        modelled, kind = 0.5 * case.width, f"{case.width:g} mm wide"
+    remarks = [
+        f"Air bending of a sheet of {case.thickness:g} mm, {kind}, over an opening of {case.opening:g} mm: down by "
+        f"{stroke:.6g} mm, and back to zero force. Units: mm, N, MPa.",
+        f"Half of the sheet, {modelled:g} mm of its width: the force for each mm of the bend is -stroke_force times "
+        f"{2.0 / modelled:.6g}.",
+    ]
+    return deck_text("Air bending", remarks, _entries(case, stroke))
+
+
+def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
+    lines = dict(zip("xyz", (line.tolist() for line in lines_of(case)), strict=True))
+    yield "[mesh]", {"generator": "grid", **lines}
+    yield "[element]", {"name": case.element, "thickness_points": case.thickness_points}
+    yield "[material]", law_keys(case.material)
+    die = {"shape": "VDie", "opening": case.opening, "angle": case.die_angle, "shoulder_radius": case.die_radius}
+    yield "[tools.die]", die
+    tip = {"tip_radius": case.punch_radius, "angle": case.punch_angle}
+    yield "[tools.punch]", {"shape": "Punch", **tip, "origin": case.punch.origin}
+    for tool, faces in (("die", "lower"), ("punch", "upper")):
+        how = {"penalty": case.contact_penalty, "penetration": case.penetration, "points": case.contact_points}
+        yield f"[contacts.{tool}]", {"tool": tool, "faces": faces, **how}
+    yield "[[supports]]", {"kind": "symmetry", "nodes": "x0", "normal": "x"}
+    yield "[[supports]]", _across(case)
+    yield "[controls.stroke]", {"kind": "tool", "contact": "punch", "direction": "-z"}
+    yield "[[steps]]", {"kind": "move", "to": {"stroke": stroke}, "increments": increments(case, stroke)}
+    yield "[[steps]]", {"kind": "release", "control": "stroke", **unloading_keys(case)}
+    yield "[solution]", {"line_search": OPTIONS.line_search}
+
+
+def _across(case: AirBending) -> dict[str, Any]:
+    """What holds the sheet along the bend."""
+    if case.width is None:
+        everywhere = {"min": [-float("inf")] * 3}
+        return {"kind": "fix", "nodes": everywhere, "directions": "y"}
+    return {"kind": "symmetry", "nodes": "y0", "normal": "y"}

@@ -1,0 +1,82 @@
+"""Rules for the parameters of ready processes: what a value must be, and what is said if it is not."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from numbers import Integral, Real
+from typing import Any
+
+from umform.errors import InvalidValue, NotFinite
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What a parameter must be.
+
+    Attributes
+    ----------
+    fits : callable
+        Says whether a value fits.
+    what : str
+        What is wrong if it does not.
+    cause, remedy : str
+        Why it is likely so, and what to do about it.
+    """
+
+    fits: Callable[[Any], bool]
+    what: str
+    cause: str
+    remedy: str
+
+    def optional(self) -> Rule:
+        """The same for a parameter that may be left out, as None."""
+        return Rule(lambda value: value is None or self.fits(value), self.what, self.cause, self.remedy)
+
+    def check(self, name: str, value: Any) -> None:
+        """Refuse a value that does not fit.
+
+        Raises
+        ------
+        NotFinite
+            If it is NaN or infinite.
+        InvalidValue
+            ``where`` is the name.
+        """
+        if not self.fits(value):
+            kind = NotFinite if isinstance(value, float) and not math.isfinite(value) else InvalidValue
+            raise kind(self.what, where=name, value=_shown(value), cause=self.cause, remedy=self.remedy)
+
+
+def check_rules(values: Mapping[str, Any], rules: Mapping[str, Rule]) -> None:
+    """Refuse values by name that do not fit, each by itself."""
+    for name, rule in rules.items():
+        rule.check(name, values[name])
+
+
+def whole(value: Any, least: int, most: float = math.inf) -> bool:
+    """Whether a value is a whole number between two others."""
+    return not isinstance(value, bool) and isinstance(value, Integral) and least <= int(value) <= most
+
+
+def number(value: Any) -> bool:
+    """Whether a value is a finite number."""
+    return not isinstance(value, bool) and isinstance(value, Real) and math.isfinite(value)
+
+
+def positive(value: Any) -> bool:
+    """Whether a value is a finite number above zero."""
+    return number(value) and value > 0
+
+
+def length(what: str, remedy: str) -> Rule:
+    """A length, or another quantity that is positive and finite."""
+    return Rule(positive, f"{what} must be positive and finite", "a sign, or a missing value", remedy)
+
+
+def _shown(value: object) -> str:
+    """A value as it is written by hand: a mesh as 24x1."""
+    if isinstance(value, tuple | list):
+        return "x".join(map(str, value))
+    return str(value)
