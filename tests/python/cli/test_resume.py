@@ -35,7 +35,7 @@ def umform(*words):
 def started(*words):
     """The real command line in a process of its own."""
     environment = os.environ | {"PYTHONPATH": str(SOURCE), "OMP_NUM_THREADS": "1"}
-    command = [sys.executable, "-m", "umform.cli", *map(str, words)]
+    command = [sys.executable, "-m", "umform", *map(str, words)]
     return subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, env=environment)
 
 
