@@ -40,8 +40,9 @@ class Continuum:
 
     Attributes
     ----------
-    over : {"supports", "cylinder"}
-        Three-point bending without contact, or over the cylinder.
+    over : {"supports", "cylinder", "fold"}
+        Three-point bending without contact, the paper's strip over its cylinder, or a strip folded over a cylinder at
+        x = 0.
     hardening : float
         Hardening modulus.
     layers : int
@@ -49,7 +50,9 @@ class Continuum:
     size, fine : float
         Length of the elements next to the punch, and as far as they are so small; beyond, they grow.
     stroke : float
-        Displacement of the punch.
+        Displacement of the punch, or of the end.
+    radius : float
+        Of the cylinder.
     """
 
     over: str
@@ -58,16 +61,23 @@ class Continuum:
     size: float
     fine: float
     stroke: float
+    radius: float = 20.0
 
     @property
     def file(self) -> str:
         """Name of the file with the stored forces."""
-        return f"calculix_{self.over}_H{self.hardening:g}_{self.layers}_layers.csv"
+        where = f"fold_R{self.radius:g}" if self.over == "fold" else self.over
+        return f"calculix_{where}_H{self.hardening:g}_{self.layers}_layers.csv"
 
     @property
     def length(self) -> float:
         """Half length of the strip."""
-        return 25.0 if self.over == "supports" else 60.0
+        return {"supports": 25.0, "cylinder": 60.0, "fold": 20.0}[self.over]
+
+    @property
+    def driven(self) -> float:
+        """Section whose lower edge is pushed."""
+        return self.length if self.over == "fold" else 0.0
 
 
 #: The meshes whose forces are stored.
@@ -80,6 +90,7 @@ STORED = (
     Continuum("supports", 0.0, 4, 0.25, 5.0, 15.0),
     Continuum("cylinder", 500.0, 4, 0.25, 5.0, 15.0),
     Continuum("cylinder", 500.0, 6, 0.16666666, 4.0, 15.0),
+    Continuum("fold", 500.0, 4, 0.5, 20.0, 12.0, 10.0),
 )
 
 
@@ -183,7 +194,7 @@ def deck(mesh: Continuum) -> str:
     """Input of CalculiX."""
     made = _Deck(mesh)
     made.node_set("X0", 0.0, lower=False)
-    made.node_set("PUNCH", 0.0, lower=True)
+    made.node_set("PUNCH", mesh.driven, lower=True)
     if mesh.over == "supports":
         made.material(mesh.hardening)
         made.node_set("SUPPORT", mesh.length, lower=True)
@@ -191,20 +202,27 @@ def deck(mesh: Continuum) -> str:
         made.step()
         made.lines += ["*CONTROLS,PARAMETERS=FIELD", "1e-4,1e-2"]
     else:
-        held = _cylinder(made)
+        fold = mesh.over == "fold"
+        held = _cylinder(made, mesh.radius, 0.0, (20.0, 100.0)) if fold else _cylinder(made, mesh.radius)
         made.material(mesh.hardening)
-        _contact(made)
+        _contact(made, 5000.0 if fold else 100.0)
         made.lines += ["*BOUNDARY", "X0,1,1", "NALL,2,2", *(f"{node},1,3" for node in held)]
         made.step()
     return made.push(mesh.stroke)
 
 
-def _cylinder(made: _Deck, radius: float = 20.0, centre: float = 25.0, facets: int = 400) -> tuple[int, int]:
-    """The tool: a ring of facets in a rigid body, from 45 to 145 degrees; returns its reference nodes."""
+def _cylinder(
+    made: _Deck,
+    radius: float,
+    centre: float = 25.0,
+    between: tuple[float, float] = (45.0, 145.0),
+    facets: int = 400,
+) -> tuple[int, int]:
+    """The tool: a ring of facets in a rigid body between two angles in degrees; returns its reference nodes."""
     z = -0.5 * THICKNESS - radius
     first = node = len(made.ids)
     made.lines.append("*NODE,NSET=NTOOL")
-    for angle in np.radians(np.linspace(45.0, 145.0, facets + 1)):
+    for angle in np.radians(np.linspace(*between, facets + 1)):
         for r, y in ((radius, -0.1), (radius, 1.1), (0.8 * radius, -0.1), (0.8 * radius, 1.1)):
             node += 1
             made.lines.append(f"{node},{centre + r * np.cos(angle):.9g},{y:.9g},{z + r * np.sin(angle):.9g}")
@@ -219,7 +237,7 @@ def _cylinder(made: _Deck, radius: float = 20.0, centre: float = 25.0, facets: i
     return held
 
 
-def _contact(made: _Deck, penalty: float = 100.0) -> None:
+def _contact(made: _Deck, penalty: float) -> None:
     """Surface to surface, the pressure linear in the penetration."""
     made.lines += ["*SURFACE,NAME=SLOWER", *(f"{number},S1" for number in made.lower), "*SURFACE,NAME=STOOL", "TOOL,S2"]
     made.lines += ["*MATERIAL,NAME=TOOL", "*ELASTIC", "210000,.3", "*SOLID SECTION,ELSET=TOOL,MATERIAL=TOOL"]
