@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,6 +29,10 @@ Point = tuple[float, float, float]
 
 VARIABLE = "UMFORM_CALCULIX"
 THICKNESS = 1.0
+#: CalculiX takes what it finds as penetration at the beginning of the first step for one of the mesh, and removes it in
+#: proportion to the time of each step. A first step as short as this leaves nothing to remove: without it the force at
+#: a displacement depends on the stroke of the step.
+FIRST = 0.01
 #: All forces are for this width; the mesh is as wide as 1.
 WIDTH = 10.0
 #: Edges of a hexahedron in the order of its mid-side nodes.
@@ -75,6 +80,11 @@ class Continuum:
         return {"supports": 25.0, "cylinder": 60.0, "fold": 20.0}[self.over]
 
     @property
+    def pushes(self) -> tuple[float, ...]:
+        """Displacements at the ends of the steps."""
+        return (self.stroke,) if self.over == "supports" else (FIRST, self.stroke)
+
+    @property
     def driven(self) -> float:
         """Section whose lower edge is pushed."""
         return self.length if self.over == "fold" else 0.0
@@ -114,17 +124,17 @@ def run(mesh: Continuum, folder: Path) -> tuple[Floats, Floats]:
     """
     (folder / "strip.inp").write_text(deck(mesh), encoding="ascii")
     log = subprocess.run(["ccx", "strip"], cwd=folder, capture_output=True, text=True, check=False)
-    u, force = read_forces((folder / "strip.dat").read_text(encoding="ascii"), mesh.stroke)
+    u, force = read_forces((folder / "strip.dat").read_text(encoding="ascii"), mesh.pushes)
     if u[-1] < mesh.stroke * (1 - 1e-9):
         raise SolveError("CalculiX did not reach the end", where=mesh.file, value=u[-1], cause=log.stdout[-500:])
     return u, force
 
 
-def read_forces(printed: str, stroke: float) -> tuple[Floats, Floats]:
-    """Displacements and forces from the totals that CalculiX prints for each increment."""
+def read_forces(printed: str, pushes: Sequence[float]) -> tuple[Floats, Floats]:
+    """Displacements and forces from the totals that CalculiX prints for each increment; a step lasts for 1."""
     found = re.findall(r"total force.*time\s+(\S+)\s+\S+\s+\S+\s+(\S+)", printed)
     time, fz = (np.array([0.0, *(float(row[k]) for row in found)]) for k in (0, 1))
-    return time * stroke, -fz * WIDTH
+    return np.interp(time, np.arange(len(pushes) + 1.0), [0.0, *pushes]), -fz * WIDTH
 
 
 def stations(mesh: Continuum, growth: float = 1.2, largest: float = 1.25) -> Floats:
@@ -184,10 +194,9 @@ class _Deck:
         """One step of large deformation with increments up to a part of it."""
         self.lines += ["*STEP,NLGEOM,INC=100000", "*STATIC", f"{largest / 10},1.,1e-9,{largest}"]
 
-    def push(self, stroke: float) -> str:
-        """The deck with the displacement of the punch and what is printed."""
-        self.lines += ["*BOUNDARY", f"PUNCH,3,3,{-stroke}", "*NODE PRINT,NSET=PUNCH,TOTALS=ONLY", "RF", "*END STEP"]
-        return "\n".join(self.lines) + "\n"
+    def push(self, to: float) -> None:
+        """The displacement of the punch at the end of the step, and what is printed."""
+        self.lines += ["*BOUNDARY", f"PUNCH,3,3,{-to}", "*NODE PRINT,NSET=PUNCH,TOTALS=ONLY", "RF", "*END STEP"]
 
 
 def deck(mesh: Continuum) -> str:
@@ -195,20 +204,23 @@ def deck(mesh: Continuum) -> str:
     made = _Deck(mesh)
     made.node_set("X0", 0.0, lower=False)
     made.node_set("PUNCH", mesh.driven, lower=True)
-    if mesh.over == "supports":
+    supports = mesh.over == "supports"
+    if supports:
         made.material(mesh.hardening)
         made.node_set("SUPPORT", mesh.length, lower=True)
         made.lines += ["*BOUNDARY", "X0,1,1", "NALL,2,2", "SUPPORT,3,3"]
-        made.step()
-        made.lines += ["*CONTROLS,PARAMETERS=FIELD", "1e-4,1e-2"]
     else:
         fold = mesh.over == "fold"
         held = _cylinder(made, mesh.radius, 0.0, (20.0, 100.0)) if fold else _cylinder(made, mesh.radius)
         made.material(mesh.hardening)
         _contact(made, 5000.0 if fold else 100.0)
         made.lines += ["*BOUNDARY", "X0,1,1", "NALL,2,2", *(f"{node},1,3" for node in held)]
+    for to in mesh.pushes:
         made.step()
-    return made.push(mesh.stroke)
+        if supports:
+            made.lines += ["*CONTROLS,PARAMETERS=FIELD", "1e-4,1e-2"]
+        made.push(to)
+    return "\n".join(made.lines) + "\n"
 
 
 def _cylinder(

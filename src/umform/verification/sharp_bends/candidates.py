@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -51,12 +52,20 @@ class Candidate:
         """8 or 18."""
         return self.variant.element.nodes
 
-    def strip(self, x: Floats, y: Floats, thickness: float, hardening: float) -> Model:
-        """Flat strip between the stations x and y, its mid-surface at z = 0."""
+    def strip(
+        self,
+        x: Floats,
+        y: Floats,
+        thickness: float,
+        hardening: float,
+        shape: Callable[[Floats], Floats] | None = None,
+    ) -> Model:
+        """Flat strip between the stations x and y, its mid-surface at z = 0; its nodes moved by a shape if wanted."""
         element = self.variant.element
         z = np.linspace(-0.5 * thickness, 0.5 * thickness, self.layers + 1)
+        regular = mesh.grid(x, y, z, element.cell)
         return Model(
-            mesh.grid(x, y, z, element.cell),
+            regular if shape is None else regular.transformed(shape),
             element,
             material=steel(hardening),
             thickness_points=self.points,

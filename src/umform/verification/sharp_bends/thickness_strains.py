@@ -177,7 +177,7 @@ def _verdict(page: Page, perfect: Ratios, hardening: Ratios) -> None:
     }
     page.text(
         f"""\
-* **Order 4** ({pairs["four"]}) is taken: three parameters more than the literature on 8 nodes, all of them rows of data.
+* **Order 4** ({pairs["four"]}) is taken: three parameters more than the literature on 8 nodes, all of them data.
 * **S_33 linear in t, E_33 solved at each point** ({pairs["free"]}) is the limit of the orders. Its linear part
   vanishes with the mode t, so S_33 is constant over the thickness. It needs no new code: order 11 with 12 points is
   this element. It gains less than 1 % up to a surface strain of 0.3, 2 % at 0.5 (R/h = 1), and takes 11 parameters
