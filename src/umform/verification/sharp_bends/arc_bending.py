@@ -57,6 +57,13 @@ class ArcBending(Bending):
         self.w: Floats = np.zeros(self.shape.shape[1])
         self.rate: Floats = np.zeros(self.shape.shape[1])
 
+    @property
+    def thickness_now(self) -> float:
+        """Distance of the outer circles over the thickness."""
+        moved = self.shape @ self.w
+        upper, lower = moved[self.X[:, 2].argmax()], moved[self.X[:, 2].argmin()]
+        return float(1.0 + (upper - lower) / self.thickness)
+
     def _increment(self, curvature: float) -> None:
         model = self.model
         w = self.w + self.rate * (curvature - self.curvature)
