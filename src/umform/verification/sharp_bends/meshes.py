@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -108,6 +107,10 @@ def _leaning(X: Floats, length: float) -> Floats:
     return X + np.outer(0.25 * length * _turn_by_turn(X, length) * X[:, 2], [1, 0, 0])
 
 
+def _at_length(move: Callable[[Floats, float], Floats], length: float) -> Callable[[Floats], Floats]:
+    return lambda X: move(X, length)
+
+
 def _inside(X: Floats, length: float) -> Floats:
     """1 away from the ends, 0 at them, linear over two elements."""
     return np.asarray(np.clip(np.minimum(X[:, 0], HINGE.length - X[:, 0]) / (2.0 * length), 0.0, 1.0))
@@ -143,7 +146,7 @@ def _distorted(page: Page) -> None:
         for name, (move, over_width) in SHAPES.items():
             if over_width > 1 and candidate is BEND18:
                 continue  # biquadratic sides need no more over the width
-            distortion = Distortion(name, partial(move, length=length), over_width)
+            distortion = Distortion(name, _at_length(move, length), over_width)
             found[name] = bend(page, HINGE, candidate, cells, frames=2, distortion=distortion)
             far = max(abs(found[name].at(mark) / regular.at(mark) - 1.0) for mark in MARKS)
             what = f"{candidate.label}, length {length:.2g} h, {name}: worst force against rectangles"

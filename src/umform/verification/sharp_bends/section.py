@@ -60,7 +60,7 @@ class ThicknessStrain:
         """Polynomials at the points, shape (points, parameters)."""
         if self.order is None:
             return np.asarray(null_space(w[None, :]))
-        return legvander(t, self.order)[:, 1:]
+        return np.asarray(legvander(t, self.order)[:, 1:], dtype=np.float64)
 
 
 class BentSection(Bending):

@@ -116,7 +116,8 @@ def _hinge(page: Page) -> None:
     candidates = (BEND8, HIGHER[0], HIGHER[2])
     found = {c.label: bend(page, HINGE, c, 50) for c in page.each(candidates, lambda c: f"hinge, {c.label}")}
     marks = (5.0, 10.0, 15.0, 20.0)
-    rows = [(label, *(b.at(u) for u in marks), b.radius, b.iterations) for label, b in found.items()]
+    rows: list[tuple[str | float, ...]] = []
+    rows += [(label, *(b.at(u) for u in marks), b.radius, b.iterations) for label, b in found.items()]
     columns = ("element", *(f"F({u:g})" for u in marks), "least R/h at the end", "iterations")
     page.table("Three-point bend, H = 100 MPa, elements of length h/2, force in N on a width of 10 mm", columns, rows)
     order_4, free = (found[c.label].at(20.0) for c in (BEND8, HIGHER[2]))
