@@ -16,7 +16,7 @@ from umform.verification.sharp_bends.strips import Bend, Strip, bend
 HARDENING = 500.0
 #: The strip over cylinders up to five thicknesses, and a longer one over that of ten.
 SHORT = Strip("fold", 12.0, 8.0, HARDENING, steps=50)
-LONG = Strip("fold", 20.0, 12.0, HARDENING, radius=10.0, steps=50)
+LONG = Strip("fold", 20.0, 12.0, HARDENING, radius=10.0, steps=40)
 RADII = (1.0, 2.0, 5.0, 10.0)
 #: Deviation allowed for BEND8 and BEND18 on the meshes that one would take.
 WITHIN = 0.03
@@ -55,7 +55,9 @@ def _chosen(page: Page, radius: float) -> list[tuple[Candidate, float]]:
         return [stacks[0], *eight, eighteen[-1]]
     if radius == RADII[0]:
         stacks.insert(1, (stack("EAS3DEAS", 8, 2, 3), length))
-    return [*stacks, *eight, (BEND8, 1.0), (BEND8, 0.25), *eighteen, (BEND18, 2.0)]
+    if radius == RADII[2]:
+        return [*stacks, *eight, (BEND8, 1.0), (BEND8, 0.25), eighteen[-1]]
+    return [*stacks, *eight, (BEND8, 1.0), *eighteen, (BEND18, 2.0)]
 
 
 def _judge(page: Page, case: Fold, found: dict[Key, Bend], reference: Bend) -> None:
@@ -116,6 +118,10 @@ def run(page: Page) -> None:
             page.shape("fold", best.result, title, values="plastic_strain_max", view=(-90, 0))
     page.figure("folds", plot(curves, "displacement u, mm", "force F, N", limits=(0, 150)), "BEND8 and stacks of four")
     _summary(page, errors)
+    page.text(
+        "Over the cylinder of 5 h the strip lies on the tool at the end of the stroke, and the force more than doubles "
+        "in the last quarter of it: there it hangs on where the contact ends, and on the length of the elements."
+    )
 
 
 def _summary(page: Page, errors: dict[str, dict[float, float]]) -> None:
