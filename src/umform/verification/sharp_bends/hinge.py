@@ -199,5 +199,5 @@ layers: 1.2 %); run anew where `{calculix.VARIABLE}` is set and `ccx` is found, 
 and DISP9K3DEAS of order 2 (stacks of ANS3DEAS lock in their own plane and are no reference).
 """,
     run=run,
-    cost=60.0,
+    cost=80.0,
 )
