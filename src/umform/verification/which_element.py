@@ -15,8 +15,10 @@ _ADVICE = (
     ("the same on few elements", "`MI9K3DEAS`, `tie_E33=True`, 3 x 3 contact points at least"),
     (
         "a sharp bend, radius below some ten thicknesses",
-        "`BEND8` (two elements over the width) or `BEND18`, see [sharp bends](README.md#sharp-bends)",
+        "`BEND8` (length h/2, two elements over the width) or `BEND18` (length h to 2 h), 12 `split` points: "
+        "[advice](bend-hinge.md), [small cylinders](bend-small-cylinders.md), [meshes](bend-meshes.md)",
     ),
+    ("a sheet squeezed hard through its thickness", "`tie_E33=False`: see [stability](bend-stability.md)"),
     ("a sheet that bends in its own plane, elastic", "`EAS3DEAS`, `tie_E33=True`"),
     (
         "plastic flow in plane strain, strains above 0.1",

@@ -7,29 +7,22 @@ that of virtual work, M = sum f . dx/d(angle).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import SolveError
 from umform.verification.linear_algebra import stiffness
-from umform.verification.sharp_bends.candidates import YIELD_STRESS, Candidate
+from umform.verification.sharp_bends.bending import Bending
+from umform.verification.sharp_bends.candidates import Candidate
 
 Floats = NDArray[np.float64]
 
 #: Residual over the forces of the elements at which an increment has converged.
 _TOLERANCE = 1e-8
 _ITERATIONS = 30
-_HALVINGS = 7
 
 
-def hill_moment(thickness: float) -> float:
-    """Moment per width of a rigid, perfectly plastic plate bent in plane strain [Hill1950]."""
-    return float(2.0 / np.sqrt(3.0) * YIELD_STRESS * thickness**2 / 4.0)
-
-
-class ArcBending:
+class ArcBending(Bending):
     """An element bent from the flat state.
 
     Parameters
@@ -42,11 +35,6 @@ class ArcBending:
         Of the element along the arc, of the sheet; the width is 1.
     held : bool
         Whether the directors keep their length.
-
-    Attributes
-    ----------
-    curvature, moment : float
-        Reached so far; the moment is that per width.
     """
 
     def __init__(
@@ -58,43 +46,23 @@ class ArcBending:
         thickness: float = 1.0,
         held: bool = False,
     ) -> None:
+        super().__init__(thickness)
         ends = np.array([0.0, length])
         self.model = candidate.strip(ends, np.array([0.0, 1.0]), thickness, hardening)
         self.X = self.model.mesh.points
-        self.length, self.thickness = length, thickness
+        self.length = length
         layer = np.rint((self.X[:, 2] / thickness + 0.5) * candidate.layers).astype(int)
         #: Radius of each node = 1/k + z + shape w, with the unknowns w.
         self.shape: Floats = np.ones((len(self.X), 1)) if held else np.eye(candidate.layers + 1)[layer]
         self.w: Floats = np.zeros(self.shape.shape[1])
         self.rate: Floats = np.zeros(self.shape.shape[1])
-        self.curvature = self.moment = 0.0
 
-    def moments(self, surface_strains: Sequence[float], increments: int = 100) -> Floats:
-        """Moments over that of Hill at ascending surface strains k h / 2, bent in about so many increments."""
-        found = []
-        for strain in surface_strains:
-            target = 2.0 * strain / self.thickness
-            count = max(1, round(increments * (target - self.curvature) * self.thickness / (2.0 * surface_strains[-1])))
-            for curvature in np.linspace(self.curvature, target, count + 1)[1:]:
-                self.bend_to(float(curvature))
-            found.append(self.moment / hill_moment(self.thickness))
-        return np.array(found)
-
-    def bend_to(self, curvature: float, halvings: int = _HALVINGS) -> None:
-        """Bend further, in one increment or, where that fails, in halves.
-
-        Raises
-        ------
-        SolveError
-            If the smallest increment fails too.
-        """
-        try:
-            self._increment(curvature)
-        except SolveError:
-            if halvings == 0:
-                raise
-            self.bend_to(0.5 * (self.curvature + curvature), halvings - 1)
-            self.bend_to(curvature, halvings - 1)
+    @property
+    def thickness_now(self) -> float:
+        """Distance of the outer circles over the thickness."""
+        moved = self.shape @ self.w
+        upper, lower = moved[self.X[:, 2].argmax()], moved[self.X[:, 2].argmin()]
+        return float(1.0 + (upper - lower) / self.thickness)
 
     def _increment(self, curvature: float) -> None:
         model = self.model
@@ -117,6 +85,8 @@ class ArcBending:
             dw = -np.linalg.lstsq(K, residual, rcond=1e-9)[0]
             model.recover(directions @ dw, 1.0)
             w = w + dw
+            if np.abs(w).max() > 10.0 * self.thickness:  # far from any sheet
+                break
         raise SolveError("no equilibrium of the bent element", where=f"curvature {curvature:.4g}")
 
     def _accept(self, curvature: float, w: Floats, u: Floats, forces: Floats) -> None:

@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,6 +29,10 @@ Point = tuple[float, float, float]
 
 VARIABLE = "UMFORM_CALCULIX"
 THICKNESS = 1.0
+#: CalculiX takes what it finds as penetration at the beginning of the first step for one of the mesh, and removes it in
+#: proportion to the time of each step. A first step as short as this leaves nothing to remove: without it the force at
+#: a displacement depends on the stroke of the step.
+FIRST = 0.01
 #: All forces are for this width; the mesh is as wide as 1.
 WIDTH = 10.0
 #: Edges of a hexahedron in the order of its mid-side nodes.
@@ -40,8 +45,9 @@ class Continuum:
 
     Attributes
     ----------
-    over : {"supports", "cylinder"}
-        Three-point bending without contact, or over the cylinder.
+    over : {"supports", "cylinder", "fold"}
+        Three-point bending without contact, the paper's strip over its cylinder, or a strip folded over a cylinder at
+        x = 0.
     hardening : float
         Hardening modulus.
     layers : int
@@ -49,7 +55,9 @@ class Continuum:
     size, fine : float
         Length of the elements next to the punch, and as far as they are so small; beyond, they grow.
     stroke : float
-        Displacement of the punch.
+        Displacement of the punch, or of the end.
+    radius : float
+        Of the cylinder.
     """
 
     over: str
@@ -58,16 +66,28 @@ class Continuum:
     size: float
     fine: float
     stroke: float
+    radius: float = 20.0
 
     @property
     def file(self) -> str:
         """Name of the file with the stored forces."""
-        return f"calculix_{self.over}_H{self.hardening:g}_{self.layers}_layers.csv"
+        where = f"fold_R{self.radius:g}" if self.over == "fold" else self.over
+        return f"calculix_{where}_H{self.hardening:g}_{self.layers}_layers.csv"
 
     @property
     def length(self) -> float:
         """Half length of the strip."""
-        return 25.0 if self.over == "supports" else 60.0
+        return {"supports": 25.0, "cylinder": 60.0, "fold": 20.0}[self.over]
+
+    @property
+    def pushes(self) -> tuple[float, ...]:
+        """Displacements at the ends of the steps."""
+        return (self.stroke,) if self.over == "supports" else (FIRST, self.stroke)
+
+    @property
+    def driven(self) -> float:
+        """Section whose lower edge is pushed."""
+        return self.length if self.over == "fold" else 0.0
 
 
 #: The meshes whose forces are stored.
@@ -80,6 +100,7 @@ STORED = (
     Continuum("supports", 0.0, 4, 0.25, 5.0, 15.0),
     Continuum("cylinder", 500.0, 4, 0.25, 5.0, 15.0),
     Continuum("cylinder", 500.0, 6, 0.16666666, 4.0, 15.0),
+    Continuum("fold", 500.0, 4, 0.5, 20.0, 12.0, 10.0),
 )
 
 
@@ -103,17 +124,17 @@ def run(mesh: Continuum, folder: Path) -> tuple[Floats, Floats]:
     """
     (folder / "strip.inp").write_text(deck(mesh), encoding="ascii")
     log = subprocess.run(["ccx", "strip"], cwd=folder, capture_output=True, text=True, check=False)
-    u, force = read_forces((folder / "strip.dat").read_text(encoding="ascii"), mesh.stroke)
+    u, force = read_forces((folder / "strip.dat").read_text(encoding="ascii"), mesh.pushes)
     if u[-1] < mesh.stroke * (1 - 1e-9):
         raise SolveError("CalculiX did not reach the end", where=mesh.file, value=u[-1], cause=log.stdout[-500:])
     return u, force
 
 
-def read_forces(printed: str, stroke: float) -> tuple[Floats, Floats]:
-    """Displacements and forces from the totals that CalculiX prints for each increment."""
+def read_forces(printed: str, pushes: Sequence[float]) -> tuple[Floats, Floats]:
+    """Displacements and forces from the totals that CalculiX prints for each increment; a step lasts for 1."""
     found = re.findall(r"total force.*time\s+(\S+)\s+\S+\s+\S+\s+(\S+)", printed)
     time, fz = (np.array([0.0, *(float(row[k]) for row in found)]) for k in (0, 1))
-    return time * stroke, -fz * WIDTH
+    return np.interp(time, np.arange(len(pushes) + 1.0), [0.0, *pushes]), -fz * WIDTH
 
 
 def stations(mesh: Continuum, growth: float = 1.2, largest: float = 1.25) -> Floats:
@@ -173,38 +194,47 @@ class _Deck:
         """One step of large deformation with increments up to a part of it."""
         self.lines += ["*STEP,NLGEOM,INC=100000", "*STATIC", f"{largest / 10},1.,1e-9,{largest}"]
 
-    def push(self, stroke: float) -> str:
-        """The deck with the displacement of the punch and what is printed."""
-        self.lines += ["*BOUNDARY", f"PUNCH,3,3,{-stroke}", "*NODE PRINT,NSET=PUNCH,TOTALS=ONLY", "RF", "*END STEP"]
-        return "\n".join(self.lines) + "\n"
+    def push(self, to: float) -> None:
+        """The displacement of the punch at the end of the step, and what is printed."""
+        self.lines += ["*BOUNDARY", f"PUNCH,3,3,{-to}", "*NODE PRINT,NSET=PUNCH,TOTALS=ONLY", "RF", "*END STEP"]
 
 
 def deck(mesh: Continuum) -> str:
     """Input of CalculiX."""
     made = _Deck(mesh)
     made.node_set("X0", 0.0, lower=False)
-    made.node_set("PUNCH", 0.0, lower=True)
-    if mesh.over == "supports":
+    made.node_set("PUNCH", mesh.driven, lower=True)
+    supports = mesh.over == "supports"
+    if supports:
         made.material(mesh.hardening)
         made.node_set("SUPPORT", mesh.length, lower=True)
         made.lines += ["*BOUNDARY", "X0,1,1", "NALL,2,2", "SUPPORT,3,3"]
-        made.step()
-        made.lines += ["*CONTROLS,PARAMETERS=FIELD", "1e-4,1e-2"]
     else:
-        held = _cylinder(made)
+        fold = mesh.over == "fold"
+        held = _cylinder(made, mesh.radius, 0.0, (20.0, 100.0)) if fold else _cylinder(made, mesh.radius)
         made.material(mesh.hardening)
-        _contact(made)
+        _contact(made, 5000.0 if fold else 100.0)
         made.lines += ["*BOUNDARY", "X0,1,1", "NALL,2,2", *(f"{node},1,3" for node in held)]
+    for to in mesh.pushes:
         made.step()
-    return made.push(mesh.stroke)
+        if supports:
+            made.lines += ["*CONTROLS,PARAMETERS=FIELD", "1e-4,1e-2"]
+        made.push(to)
+    return "\n".join(made.lines) + "\n"
 
 
-def _cylinder(made: _Deck, radius: float = 20.0, centre: float = 25.0, facets: int = 400) -> tuple[int, int]:
-    """The tool: a ring of facets in a rigid body, from 45 to 145 degrees; returns its reference nodes."""
+def _cylinder(
+    made: _Deck,
+    radius: float,
+    centre: float = 25.0,
+    between: tuple[float, float] = (45.0, 145.0),
+    facets: int = 400,
+) -> tuple[int, int]:
+    """The tool: a ring of facets in a rigid body between two angles in degrees; returns its reference nodes."""
     z = -0.5 * THICKNESS - radius
     first = node = len(made.ids)
     made.lines.append("*NODE,NSET=NTOOL")
-    for angle in np.radians(np.linspace(45.0, 145.0, facets + 1)):
+    for angle in np.radians(np.linspace(*between, facets + 1)):
         for r, y in ((radius, -0.1), (radius, 1.1), (0.8 * radius, -0.1), (0.8 * radius, 1.1)):
             node += 1
             made.lines.append(f"{node},{centre + r * np.cos(angle):.9g},{y:.9g},{z + r * np.sin(angle):.9g}")
@@ -219,7 +249,7 @@ def _cylinder(made: _Deck, radius: float = 20.0, centre: float = 25.0, facets: i
     return held
 
 
-def _contact(made: _Deck, penalty: float = 100.0) -> None:
+def _contact(made: _Deck, penalty: float) -> None:
     """Surface to surface, the pressure linear in the penetration."""
     made.lines += ["*SURFACE,NAME=SLOWER", *(f"{number},S1" for number in made.lower), "*SURFACE,NAME=STOOL", "TOOL,S2"]
     made.lines += ["*MATERIAL,NAME=TOOL", "*ELASTIC", "210000,.3", "*SOLID SECTION,ELSET=TOOL,MATERIAL=TOOL"]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from umform import mesh
 from umform.materials import J2, Linear, Perfect
 from umform.model import Model
+from umform.technology import Element, Term
 from umform.verification.variants import Variant
 
 Floats = NDArray[np.float64]
@@ -50,16 +52,41 @@ class Candidate:
         """8 or 18."""
         return self.variant.element.nodes
 
-    def strip(self, x: Floats, y: Floats, thickness: float, hardening: float) -> Model:
-        """Flat strip between the stations x and y, its mid-surface at z = 0."""
+    def strip(
+        self,
+        x: Floats,
+        y: Floats,
+        thickness: float,
+        hardening: float,
+        shape: Callable[[Floats], Floats] | None = None,
+    ) -> Model:
+        """Flat strip between the stations x and y, its mid-surface at z = 0; its nodes moved by a shape if wanted."""
         element = self.variant.element
         z = np.linspace(-0.5 * thickness, 0.5 * thickness, self.layers + 1)
+        regular = mesh.grid(x, y, z, element.cell)
         return Model(
-            mesh.grid(x, y, z, element.cell),
+            regular if shape is None else regular.transformed(shape),
             element,
             material=steel(hardening),
             thickness_points=self.points,
             thickness_rule=self.rule,
+        )
+
+
+@dataclass(frozen=True)
+class HigherOrder(Variant):
+    """An element of the catalogue with E_33 of an order that the catalogue does not offer, by modes of its own."""
+
+    order: int = 5
+    __hash__ = Variant.__hash__
+
+    @property
+    def element(self) -> Element:
+        """The element."""
+        known = super().element
+        modes = tuple((Term("33", c=p),) for p in range(known.thickness_order + 1, self.order + 1))
+        return replace(
+            known, name=f"{self.name}, order {self.order}", modes=known.modes + modes, thickness_order=self.order
         )
 
 

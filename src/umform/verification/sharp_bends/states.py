@@ -48,24 +48,45 @@ STATES = (
 
 @dataclass(frozen=True)
 class Patch:
-    """A square patch with edges of 4 and the thickness 1: so many elements along an edge, and layers."""
+    """A square patch with edges of 4 and thickness 1: so many elements along an edge, and layers; maybe distorted."""
 
     variant: Variant
     count: int
     layers: int = 1
+    distorted: bool = False
 
     @property
     def label(self) -> str:
         """Name in tables."""
         name = f"stack of {self.layers} {self.variant.label}" if self.layers > 1 else self.variant.label
-        return f"{name}, length {EDGE / self.count:g} h"
+        return f"{name}, length {self.length:g} h{', distorted' if self.distorted else ''}"
+
+    @property
+    def length(self) -> float:
+        """Length of the elements, where they are squares."""
+        return EDGE / self.count
 
     def model(self, material: J2 | NeoHooke) -> Model:
         """The patch without supports."""
         element = self.variant.element
         x = np.linspace(0.0, EDGE, self.count + 1)
         sheet = mesh.grid(x, x, np.linspace(-0.5, 0.5, self.layers + 1), element.cell)
+        if self.distorted:
+            lines = np.linspace(0.0, EDGE, self.count + 1)
+            sheet = sheet.transformed(lambda X: _swirled(X, lines))
         return Model(sheet, element, material=material, thickness_points=POINTS // self.layers)
+
+
+def _swirled(X: Floats, lines: Floats) -> Floats:
+    """Corners moved in the plane by up to 0.3, those of the edges along them; sides between corners stay straight."""
+
+    def wave(x: Floats, half_waves: int, phase: float) -> Floats:
+        return np.asarray(np.interp(x, lines, np.sin(half_waves * np.pi * lines / EDGE + phase)))
+
+    x, y = X[:, 0], X[:, 1]
+    quarter = 0.5 * np.pi
+    moved = wave(x, 1, 0.0) * wave(y, 2, quarter), wave(x, 2, quarter) * wave(y, 1, 0.0), 0.0 * x
+    return X + 0.3 * np.column_stack(moved)
 
 
 def stretch(model: Model, stretches: Floats, path: Sequence[float]) -> Evaluation:
@@ -121,10 +142,23 @@ def lowest_eigenvalues(
     found = {}
     for name, stretches in states.items():
         model = patch.model(material)
-        K = stiffness(model, stretch(model, stretches, path)).toarray()
-        X = model.mesh.points[:, :2]
-        inner = np.flatnonzero((X.min(axis=1) > 1e-9) & (X.max(axis=1) < EDGE - 1e-9))
-        dofs = (3 * inner[:, None] + np.arange(3)).ravel()
-        values = np.linalg.eigvalsh(K[np.ix_(dofs, dofs)])
+        values = _clamped_eigenvalues(model, stretch(model, stretches, path))
         found[name] = float(values[0]), int((values < 0.0).sum())
     return found
+
+
+def first_loss(patch: Patch, material: J2 | NeoHooke, stretches: Floats, path: Sequence[float]) -> float:
+    """Thickness at the first negative eigenvalue on a path of compression; NaN if none comes."""
+    model = patch.model(material)
+    for part in path:
+        if _clamped_eigenvalues(model, stretch(model, stretches, (part,)))[0] < 0.0:
+            return float(stretches[2] ** part)
+    return float("nan")
+
+
+def _clamped_eigenvalues(model: Model, evaluation: Evaluation) -> Floats:
+    K = stiffness(model, evaluation).toarray()
+    X = model.mesh.points[:, :2]
+    inner = np.flatnonzero((X.min(axis=1) > 1e-9) & (X.max(axis=1) < EDGE - 1e-9))
+    dofs = (3 * inner[:, None] + np.arange(3)).ravel()
+    return np.asarray(np.linalg.eigvalsh(K[np.ix_(dofs, dofs)]))

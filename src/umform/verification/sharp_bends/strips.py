@@ -5,6 +5,7 @@ All are halves, symmetric about x = 0, 1 thick, of the steel of this chapter; fo
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -58,6 +59,25 @@ class Strip:
 
 
 @dataclass(frozen=True)
+class Distortion:
+    """A mesh of a strip in plane strain that is not regular.
+
+    Attributes
+    ----------
+    name : str
+        What is added to the name of the run.
+    move : callable
+        Nodes (n, 3) of the regular mesh to those of the distorted one.
+    over_width : int
+        Elements over the width of 1.
+    """
+
+    name: str
+    move: Callable[[Floats], Floats]
+    over_width: int = 1
+
+
+@dataclass(frozen=True)
 class Bend:
     """What came out of a strip.
 
@@ -84,13 +104,36 @@ class Bend:
         return float(np.interp(u, self.u, self.force)) if u <= self.u[-1] * (1 + 1e-9) else float("nan")
 
 
-def bend(page: Page, strip: Strip, candidate: Candidate, cells: int, across: int = 0, frames: int = 0) -> Bend:
-    """Bend a strip of so many elements; with none across it in plane strain, else 10 wide."""
-    model = _model(strip, candidate, cells, across)
+def bend(
+    page: Page,
+    strip: Strip,
+    candidate: Candidate,
+    cells: int,
+    across: int = 0,
+    frames: int = 0,
+    distortion: Distortion | None = None,
+) -> Bend:
+    """Bend a strip of elements.
+
+    Parameters
+    ----------
+    page : Page
+        Keeps the balance.
+    strip, candidate : Strip, Candidate
+        Problem and element.
+    cells, across : int
+        Elements along the strip, and over its width of 10; with none it is 1 wide, in plane strain.
+    frames : int
+        Frames to keep.
+    distortion : Distortion, optional
+        Of the mesh in plane strain.
+    """
+    model = _model(strip, candidate, cells, across, distortion)
     control = model.prescribe(strip.driven, "z", "punch")
     label = f"{candidate.label}, {cells} elements, H = {strip.hardening:g}"
     label += f", {across} across" if across else ""
     label += f", R = {strip.radius:g}" if strip.kind == "fold" else ""
+    label += f", {distortion.name}" if distortion else ""
     try:
         result = page.solve(label, model, [Move(control, to=-strip.stroke, steps=strip.steps)], frames=frames)
     except UmformError as error:  # the page shows how far it came
@@ -99,10 +142,10 @@ def bend(page: Page, strip: Strip, candidate: Candidate, cells: int, across: int
     return Bend(-result["punch"], force, least_radius(model), int(result["iterations"].sum()), result)
 
 
-def _model(strip: Strip, candidate: Candidate, cells: int, across: int) -> Model:
+def _model(strip: Strip, candidate: Candidate, cells: int, across: int, distortion: Distortion | None) -> Model:
     x = np.linspace(0.0, strip.length, cells + 1)
-    y = np.linspace(0.0, WIDTH if across else 1.0, max(across, 1) + 1)
-    model = candidate.strip(x, y, THICKNESS, strip.hardening)
+    y = np.linspace(0.0, WIDTH if across else 1.0, (across or (distortion.over_width if distortion else 1)) + 1)
+    model = candidate.strip(x, y, THICKNESS, strip.hardening, distortion.move if distortion else None)
     model.symmetry("x0", "x")
     everywhere = np.arange(len(model.mesh.points))
     edge = np.intersect1d(model.mesh.nodes("x0_lower"), model.mesh.nodes("y0"))
@@ -120,12 +163,12 @@ def _model(strip: Strip, candidate: Candidate, cells: int, across: int) -> Model
 def least_radius(model: Model) -> float:
     """Least radius over the thickness, from the turn between the directors of neighbouring stations."""
     X, x = model.mesh.points, model.mesh.points + model.u.reshape(-1, 3)
-    edge = np.flatnonzero(X[:, 1] == X[:, 1].min())
-    station = X[edge, 0].round(9)
+    lower, upper = (np.intersect1d(model.mesh.nodes(face), model.mesh.nodes("y0")) for face in ("lower", "upper"))
+    lower, upper = (nodes[np.argsort(X[nodes, 0])] for nodes in (lower, upper))
     angles = []
-    for along in np.unique(station):
-        here = edge[station == along]
-        director = x[here[np.argmax(X[here, 2])]] - x[here[np.argmin(X[here, 2])]]
-        angles.append(np.arctan2(director[0], director[2]))
-    curvature = np.abs(np.diff(angles)) / np.diff(np.unique(station))
+    for points in (X, x):
+        director = points[upper] - points[lower]
+        angles.append(np.arctan2(director[:, 0], director[:, 2]))
+    along = 0.5 * (X[lower, 0] + X[upper, 0])
+    curvature = np.abs(np.diff(angles[1] - angles[0])) / np.diff(along)
     return float(1.0 / (curvature.max() * THICKNESS))
