@@ -7,6 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from umform.elements import element
 from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.budget import Budget
 from umform.processes.air_bending.case import AirBend
@@ -89,4 +90,4 @@ def record(bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None 
 
 def parameters(case: AirBending) -> dict[str, Any]:
     """Parameters in a form that JSON can hold; the material in words."""
-    return case.record() | {"material": repr(case.material)}
+    return case.record() | {"element": element(case.element).name, "material": repr(case.material)}
