@@ -12,6 +12,7 @@ from umform.materials import J2
 from umform.processes.air_bending import AirBending
 from umform.processes.air_bending.section import Section
 from umform.verification.air_bending import pure_bending
+from umform.verification.air_bending.causes import LAYERS
 from umform.verification.air_bending.pure_bending import Arc
 from umform.verification.air_bending.runs import INCREMENT, Floats, bend, curvatures, load, moments
 from umform.verification.case import Case
@@ -31,10 +32,6 @@ _INCREMENT = 0.004
 BEND8, BEND18 = (Candidate(name, Variant(name)) for name in ("BEND8", "BEND18"))
 TWO, THREE, FOUR = (Candidate(f"BEND18, {n} layers", Variant("BEND18"), 6, "gauss", n) for n in (2, 3, 4))
 STACK = stack("ANS3DEAS", 16, 2)
-_LAYERS = (
-    "fibre positions are straight and the stress through the thickness is one number in each layer; in one layer the "
-    "two errors nearly cancel, eq. (2.32), in two or more they do not, and fade with their number"
-)
 ELEMENTS = (BEND8, BEND18, TWO, THREE, FOUR, STACK)
 #: Elastic strains stretch the middle by up to 0.7 %, thin the sheet by 1 % and take 2 % off the moment; the fibre of
 #: kept length moves by 0.016 with it, and the elastic core is 0.02 h thick.
@@ -94,7 +91,7 @@ def _pure(page: Page) -> None:
 
 
 def _judge(page: Page, candidate: Candidate, found: dict[str, dict[float, float]]) -> None:
-    known = {"known": 0.06, "cause": _LAYERS} if candidate in (TWO, THREE, FOUR) else {}
+    known = {"known": 0.06, "cause": LAYERS} if candidate in (TWO, THREE, FOUR) else {}
     for name, what, within in (("moment", "moment", MOMENT), ("springback", "springback", SPRINGBACK)):
         for where, sharp in (("R/h = 20 to 2", False), ("R/h = 1", True)):
             values = [value for ratio, value in found[name].items() if (ratio < 2.0) == sharp]
