@@ -115,8 +115,8 @@ def test_penalty_and_penetration_together_are_for_multipliers():
 
 
 def wanted(length, penalty, radius=10.0):
-    """Two points within the length that touches."""
-    return 2.0 * length / contact_length(radius, 2.0 / math.sqrt(3.0) * 200.0 / 8.0, penalty)
+    """Four points within the length that touches."""
+    return 4.0 * length / contact_length(radius, 2.0 / math.sqrt(3.0) * 200.0 / 8.0, penalty)
 
 
 @pytest.mark.parametrize(("cells", "penalty"), [(10, 300.0), (20, 1000.0), (20, 5000.0), (40, 5000.0), (10, 200.0)])

@@ -17,7 +17,8 @@ _LIMITS = """\
 * Pressure at the nodes of 9-node faces can be slightly negative beside the edge of a contact: it is an average with
   the shape functions as weights, and these change their sign. At the contact points it is right.
 * A release from a tool with a penalty of some 100 E/h can fail close to zero force; the automatic penalty is softer.
-* In air bending one layer of elements bends more sharply than two or more at the same stroke: take two layers.
+* In air bending one layer of elements bends more sharply than two or more at the same stroke: take two layers. See
+  air-bend-mesh for the cause; two layers leave an angle some 0.6 degrees smaller than a stack of eight does.
 * Results after the onset of necking or of a plastic hinge without hardening depend on the mesh: the law has no length.
 """
 

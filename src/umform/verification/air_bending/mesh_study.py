@@ -190,9 +190,10 @@ def _cause(page: Page) -> None:
         "pressure of the punch, and the shear that turns its sign, leave the section neither straight nor free of "
         "stress through the thickness. The moment of this metal grows with about the fifth root of the curvature, so "
         f"that {100 * (rows[2][2] - 1):.0f} % of moment are {100 * (rows[2][2] ** 5 - 1):.0f} % of curvature: the "
-        "hinge of one layer is too sharp. In a wider die it is less so, for the moment falls more slowly there. No order and "
-        "no number of points mends it; layers do. Two layers are 1 to 5 % too stiff in pure bending at R/h = 5 to 2 "
-        "([air-bend-wide-sheet](air-bend-wide-sheet.md)), which is why their moment here is above that of four."
+        "hinge of one layer is too sharp. In a wider die it is less so, for the moment falls more slowly there. No "
+        "order and no number of points mends it; layers do. Two layers are 1 to 5 % too stiff in pure bending at "
+        "R/h = 5 to 2 ([air-bend-wide-sheet](air-bend-wide-sheet.md)), which is why their moment here is above that of "
+        "four."
     )
 
 
