@@ -10,7 +10,7 @@ import numpy as np
 from umform.materials import J2
 from umform.model import Model
 from umform.processes.air_bending import AirBending, Measures, air_bending, find_stroke
-from umform.verification.air_bending.causes import LAYERS, ONE_LAYER
+from umform.verification.air_bending.causes import LAYERS, ONE_LAYER, known
 from umform.verification.air_bending.pure_bending import Arc
 from umform.verification.air_bending.runs import INCREMENT, Floats, Loading, bend, curvatures, load, moments
 from umform.verification.case import Case
@@ -96,14 +96,14 @@ def _judge(page: Page, found: Found) -> None:
     reference = found[REFERENCE, REFERENCE.along[0]]
     for sheet, along in ((DEFAULT, 3.0), (DEFAULT, 6.0), (THREE, 3.0), (FOUR, 3.0), (STACK, 12.0)):
         m, what = found[sheet, along], f"{sheet.label}, {along:g} elements per thickness"
-        known = {name: {"known": k, "cause": LAYERS} if sheet is not STACK else {} for name, (_, k) in WITHIN.items()}
+        causes = {name: known(limit, LAYERS, sheet is not STACK) for name, (_, limit) in WITHIN.items()}
         within = {name: limit for name, (limit, _) in WITHIN.items()}
         angles = m.angle, reference.angle, within["angle"]
-        page.check(f"{what}: angle, degrees", *angles, relative=False, **known["angle"])
+        page.check(f"{what}: angle, degrees", *angles, relative=False, **causes["angle"])
         forces = m.largest_force, reference.largest_force, within["force"]
-        page.check(f"{what}: largest force", *forces, **known["force"])
+        page.check(f"{what}: largest force", *forces, **causes["force"])
         page.check(
-            f"{what}: springback", m.springback, reference.springback, within["springback"], **known["springback"]
+            f"{what}: springback", m.springback, reference.springback, within["springback"], **causes["springback"]
         )
     for sheet, along in ((SINGLE, 3.0), (BEND8, 6.0)):
         angles = found[sheet, along].angle, reference.angle, WITHIN["angle"][0]

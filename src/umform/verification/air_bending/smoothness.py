@@ -13,6 +13,7 @@ from umform.processes.air_bending.brake import OPTIONS, build, force_per_width
 from umform.processes.bending.measures import SMOOTH_DEGREE, jump
 from umform.results import Result
 from umform.steps import Move
+from umform.verification.air_bending.causes import known
 from umform.verification.air_bending.runs import Floats
 from umform.verification.case import Case
 from umform.verification.contact.figures import Curve, plot
@@ -195,8 +196,8 @@ def run(page: Page) -> None:
             rest, smooth = beyond_smooth(u, F)
             whole = jump(u, F, u[0], WINDOW * THICKNESS) or float("nan")
             rows.append((event.name + part, rule, settings, 100 * whole, 100 * smooth, 100 * rest))
-            known = {"known": 0.02, "cause": _STIFF} if "brake" in rule else {}
-            page.at_most(f"{event.name}{part}, {rule}: J beyond the smooth curve", rest, LIMIT, **known)
+            stiff = known(0.02, _STIFF, "brake" in rule)
+            page.at_most(f"{event.name}{part}, {rule}: J beyond the smooth curve", rest, LIMIT, **stiff)
         if rule == "automatic":
             _happened(page, this)
             name, picture = event.name, event.name.replace(" ", "-")

@@ -12,7 +12,7 @@ from umform.materials import J2
 from umform.processes.air_bending import AirBending
 from umform.processes.air_bending.section import Section
 from umform.verification.air_bending import pure_bending
-from umform.verification.air_bending.causes import LAYERS
+from umform.verification.air_bending.causes import LAYERS, known
 from umform.verification.air_bending.pure_bending import Arc
 from umform.verification.air_bending.runs import INCREMENT, Floats, bend, curvatures, load, moments
 from umform.verification.case import Case
@@ -91,13 +91,13 @@ def _pure(page: Page) -> None:
 
 
 def _judge(page: Page, candidate: Candidate, found: dict[str, dict[float, float]]) -> None:
-    known = {"known": 0.06, "cause": LAYERS} if candidate in (TWO, THREE, FOUR) else {}
+    layered = known(0.06, LAYERS, candidate in (TWO, THREE, FOUR))
     for name, what, within in (("moment", "moment", MOMENT), ("springback", "springback", SPRINGBACK)):
         for where, sharp in (("R/h = 20 to 2", False), ("R/h = 1", True)):
             values = [value for ratio, value in found[name].items() if (ratio < 2.0) == sharp]
             if values:
                 worst = max(values, key=lambda value: abs(value - 1.0))
-                page.check(f"{candidate.label}, {where}: {what} over the closed form", worst, 1.0, within, **known)
+                page.check(f"{candidate.label}, {where}: {what} over the closed form", worst, 1.0, within, **layered)
     within = PLACE + 0.5 * _widest_gap(candidate)
     for name, closed in (("kept", pure_bending.kept_fibre), ("resting", pure_bending.resting_fibre)):
         off = max((value - closed(_turn(ratio)) for ratio, value in found[name].items()), key=abs)
@@ -116,12 +116,14 @@ def _widest_gap(candidate: Candidate) -> float:
 def _hardening(page: Page) -> None:
     """A metal that hardens, three times as much as it yields at: what layers are worth there."""
     ratios = RATIOS[2:]
+    rows: list[tuple[str | float, ...]] = []
     moments_of: dict[str, list[float]] = {}
     for candidate in (STACK, BEND18, TWO, THREE, FOUR):
         arc = Arc(candidate, STEEL)
         moments_of[candidate.label] = [arc.moment if _bent(arc, ratio) else np.nan for ratio in ratios]
     reference = moments_of.pop(STACK.label)
-    rows = [(label, *(m / r for m, r in zip(found, reference, strict=True))) for label, found in moments_of.items()]
+    for label, found in moments_of.items():
+        rows.append((label, *(m / r for m, r in zip(found, reference, strict=True))))
     columns = ("element", *(f"R/h = {ratio:g}" for ratio in ratios))
     page.table(f"Hardening modulus {STEEL:g} MPa: moment over that of the stack of 16", columns, rows)
 
