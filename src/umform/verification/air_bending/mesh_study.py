@@ -172,9 +172,10 @@ def _cause(page: Page) -> None:
         near, far = ratio[x < 0.5], ratio[(x > 1.0) & (x < 1.5)]
         label = f"{layers} layer{'s' if layers > 1 else ''}"
         curves.append(Curve(label, x, ratio, "o-"))
-        rows.append(
-            (label, float(curvatures(loading.section)[1][0] * case.thickness), float(near.mean()), float(far.mean()))
-        )
+        sharpest = float(curvatures(loading.section)[1][0] * case.thickness)
+        rows.append((label, sharpest, float(near.mean()), float(far.mean())))
+        if layers == 1:
+            page.shape("shape", loading.result, "One layer under load", values="plastic_strain_max", view=(-90, 0))
         page.check(f"{label}: moment over pure bending, 1 to 1.5 h from the middle", float(far.mean()), 1.0, 0.04)
     columns = ("sheet", "k h in the middle", "moment over pure bending, 0 to 0.5 h", "1 to 1.5 h")
     page.table(f"Under load at {STROKE:g} mm, moment of the contact forces over that of pure bending", columns, rows)

@@ -94,7 +94,7 @@ Runs = dict[Sheet, Loading]
 
 def _sheets(page: Page, bend: Bluntness) -> tuple[Sheet, ...]:
     if page.short:
-        return (STACK, ORDERS[0], DEFAULT)
+        return (STACK, DEFAULT)
     if bend.ratio > 2.0:  # orders 2 to 4 are the same
         return (STACK, ORDERS[0], DEFAULT, EIGHT, SINGLE)
     return (STACK, *ORDERS, DEFAULT, FIVE, EIGHT, SINGLE)
