@@ -71,6 +71,7 @@ EVENTS = (LIFT_OFF, SECOND, SLIDING)
 RULES: dict[str, Callable[[AirBending], AirBending]] = {
     "automatic": lambda case: replace(case, contact_points="auto", penetration=AUTOMATIC * case.thickness),
     "default of the brake": lambda case: case,
+    "5 points": lambda case: replace(case, contact_points=5, penetration=AUTOMATIC * case.thickness),
     "3 points": lambda case: replace(case, contact_points=3, penetration=AUTOMATIC * case.thickness),
 }
 
@@ -78,7 +79,7 @@ RULES: dict[str, Callable[[AirBending], AirBending]] = {
 #: Rules of each event.
 RUN = {
     LIFT_OFF.name: ("automatic", "default of the brake"),
-    SECOND.name: ("automatic", "3 points"),
+    SECOND.name: ("automatic", "5 points"),
     SLIDING.name: ("automatic", "default of the brake", "3 points"),
 }
 #: Way in thicknesses by which the second contact may come too early or too late: less than half of the penetration.
@@ -170,7 +171,7 @@ def _corner(page: Page, few: Run, many: Run) -> None:
     beyond = few.u >= begin
     apart = np.abs(np.interp(few.F[beyond], many.F[many.u >= begin], many.u[many.u >= begin]) - few.u[beyond])
     steep = (few.F[beyond] > 1.1 * few.F[beyond][0]) & (few.F[beyond] < many.F[-1])
-    what = "second contact, once the force has grown by 10 %: distance in the stroke of the curve of 3 points, over h"
+    what = "second contact, once the force has grown by 10 %: distance in the stroke of the curve of 5 points, over h"
     page.at_most(what, float(apart[steep].max()) / THICKNESS, EARLY)
 
 
@@ -194,7 +195,7 @@ def run(page: Page) -> None:
             rest, smooth = beyond_smooth(u, F)
             whole = jump(u, F, u[0], WINDOW * THICKNESS) or float("nan")
             rows.append((event.name + part, rule, settings, 100 * whole, 100 * smooth, 100 * rest))
-            if rule == "3 points":
+            if rule in ("3 points", "5 points"):
                 continue  # shown as what it is
             stiff = known(0.02, _STIFF, "brake" in rule)
             page.at_most(f"{event.name}{part}, {rule}: J beyond the smooth curve", rest, LIMIT, **stiff)
@@ -206,7 +207,7 @@ def run(page: Page) -> None:
     page.table(f"J within {WINDOW:g} h, beyond a stroke of h", columns, rows)
     if page.short:
         return
-    _corner(page, found[SECOND.name, "3 points"], found[SECOND.name, "automatic"])
+    _corner(page, found[SECOND.name, "5 points"], found[SECOND.name, "automatic"])
     curves = [Curve(f"{name}, {rule}", run.u, run.F / run.F[run.u <= 1.6].max()) for (name, rule), run in found.items()]
     figure = plot(curves, "stroke over h", "force over its largest up to 1.6 h", limits=(0.0, 2.0))
     page.figure("curves", figure, "Force over stroke")
@@ -214,7 +215,7 @@ def run(page: Page) -> None:
         "J counts the slope of the curve too: behind the elastic part, and even more where a leg is pressed against a "
         "flank, most of it is the slope of the smooth curve. What the contact adds is the last column. While the legs "
         "lay themselves against the flanks the force bends into its new slope within a few hundredths of h; there "
-        "the curve is compared with that of three points, in the stroke. Around the shoulder three are what two "
+        "the curve is compared with that of half of the points, in the stroke. Around the shoulder three are what two "
         "within the expected length of the contact come to: late in the stroke the force is a third of what "
         "is expected, the contact shorter, and the curve climbs in stairs. So the automatic rule wants six there, "
         "eq. (4.31)."
