@@ -22,7 +22,7 @@ from umform.verification.which_element import which_element_text
 from umform.verification.writing import Outcome, page_text, summary_text, write_text
 
 #: Folders of the chapters, in the order of the book.
-_FOLDERS = ("quality", "linear", "nonlinear", "plastic", "contact", "free_bending", "sharp_bends")
+_FOLDERS = ("quality", "linear", "nonlinear", "plastic", "contact", "free_bending", "sharp_bends", "air_bending")
 
 
 @cache

@@ -12,13 +12,14 @@ import pytest
 from typer.testing import CliRunner
 
 from umform.cli import app
+from umform.elements import element
 from umform.errors import InvalidValue
 from umform.materials import J2, Perfect
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending import budget as budget_module
 from umform.processes.air_bending.budget import Budget, error_budget, refinements
 from umform.processes.air_bending.deck import deck_of
-from umform.processes.air_bending.files import write_files
+from umform.processes.air_bending.files import parameters, write_files
 from umform.processes.air_bending.measures import QUANTITIES
 from umform.processes.air_bending.words import summary, summary_header
 
@@ -41,6 +42,11 @@ def test_each_refinement_changes_one_parameter():
         before = TINY.record() | {"penalty": TINY.contact_penalty}
         after = refined.record() | {"penalty": refined.contact_penalty}
         assert sum(before[name] != after[name] for name in before) == 1
+
+
+def test_an_element_of_ones_own_is_recorded_by_its_name():
+    case = replace(TINY, element=element("MI9K3DEAS", thickness_order=2, tie_E33=True))
+    assert parameters(case)["element"] == "MI9K3DEAS"
 
 
 def test_automatic_contact_is_refined_too():

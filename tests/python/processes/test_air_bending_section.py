@@ -50,6 +50,17 @@ def test_a_circular_bend_gives_its_own_numbers(radius, neutral, angle, order):
     np.testing.assert_allclose(section.thicknesses, 1.0, rtol=2e-4)
 
 
+@pytest.mark.parametrize("order", [1, 2])
+def test_the_leg_of_a_thin_sheet_on_a_coarse_mesh_is_its_last_element(order):
+    """With elements of 4 thicknesses only one line of nodes lies in the outermost two."""
+    slope = math.radians(20.0)
+    flat = np.stack(
+        np.meshgrid(np.arange(0.0, HALF_LENGTH + 1.0, 8.0 / order), [0.0, THICKNESS], indexing="ij"), axis=-1
+    )
+    turn = np.array([[math.cos(slope), math.sin(slope)], [-math.sin(slope), math.cos(slope)]])
+    assert Section(flat, flat @ turn, order).slope == pytest.approx(slope, abs=1e-12)
+
+
 def test_fibres_are_as_long_as_their_arcs():
     section = circular(2.5, 0.4, 90.0, 2)
     for height in (0.0, 0.15, 0.3, 0.7, 1.0):

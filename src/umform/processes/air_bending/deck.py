@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from umform.errors import InvalidValue
 from umform.processes.air_bending.brake import OPTIONS, increments, unloading_keys
 from umform.processes.air_bending.checks import needed_stroke
 from umform.processes.air_bending.parameters import AirBending
@@ -23,7 +24,7 @@ def deck_of(case: AirBending) -> str:
     Raises
     ------
     InvalidValue
-        If the case has no stroke, or a deck has no words for its hardening.
+        If the case has no stroke, or a deck has no words for its hardening or its element.
     """
     stroke = needed_stroke(case)
     if case.width is None:
@@ -42,7 +43,7 @@ def deck_of(case: AirBending) -> str:
 def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
     lines = dict(zip("xyz", (line.tolist() for line in lines_of(case)), strict=True))
     yield "[mesh]", {"generator": "grid", **lines}
-    yield "[element]", {"name": case.element, "thickness_points": case.thickness_points}
+    yield "[element]", {"name": _element_name(case), "thickness_points": case.thickness_points}
     yield "[material]", law_keys(case.material)
     die = {"shape": "VDie", "opening": case.opening, "angle": case.die_angle, "shoulder_radius": case.die_radius}
     yield "[tools.die]", die
@@ -57,6 +58,18 @@ def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
     yield "[[steps]]", {"kind": "move", "to": {"stroke": stroke}, "increments": increments(case, stroke)}
     yield "[[steps]]", {"kind": "release", "control": "stroke", **unloading_keys(case)}
     yield "[solution]", {"line_search": OPTIONS.line_search}
+
+
+def _element_name(case: AirBending) -> str:
+    if not isinstance(case.element, str):
+        raise InvalidValue(
+            "a deck has no words for this element",
+            where="element",
+            value=case.element.name,
+            cause="a deck names an element of the catalogue; this one is your own",
+            remedy="take one of `umform elements`, or run the bend in Python",
+        )
+    return case.element
 
 
 def _across(case: AirBending) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from umform.elements import element
 from umform.errors import InvalidValue
 from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.budget import Budget
@@ -60,7 +61,7 @@ def write_files(
         write_json(here / "bend.json", record(bend, table, budget))
         bend.result.write(here / "bend.vtkhdf")
         deck = ""
-        with suppress(InvalidValue):  # a curve of the user has no words in a deck
+        with suppress(InvalidValue):  # a curve or an element of the user has no words in a deck
             deck = deck_of(bend.case)
             (here / "bend.toml").write_text(deck, encoding="utf-8")
         files = stage.commit(_DATA)  # a picture that fails does not take the numbers along
@@ -97,4 +98,4 @@ def record(bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None 
 
 def parameters(case: AirBending) -> dict[str, Any]:
     """Parameters in a form that JSON can hold; the material in words."""
-    return case.record() | {"material": repr(case.material)}
+    return case.record() | {"element": element(case.element).name, "material": repr(case.material)}

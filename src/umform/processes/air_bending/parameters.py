@@ -9,6 +9,7 @@ from typing import Any
 from umform.materials import J2, Swift
 from umform.processes.air_bending.checks import check_geometry, check_parameters
 from umform.surfaces import Punch, VDie
+from umform.technology import Element
 
 #: Like DC04 across the rolling direction in shape and level; a curve of your own material is better.
 DC04_LIKE = J2(E=210e3, nu=0.3, hardening=Swift(strength=520.0, offset=0.004, exponent=0.22))
@@ -43,8 +44,8 @@ class AirBending:
         Way of the punch from where it touches the sheet; a search or a table does not need it.
     material : J2
         Law of the sheet.
-    element : str
-        Name in the catalogue.
+    element : str or Element
+        Name in the catalogue, or an element of your own.
     layers : int
         Elements stacked through the thickness.
     thickness_points : int
@@ -73,7 +74,7 @@ class AirBending:
     width: float | None = None
     stroke: float | None = None
     material: J2 = DC04_LIKE
-    element: str = "BEND18"
+    element: str | Element = "BEND18"
     layers: int = 2
     thickness_points: int = 6
     elements_per_thickness: float = 3.0

@@ -97,8 +97,12 @@ class Section:
         return float(np.interp(0.0, -change, heights))
 
     def leg(self, height: float) -> tuple[Floats, Floats]:
-        """Point and direction (outwards) of the straight line through the outermost two thicknesses of a fibre."""
-        end = self.reference[:, 0, 0] > self.half_length - 2.0 * self.thickness - 1e-9
+        """Point and direction (outwards) of the straight line through the outermost two thicknesses of a fibre.
+
+        Where the last element is longer than that, as in a thin sheet over a wide die, it is through its nodes.
+        """
+        X = self.reference[:, 0, 0]
+        end = min(self.half_length - 2.0 * self.thickness, X[-1 - self.order]) - 1e-9 < X
         x = self.fibre(height)[end]
         centre = x.mean(axis=0)
         direction = np.linalg.svd(x - centre)[2][0]
