@@ -38,12 +38,13 @@ class CalculiX:
         cost = measured(["ccx", "job"], folder, cwd=folder)
         printed = (folder / "job.dat").read_text(encoding="ascii")
         increments, iterations = _counts(folder, problem)
-        level, force = np.zeros(0), np.zeros(0)
+        u, force = np.zeros(0), np.zeros(0)
         if len(problem.pushed):
-            level, forces = totals(printed)
-            level, force = np.append(0.0, level), np.append(0.0, forces[:, 2])
-            if level[-1] < 1 - 1e-6:
-                raise Crashed(f"{entry.key}: ended at {level[-1]:.3g} of the stroke")
+            time, forces = totals(printed)
+            u = np.append(0.0, time) * abs(problem.stroke)
+            force = np.append(0.0, forces[:, 2]) * np.sign(problem.stroke)
+            if time[-1] < 1 - 1e-6:
+                raise Crashed(f"{entry.key}: ended at {time[-1]:.3g} of the stroke")
         return Outcome(
             cost=cost,
             start_up=0.0,
@@ -52,7 +53,7 @@ class CalculiX:
             iterations=iterations,
             solver=solver.lower(),
             probes={name: _mean(printed, name) for name in problem.probes},
-            level=level,
+            u=u,
             force=force,
         )
 

@@ -48,7 +48,7 @@ class Scripted:
         script = HERE / f"{self.name.lower()}_peer.py"
         cost = measured([self.python, str(script), str(folder)], folder)
         told = json.loads((folder / "outcome.json").read_text())
-        curve = {name: np.array(told.pop(name, [])) for name in ("level", "force")}
+        curve = {name: np.array(told.pop(name, [])) for name in ("u", "force")}
         return Outcome(cost=cost, unknowns=problem.unknowns, **told, **curve)
 
 

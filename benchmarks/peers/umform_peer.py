@@ -30,7 +30,7 @@ def solve(problem: Problem, options: Mapping[str, Any]) -> dict[str, Any]:
         if len(held):
             model.fix(held, name)
     newton = NewtonOptions(**options.get("newton", {}))
-    told = _bend(problem, model, newton) if len(problem.pushed) else _load(problem, model, solver)
+    told = _bend(problem, model, newton) if len(problem.pushed) else _load(problem, model, newton, solver)
     return told | {"solver": heard.solver or solver, "probes": means(problem, model.u.reshape(-1, 3))}
 
 
@@ -57,11 +57,12 @@ def _bend(problem: Problem, model: Model, newton: NewtonOptions) -> dict[str, An
     model.contact("lower", cylinder, penalty=tool.penalty, points=points, name="tool")
     steps = Move(control, to=problem.stroke, steps=problem.levels)
     result = solve_steps(model, steps, options=newton, frames=0, progress=False)
-    curve = {"level": (result["punch"] / problem.stroke).tolist(), "force": result["punch_force"].tolist()}
+    sign = np.sign(problem.stroke)
+    curve = {"u": (sign * result["punch"]).tolist(), "force": (sign * result["punch_force"]).tolist()}
     return curve | _counts(result)
 
 
-def _load(problem: Problem, model: Model, solver: str) -> dict[str, Any]:
+def _load(problem: Problem, model: Model, newton: NewtonOptions, solver: str) -> dict[str, Any]:
     """Dead nodal forces, in levels or in one linear step."""
     forces = problem.forces
     assert forces is not None
@@ -73,9 +74,8 @@ def _load(problem: Problem, model: Model, solver: str) -> dict[str, Any]:
         return {"increments": 1, "iterations": 1}
     values, number = np.unique(forces, axis=0, return_inverse=True)
     loads = [model.force(np.flatnonzero(number == k), f) for k, f in enumerate(values) if f.any()]
-    result = solve_steps(
-        model, Move(loads, [1.0] * len(loads), steps=problem.levels), solver=solver, frames=0, progress=False
-    )
+    steps = Move(loads, [1.0] * len(loads), steps=problem.levels)
+    result = solve_steps(model, steps, solver=solver, options=newton, frames=0, progress=False)
     return _counts(result)
 
 
