@@ -26,7 +26,7 @@ unexport PYTHONPATH PYTHONHOME
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
 .PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
-        format bench clean
+        format bench peers clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -68,6 +68,9 @@ bench: env  ## time the kernels
 	@$(BIN)/python benchmarks/kernels.py $(ARGS)
 	@$(BIN)/python benchmarks/run.py
 	@$(BIN)/python benchmarks/sparse.py
+
+peers: env  ## the same work in other codes that are installed, CalculiX first (some 15 minutes of CPU)
+	@$(BIN)/python benchmarks/peers/run.py --out benchmarks/peers/results.md --page docs/performance.md $(ARGS)
 
 # ---- test ----
 

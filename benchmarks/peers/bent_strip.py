@@ -71,8 +71,8 @@ def entry(peer: str, element: str, cells: int, layers: int, across: int = 0, loo
 def entries(short: bool) -> list[Entry]:
     """Runs of the comparison; short: a coarse mesh and a small stroke."""
     if short:
-        made = partial(build, 12, 1, "hex8", levels=4, stroke=1.0)
-        return [Entry(peer, name, "12 x 1 x 1", made) for peer, name in (("umform", "BEND8"), ("CalculiX", "C3D8I"))]
+        made = partial(build, 24, 1, "hex8", levels=4, stroke=1.0)
+        return [Entry(peer, name, "24 x 1 x 1", made) for peer, name in (("umform", "BEND8"), ("CalculiX", "C3D8I"))]
     loose = [entry(*mesh, loose=True) for mesh in MESHES if mesh[1] == "BEND8"]
     return [*loose, *(entry(*mesh) for mesh in (*MESHES, FINEST))]
 

@@ -64,18 +64,33 @@ def compare(name: str, here: Mapping[str, Peer], said: str, short: bool) -> dict
     return made
 
 
+def _pair(word: str) -> tuple[str, str]:
+    """Code and interpreter of ``CODE=PATH``."""
+    name, equal, path = word.partition("=")
+    if not equal:
+        raise argparse.ArgumentTypeError(f"{word!r} is not CODE=PATH, such as Kratos=/opt/venv/bin/python")
+    return name, path
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the comparison."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("cases", nargs="*", metavar="case", help=f"of {', '.join(CASES)}; default: all")
     parser.add_argument("--short", action="store_true", help="small meshes, umform and CalculiX alone: some seconds")
-    parser.add_argument("--python", default=sys.executable, help="interpreter that has the other codes' packages")
+    parser.add_argument(
+        "--python",
+        action="append",
+        default=[],
+        metavar="CODE=PATH",
+        type=_pair,
+        help="interpreter that has the package of a code",
+    )
     parser.add_argument("--out", type=Path, help="file for the tables; the cases that are not run are kept in it")
     parser.add_argument("--page", type=Path, help="page that gets the table of ratios between its marks")
     told = parser.parse_args(arguments)
     if unknown := set(told.cases) - set(CASES):
         parser.error(f"there is no case {', '.join(sorted(unknown))}; the cases are {', '.join(CASES)}")
-    every = codes(told.python)
+    every = codes(dict(told.python))
     versions = {name: code.version() for name, code in every.items()}
     for name, version in versions.items():
         print(f"{name} {version}" if version else f"{name}: not installed, skipped; install with {every[name].remedy}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
 import time
@@ -34,7 +35,9 @@ class Scripted:
         self.name, self.ask, self.remedy, self.python = name, ask, remedy, python
 
     def version(self) -> str | None:
-        """Version of the package, or None if the interpreter has it not."""
+        """Version of the package, or None if there is no such interpreter or it has no such package."""
+        if not shutil.which(self.python):
+            return None
         told = subprocess.run([self.python, "-c", self.ask], capture_output=True, text=True, check=False)
         return told.stdout.strip() if told.returncode == 0 else None
 

@@ -59,6 +59,7 @@ def entries(short: bool) -> list[Entry]:
         _entry("CalculiX", "C3D8I", SMALL),
         _entry("CalculiX", "C3D8I", SMALL, "ITERATIVE CHOLESKY"),
         _entry("felupe", "Hexahedron", SMALL),
+        _entry("GetFEM", "FEM_QK(3,1)", SMALL),
         _entry("Kratos", "SmallDisplacementElement3D8N", SMALL),
         _entry("Kratos", "ShellThinElementCorotational3D4N", SMALL, cell="quad4"),
     ]
