@@ -91,7 +91,7 @@ def test_codes_that_are_not_there_are_skipped(tmp_path: Path) -> None:
 def test_short_run_beside_calculix(tmp_path: Path) -> None:
     _run("--short", "a", "c", "--out", str(tmp_path / "results.md"))
     record = json.loads((tmp_path / "results.json").read_text())
-    own, other = (record["a"]["runs"][f"{run}, 24 x 1 x 1"] for run in ("umform BEND8", "CalculiX C3D8I"))
+    own, other = (record["a"]["runs"][run] for run in ("umform BEND8, 24 x 1 x 1", "CalculiX C3D8I, 24 x 1 x 2"))
     assert own["force"][-1] == pytest.approx(other["force"][-1], rel=0.1)
     assert own["increments"] == other["increments"] == 4
     own, other = (record["c"]["runs"][f"{run}, 20 x 8"] for run in ("umform ANS3DEAS", "CalculiX C3D8I"))
