@@ -64,7 +64,7 @@ def entries(short: bool) -> list[Entry]:
         Entry("umform", "ANS3DEAS", mesh, partial(build, n, "hex8"), TIED),
         Entry("umform", "MI9K3DEAS", half, partial(build, n // 2, "hex18"), TIED),
         Entry("CalculiX", "C3D20R", half, partial(build, n // 2, "hex20")),
-        Entry("Kratos", KRATOS_SHELL, mesh, partial(build, n, "quad4")),
+        *(Entry("Kratos", KRATOS_SHELL, f"{k} x {k}", partial(build, k, "quad4")) for k in (16, 24)),
     ]
 
 
