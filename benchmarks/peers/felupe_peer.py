@@ -8,7 +8,7 @@ from typing import Any
 import felupe as fem
 import numpy as np
 from problem import Problem
-from scripted import means, work
+from worker import means, work
 
 
 def solve(problem: Problem, options: Mapping[str, Any]) -> dict[str, Any]:

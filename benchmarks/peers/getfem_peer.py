@@ -8,7 +8,7 @@ from typing import Any
 import getfem as gf
 import numpy as np
 from problem import Problem
-from scripted import means, work
+from worker import means, work
 
 #: Its nodes run along x first, then y, then z.
 _LEXICOGRAPHIC = [0, 1, 3, 2, 4, 5, 7, 6]

@@ -10,7 +10,7 @@ import numpy as np
 from KratosMultiphysics import LinearSolversApplication, StructuralMechanicsApplication  # noqa: F401
 from KratosMultiphysics import python_linear_solver_factory as factory
 from problem import Problem
-from scripted import means, work
+from worker import means, work
 
 LAW = {"solid": "LinearElastic3DLaw", "shell": "LinearElasticPlaneStress2DLaw"}
 

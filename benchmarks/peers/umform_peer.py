@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from problem import Problem
-from scripted import means, work
+from worker import means, work
 
 from umform import J2, SVK, Cylinder, Linear, Mesh, Model, Move, NewtonOptions, Result, set_threads
 from umform import solve as solve_steps
