@@ -10,7 +10,7 @@ import numpy as np
 from entries import LOOSE, Entry
 from meshes import grid, held
 from problem import Problem, Tool
-from ratios import Comparison, Found
+from ratios import Comparison, Found, as_good
 
 from umform.verification.references import table as stored
 from umform.verification.sharp_bends.candidates import KAPPA, MU, YIELD_STRESS
@@ -77,6 +77,10 @@ def entries(short: bool) -> list[Entry]:
     return [*loose, *(entry(*mesh) for mesh in (*MESHES, FINEST))]
 
 
+#: Runs that others are compared with, and that compete with none.
+FINE = (entry(*FINEST).key,)
+
+
 def forces(found: Found, width: float) -> dict[str, Any]:
     """Forces on a width of 10 at the marks, of the runs that reach them."""
     last = MARKS[-1] * (1 - 1e-9)
@@ -108,15 +112,9 @@ def measures(found: Found) -> dict[str, dict[str, float]]:
 
 def comparisons(found: Found) -> list[Comparison]:
     """On the same mesh; and, for each run of CalculiX, the cheapest run of umform that is not further off."""
-    made = same_mesh(found)
-    error = {key: row.get(f"off {found[key][0].peer}, %", np.inf) for key, row in measures(found).items()}
-    finest = entry(*FINEST).key
-    for key, off in error.items():
-        as_good = [k for k, e in error.items() if found[k][0].peer == "umform" and e <= off and k != finest]
-        if found[key][0].peer == "CalculiX" and as_good:
-            cheapest = min(as_good, key=lambda k: found[k][1].cost.cpu)
-            made.append(Comparison(f"error {error[cheapest]:.2g} % against {off:.2g} %", cheapest, key, GOAL))
-    return made
+    rows = measures(found)
+    error = {key: row.get(f"off {found[key][0].peer}, %", np.inf) for key, row in rows.items() if key not in FINE}
+    return same_mesh(found) + as_good(found, error, GOAL)
 
 
 def same_mesh(found: Found) -> list[Comparison]:

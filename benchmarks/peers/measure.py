@@ -19,8 +19,12 @@ ONE_THREAD = dict.fromkeys(
     ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBER_OF_CPUS", "CCX_NPROC_EQUATION_SOLVER"), "1"
 )
 
-_STARTER = """
-import json, os, sys, time
+#: CPU seconds after which a run is ended.
+LIMIT = 900
+
+_STARTER = f"""
+import json, os, resource, sys, time
+resource.setrlimit(resource.RLIMIT_CPU, ({LIMIT}, {LIMIT}))
 begin = time.perf_counter()
 pid = os.posix_spawnp(sys.argv[2], sys.argv[2:], os.environ)
 _, status, used = os.wait4(pid, 0)
@@ -57,7 +61,7 @@ def measured(command: Sequence[str], folder: Path, cwd: Path | None = None) -> C
     Raises
     ------
     Crashed
-        If it ends with an error.
+        If it ends with an error, or takes more than :data:`LIMIT`.
     """
     told = folder / "cost.json"
     with (folder / "log").open("w") as log:

@@ -31,6 +31,17 @@ class Comparison:
     goal: float | None = None
 
 
+def as_good(found: Found, error: Mapping[str, float], goal: float | None = None) -> list[Comparison]:
+    """For each run of another code the cheapest run of umform whose error, in %, is no larger, if there is one."""
+    made = []
+    for key, off in error.items():
+        better = [k for k, e in error.items() if found[k][0].peer == "umform" and e <= off]
+        if found[key][0].peer != "umform" and better:
+            cheapest = min(better, key=lambda k: found[k][1].cost.cpu)
+            made.append(Comparison(f"error {error[cheapest]:.2g} % against {off:.2g} %", cheapest, key, goal))
+    return made
+
+
 def costs(found: Found, measures: Mapping[str, Mapping[str, float]]) -> list[list[str]]:
     """Rows of the runs of a case, header first."""
     names = list(dict.fromkeys(name for row in measures.values() for name in row))

@@ -5,10 +5,13 @@ from __future__ import annotations
 import json
 import os
 import platform
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from entries import Entry, Outcome
+from measure import Cost
 from ratios import HEADER, Found, markdown
 
 #: Between these lines of a page stand the ratios.
@@ -32,6 +35,18 @@ def runs(found: Found) -> dict[str, dict[str, Any]]:
         plain = {k: v for k, v in vars(o).items() if k not in ("cost", *curve)}
         made[key] = plain | cost | (curve if len(o.u) else {})
     return made
+
+
+def restored(case: Mapping[str, Any], entries: Iterable[Entry]) -> Found:
+    """The runs of a case as they came out, by the entries that made them."""
+    found = {}
+    for entry in entries:
+        if entry.key in case["runs"]:
+            plain = dict(case["runs"][entry.key])
+            cost = Cost(**{name: plain.pop(name) for name in ("cpu", "wall", "memory")})
+            curve = {name: np.array(plain.pop(name, [])) for name in ("u", "force")}
+            found[entry.key] = entry, Outcome(cost=cost, **plain, **curve)
+    return found
 
 
 def text(record: Mapping[str, Any]) -> str:

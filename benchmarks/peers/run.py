@@ -23,7 +23,7 @@ import wide_strip
 from codes import codes
 from entries import Entry, Outcome, Peer
 from measure import Crashed
-from ratios import HEADER, costs, markdown, ratios
+from ratios import HEADER, Found, costs, markdown, ratios
 
 CASES = {"a": bent_strip, "w": wide_strip, "b": hemisphere, "c": sheet}
 
@@ -51,17 +51,16 @@ def compare(name: str, here: Mapping[str, Peer], said: str, short: bool) -> dict
     case = CASES[name]
     print(case.TITLE, flush=True)
     found = run_case(case, here, short)
-    compared = [replace(c, goal=None if short else c.goal) for c in case.comparisons(found)]  # goals are for large runs
-    made = {
-        "title": case.TITLE,
-        "machine": record.machine(),
-        "codes": said,
-        "table": costs(found, case.measures(found)),
-        "ratios": ratios(name, found, compared),
-        "runs": record.runs(found),
-    }
+    made = {"title": case.TITLE, "machine": record.machine(), "codes": said} | tables(name, found, short)
     print(markdown(made["table"]), flush=True)
-    return made
+    return made | {"runs": record.runs(found)}
+
+
+def tables(name: str, found: Found, short: bool) -> dict[str, Any]:
+    """Tables of the costs and of the ratios of a case; goals are for large runs."""
+    case = CASES[name]
+    compared = [replace(c, goal=None if short else c.goal) for c in case.comparisons(found)]
+    return {"table": costs(found, case.measures(found)), "ratios": ratios(name, found, compared)}
 
 
 def _pair(word: str) -> tuple[str, str]:
@@ -87,25 +86,37 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--out", type=Path, help="file for the tables; the cases that are not run are kept in it")
     parser.add_argument("--page", type=Path, help="page that gets the table of ratios between its marks")
+    parser.add_argument("--tables", action="store_true", help="run nothing: tables anew from the runs beside --out")
     told = parser.parse_args(arguments)
     if unknown := set(told.cases) - set(CASES):
         parser.error(f"there is no case {', '.join(sorted(unknown))}; the cases are {', '.join(CASES)}")
+    kept = record.load(told.out) if told.out else {}
+    if told.tables:
+        for name, case in kept.items():
+            case |= tables(name, record.restored(case, CASES[name].entries(False)), False)
+    else:
+        _run(told, kept)
+    kept = {name: kept[name] for name in CASES if name in kept}
+    print(markdown([HEADER, *(row for case in kept.values() for row in case["ratios"])]))
+    if told.out:
+        record.write(told.out, kept)
+    if told.page:
+        record.write_page(told.page, kept)
+    return 0
+
+
+def _run(told: argparse.Namespace, kept: dict[str, Any]) -> None:
+    """Run the cases, and keep each as soon as it is there."""
     every = codes(dict(told.python))
     versions = {name: code.version() for name, code in every.items()}
     for name, version in versions.items():
         print(f"{name} {version}" if version else f"{name}: not installed, skipped; install with {every[name].remedy}")
     here = {name: code for name, code in every.items() if versions[name]}
     said = ", ".join(f"{name} {versions[name]}" for name in here)
-    kept = record.load(told.out) if told.out else {}
     for name in told.cases or CASES:
         kept[name] = compare(name, here, said, told.short)
         if told.out:
             record.write(told.out, kept)
-    kept = {name: kept[name] for name in CASES if name in kept}
-    print(markdown([HEADER, *(row for case in kept.values() for row in case["ratios"])]))
-    if told.page:
-        record.write_page(told.page, kept)
-    return 0
 
 
 if __name__ == "__main__":

@@ -57,7 +57,6 @@ def entries(short: bool) -> list[Entry]:
         _entry("umform", "ANS3DEAS", SMALL),
         _entry("umform", "ANS3DEAS", SMALL, "superlu"),
         _entry("CalculiX", "C3D8I", SMALL),
-        _entry("CalculiX", "C3D8I", SMALL, "ITERATIVE CHOLESKY"),
         _entry("felupe", "Hexahedron", SMALL),
         _entry("GetFEM", "FEM_QK(3,1)", SMALL),
         _entry("Kratos", "SmallDisplacementElement3D8N", SMALL),
