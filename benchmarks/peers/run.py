@@ -7,9 +7,11 @@ seconds (user and system) and its peak memory are those of the whole process, im
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
@@ -28,13 +30,15 @@ from ratios import HEADER, Found, costs, markdown, ratios
 CASES = {"a": bent_strip, "w": wide_strip, "b": hemisphere, "c": sheet}
 
 
-def run_case(case: ModuleType, here: Mapping[str, Peer], short: bool) -> dict[str, tuple[Entry, Outcome]]:
+def run_case(
+    case: ModuleType, here: Mapping[str, Peer], short: bool, keep: Path | None
+) -> dict[str, tuple[Entry, Outcome]]:
     """Make the runs of a case, one after the other; a run that fails is told and left out."""
     found = {}
     for entry in case.entries(short):
         if entry.peer not in here:
             continue
-        with tempfile.TemporaryDirectory() as folder:
+        with _folder(entry, keep) as folder:
             try:
                 outcome = here[entry.peer].solve(entry, entry.build(), Path(folder))
             except Crashed as failure:
@@ -46,11 +50,20 @@ def run_case(case: ModuleType, here: Mapping[str, Peer], short: bool) -> dict[st
     return found
 
 
-def compare(name: str, here: Mapping[str, Peer], said: str, short: bool) -> dict[str, Any]:
+def _folder(entry: Entry, keep: Path | None) -> AbstractContextManager[str | Path]:
+    """Folder of a run: one that goes with it, or one of its name that stays."""
+    if keep is None:
+        return tempfile.TemporaryDirectory()
+    folder = keep / re.sub(r"[^\w.]+", "-", entry.key)
+    folder.mkdir(parents=True, exist_ok=True)
+    return nullcontext(folder)
+
+
+def compare(name: str, here: Mapping[str, Peer], said: str, short: bool, keep: Path | None = None) -> dict[str, Any]:
     """Run a case; its tables and numbers, ready for JSON."""
     case = CASES[name]
     print(case.TITLE, flush=True)
-    found = run_case(case, here, short)
+    found = run_case(case, here, short, keep)
     made = {"title": case.TITLE, "machine": record.machine(), "codes": said} | tables(name, found, short)
     print(markdown(made["table"]), flush=True)
     return made | {"runs": record.runs(found)}
@@ -86,6 +99,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--out", type=Path, help="file for the tables; the cases that are not run are kept in it")
     parser.add_argument("--page", type=Path, help="page that gets the table of ratios between its marks")
+    parser.add_argument("--keep", type=Path, help="folder in which problems, decks and logs of all runs stay")
     parser.add_argument("--tables", action="store_true", help="run nothing: tables anew from the runs beside --out")
     told = parser.parse_args(arguments)
     if unknown := set(told.cases) - set(CASES):
@@ -114,7 +128,7 @@ def _run(told: argparse.Namespace, kept: dict[str, Any]) -> None:
     here = {name: code for name, code in every.items() if versions[name]}
     said = ", ".join(f"{name} {versions[name]}" for name in here)
     for name in told.cases or CASES:
-        kept[name] = compare(name, here, said, told.short)
+        kept[name] = compare(name, here, said, told.short, told.keep)
         if told.out:
             record.write(told.out, kept)
 

@@ -12,8 +12,7 @@ MESHES = (
     ("umform", "BEND8", 48, 1, 4),
     ("umform", "BEND18", 24, 1, 2),
     ("CalculiX", "C3D8I", 48, 1, 4),
-    ("CalculiX", "C3D20R", 48, 1, 4),
-    ("CalculiX", "C3D20R", 48, 2, 4),
+    ("CalculiX", "C3D8I", 48, 2, 4),
 )
 FINEST = ("umform", "EAS3DEAS", 96, 4, 4)
 #: The model has half of the width.
