@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import platform
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -77,7 +78,9 @@ def write(path: Path, record: Mapping[str, Any]) -> None:
     """Tables in Markdown, and all numbers in JSON beside them."""
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text(record), encoding="utf-8")
-    path.with_suffix(".json").write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    spread = json.dumps(record, indent=1)
+    in_rows = re.sub(r"\[[^][{}]*\]", lambda found: re.sub(r"\s+", " ", found[0]), spread)  # lists on one line
+    path.with_suffix(".json").write_text(in_rows + "\n", encoding="utf-8")
 
 
 def write_page(path: Path, record: Mapping[str, Any]) -> None:
