@@ -27,7 +27,7 @@ unexport PYTHONPATH PYTHONHOME
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
 .PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
-        format bench compare clean
+        format bench compare peers clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -72,6 +72,9 @@ bench: env  ## time kernels, a run and the sparse solvers; the numbers go to bui
 
 compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)
+
+peers: env  ## the same work in other codes that are installed, CalculiX first (some 15 minutes of CPU)
+	@$(BIN)/python benchmarks/peers/run.py --out benchmarks/peers/results.md --page docs/performance.md $(ARGS)
 
 # ---- test ----
 

@@ -20,7 +20,9 @@ def stiffness(model: Model, evaluation: Evaluation) -> csr_matrix:
     return K + triu(K, 1).T if pattern.symmetric else K
 
 
-def linear_solution(model: Model, loads: Floats | float = 0.0, prescribed: Floats | float = 0.0) -> Floats:
+def linear_solution(
+    model: Model, loads: Floats | float = 0.0, prescribed: Floats | float = 0.0, solver: str = "auto"
+) -> Floats:
     """Small displacements K u = loads.
 
     Parameters
@@ -31,6 +33,8 @@ def linear_solution(model: Model, loads: Floats | float = 0.0, prescribed: Float
         Nodal forces.
     prescribed : ndarray, shape (n, 3)
         Displacements of the held degrees of freedom; those of the free ones are not looked at.
+    solver : str
+        Sparse solver, see :mod:`umform.solvers`.
 
     Returns
     -------
@@ -41,7 +45,7 @@ def linear_solution(model: Model, loads: Floats | float = 0.0, prescribed: Float
     if evaluation.failed >= 0:
         raise SolveError("an element is outside of the domain of its law", where=f"cell {evaluation.failed}")
     rhs = np.broadcast_to(loads, u.shape) - evaluation.predictor
-    solver = make_solver(model.pattern, "auto")
-    solver.factor(evaluation.values)
-    u += model.extend(solver.solve(model.restrict(rhs)))
+    linear = make_solver(model.pattern, solver)
+    linear.factor(evaluation.values)
+    u += model.extend(linear.solve(model.restrict(rhs)))
     return u.reshape(-1, 3)

@@ -20,13 +20,15 @@ def hemisphere(cells: int, cell: str = "hex8", *, radius: float = 10.0, thicknes
 
     Sets: x0 the rim of the hole, x1 the equator, y0 in the plane y = 0, y1 in the plane x = 0.
     """
+    flat = mesh.strip(1, 1, thickness, (cells, cells), cell=cell)
+    return flat.transformed(lambda X: onto_hemisphere(X, radius))
 
-    def onto_sphere(X: Floats) -> Floats:
-        polar, azimuth, r = np.radians(18 + 72 * X[:, 0]), 0.5 * np.pi * X[:, 1], radius + X[:, 2]
-        ring = r * np.sin(polar)
-        return np.column_stack([ring * np.cos(azimuth), ring * np.sin(azimuth), r * np.cos(polar)])
 
-    return mesh.strip(1, 1, thickness, (cells, cells), cell=cell).transformed(onto_sphere)
+def onto_hemisphere(X: Floats, radius: float) -> Floats:
+    """Bend the unit square, z through the thickness, into the quarter of :func:`hemisphere`."""
+    polar, azimuth, r = np.radians(18 + 72 * X[:, 0]), 0.5 * np.pi * X[:, 1], radius + X[:, 2]
+    ring = r * np.sin(polar)
+    return np.column_stack([ring * np.cos(azimuth), ring * np.sin(azimuth), r * np.cos(polar)])
 
 
 def pinched_hemisphere(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time as clock
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -129,9 +130,16 @@ def _plot(page: Page, found: Found) -> None:
 class Metal(Candidate):
     """A candidate of the metal of the brake, whatever hardening is asked for."""
 
-    def strip(self, x: Floats, y: Floats, thickness: float, hardening: float) -> Model:
-        """Flat strip between the stations x and y, its mid-surface at z = 0."""
-        flat = super().strip(x, y, thickness, hardening).mesh
+    def strip(
+        self,
+        x: Floats,
+        y: Floats,
+        thickness: float,
+        hardening: float,
+        shape: Callable[[Floats], Floats] | None = None,
+    ) -> Model:
+        """Flat strip between the stations x and y, its mid-surface at z = 0; its nodes moved by a shape if wanted."""
+        flat = super().strip(x, y, thickness, hardening, shape).mesh
         element, rule = self.variant.element, self.rule
         return Model(flat, element, material=_metal(), thickness_points=self.points, thickness_rule=rule)
 

@@ -8,7 +8,6 @@ the stored files anew.
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -21,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import SolveError
+from umform.verification.calculix import EDGES, FIRST, Ring, contact_with_ring, element, metal, node_set, totals
 from umform.verification.references import table
 from umform.verification.sharp_bends.candidates import KAPPA, MU, YIELD_STRESS
 
@@ -29,14 +29,8 @@ Point = tuple[float, float, float]
 
 VARIABLE = "UMFORM_CALCULIX"
 THICKNESS = 1.0
-#: CalculiX takes what it finds as penetration at the beginning of the first step for one of the mesh, and removes it in
-#: proportion to the time of each step. A first step as short as this leaves nothing to remove: without it the force at
-#: a displacement depends on the stroke of the step.
-FIRST = 0.01
 #: All forces are for this width; the mesh is as wide as 1.
 WIDTH = 10.0
-#: Edges of a hexahedron in the order of its mid-side nodes.
-_EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7))
 
 
 @dataclass(frozen=True)
@@ -132,9 +126,9 @@ def run(mesh: Continuum, folder: Path) -> tuple[Floats, Floats]:
 
 def read_forces(printed: str, pushes: Sequence[float]) -> tuple[Floats, Floats]:
     """Displacements and forces from the totals that CalculiX prints for each increment; a step lasts for 1."""
-    found = re.findall(r"total force.*time\s+(\S+)\s+\S+\s+\S+\s+(\S+)", printed)
-    time, fz = (np.array([0.0, *(float(row[k]) for row in found)]) for k in (0, 1))
-    return np.interp(time, np.arange(len(pushes) + 1.0), [0.0, *pushes]), -fz * WIDTH
+    time, force = totals(printed)
+    u = np.interp(np.append(0.0, time), np.arange(len(pushes) + 1.0), [0.0, *pushes])
+    return u, np.append(0.0, -force[:, 2]) * WIDTH
 
 
 def stations(mesh: Continuum, growth: float = 1.2, largest: float = 1.25) -> Floats:
@@ -163,32 +157,29 @@ class _Deck:
             for k in range(mesh.layers):
                 around = ((0, 0), (1, 0), (1, 1), (0, 1))
                 corners = [(x[i + a], float(b), z[k + c]) for c in (0, 1) for a, b in around]
-                points = np.array(corners + [0.5 * np.add(corners[a], corners[b]) for a, b in _EDGES])
+                points = np.array(corners + [0.5 * np.add(corners[a], corners[b]) for a, b in EDGES])
                 self.elements.append([self._node(point) for point in points])
                 if k == 0:
                     self.lower.append(len(self.elements))
         self.lines = ["*NODE,NSET=NALL", *(f"{n},{p[0]:.9g},{p[1]:.9g},{p[2]:.9g}" for p, n in self.ids.items())]
         self.lines.append("*ELEMENT,TYPE=C3D20R,ELSET=STRIP")
         for number, nodes in enumerate(self.elements, 1):
-            self.lines += [",".join(map(str, [number, *nodes[:15]])) + ",", ",".join(map(str, nodes[15:]))]
+            self.lines += element(number, nodes)
 
     def _node(self, point: Floats) -> int:
         key: Point = tuple(float(c) for c in np.round(point, 9))  # type: ignore[assignment]
         return self.ids.setdefault(key, len(self.ids) + 1)
 
     def material(self, hardening: float) -> None:
-        """The steel; its hardening is given up to a plastic strain of 5."""
+        """The steel."""
         young, nu = 9 * KAPPA * MU / (3 * KAPPA + MU), (3 * KAPPA - 2 * MU) / (2 * (3 * KAPPA + MU))
-        flow = [f"{YIELD_STRESS},0.", f"{YIELD_STRESS + 5 * hardening + 1e-6},5."]
-        self.lines += ["*MATERIAL,NAME=STEEL", "*ELASTIC", f"{young:.9g},{nu:.9g}", "*PLASTIC", *flow]
-        self.lines.append("*SOLID SECTION,ELSET=STRIP,MATERIAL=STEEL")
+        self.lines += metal(young, nu, (YIELD_STRESS, hardening), "STRIP")
 
     def node_set(self, name: str, x: float, lower: bool) -> None:
         """Nodes of the section x, or of its lower edge."""
         z = -0.5 * THICKNESS
         chosen = [n for p, n in self.ids.items() if abs(p[0] - x) < 1e-6 and (not lower or p[2] == z)]
-        self.lines.append(f"*NSET,NSET={name}")
-        self.lines += [",".join(map(str, chosen[i : i + 10])) for i in range(0, len(chosen), 10)]
+        self.lines += node_set(name, chosen)
 
     def step(self, largest: float = 0.02) -> None:
         """One step of large deformation with increments up to a part of it."""
@@ -211,9 +202,13 @@ def deck(mesh: Continuum) -> str:
         made.lines += ["*BOUNDARY", "X0,1,1", "NALL,2,2", "SUPPORT,3,3"]
     else:
         fold = mesh.over == "fold"
-        held = _cylinder(made, mesh.radius, 0.0, (20.0, 100.0)) if fold else _cylinder(made, mesh.radius)
+        x, between = (0.0, (20.0, 100.0)) if fold else (25.0, (45.0, 145.0))
+        tool, held = Ring(mesh.radius, x, -0.5 * THICKNESS - mesh.radius, between).lines(
+            len(made.ids), len(made.elements)
+        )
+        made.lines += tool
         made.material(mesh.hardening)
-        _contact(made, 5000.0 if fold else 100.0)
+        made.lines += contact_with_ring(made.lower, penalty=5000.0 if fold else 100.0)
         made.lines += ["*BOUNDARY", "X0,1,1", "NALL,2,2", *(f"{node},1,3" for node in held)]
     for to in mesh.pushes:
         made.step()
@@ -221,40 +216,6 @@ def deck(mesh: Continuum) -> str:
             made.lines += ["*CONTROLS,PARAMETERS=FIELD", "1e-4,1e-2"]
         made.push(to)
     return "\n".join(made.lines) + "\n"
-
-
-def _cylinder(
-    made: _Deck,
-    radius: float,
-    centre: float = 25.0,
-    between: tuple[float, float] = (45.0, 145.0),
-    facets: int = 400,
-) -> tuple[int, int]:
-    """The tool: a ring of facets in a rigid body between two angles in degrees; returns its reference nodes."""
-    z = -0.5 * THICKNESS - radius
-    first = node = len(made.ids)
-    made.lines.append("*NODE,NSET=NTOOL")
-    for angle in np.radians(np.linspace(*between, facets + 1)):
-        for r, y in ((radius, -0.1), (radius, 1.1), (0.8 * radius, -0.1), (0.8 * radius, 1.1)):
-            node += 1
-            made.lines.append(f"{node},{centre + r * np.cos(angle):.9g},{y:.9g},{z + r * np.sin(angle):.9g}")
-    held = node + 1, node + 2
-    made.lines += ["*NODE", *(f"{n},{centre},0,{z}" for n in held), "*ELEMENT,TYPE=C3D8,ELSET=TOOL"]
-    for i in range(facets):
-        a = first + 4 * i
-        b = a + 4
-        nodes = (a + 3, a + 4, b + 4, b + 3, a + 1, a + 2, b + 2, b + 1)
-        made.lines.append(",".join(map(str, [len(made.elements) + 1 + i, *nodes])))
-    made.lines.append(f"*RIGID BODY,NSET=NTOOL,REF NODE={held[0]},ROT NODE={held[1]}")
-    return held
-
-
-def _contact(made: _Deck, penalty: float) -> None:
-    """Surface to surface, the pressure linear in the penetration."""
-    made.lines += ["*SURFACE,NAME=SLOWER", *(f"{number},S1" for number in made.lower), "*SURFACE,NAME=STOOL", "TOOL,S2"]
-    made.lines += ["*MATERIAL,NAME=TOOL", "*ELASTIC", "210000,.3", "*SOLID SECTION,ELSET=TOOL,MATERIAL=TOOL"]
-    made.lines += ["*SURFACE INTERACTION,NAME=PENALTY", "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR"]
-    made.lines += [f"{penalty},0.,0.01", "*CONTACT PAIR,INTERACTION=PENALTY,TYPE=SURFACE TO SURFACE", "SLOWER,STOOL"]
 
 
 def csv_text(mesh: Continuum, u: Floats, force: Floats) -> str:

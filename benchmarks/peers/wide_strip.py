@@ -1,0 +1,40 @@
+"""(w) The strip of (a) with its free edges: a quarter, so many cells over half of its width of 10."""
+
+from __future__ import annotations
+
+from bent_strip import GOAL, deviations, entry, forces, same_mesh
+from entries import Entry
+from ratios import Comparison, Found, as_good
+
+TITLE = "(w) The same strip, 10 wide with free edges"
+#: Code, element, cells along, layers, cells across.
+MESHES = (
+    ("umform", "BEND8", 48, 1, 4),
+    ("umform", "BEND18", 24, 1, 2),
+    ("CalculiX", "C3D8I", 48, 1, 4),
+    ("CalculiX", "C3D8I", 48, 2, 4),
+)
+FINEST = ("umform", "EAS3DEAS", 96, 4, 4)
+#: The model has half of the width.
+HALVES = 2.0
+
+
+def entries(short: bool) -> list[Entry]:
+    """Runs of the comparison; none that are short."""
+    if short:
+        return []
+    return [entry(*MESHES[0], loose=True), *(entry(*mesh) for mesh in (*MESHES, FINEST))]
+
+
+def measures(found: Found) -> dict[str, dict[str, float]]:
+    """Deviations from the finest stack of umform."""
+    finest = entry(*FINEST).key
+    references = {"umform": forces(found, HALVES)[finest]} if finest in found else {}
+    return deviations(found, HALVES, references)
+
+
+def comparisons(found: Found) -> list[Comparison]:
+    """On the same mesh; and, for each run of CalculiX, the cheapest run of umform that is no further off."""
+    rows = measures(found)
+    error = {key: row["off umform, %"] for key, row in rows.items() if key != entry(*FINEST).key}
+    return same_mesh(found) + as_good(found, error, GOAL)
