@@ -20,7 +20,7 @@ class SolidShell {
     using Workspace = ShellWorkspace<Nodes, Real>;
     using Nodal = typename Workspace::Nodal;
     using Voigt = Vec<Real, 6>;
-    using Voigt66 = Mat<Real, 6, 6>;
+    using Voigt66 = std::array<Voigt, 6>;
     using Vectors = std::array<Vec<Real, 3>, 3>;
 
     SolidShell(const Technology& technology, int surface_points, const Rule& thickness)
@@ -223,24 +223,24 @@ class SolidShell {
         }
     }
 
-    void integrate_point(int q, int point, double t, Workspace& w) const {
-        // Convected stress and tangent, times dV. eq. (1.17)
-        Voigt S = w.S[q];
-        for (Real& component : S) component *= w.dV[q];
-        S = to_contravariant(w.A[q], S);
-        Voigt66 half_way, C;
-        for (int c = 0; c < 6; ++c) {
-            Voigt column;
-            for (int p = 0; p < 6; ++p) column[p] = w.CC[q](p, c) * w.dV[q];
-            column = to_contravariant(w.A[q], column);
-            for (int p = 0; p < 6; ++p) half_way(p, c) = column[p];
-        }
+    /// Convected stress and tangent of a Gauss point, times dV. eq. (1.17)
+    static void convected(int q, const Workspace& w, Voigt& S, Voigt66& C) {
+        const Mat<Real, 3, 3> A = w.A[q];
+        const Real dV = w.dV[q];
+        to_contravariant(A, w.S[q].data(), 1, S.data());
+        Voigt66 columns;
+        for (int c = 0; c < 6; ++c) to_contravariant(A, w.CC[q].a.data() + c, 6, columns[c].data());
         for (int p = 0; p < 6; ++p) {
-            Voigt row;
-            for (int c = 0; c < 6; ++c) row[c] = half_way(p, c);
-            row = to_contravariant(w.A[q], row);
-            for (int c = 0; c < 6; ++c) C(p, c) = row[c];
+            to_contravariant(A, columns[0].data() + p, 6, C[p].data());
+            for (Real& entry : C[p]) entry *= dV;
+            S[p] *= dV;
         }
+    }
+
+    void integrate_point(int q, int point, double t, Workspace& w) const {
+        Voigt S;
+        Voigt66 C;
+        convected(q, w, S, C);
         gather_stress(point, t, S, w);
 
         const int first = point * 6 * half;
@@ -261,8 +261,8 @@ class SolidShell {
     static void multiply(const Voigt66& C, int first_row, int begin, int end, const Real* B, Real* CB) {
         for (int p = first_row; p < 6; ++p)
             for (int i = 0; i < half; ++i) {
-                Real sum = C(row_order[p], row_order[begin]) * B[begin * half + i];
-                for (int c = begin + 1; c < end; ++c) sum += C(row_order[p], row_order[c]) * B[c * half + i];
+                Real sum = C[row_order[p]][row_order[begin]] * B[begin * half + i];
+                for (int c = begin + 1; c < end; ++c) sum += C[row_order[p]][row_order[c]] * B[c * half + i];
                 CB[p * half + i] = sum;
             }
     }
@@ -351,8 +351,8 @@ class SolidShell {
         for (int c = 0; c < count; ++c) {
             Voigt Cd;
             for (int p = 0; p < 6; ++p) {
-                Cd[p] = C(p, 0) * direction[c][0];
-                for (int k = 1; k < 6; ++k) Cd[p] += C(p, k) * direction[c][k];
+                Cd[p] = C[p][0] * direction[c][0];
+                for (int k = 1; k < 6; ++k) Cd[p] += C[p][k] * direction[c][k];
             }
             std::array<Real, 6> dCd;
             for (int other = 0; other < count; ++other) dCd[other] = dot(direction[other], Cd);
