@@ -74,7 +74,11 @@ class SolidShell {
             sample_rows(tables_.layer_samples, t, w, w.layer_rows);
             for (int p = 0; p < tables_.surface; ++p) {
                 point_rows(p, t, w);
-                integrate_point(layer * tables_.surface + p, p, t, w);
+                const int q = layer * tables_.surface + p;
+                if (first_extra_ == first_shear_row)
+                    integrate_point<first_shear_row>(q, p, t, w);
+                else
+                    integrate_point<0>(q, p, t, w);
             }
             add_layer(t, w);
         }
@@ -164,8 +168,8 @@ class SolidShell {
         for (const int component : tables_.enhanced) {
             const auto [k, l] = voigt_pair[component];
             for (int p = 0; p < 6; ++p) {
-                const auto [i, j] = voigt_pair[p];
-                (*direction)[p] = (p < 3 ? 0.5 : 1.0) * ratio * (A(k, i) * A(l, j) + A(l, i) * A(k, j));
+                const auto [i, j] = voigt_pair[row_order[p]];
+                (*direction)[p] = (i == j ? 0.5 : 1.0) * ratio * (A(k, i) * A(l, j) + A(l, i) * A(k, j));
             }
             ++direction;
         }
@@ -177,7 +181,7 @@ class SolidShell {
         Voigt amount{};
         for (const auto& [component, mode] : tables_.entries) amount[component] += *value++ * alpha[mode];
         for (std::size_t c = 0; c < tables_.enhanced.size(); ++c)
-            for (int p = 0; p < 6; ++p) E[p] += direction[c][p] * amount[c];
+            for (int p = 0; p < 6; ++p) E[row_order[p]] += direction[c][p] * amount[c];
     }
 
     void sample_rows(const std::vector<typename ShellTables<Nodes>::Sample>& samples, double t, const Workspace& w,
@@ -195,13 +199,22 @@ class SolidShell {
         for (int p = 0; p < 6; ++p)
             if (tied_at_middle(row_order[p]))
                 for (int point = 0; point < tables_.surface; ++point)
-                    interpolate_row(row_order[p], point, w.mid_rows, w.tied_rows.data() + (point * 6 + p) * size);
+                    for (const int offset : {0, half})
+                        interpolate(row_order[p], point, w.mid_rows, offset,
+                                    w.tied_rows.data() + (point * 6 + p) * size + offset);
     }
 
-    void interpolate_row(int component, int point, const std::vector<Real>& samples, Real* row) const {
-        std::fill_n(row, size, Real(0.0));
-        for (const auto& [sample, weight] : tables_.rows[tables_.row_of[component]].shares[point])
-            for (int i = 0; i < size; ++i) row[i] += weight * samples[sample * size + i];
+    /// `row` of `half` entries, which begin at `offset` in the rows of the samples.
+    void interpolate(int component, int point, const std::vector<Real>& samples, int offset, Real* row) const {
+        bool first = true;
+        for (const auto& [sample, weight] : tables_.rows[tables_.row_of[component]].shares[point]) {
+            const Real* of_sample = samples.data() + sample * size + offset;
+            if (first)
+                for (int i = 0; i < half; ++i) row[i] = weight * of_sample[i];
+            else
+                for (int i = 0; i < half; ++i) row[i] += weight * of_sample[i];
+            first = false;
+        }
     }
 
     /// The six rows at a point of a layer, in `row_order`: over the mean, and what the director takes beyond t times that.
@@ -216,27 +229,28 @@ class SolidShell {
                 const Real* tied = w.tied_rows.data() + (point * 6 + p) * size;
                 for (int i = 0; i < half; ++i) mean[i] = tied[i], extra[i] = tied[half + i] - t * tied[i];
             } else {
-                std::array<Real, size> row;
-                interpolate_row(component, point, w.layer_rows, row.data());
-                for (int i = 0; i < half; ++i) mean[i] = row[i], extra[i] = row[half + i];
+                interpolate(component, point, w.layer_rows, 0, mean);
+                if (p >= first_extra_) interpolate(component, point, w.layer_rows, half, extra);
             }
         }
     }
 
-    /// Convected stress and tangent of a Gauss point, times dV. eq. (1.17)
+    /// Convected stress and tangent of a Gauss point, times dV, in `row_order`. eq. (1.17)
     static void convected(int q, const Workspace& w, Voigt& S, Voigt66& C) {
         const Mat<Real, 3, 3> A = w.A[q];
         const Real dV = w.dV[q];
-        to_contravariant(A, w.S[q].data(), 1, S.data());
         Voigt66 columns;
+        Voigt row;
         for (int c = 0; c < 6; ++c) to_contravariant(A, w.CC[q].a.data() + c, 6, columns[c].data());
         for (int p = 0; p < 6; ++p) {
-            to_contravariant(A, columns[0].data() + p, 6, C[p].data());
-            for (Real& entry : C[p]) entry *= dV;
-            S[p] *= dV;
+            to_contravariant(A, columns[0].data() + row_order[p], 6, row.data());
+            for (int c = 0; c < 6; ++c) C[p][c] = row[row_order[c]] * dV;
         }
+        to_contravariant(A, w.S[q].data(), 1, row.data());
+        for (int p = 0; p < 6; ++p) S[p] = row[row_order[p]] * dV;
     }
 
+    template <int FirstExtra>
     void integrate_point(int q, int point, double t, Workspace& w) const {
         Voigt S;
         Voigt66 C;
@@ -245,26 +259,35 @@ class SolidShell {
 
         const int first = point * 6 * half;
         const Real *mean = w.B_mean.data() + first, *extra = w.B_extra.data() + first;
-        for (int i = 0; i < half; ++i) {
-            Real f_mean = 0.0, f_extra = 0.0;
-            for (int p = 0; p < mean_rows; ++p) f_mean += S[row_order[p]] * mean[p * half + i];
-            for (int p = first_extra_; p < 6; ++p) f_extra += S[row_order[p]] * extra[p * half + i];
-            w.f[i] += f_mean;
-            w.f[half + i] += t * f_mean + f_extra;
-        }
-        multiply(C, 0, 0, mean_rows, mean, w.CB_mean.data() + first);
-        multiply(C, first_extra_, first_extra_, 6, extra, w.CB_extra.data() + first);
-        if (tables_.modes > 0) add_enhanced_blocks(q, t, S, C, mean, extra, w);
+        Real *CB_mean = w.CB_mean.data() + first, *CB_extra = w.CB_extra.data() + first;
+        add_force<FirstExtra>(S, t, mean, extra, w.f.data());
+        for (int p = 0; p < 6; ++p) multiply<0, mean_rows>(C[p], mean, CB_mean + p * half);
+        for (int p = FirstExtra; p < 6; ++p) multiply<FirstExtra, 6>(C[p], extra, CB_extra + p * half);
+        if (tables_.modes > 0) add_enhanced_blocks<FirstExtra>(q, t, S, C, mean, extra, w);
     }
 
-    /// Rows first_row .. 5 of C B, for the rows begin .. end - 1 of B that are not zero.
-    static void multiply(const Voigt66& C, int first_row, int begin, int end, const Real* B, Real* CB) {
-        for (int p = first_row; p < 6; ++p)
-            for (int i = 0; i < half; ++i) {
-                Real sum = C[row_order[p]][row_order[begin]] * B[begin * half + i];
-                for (int c = begin + 1; c < end; ++c) sum += C[row_order[p]][row_order[c]] * B[c * half + i];
-                CB[p * half + i] = sum;
-            }
+    /// Sum over the rows Begin .. End - 1 of B, which are those that are not zero.
+    template <int Begin, int End>
+    static Real combination(const Voigt& factor, const Real* B, int i) {
+        Real sum = factor[Begin] * B[Begin * half + i];
+#pragma GCC unroll 6
+        for (int p = Begin + 1; p < End; ++p) sum += factor[p] * B[p * half + i];
+        return sum;
+    }
+
+    template <int Begin, int End>
+    static void multiply(const Voigt& factor, const Real* B, Real* row) {
+        for (int i = 0; i < half; ++i) row[i] = combination<Begin, End>(factor, B, i);
+    }
+
+    /// f += sum_p S_p B_p with B = [M, t M + X].
+    template <int FirstExtra>
+    static void add_force(const Voigt& S, double t, const Real* mean, const Real* extra, Real* f) {
+        for (int i = 0; i < half; ++i) {
+            const Real of_mean = combination<0, mean_rows>(S, mean, i);
+            f[i] += of_mean;
+            f[half + i] += t * of_mean + combination<FirstExtra, 6>(S, extra, i);
+        }
     }
 
     /// int B^T C B of a layer: with B = [M, t M + X] and the products P = M^T C M, Q = X^T C M, R = X^T C X it is
@@ -301,48 +324,41 @@ class SolidShell {
             moments[2] += t_place * t_place * sigma;
         };
         for (int p = 0; p < 6; ++p) {
-            if (tables_.row_of[p] < 0) {
-                gather(point, p, t, S[p]);
+            const int component = row_order[p];
+            if (tables_.row_of[component] < 0) {
+                gather(point, component, t, S[p]);
                 continue;
             }
-            const auto& row = tables_.rows[tables_.row_of[p]];
+            const auto& row = tables_.rows[tables_.row_of[component]];
             const auto& samples = row.at_layer ? tables_.layer_samples : tables_.mid_samples;
             for (const auto& [sample, weight] : row.shares[point])
-                gather(samples[sample].place, p, row.at_layer ? t : 0.0, weight * S[p]);
+                gather(samples[sample].place, component, row.at_layer ? t : 0.0, weight * S[p]);
         }
     }
 
-    /// Geometric stiffness of a place from its stress moments, once for all layers. eqs. (2.5), (2.37)
+    /// Geometric stiffness of a place from its stress moments, once for all layers: int S^ij N_a,i N_b,j dV with the derivatives
+    /// (N_,1, N_,2, 0) of the mean and (t N_,1, t N_,2, N) of the director. eqs. (2.5), (2.37)
     void add_geometry(int index, Workspace& w) const {
-        const auto& place = tables_.places[index];
-        const std::array<const double*, 3> d{place.shape.Nr.data(), place.shape.Ns.data(), place.shape.N.data()};
-        for (int p = 0; p < 6; ++p) {
-            if (!place.used[p]) continue;
-            const auto [i, j] = voigt_pair[p];
-            const std::array<Real, 3>& moments = w.moments[index][p];
-            if (j < 2) {  // d_i d_j of both halves, with a factor t for each director
-                add_outer(d[i], d[j], moments[0], i != j, w.geometry_mm);
-                add_outer(d[i], d[j], moments[1], i != j, w.geometry_dm);
-                add_outer(d[i], d[j], moments[2], i != j, w.geometry_dd);
-            } else if (i < 2) {  // the derivative with t is the director itself
-                add_outer(d[2], d[i], moments[0], false, w.geometry_dm);
-                add_outer(d[2], d[i], moments[1], true, w.geometry_dd);
-            } else {
-                add_outer(d[2], d[2], moments[0], false, w.geometry_dd);
+        const auto& [N, N1, N2] = tables_.places[index].shape;
+        const auto& moments = w.moments[index];
+        const auto &s11 = moments[C11], &s22 = moments[C22], &s12 = moments[C12], &s13 = moments[C13], &s23 = moments[C23];
+        for (int a = 0; a < face; ++a) {
+            const Real mm1 = N1[a] * s11[0] + N2[a] * s12[0], mm2 = N1[a] * s12[0] + N2[a] * s22[0];
+            const Real dm1 = N1[a] * s11[1] + N2[a] * s12[1] + N[a] * s13[0],
+                       dm2 = N1[a] * s12[1] + N2[a] * s22[1] + N[a] * s23[0];
+            const Real dd1 = N1[a] * s11[2] + N2[a] * s12[2] + N[a] * s13[1],
+                       dd2 = N1[a] * s12[2] + N2[a] * s22[2] + N[a] * s23[1],
+                       dd3 = N1[a] * s13[1] + N2[a] * s23[1] + N[a] * moments[C33][0];
+            for (int b = 0; b < face; ++b) {
+                w.geometry_mm[a * face + b] += mm1 * N1[b] + mm2 * N2[b];
+                w.geometry_dm[a * face + b] += dm1 * N1[b] + dm2 * N2[b];
+                w.geometry_dd[a * face + b] += dd1 * N1[b] + dd2 * N2[b] + dd3 * N[b];
             }
-        }
-    }
-
-    /// K += sigma a b^T, and sigma b a^T if `both`.
-    static void add_outer(const double* a, const double* b, Real sigma, bool both,
-                          std::array<Real, static_cast<std::size_t>(face) * face>& K) {
-        for (int m = 0; m < face; ++m) {
-            const Real left = sigma * a[m], right = sigma * (both ? b[m] : 0.0);
-            for (int n = 0; n < face; ++n) K[m * face + n] += left * b[n] + right * a[n];
         }
     }
 
     /// Kaa (lower triangle), Kad and ra. eqs. (2.15), (2.16)
+    template <int FirstExtra>
     void add_enhanced_blocks(int q, double t, const Voigt& S, const Voigt66& C, const Real* mean, const Real* extra,
                              Workspace& w) const {
         const int count = static_cast<int>(tables_.enhanced.size());
@@ -350,21 +366,12 @@ class SolidShell {
         const double* value = tables_.mode_values.data() + q * tables_.entries.size();
         for (int c = 0; c < count; ++c) {
             Voigt Cd;
-            for (int p = 0; p < 6; ++p) {
-                Cd[p] = C[p][0] * direction[c][0];
-                for (int k = 1; k < 6; ++k) Cd[p] += C[p][k] * direction[c][k];
-            }
+            for (int p = 0; p < 6; ++p) Cd[p] = dot(direction[c], C[p]);
             std::array<Real, 6> dCd;
             for (int other = 0; other < count; ++other) dCd[other] = dot(direction[other], Cd);
             const Real dS = dot(direction[c], S);
-            std::array<Real, size> dCB;
-            for (int i = 0; i < half; ++i) {
-                Real of_mean = 0.0, of_extra = 0.0;
-                for (int p = 0; p < mean_rows; ++p) of_mean += Cd[row_order[p]] * mean[p * half + i];
-                for (int p = first_extra_; p < 6; ++p) of_extra += Cd[row_order[p]] * extra[p * half + i];
-                dCB[i] = of_mean;
-                dCB[half + i] = t * of_mean + of_extra;
-            }
+            std::array<Real, size> dCB{};
+            add_force<FirstExtra>(Cd, t, mean, extra, dCB.data());
             for (std::size_t e = 0; e < tables_.entries.size(); ++e) {
                 if (tables_.entries[e].component != c) continue;
                 const int mode = tables_.entries[e].mode;
