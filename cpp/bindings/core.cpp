@@ -5,6 +5,7 @@
 NB_MODULE(_core, m) {
     nb::set_leak_warnings(false);  // functions of users may close over the model: a cycle that ends with the process
     m.doc() = "Kernels of umform: elements, materials, surfaces, contact, sparse patterns.";
+    m.attr("build") = UMFORM_BUILD;  // compiler and instruction set, for benchmarks
     bind_quadrature(m);
     bind_materials(m);
     bind_surfaces(m);

@@ -3,6 +3,7 @@
 
 #include "umform/materials/concept.hpp"
 #include "umform/materials/hardening.hpp"
+#include "umform/materials/logarithmic_series.hpp"
 
 namespace umform {
 
@@ -15,12 +16,37 @@ struct J2 {
     static constexpr int state_size = 7;
     void initial(double* state) const { std::copy_n(std::array<double, 7>{1, 1, 1, 0, 0, 0, 0}.begin(), 7, state); }
 
+    /// Where the trial state is elastic and small there is no eigenproblem to solve: the fast path. Each lane takes the path it
+    /// would take alone.
     template <class Real>
     Mask<Real> respond(const Vec<Real, 6>& strain, const Real* state, Vec<Real, 6>& S, Mat<Real, 6, 6>& CC,
                        Real* trial) const {
+        const LogarithmicSeries<Real> series(strain, plastic_metric(state));
+        const YieldStress<Real> y = yield_stress(hardening, state[6]);
+        const Real limit = y.value * (1.0 + plastic_margin);
+        const Mask<Real> fast = series.small
+                                & (6.0 * mu * mu * (series.square - series.trace * series.trace * (1.0 / 3.0)) <= limit * limit);
+        if (!any(fast)) return respond_by_roots(strain, state, y, S, CC, trial);
+        series.respond(kappa - 2.0 / 3.0 * mu, mu, S, CC);
+        std::copy_n(state, 7, trial);
+        if (all(fast)) return fast;
+        Vec<Real, 6> S_roots;
+        Mat<Real, 6, 6> CC_roots;
+        std::array<Real, 7> trial_roots;
+        const Mask<Real> positive = respond_by_roots(strain, state, y, S_roots, CC_roots, trial_roots.data());
+        for (int p = 0; p < 6; ++p) S[p] = select(fast, S[p], S_roots[p]);
+        for (int i = 0; i < 36; ++i) CC.a[i] = select(fast, CC.a[i], CC_roots.a[i]);
+        for (int k = 0; k < 7; ++k) trial[k] = select(fast, trial[k], trial_roots[k]);
+        return fast | positive;
+    }
+
+    /// The same by principal stretches: for plastic flow and for elastic strains of any size.
+    template <class Real>
+    Mask<Real> respond_by_roots(const Vec<Real, 6>& strain, const Real* state, const YieldStress<Real>& y, Vec<Real, 6>& S,
+                                Mat<Real, 6, 6>& CC, Real* trial) const {
         ElasticStrain<Real> elastic;
         const Mask<Real> positive = elastic.set(strain, state);
-        const Return<Real> back = return_map(elastic, state[6]);
+        const Return<Real> back = return_map(elastic, state[6], y);
         Vec<Real, 3> tau;
         for (int i = 0; i < 3; ++i)
             tau[i] = kappa * elastic.volumetric + 2.0 * mu * (1.0 - back.b) * elastic.deviator[i];
@@ -44,8 +70,9 @@ struct J2 {
 
     /// Energy of the logarithmic elastic strains, and the work done against the yield stress. eqs. (3.38), (3.39)
     Energy energy(const Voigt& strain, const double* state) const {
-        double trace, square;  // tr eps and eps : eps
-        if (!small_elastic_strain(strain, state, trace, square)) {
+        const LogarithmicSeries<double> series(strain, plastic_metric(state));
+        double trace = series.trace, square = series.square;
+        if (!series.small) {
             ElasticStrain<double> elastic;
             if (!elastic.set(strain, state)) return {};
             trace = elastic.volumetric;
@@ -55,6 +82,17 @@ struct J2 {
     }
 
   private:
+    /// A converged plastic point lies on the yield surface up to round-off. Without this margin chance would make it plastic
+    /// or elastic in the first tangent of an increment, and the patchwork wakes the modes of the elements.
+    static constexpr double plastic_margin = 1e-10;
+
+    template <class Real>
+    static Vec<Real, 6> plastic_metric(const Real* state) {
+        Vec<Real, 6> Cp_inv;
+        std::copy_n(state, 6, Cp_inv.begin());
+        return Cp_inv;
+    }
+
     /// Principal elastic stretches: C N_i = l_i^2 Cp N_i with Cp^-1 = L L^T, N = L V, from the eigenproblem of
     /// L^T C L - 1, so that small strains keep their digits. eqs. (3.12)-(3.14)
     template <class Real>
@@ -65,11 +103,9 @@ struct J2 {
         Real volumetric;
 
         /// False where C is not positive definite.
-        Mask<Real> set(const Vec<Real, 6>& strain, const Real* Cp_inv) {
-            Vec<Real, 6> metric;
-            std::copy_n(Cp_inv, 6, metric.begin());
+        Mask<Real> set(const Vec<Real, 6>& strain, const Real* state) {
             Mat<Real, 3, 3> L, V;
-            Mask<Real> positive = cholesky(from_voigt(metric, 1.0), L);
+            Mask<Real> positive = cholesky(from_voigt(plastic_metric(state), 1.0), L);
             eigen_symmetric(elastic_metric_excess(from_voigt(strain, 0.5), L), excess, V);
             for (int i = 0; i < 3; ++i) {
                 positive = positive & (excess[i] > -1.0);
@@ -111,13 +147,10 @@ struct J2 {
 
     /// Return map on the Kirchhoff stress. eqs. (3.15), (3.17)-(3.20)
     template <class Real>
-    Return<Real> return_map(const ElasticStrain<Real>& elastic, Real eqps) const {
+    Return<Real> return_map(const ElasticStrain<Real>& elastic, Real eqps, YieldStress<Real> y) const {
         const Real square = dot(elastic.deviator, elastic.deviator);
         const Real q_trial = std::sqrt(6.0) * mu * sqrt(square);
-        YieldStress<Real> y = yield_stress(hardening, eqps);
-        // A converged plastic point lies on the yield surface up to round-off. Without this margin chance would make it
-        // plastic or elastic in the first tangent of an increment, and the patchwork wakes the modes of the elements.
-        const Mask<Real> plastic = q_trial > y.value * (1.0 + 1e-10);
+        const Mask<Real> plastic = q_trial > y.value * (1.0 + plastic_margin);
         if (!any(plastic)) return {plastic, 0.0, 0.0, y.slope, square};
         const Real dgam = plastic_increment(plastic, q_trial, eqps, y);
         return {plastic, dgam, select(plastic, 3.0 * mu * dgam / q_trial, 0.0), y.slope, square};
@@ -135,37 +168,6 @@ struct J2 {
         }
         for (int p = 0; p < 6; ++p) trial[p] = select(back.plastic, Cp_inv[p], trial[p]);
         trial[6] += back.dgam;
-    }
-
-    /// tr eps and eps : eps from the invariants of D = C Cp^-1 - 1, whose roots are l_i^2 - 1; no eigenproblem is solved.
-    /// False where |D| > 0.03, which metals do not reach: there the series is too short. eq. (3.41)
-    static bool small_elastic_strain(const Voigt& strain, const double* Cp_inv, double& trace, double& square) {
-        Voigt metric;
-        std::copy_n(Cp_inv, 6, metric.begin());
-        const Mat3 E = from_voigt(strain, 0.5), P = from_voigt(metric, 1.0);
-        Mat3 D = P;
-        for (int i = 0; i < 3; ++i) {
-            D(i, i) -= 1.0;
-            for (int j = 0; j < 3; ++j)
-                for (int k = 0; k < 3; ++k) D(i, j) += 2.0 * E(i, k) * P(k, j);
-        }
-        const double first = D(0, 0) + D(1, 1) + D(2, 2), third = det(D);
-        double squares = 0.0;
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) squares += D(i, j) * D(j, i);
-        if (!(squares < 9e-4)) return false;
-        const double second = 0.5 * (first * first - squares);
-        trace = 0.5 * std::log1p(first + second + third);
-        // log^2(1 + d) = sum_k (-1)^k (2/k) (1 + 1/2 + ... + 1/(k - 1)) d^k; sums of powers of the roots by Newton's identities.
-        Vec3 powers{3.0, first, squares};  // sum of d_i^(k-2), d_i^(k-1), d_i^k
-        double sum = squares, harmonic = 1.0;
-        for (int k = 3; k <= 12; ++k) {
-            harmonic += 1.0 / (k - 1);
-            powers = {powers[1], powers[2], first * powers[2] - second * powers[1] + third * powers[0]};
-            sum += (k % 2 == 0 ? 2.0 : -2.0) / k * harmonic * powers[2];
-        }
-        square = 0.25 * sum;
-        return true;
     }
 
     /// Solves q_trial - 3 mu dgam - y(eqps + dgam) = 0 where `open` by Newton's method kept inside a bracket; y at the end.
