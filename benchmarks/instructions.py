@@ -112,7 +112,8 @@ def compare(counts: dict[str, float]) -> int:
         print(f"{name:<24}{counts[name]:>12.0f}{stored['counts'][name]:>12.0f}{100 * deviation:>+9.2f} %{mark}")
     changed = [name for name, deviation in of_kernel.items() if abs(deviation) > tolerance]
     if changed:
-        print(f"{', '.join(changed)}: beyond {100 * tolerance:.0f} %. If that is meant: benchmarks/instructions.py --write")
+        print(f"Beyond {100 * tolerance:.0f} %: {', '.join(changed)}.")
+        print("If that is meant, store the new counts: python benchmarks/instructions.py --write")
     return int(bool(changed))
 
 

@@ -4,28 +4,13 @@
 #include <limits>
 #include <stdexcept>
 
+#include "umform/assemble.hpp"
 #include "umform/batch.hpp"
 #include "umform/materials/concept.hpp"
 #include "umform/solid_shell.hpp"
 #include "umform/threads.hpp"
 
 namespace umform {
-
-/// Where a block adds its share. Arrays over all degrees of freedom, but `values` over the entries of the pattern.
-struct Target {
-    double* f;                   // internal forces
-    double* values;              // tangent over the free degrees of freedom
-    const double* du = nullptr;  // if given: increment of the prescribed degrees of freedom ...
-    double* Kdu = nullptr;       // ... and K du
-};
-
-/// Outcome of `evaluate`: the first element whose strain left the domain of its law or whose
-/// enhanced parameters cannot be eliminated (or -1), and sum |f_e|^2, the scale
-/// of the forces that a residual is measured against.
-struct Outcome {
-    int failed = -1;
-    double force_scale_squared = 0.0;
-};
 
 /// Fields at the Gauss points of all elements, for output. Arrays [element][point][...].
 struct PointFields {
@@ -34,38 +19,6 @@ struct PointFields {
     double* F;      // [3][3]: compatible deformation gradient in global axes
     double* dV;     // reference volume
 };
-
-/// Reads the nodal values of one element into its order by direction.
-template <int Nodes>
-void gather(const Connectivity& part, int element, const double* field, double* local) {
-    const std::int32_t* ids = part[element];
-    for (int a = 0; a < Nodes; ++a)
-        for (int k = 0; k < 3; ++k) local[k * Nodes + a] = field[3 * ids[a] + k];
-}
-
-/// Adds K, f (and K du of prescribed increments) of one element; K holds its upper triangle.
-template <int Nodes>
-void scatter_element(const Connectivity& part, const Scatter& scatter, int element, double* K, const double* f,
-                     const Target& target) {
-    constexpr int size = 3 * Nodes;
-    const std::int32_t* ids = part[element];
-    for (int a = 0; a < Nodes; ++a)
-        for (int k = 0; k < 3; ++k) target.f[3 * ids[a] + k] += f[k * Nodes + a];
-    if (!scatter.symmetric || target.du != nullptr)
-        for (int i = 0; i < size; ++i)
-            for (int j = 0; j < i; ++j) K[i * size + j] = K[j * size + i];
-    if (target.du != nullptr) {
-        std::array<double, size> du;
-        gather<Nodes>(part, element, target.du, du.data());
-        for (int a = 0; a < Nodes; ++a)
-            for (int k = 0; k < 3; ++k) {
-                double sum = 0.0;
-                for (int j = 0; j < size; ++j) sum += K[(k * Nodes + a) * size + j] * du[j];
-                target.Kdu[3 * ids[a] + k] += sum;
-            }
-    }
-    scatter.add(element, K, target.values);
-}
 
 /// The elements as Python sees them. `evaluate` is pure in the history: it reads the converged state and writes the
 /// trial state and the condensed blocks; `recover`, `commit` and `revert` are explicit.
@@ -261,8 +214,13 @@ class ShellBlockOf final : public ShellBlock {
 
     void prepare_workspaces() {
         while (static_cast<int>(workspaces_.size()) < thread_count())
-            workspaces_.push_back({element_.workspace(), {}, {}, std::vector<Lanes>(element_.modes()), {},
-                                   std::vector<Voigt>(points()), std::vector<Energy>(points())});
+            workspaces_.push_back({element_.workspace(),
+                                   {},
+                                   {},
+                                   std::vector<Lanes>(element_.modes()),
+                                   {},
+                                   std::vector<Voigt>(points()),
+                                   std::vector<Energy>(points())});
     }
 
     /// Calls work(batch, workspace) for all batches, in parallel within a colour.
@@ -325,7 +283,8 @@ class ShellBlockOf final : public ShellBlock {
         std::array<Vec3, 3> G, g;
         element_.base_vectors(q, 0, w.shell, G, g);
         const auto local = local_frame(G);
-        const Mat3 G_inverse = inverse(Mat3{{G[0][0], G[1][0], G[2][0], G[0][1], G[1][1], G[2][1], G[0][2], G[1][2], G[2][2]}});
+        const Mat3 G_inverse =
+            inverse(Mat3{{G[0][0], G[1][0], G[2][0], G[0][1], G[1][1], G[2][1], G[0][2], G[1][2], G[2][2]}});
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) {
                 frame[3 * i + k] = local[i][k];

@@ -17,7 +17,8 @@ Vec<Real, 3> derivative(const double* dN, const Real* v) {
 /// Covariant Green-Lagrange strain E_ij = (G_i.h_j + h_i.G_j + h_i.h_j) / 2 with h_i = u,i: the metric difference
 /// (g_i.g_j - G_i.G_j) / 2 without its cancellation. Shears are engineering shears. eq. (1.7)
 template <class Real>
-[[gnu::always_inline]] inline Real covariant_strain(int i, int j, const std::array<Vec<Real, 3>, 3>& G, const std::array<Vec<Real, 3>, 3>& h) {
+[[gnu::always_inline]] inline Real covariant_strain(int i, int j, const std::array<Vec<Real, 3>, 3>& G,
+                                                    const std::array<Vec<Real, 3>, 3>& h) {
     const Real twice = dot(G[i], h[j]) + dot(h[i], G[j]) + dot(h[i], h[j]);
     return i == j ? 0.5 * twice : twice;
 }
@@ -71,8 +72,7 @@ template <class Real>
     const Real S11 = S[0], S22 = S[stride], S33 = S[2 * stride], S12 = S[3 * stride], S23 = S[4 * stride],
                S13 = S[5 * stride];
     // Rows of A S on and to the right of the diagonal.
-    const Real P11 = A(0, 0) * S11 + A(0, 1) * S12 + A(0, 2) * S13,
-               P12 = A(0, 0) * S12 + A(0, 1) * S22 + A(0, 2) * S23,
+    const Real P11 = A(0, 0) * S11 + A(0, 1) * S12 + A(0, 2) * S13, P12 = A(0, 0) * S12 + A(0, 1) * S22 + A(0, 2) * S23,
                P13 = A(0, 0) * S13 + A(0, 1) * S23 + A(0, 2) * S33;
     const Real P22 = A(1, 1) * S22 + A(1, 2) * S23, P23 = A(1, 1) * S23 + A(1, 2) * S33, P33 = A(2, 2) * S33;
     out[C11] = P11 * A(0, 0) + P12 * A(0, 1) + P13 * A(0, 2);

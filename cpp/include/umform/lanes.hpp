@@ -86,17 +86,27 @@ Lanes by_lane(const Function& function) {
     return result;
 }
 
+/// function(x) of every lane, for functions that the library has for a double only.
+template <class Function>
+double each(double x, const Function& function) {
+    return function(x);
+}
+template <class Function>
+Lanes each(Lanes x, const Function& function) {
+    return by_lane([&](int lane) { return function(x.v[lane]); });
+}
+
 using std::abs;
 using std::pow;
 using std::sqrt;
 inline Lanes abs(Lanes x) {
-    return by_lane([&](int lane) { return std::abs(x.v[lane]); });
+    return each(x, [](double value) { return std::abs(value); });
 }
 inline Lanes sqrt(Lanes x) {
-    return by_lane([&](int lane) { return std::sqrt(x.v[lane]); });
+    return each(x, [](double value) { return std::sqrt(value); });
 }
 inline Lanes pow(Lanes x, double exponent) {
-    return by_lane([&](int lane) { return std::pow(x.v[lane], exponent); });
+    return each(x, [exponent](double value) { return std::pow(value, exponent); });
 }
 
 }  // namespace umform

@@ -18,7 +18,6 @@ struct ShellTables {
     struct Place {
         double r, s;
         FaceShape<face> shape;
-        std::array<bool, 6> used;  // components whose strain is taken here
     };
     struct Sample {
         int component, place;
@@ -61,7 +60,7 @@ struct ShellTables {
     int place(double r, double s) {
         for (std::size_t k = 0; k < places.size(); ++k)
             if (places[k].r == r && places[k].s == s) return static_cast<int>(k);
-        places.push_back({r, s, face_shape<face>(r, s), {}});
+        places.push_back({r, s, face_shape<face>(r, s)});
         return static_cast<int>(places.size()) - 1;
     }
 
@@ -70,10 +69,7 @@ struct ShellTables {
         for (std::size_t row = 0; row < technology.tying.size(); ++row)
             row_of[technology.tying[row].component] = static_cast<int>(row);
         for (const double s : surface_rule.x)
-            for (const double r : surface_rule.x) {
-                std::array<bool, 6>& used = places[place(r, s)].used;
-                for (int p = 0; p < 6; ++p) used[p] = row_of[p] < 0;
-            }
+            for (const double r : surface_rule.x) place(r, s);
         for (const double wt : thickness.w)
             for (const double ws : surface_rule.w)
                 for (const double wr : surface_rule.w) weight.push_back(wr * ws * wt);
@@ -83,10 +79,7 @@ struct ShellTables {
         std::vector<Sample>& samples = tying.at_layer ? layer_samples : mid_samples;
         const int first = static_cast<int>(samples.size());
         for (const double s : tying.s)
-            for (const double r : tying.r) {
-                samples.push_back({tying.component, place(r, s)});
-                places[samples.back().place].used[tying.component] = true;
-            }
+            for (const double r : tying.r) samples.push_back({tying.component, place(r, s)});
         Row row{tying.at_layer, {}};
         for (const double s : surface_rule.x)
             for (const double r : surface_rule.x) {

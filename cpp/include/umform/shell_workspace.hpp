@@ -26,22 +26,23 @@ struct ShellWorkspace {
     /// Sets to zero what `SolidShell::integrate` adds to.
     void clear() {
         f.fill(0.0), geometry_mm.fill(0.0), geometry_dm.fill(0.0), geometry_dd.fill(0.0);
-        for (std::vector<Real>* sum : {&Kmm, &Kdm, &Kdd, &Kaa, &Kad, &ra}) std::fill(sum->begin(), sum->end(), Real(0.0));
+        for (std::vector<Real>* sum : {&Kmm, &Kdm, &Kdd, &Kaa, &Kad, &ra})
+            std::fill(sum->begin(), sum->end(), Real(0.0));
         for (auto& of_place : moments)
             for (auto& of_component : of_place) of_component.fill(0.0);
     }
 
     // Strain and material.
-    std::vector<Base<Real>> G, h;           // [place] reference base vectors, displacement gradient
-    std::vector<Vec<Real, 6>> E, S;         // [q] in the local frame
-    std::vector<Mat<Real, 6, 6>> CC;        // [q]
-    std::vector<Mat<Real, 3, 3>> A;         // [q] J^-1 in the local frame
-    std::vector<Real> dV;                   // [q]
-    std::vector<Vec<Real, 6>> enhanced;     // [q][component] covariant direction of an enhanced component
-    std::vector<Real> mid_E, layer_E;       // [sample]
+    std::vector<Base<Real>> G, h;        // [place] reference base vectors, displacement gradient
+    std::vector<Vec<Real, 6>> E, S;      // [q] in the local frame
+    std::vector<Mat<Real, 6, 6>> CC;     // [q]
+    std::vector<Mat<Real, 3, 3>> A;      // [q] J^-1 in the local frame
+    std::vector<Real> dV;                // [q]
+    std::vector<Vec<Real, 6>> enhanced;  // [q][component] covariant direction of an enhanced component
+    std::vector<Real> mid_E, layer_E;    // [sample]
     // Rows; those of a layer are [surface point][row_order][half].
-    std::vector<Real> mid_rows, layer_rows;                 // [sample][size]
-    std::vector<Real> tied_rows;                            // [surface point][row_order][size], of the mid-surface
+    std::vector<Real> mid_rows, layer_rows;  // [sample][size]
+    std::vector<Real> tied_rows;             // [surface point][row_order][size], of the mid-surface
     std::vector<Real> B_mean, B_extra, CB_mean, CB_extra;
     std::vector<std::array<std::array<Real, 3>, 6>> moments;  // [place][component][power of t] of the stress
     // Results: the blocks mean-mean, director-mean, director-director of K; of the first and last what is on and above the

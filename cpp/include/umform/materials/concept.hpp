@@ -23,14 +23,13 @@ struct Energy {
 /// A law answers at one point of a few elements, one a lane. `E` is the Green-Lagrange strain in a local orthonormal frame,
 /// `state` the converged history (never changed), `trial` the new one. False where the strain is outside of its domain.
 template <class L>
-concept MaterialLaw =
-    requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
-             Lanes* trial, const Voigt& strain, double* history) {
-        { L::state_size } -> std::convertible_to<int>;
-        { law.respond(E, state, S, CC, trial) } -> std::same_as<LaneMask>;
-        { law.initial(history) } -> std::same_as<void>;
-        { law.energy(strain, history) } -> std::same_as<Energy>;
-    };
+concept MaterialLaw = requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S,
+                               Mat<Lanes, 6, 6>& CC, Lanes* trial, const Voigt& strain, double* history) {
+    { L::state_size } -> std::convertible_to<int>;
+    { law.respond(E, state, S, CC, trial) } -> std::same_as<LaneMask>;
+    { law.initial(history) } -> std::same_as<void>;
+    { law.energy(strain, history) } -> std::same_as<Energy>;
+};
 
 /// Where the histories of the elements in the lanes begin, [lane][n][state_size].
 using LaneStates = std::array<const double*, lane_count>;
@@ -124,7 +123,8 @@ class MaterialFromFunction final : public Material {
             if (!wanted[lane]) continue;
             for (int q = 0; q < n; ++q)
                 for (int p = 0; p < 6; ++p) strain[q][p] = E[q][p][lane];
-            answered.set(lane, function_(n, strain.data(), state[lane], stress.data(), tangent.data(), trial[lane]) == n);
+            answered.set(lane,
+                         function_(n, strain.data(), state[lane], stress.data(), tangent.data(), trial[lane]) == n);
             for (int q = 0; q < n; ++q) {
                 for (int p = 0; p < 6; ++p) S[q][p].set(lane, stress[q][p]);
                 for (int i = 0; i < 36; ++i) CC[q].a[i].set(lane, tangent[q].a[i]);

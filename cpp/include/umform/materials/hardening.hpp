@@ -50,27 +50,25 @@ struct Swift {
 struct Tabulated {
     std::vector<double> eqps, stress;
 
-    YieldStress<double> operator()(double e) const {
-        if (e >= eqps.back()) return {stress.back(), 0.0};
-        const auto after = std::upper_bound(eqps.begin() + 1, eqps.end() - 1, e) - eqps.begin();
-        const double slope = (stress[after] - stress[after - 1]) / (eqps[after] - eqps[after - 1]);
-        return {stress[after - 1] + slope * (e - eqps[after - 1]), slope};
-    }
-    YieldStress<Lanes> operator()(Lanes e) const {
-        YieldStress<Lanes> y;
-        for (int lane = 0; lane < lane_count; ++lane) {
-            const YieldStress<double> one = (*this)(e[lane]);
-            y.value.set(lane, one.value), y.slope.set(lane, one.slope);
-        }
-        return y;
+    template <class Real>
+    YieldStress<Real> operator()(Real e) const {
+        return {each(e, [this](double x) { return at(x).value; }), each(e, [this](double x) { return at(x).slope; })};
     }
     double work(double e) const {
         double sum = 0.0;
         for (std::size_t k = 1; k < eqps.size() && eqps[k - 1] < e; ++k) {
             const double end = std::min(e, eqps[k]);
-            sum += 0.5 * (stress[k - 1] + (*this)(end).value) * (end - eqps[k - 1]);
+            sum += 0.5 * (stress[k - 1] + at(end).value) * (end - eqps[k - 1]);
         }
         return sum + stress.back() * std::max(e - eqps.back(), 0.0);
+    }
+
+  private:
+    YieldStress<double> at(double e) const {
+        if (e >= eqps.back()) return {stress.back(), 0.0};
+        const auto after = std::upper_bound(eqps.begin() + 1, eqps.end() - 1, e) - eqps.begin();
+        const double slope = (stress[after] - stress[after - 1]) / (eqps[after] - eqps[after - 1]);
+        return {stress[after - 1] + slope * (e - eqps[after - 1]), slope};
     }
 };
 

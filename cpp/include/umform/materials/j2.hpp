@@ -24,8 +24,9 @@ struct J2 {
         const LogarithmicSeries<Real> series(strain, plastic_metric(state));
         const YieldStress<Real> y = yield_stress(hardening, state[6]);
         const Real limit = y.value * (1.0 + plastic_margin);
-        const Mask<Real> fast = series.small
-                                & (6.0 * mu * mu * (series.square - series.trace * series.trace * (1.0 / 3.0)) <= limit * limit);
+        const Mask<Real> fast =
+            series.small
+            & (6.0 * mu * mu * (series.square - series.trace * series.trace * (1.0 / 3.0)) <= limit * limit);
         if (!any(fast)) return respond_by_roots(strain, state, y, S, CC, trial);
         series.respond(kappa - 2.0 / 3.0 * mu, mu, S, CC);
         std::copy_n(state, 7, trial);
@@ -42,8 +43,8 @@ struct J2 {
 
     /// The same by principal stretches: for plastic flow and for elastic strains of any size.
     template <class Real>
-    Mask<Real> respond_by_roots(const Vec<Real, 6>& strain, const Real* state, const YieldStress<Real>& y, Vec<Real, 6>& S,
-                                Mat<Real, 6, 6>& CC, Real* trial) const {
+    Mask<Real> respond_by_roots(const Vec<Real, 6>& strain, const Real* state, const YieldStress<Real>& y,
+                                Vec<Real, 6>& S, Mat<Real, 6, 6>& CC, Real* trial) const {
         ElasticStrain<Real> elastic;
         const Mask<Real> positive = elastic.set(strain, state);
         const Return<Real> back = return_map(elastic, state[6], y);

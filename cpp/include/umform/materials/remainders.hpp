@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <type_traits>
 
 #include "umform/lanes.hpp"
 
@@ -33,13 +32,10 @@ Real log1p_ratio(Real x) {
     const Real s = x / (2.0 + x), square = s * s;
     Real sum = 0.0;
     for (int k = 11; k >= 3; k -= 2) sum = square * (1.0 / k + sum);  // s^2/3 + s^4/5 + ...
-    const Real series = (1.0 - s) * (1.0 + sum);                         // 2 / (2 + x) = 1 - s
+    const Real series = (1.0 - s) * (1.0 + sum);                      // 2 / (2 + x) = 1 - s
     const Mask<Real> small = abs(x) < 0.0625;
     if (all(small)) return series;
-    if constexpr (std::is_same_v<Real, double>)
-        return std::log1p(x) / x;
-    else
-        return by_lane([&](int lane) { return small[lane] ? series[lane] : std::log1p(x[lane]) / x[lane]; });
+    return select(small, series, each(x, [](double value) { return std::log1p(value) / value; }));
 }
 
 using std::exp;
@@ -51,13 +47,13 @@ inline Lanes expm1(Lanes x) {
     const Lanes series = x * sum;
     const LaneMask small = abs(x) < 0.0625;
     if (all(small)) return series;
-    return by_lane([&](int lane) { return small[lane] ? series[lane] : std::expm1(x[lane]); });
+    return select(small, series, each(x, [](double value) { return std::expm1(value); }));
 }
 inline Lanes exp(Lanes x) {
     const LaneMask small = abs(x) < 0.0625;
     const Lanes series = 1.0 + expm1(select(small, x, 0.0));
     if (all(small)) return series;
-    return by_lane([&](int lane) { return small[lane] ? series[lane] : std::exp(x[lane]); });
+    return select(small, series, each(x, [](double value) { return std::exp(value); }));
 }
 
 }  // namespace umform
