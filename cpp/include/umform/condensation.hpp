@@ -77,15 +77,19 @@ Mask<Real> factor_ldlt(Real* A, int n) {
 template <class Real>
 void solve_ldlt(const Real* LD, int n, Real* Y, int columns) {
     for (int i = 0; i < n; ++i)
-        for (int k = 0; k < i; ++k)
-            for (int c = 0; c < columns; ++c) Y[i * columns + c] -= LD[i * n + k] * Y[k * columns + c];
+        for (int k = 0; k < i; ++k) {
+            const Real factor = LD[i * n + k];
+            for (int c = 0; c < columns; ++c) Y[i * columns + c] -= factor * Y[k * columns + c];
+        }
     for (int i = 0; i < n; ++i) {
         const Real reciprocal = 1.0 / LD[i * n + i];
         for (int c = 0; c < columns; ++c) Y[i * columns + c] *= reciprocal;
     }
     for (int i = n - 1; i >= 0; --i)
-        for (int k = i + 1; k < n; ++k)
-            for (int c = 0; c < columns; ++c) Y[i * columns + c] -= LD[k * n + i] * Y[k * columns + c];
+        for (int k = i + 1; k < n; ++k) {
+            const Real factor = LD[k * n + i];
+            for (int c = 0; c < columns; ++c) Y[i * columns + c] -= factor * Y[k * columns + c];
+        }
 }
 
 }  // namespace umform

@@ -164,8 +164,8 @@ class SolidShell : public ShellStrains<Nodes, Real> {
         const Real *mean = w.B_mean.data() + first, *extra = w.B_extra.data() + first;
         Real *CB_mean = w.CB_mean.data() + first, *CB_extra = w.CB_extra.data() + first;
         add_force<FirstExtra>(S, t, mean, extra, w.f.data());
-        for (int p = 0; p < 6; ++p) multiply<0, mean_rows>(C[p], mean, CB_mean + p * half);
-        for (int p = FirstExtra; p < 6; ++p) multiply<FirstExtra, 6>(C[p], extra, CB_extra + p * half);
+        for (int p = 0; p < 6; p += 2) multiply<0, mean_rows, 2>(C.data() + p, mean, CB_mean + p * half);
+        for (int p = FirstExtra; p < 6; p += 3) multiply<FirstExtra, 6, 3>(C.data() + p, extra, CB_extra + p * half);
         if (tables_.modes > 0) add_enhanced_blocks<FirstExtra>(q, t, S, C, mean, extra, w);
     }
 
@@ -178,14 +178,19 @@ class SolidShell : public ShellStrains<Nodes, Real> {
         return sum;
     }
 
-    template <int Begin, int End>
-    static void multiply(const Voigt& factor, const Real* B, Real* row) {
-        for (int i = 0; i < half; ++i) row[i] = combination<Begin, End>(factor, B, i);
+    /// A few rows of C B at once, with their factors in registers.
+    template <int Begin, int End, int Rows>
+    static void multiply(const Voigt* C, const Real* B, Real* CB) {
+        std::array<Voigt, Rows> factors;
+        std::copy_n(C, Rows, factors.begin());
+        for (int i = 0; i < half; ++i)
+#pragma GCC unroll 3
+            for (int row = 0; row < Rows; ++row) CB[row * half + i] = combination<Begin, End>(factors[row], B, i);
     }
 
     /// f += sum_p S_p B_p with B = [M, t M + X].
     template <int FirstExtra>
-    static void add_force(const Voigt& S, double t, const Real* mean, const Real* extra, Real* f) {
+    static void add_force(const Voigt S, double t, const Real* mean, const Real* extra, Real* f) {
         for (int i = 0; i < half; ++i) {
             const Real of_mean = combination<0, mean_rows>(S, mean, i);
             f[i] += of_mean;

@@ -42,7 +42,7 @@ Base<Real> base_of(const FaceShape<Face>& shape, const Real* field) {
 /// Row of a strain component at a place and a layer t: over the mean, and what the director takes beyond t times that.
 /// Entries direction * Face + node. eqs. (2.35), (2.36)
 template <int Face, class Real>
-void strain_row(int component, const FaceShape<Face>& shape, const std::array<Vec<Real, 3>, 3>& g, Real* mean,
+void strain_row(int component, const FaceShape<Face>& shape, const std::array<Vec<Real, 3>, 3> g, Real* mean,
                 Real* extra) {
     const std::array<const double*, 2> dN{shape.Nr.data(), shape.Ns.data()};
     const auto [i, j] = voigt_pair[component];
