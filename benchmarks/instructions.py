@@ -102,10 +102,10 @@ def deviations(counts: dict[str, float], stored: dict[str, float], *, absolute: 
 def compare(counts: dict[str, float]) -> int:
     """Print a table and the verdict; 1 if a kernel has changed."""
     stored = json.loads(STORED.read_text())
-    absolute = stored["build"] == _core.build
+    absolute = stored["build"] == _core.build()
     tolerance = TOLERANCE if absolute else TOLERANCE_OF_SHARES
     if not absolute:
-        print(f"stored with {stored['build']}, this is {_core.build}: shares are compared instead of counts")
+        print(f"stored with {stored['build']}, this is {_core.build()}: shares are compared instead of counts")
     of_kernel = deviations(counts, stored["counts"], absolute=absolute)
     for name, deviation in of_kernel.items():
         mark = "" if abs(deviation) <= tolerance else "   <-"
@@ -131,7 +131,7 @@ def main() -> int:
         return 0
     counts = count()
     if arguments.write:
-        STORED.write_text(json.dumps({"build": _core.build, "counts": counts}, indent=1) + "\n")
+        STORED.write_text(json.dumps({"build": _core.build(), "counts": counts}, indent=1) + "\n")
     return compare(counts)
 
 

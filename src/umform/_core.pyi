@@ -10,6 +10,8 @@ from collections.abc import Callable
 from numpy import float64, int32, int64
 from numpy.typing import NDArray
 
+build: str = 'GNU 12, Release, x86-64-v3'
+
 def gauss(n: int) -> tuple[NDArray[float64], NDArray[float64]]:
     """Gauss rule of n points on [-1, 1]: abscissae and weights."""
 

@@ -8,6 +8,8 @@
 // difference of the faces ("director", strain_rows.hpp) until K and f leave.
 #pragma once
 
+#include <algorithm>
+
 #include "umform/condensation.hpp"
 #include "umform/shell_strains.hpp"
 
