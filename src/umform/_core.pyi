@@ -10,8 +10,6 @@ from collections.abc import Callable
 from numpy import float64, int32, int64
 from numpy.typing import NDArray
 
-build: str = 'GNU 12, Release, x86-64-v3'
-
 def gauss(n: int) -> tuple[NDArray[float64], NDArray[float64]]:
     """Gauss rule of n points on [-1, 1]: abscissae and weights."""
 
@@ -291,6 +289,9 @@ class PressureBlock:
     def pressure(self, arg: float, /) -> None: ...
 
 def pressure_block(facets: NDArray[int32], X: NDArray[float64]) -> PressureBlock: ...
+
+def build() -> str:
+    """Compiler, kind of build and instruction set of the kernels."""
 
 def threads() -> int:
     """Number of threads that the kernels use."""
