@@ -1,8 +1,8 @@
 """Largest relative difference between the answers of two builds of the kernels, on distorted elements in random states.
 
 ``python benchmarks/compare_kernels.py OLD.so NEW.so`` takes two files ``_core*.so`` of builds with the same bindings.
-Each element and law answers at three sizes of the displacement: residual and tangent, then after a recovery and a commit
-the enhanced parameters, the history, fields and energies.
+Each element and law answers at three sizes of the displacement: residual and tangent, then after a recovery and a
+commit the enhanced parameters, the history, fields and energies.
 """
 
 from __future__ import annotations
