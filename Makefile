@@ -26,7 +26,7 @@ unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
+.PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso instructions verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
         format bench compare peers clean
 
 help:  ## show this help
@@ -119,6 +119,10 @@ verification: pardiso  ## run the whole verification book and write docs/verific
 	$(SAY) 'Running all cases of the verification book'
 	@$(BIN)/umform verify --all --out docs/verification $(ARGS)
 	@$(if $(ARGS),,$(BIN)/python tools/readme_numbers.py)
+
+instructions: env  ## instructions of the kernels against the stored counts (skipped without valgrind)
+	$(SAY) 'Counting the instructions of the kernels'
+	@$(BIN)/python benchmarks/instructions.py $(ARGS)
 
 # ---- style ----
 

@@ -2,6 +2,10 @@
 #include "arrays.hpp"
 #include "umform/threads.hpp"
 
+#ifndef UMFORM_BUILD
+    #define UMFORM_BUILD "unknown"  // CMake says it; tools that parse this file alone do not
+#endif
+
 NB_MODULE(_core, m) {
     nb::set_leak_warnings(false);  // functions of users may close over the model: a cycle that ends with the process
     m.doc() = "Kernels of umform: elements, materials, surfaces, contact, sparse patterns.";
@@ -10,6 +14,7 @@ NB_MODULE(_core, m) {
     bind_surfaces(m);
     bind_sparse(m);
     bind_blocks(m);
+    m.def("build", [] { return UMFORM_BUILD; }, "Compiler, kind of build and instruction set of the kernels.");
     m.def("threads", [] { return umform::thread_count(); }, "Number of threads that the kernels use.");
     m.def(
         "set_threads",

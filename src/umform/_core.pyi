@@ -302,6 +302,9 @@ class PressureBlock:
 
 def pressure_block(facets: NDArray[int32], X: NDArray[float64]) -> PressureBlock: ...
 
+def build() -> str:
+    """Compiler, kind of build and instruction set of the kernels."""
+
 def threads() -> int:
     """Number of threads that the kernels use."""
 

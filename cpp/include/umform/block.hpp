@@ -4,27 +4,13 @@
 #include <limits>
 #include <stdexcept>
 
-#include "umform/csr.hpp"
+#include "umform/assemble.hpp"
+#include "umform/batch.hpp"
+#include "umform/materials/concept.hpp"
 #include "umform/solid_shell.hpp"
 #include "umform/threads.hpp"
 
 namespace umform {
-
-/// Where a block adds its share. Arrays over all degrees of freedom, but `values` over the entries of the pattern.
-struct Target {
-    double* f;                   // internal forces
-    double* values;              // tangent over the free degrees of freedom
-    const double* du = nullptr;  // if given: increment of the prescribed degrees of freedom ...
-    double* Kdu = nullptr;       // ... and K du
-};
-
-/// Outcome of `evaluate`: the first element whose strain left the domain of its law or whose
-/// enhanced parameters cannot be eliminated (or -1), and sum |f_e|^2, the scale
-/// of the forces that a residual is measured against.
-struct Outcome {
-    int failed = -1;
-    double force_scale_squared = 0.0;
-};
 
 /// Fields at the Gauss points of all elements, for output. Arrays [element][point][...].
 struct PointFields {
@@ -33,38 +19,6 @@ struct PointFields {
     double* F;      // [3][3]: compatible deformation gradient in global axes
     double* dV;     // reference volume
 };
-
-/// Reads the nodal values of one element into its order by direction.
-template <int Nodes>
-void gather(const Connectivity& part, int element, const double* field, double* local) {
-    const std::int32_t* ids = part[element];
-    for (int a = 0; a < Nodes; ++a)
-        for (int k = 0; k < 3; ++k) local[k * Nodes + a] = field[3 * ids[a] + k];
-}
-
-/// Adds K, f (and K du of prescribed increments) of one element; K holds its upper triangle.
-template <int Nodes>
-void scatter_element(const Connectivity& part, const Scatter& scatter, int element, double* K, const double* f,
-                     const Target& target) {
-    constexpr int size = 3 * Nodes;
-    const std::int32_t* ids = part[element];
-    for (int a = 0; a < Nodes; ++a)
-        for (int k = 0; k < 3; ++k) target.f[3 * ids[a] + k] += f[k * Nodes + a];
-    if (!scatter.symmetric || target.du != nullptr)
-        for (int i = 0; i < size; ++i)
-            for (int j = 0; j < i; ++j) K[i * size + j] = K[j * size + i];
-    if (target.du != nullptr) {
-        std::array<double, size> du;
-        gather<Nodes>(part, element, target.du, du.data());
-        for (int a = 0; a < Nodes; ++a)
-            for (int k = 0; k < 3; ++k) {
-                double sum = 0.0;
-                for (int j = 0; j < size; ++j) sum += K[(k * Nodes + a) * size + j] * du[j];
-                target.Kdu[3 * ids[a] + k] += sum;
-            }
-    }
-    scatter.add(element, K, target.values);
-}
 
 /// The elements as Python sees them. `evaluate` is pure in the history: it reads the converged state and writes the
 /// trial state and the condensed blocks; `recover`, `commit` and `revert` are explicit.
@@ -120,13 +74,13 @@ class ShellBlock {
 template <int Nodes>
 class ShellBlockOf final : public ShellBlock {
   public:
-    using Element = SolidShell<Nodes>;
+    using Element = SolidShell<Nodes, Lanes>;
     static constexpr int size = Element::size;
 
     ShellBlockOf(const Technology& technology, int surface_points, const Rule& thickness,
                  std::shared_ptr<const Material> material, Connectivity part, std::vector<double> X)
         : element_(technology, surface_points, thickness), material_(std::move(material)), part_(std::move(part)),
-          X_(std::move(X)), colours_(make_colours(part_)) {
+          X_(std::move(X)), batches_(make_colours(part_)) {
         const std::size_t elements = part_.size(), modes = element_.modes();
         const int state_size = material_->state_size();
         state_.resize(elements * element_.points() * state_size);
@@ -135,8 +89,8 @@ class ShellBlockOf final : public ShellBlock {
         trial_ = state_;
         alpha_.assign(elements * modes, 0.0);
         alpha_before_ = alpha_converged_ = alpha_;
-        y_.resize(elements * modes);
-        Y_.resize(elements * modes * size);
+        y_.resize(batches_.all.size() * modes);
+        Y_.resize(batches_.all.size() * modes * size);
         scale_.resize(elements);
         failed_.resize(elements);
         energy_.resize(elements);
@@ -149,18 +103,20 @@ class ShellBlockOf final : public ShellBlock {
     int state_size() const override { return material_->state_size(); }
 
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
-        prepare_workspaces();
-        for_each_by_colour(colours_, part_.size(), [&](int e, int thread) {
-            Workspace& w = workspaces_[thread];
-            failed_[e] = compute(e, u, w, trial_of(e)) ? 0 : 1;
-            if (failed_[e] != 0) return;
-            double sum = 0.0;
-            for (const double value : w.f) sum += value * value;
-            scale_[e] = sum;
+        for_each_batch([&](int b, Workspace& w) {
+            const Batch& batch = batches_.all[b];
+            const LaneMask good = compute(batch, u, trial_of(batch), w);
             const std::size_t modes = element_.modes();
-            std::copy(w.ra.begin(), w.ra.end(), y_.begin() + e * modes);
-            std::copy(w.Kad.begin(), w.Kad.end(), Y_.begin() + e * modes * size);
-            scatter_element<Nodes>(part_, scatter, e, w.K.data(), w.f.data(), target);
+            std::copy(w.shell.ra.begin(), w.shell.ra.end(), y_.begin() + b * modes);
+            std::copy(w.shell.Kad.begin(), w.shell.Kad.end(), Y_.begin() + b * modes * size);
+            for (int lane = 0; lane < batch.count; ++lane) {
+                const int e = batch.element[lane];
+                failed_[e] = good[lane] ? 0 : 1;
+                if (failed_[e] != 0) continue;
+                const std::array<double, size>& f = w.results.f[lane];
+                scale_[e] = dot(f, f);
+                scatter_element<Nodes>(part_, scatter, e, w.results.K[lane].data(), f.data(), target);
+            }
         });
         Outcome outcome;
         for (int e = 0; e < part_.size(); ++e) {
@@ -174,32 +130,35 @@ class ShellBlockOf final : public ShellBlock {
         alpha_before_ = alpha_;
         const int modes = element_.modes();
         if (modes == 0) return;
-        std::array<double, size> local;
-        for (int e = 0; e < part_.size(); ++e) {
-            gather<Nodes>(part_, e, du, local.data());
+        for_each_batch([&](int b, Workspace& w) {
+            const Batch& batch = batches_.all[b];
+            gather<Nodes>(part_, batch, du, w.u);
             for (int m = 0; m < modes; ++m) {
-                const std::size_t row = static_cast<std::size_t>(e) * modes + m;
-                double sum = 0.0;
-                for (int i = 0; i < size; ++i) sum += Y_[row * size + i] * local[i];
-                alpha_[row] -= y_[row] + s * sum;
+                const std::size_t row = static_cast<std::size_t>(b) * modes + m;
+                Lanes sum = 0.0;
+                for (int i = 0; i < size; ++i) sum += Y_[row * size + i] * w.u[i];
+                const Lanes change = y_[row] + s * sum;
+                for (int lane = 0; lane < batch.count; ++lane)
+                    alpha_[static_cast<std::size_t>(batch.element[lane]) * modes + m] -= change[lane];
             }
-        }
+        });
     }
 
     void element(int e, const double* u, double* K, double* f) override {
         prepare_workspaces();
         Workspace& w = workspaces_[0];
-        std::vector<double> scratch(static_cast<std::size_t>(points()) * material_->state_size());
-        if (!compute(e, u, w, scratch.data()))
+        const Batch batch = alone(e);
+        std::vector<double> scratch(trial_size());
+        if (!compute(batch, u, filled(scratch.data()), w)[0])
             throw std::domain_error("the element is outside of the domain of its law, or Kaa is singular");
         for (int a = 0; a < Nodes; ++a)
             for (int k = 0; k < 3; ++k) {
                 const int i = k * Nodes + a;
-                f[3 * a + k] = w.f[i];
+                f[3 * a + k] = w.results.f[0][i];
                 for (int b = 0; b < Nodes; ++b)
                     for (int l = 0; l < 3; ++l) {
                         const int j = l * Nodes + b;
-                        K[(3 * a + k) * size + 3 * b + l] = w.K[std::min(i, j) * size + std::max(i, j)];
+                        K[(3 * a + k) * size + 3 * b + l] = w.results.K[0][std::min(i, j) * size + std::max(i, j)];
                     }
             }
     }
@@ -207,45 +166,39 @@ class ShellBlockOf final : public ShellBlock {
     void fields(const double* u, const PointFields& out) override {
         prepare_workspaces();
         Workspace& w = workspaces_[0];
-        typename Element::Nodal X, local_u;
-        std::vector<double> scratch(static_cast<std::size_t>(points())
-                                    * material_->state_size());  // trial stays as it is
+        std::vector<double> scratch(trial_size());  // trial stays as it is
         for (int e = 0; e < part_.size(); ++e) {
-            gather<Nodes>(part_, e, X_.data(), X.data());
-            gather<Nodes>(part_, e, u, local_u.data());
-            const double* alpha = alpha_.data() + static_cast<std::size_t>(e) * element_.modes();
-            if (!element_.strains(X, local_u, alpha, w) || !respond(e, w, scratch.data()))
+            const Batch batch = alone(e);
+            if (!strains(batch, u, alpha_, w)[0] || !respond(batch, true, filled(scratch.data()), w)[0])
                 throw std::domain_error("an element is outside of the domain of its law");
             for (int q = 0; q < points(); ++q) {
                 const std::size_t at = static_cast<std::size_t>(e) * points() + q;
-                std::copy(w.E[q].begin(), w.E[q].end(), out.E + 6 * at);
-                std::copy(w.S[q].begin(), w.S[q].end(), out.S + 6 * at);
-                const Mat3 J = Element::jacobian(element_.gradient(q), X), Jinv = inverse(J);
-                const auto frame = local_frame(
-                    {Vec3{J(0, 0), J(1, 0), J(2, 0)}, {J(0, 1), J(1, 1), J(2, 1)}, {J(0, 2), J(1, 2), J(2, 2)}});
-                for (int i = 0; i < 3; ++i)
-                    for (int k = 0; k < 3; ++k) {
-                        out.frame[9 * at + 3 * i + k] = frame[i][k];
-                        double F = 0.0;
-                        for (int m = 0; m < 3; ++m) F += w.g[q][m][i] * Jinv(m, k);
-                        out.F[9 * at + 3 * i + k] = F;
-                    }
-                out.dV[at] = w.dV[q];
+                for (int p = 0; p < 6; ++p) {
+                    out.E[6 * at + p] = w.shell.E[q][p][0];
+                    out.S[6 * at + p] = w.shell.S[q][p][0];
+                }
+                write_base(q, w, out.frame + 9 * at, out.F + 9 * at);
+                out.dV[at] = w.shell.dV[q][0];
             }
         }
     }
 
     Energy energy(const double* u) override {
-        prepare_workspaces();
-        for_each_by_colour(colours_, part_.size(), [&](int e, int thread) {
-            Workspace& w = workspaces_[thread];
-            energy_[e] = Energy{};
-            if (!strains(e, u, alpha_converged_.data(), w)) return;
-            material_->energy(points(), w.E.data(), state_.data() + first_state(e), w.energy.data());
-            energy_[e] = {0.0, 0.0};
-            for (int q = 0; q < points(); ++q) {
-                energy_[e].elastic += w.energy[q].elastic * w.dV[q];
-                energy_[e].plastic += w.energy[q].plastic * w.dV[q];
+        for_each_batch([&](int b, Workspace& w) {
+            const Batch& batch = batches_.all[b];
+            const LaneMask valid = strains(batch, u, alpha_converged_, w);
+            for (int lane = 0; lane < batch.count; ++lane) {
+                const int e = batch.element[lane];
+                energy_[e] = Energy{};
+                if (!valid[lane]) continue;
+                for (int q = 0; q < points(); ++q)
+                    for (int p = 0; p < 6; ++p) w.E[q][p] = w.shell.E[q][p][lane];
+                material_->energy(points(), w.E.data(), state_.data() + first_state(e), w.energy.data());
+                energy_[e] = {0.0, 0.0};
+                for (int q = 0; q < points(); ++q) {
+                    energy_[e].elastic += w.energy[q].elastic * w.shell.dV[q][lane];
+                    energy_[e].plastic += w.energy[q].plastic * w.shell.dV[q][lane];
+                }
             }
         });
         Energy total{0.0, 0.0};  // in the order of the elements, whatever the number of threads
@@ -257,44 +210,103 @@ class ShellBlockOf final : public ShellBlock {
     }
 
   private:
-    using Workspace = typename Element::Workspace;
+    /// Of one thread.
+    struct Workspace {
+        typename Element::Workspace shell;
+        typename Element::Nodal X, u;
+        std::vector<Lanes> alpha;
+        NodalResults<Nodes> results;
+        std::vector<Voigt> E;        // [q] of one element
+        std::vector<Energy> energy;  // [q]
+    };
 
     void prepare_workspaces() {
-        while (static_cast<int>(workspaces_.size()) < thread_count()) workspaces_.push_back(element_.workspace());
+        while (static_cast<int>(workspaces_.size()) < thread_count())
+            workspaces_.push_back({element_.workspace(),
+                                   {},
+                                   {},
+                                   std::vector<Lanes>(element_.modes()),
+                                   {},
+                                   std::vector<Voigt>(points()),
+                                   std::vector<Energy>(points())});
     }
 
-    /// Asks the material at the points of an element; `trial` takes the new history.
-    bool respond(int e, Workspace& w, double* trial) {
-        const int q = points();
-        return material_->respond(q, w.E.data(), state_.data() + first_state(e), w.S.data(), w.CC.data(), trial) == q;
+    /// Calls work(batch, workspace) for all batches, in parallel within a colour.
+    template <class Work>
+    void for_each_batch(const Work& work) {
+        prepare_workspaces();
+        for_each_by_colour(batches_.colours, part_.size(), [&](int b, int thread) { work(b, workspaces_[thread]); });
     }
 
-    /// Where the history of an element begins in `state_` and `trial_`.
-    std::size_t first_state(int e) const { return static_cast<std::size_t>(e) * points() * material_->state_size(); }
-    double* trial_of(int e) { return trial_.data() + first_state(e); }
-
-    /// Strains of an element at u with the enhanced parameters `alpha` of all elements. False if it is inverted.
-    bool strains(int e, const double* u, const double* alpha, Workspace& w) const {
-        typename Element::Nodal X, local_u;
-        gather<Nodes>(part_, e, X_.data(), X.data());
-        gather<Nodes>(part_, e, u, local_u.data());
-        return element_.strains(X, local_u, alpha + static_cast<std::size_t>(e) * element_.modes(), w);
+    static Batch alone(int e) {
+        Batch batch{{}, 1};
+        batch.element.fill(e);
+        return batch;
+    }
+    static LaneTrials filled(double* trial) {
+        LaneTrials trials;
+        trials.fill(trial);
+        return trials;
     }
 
-    bool compute(int e, const double* u, Workspace& w, double* trial) {
-        if (!strains(e, u, alpha_.data(), w)) return false;
-        if (!respond(e, w, trial)) return false;
-        element_.integrate(w);
-        return element_.condense(w);
+    /// Length of the history of an element, and where it begins in `state_` and `trial_`.
+    std::size_t trial_size() const { return static_cast<std::size_t>(points()) * material_->state_size(); }
+    std::size_t first_state(int e) const { return e * trial_size(); }
+    LaneTrials trial_of(const Batch& batch) {
+        LaneTrials trial;
+        for (int lane = 0; lane < lane_count; ++lane) trial[lane] = trial_.data() + first_state(batch.element[lane]);
+        return trial;
+    }
+
+    /// Asks the material at the points of the `wanted` elements; `trial` takes the new history.
+    LaneMask respond(const Batch& batch, LaneMask wanted, const LaneTrials& trial, Workspace& w) const {
+        LaneStates state;
+        for (int lane = 0; lane < lane_count; ++lane) state[lane] = state_.data() + first_state(batch.element[lane]);
+        return material_->respond(points(), wanted & batch.filled(), w.shell.E.data(), state, w.shell.S.data(),
+                                  w.shell.CC.data(), trial);
+    }
+
+    /// Strains at u with the enhanced parameters `alpha` of all elements. False where an element is inverted.
+    LaneMask strains(const Batch& batch, const double* u, const std::vector<double>& alpha, Workspace& w) const {
+        gather<Nodes>(part_, batch, X_.data(), w.X);
+        gather<Nodes>(part_, batch, u, w.u);
+        const std::size_t modes = element_.modes();
+        for (std::size_t m = 0; m < modes; ++m)
+            w.alpha[m] = by_lane([&](int lane) { return alpha[batch.element[lane] * modes + m]; });
+        return element_.strains(w.X, w.u, w.alpha.data(), w.shell);
+    }
+
+    LaneMask compute(const Batch& batch, const double* u, const LaneTrials& trial, Workspace& w) const {
+        LaneMask good = strains(batch, u, alpha_, w);
+        good = respond(batch, good, trial, w);
+        if (!any(good)) return good;
+        element_.integrate(w.shell);
+        good = good & element_.condense(w.shell);
+        w.results.set(w.shell.Kmm.data(), w.shell.Kdm.data(), w.shell.Kdd.data(), w.shell.f.data());
+        return good;
+    }
+
+    /// Local frame and compatible deformation gradient F = g_m (x) G^m of the element in the first lane at point q.
+    void write_base(int q, const Workspace& w, double* frame, double* F) const {
+        std::array<Vec3, 3> G, g;
+        element_.base_vectors(q, 0, w.shell, G, g);
+        const auto local = local_frame(G);
+        const Mat3 G_inverse =
+            inverse(Mat3{{G[0][0], G[1][0], G[2][0], G[0][1], G[1][1], G[2][1], G[0][2], G[1][2], G[2][2]}});
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) {
+                frame[3 * i + k] = local[i][k];
+                F[3 * i + k] = g[0][i] * G_inverse(0, k) + g[1][i] * G_inverse(1, k) + g[2][i] * G_inverse(2, k);
+            }
     }
 
     Element element_;
     std::shared_ptr<const Material> material_;
     Connectivity part_;
     std::vector<double> X_;
-    std::vector<std::vector<std::int32_t>> colours_;
+    Batches batches_;
     std::vector<Workspace> workspaces_;  // one a thread
-    std::vector<double> y_, Y_;          // Kaa^-1 ra, Kaa^-1 Kad of the last evaluate
+    std::vector<Lanes> y_, Y_;           // [batch] Kaa^-1 ra, Kaa^-1 Kad of the last evaluate
     std::vector<double> scale_;
     std::vector<char> failed_;
     std::vector<Energy> energy_;

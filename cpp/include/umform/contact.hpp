@@ -2,8 +2,12 @@
 // area.
 #pragma once
 
-#include "umform/block.hpp"
+#include "umform/assemble.hpp"
+#include "umform/kinematics.hpp"
+#include "umform/quadrature.hpp"
 #include "umform/surfaces/concept.hpp"
+#include "umform/threads.hpp"
+#include "umform/topology.hpp"
 
 namespace umform {
 

@@ -1,7 +1,11 @@
 // Follower pressure on element faces: its direction and area turn and stretch with the sheet.
 #pragma once
 
-#include "umform/block.hpp"
+#include "umform/assemble.hpp"
+#include "umform/kinematics.hpp"
+#include "umform/quadrature.hpp"
+#include "umform/threads.hpp"
+#include "umform/topology.hpp"
 
 namespace umform {
 

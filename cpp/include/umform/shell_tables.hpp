@@ -1,4 +1,4 @@
-// What is the same for all elements of a kind, computed once: shape gradients, tying weights, values of the modes.
+// What is the same for all elements of a kind, computed once: shape functions, tying weights, values of the modes.
 #pragma once
 
 #include <vector>
@@ -9,91 +9,90 @@
 
 namespace umform {
 
-/// Gauss points are numbered q = layer * surface + point of the surface. Tying samples are stored for the mid-surface, then
-/// layer by layer.
+/// Gauss points are numbered q = layer * surface + point of the surface. All that depends on (r, s) is tabulated at places:
+/// the Gauss points of the surface come first, then the tying points, each once.
 template <int Nodes>
 struct ShellTables {
+    static constexpr int face = Nodes / 2;
+
+    struct Place {
+        double r, s;
+        FaceShape<face> shape;
+    };
     struct Sample {
-        int component;
-        std::array<double, Nodes> Ni, Nj;
+        int component, place;
+    };
+    /// A share of a tied strain at a Gauss point: weight times a sample of the mid-surface or of the layer.
+    struct Share {
+        int sample;
+        double weight;
     };
     struct Row {
         bool at_layer;
-        int first, count;  // samples, counted inside the mid-surface or inside a layer
-        int first_weight;  // in tying_weights, then [surface point][sample]
+        std::vector<std::vector<Share>> shares;  // [surface point]
     };
     struct ModeEntry {
         int component, mode;  // component: position in enhanced
     };
 
     ShellTables(const Technology& technology, const Rule& surface_rule, const Rule& thickness)
-        : surface(surface_rule.size() * surface_rule.size()), layers(thickness.size()) {
-        tabulate_gauss_points(surface_rule, thickness);
-        tabulate_tying(technology, surface_rule, thickness);
+        : surface(surface_rule.size() * surface_rule.size()), layers(thickness.size()), t(thickness.x) {
+        tabulate_gauss_points(technology, surface_rule, thickness);
+        for (const Tying& tying : technology.tying) tabulate_tying(tying, surface_rule);
+        centre = place(0.0, 0.0);
         tabulate_modes(technology, surface_rule, thickness);
     }
 
     int points() const { return surface * layers; }
-    double tying_weight(const Row& row, int q, int k) const {
-        return tying_weights[row.first_weight + (q % surface) * row.count + k];
-    }
-    int first_sample(const Row& row, int q) const {
-        return row.at_layer ? mid_samples + (q / surface) * layer_samples + row.first : row.first;
-    }
-    /// The same among the samples of the mid-surface and of the layer at work.
-    int first_sample_of_pass(const Row& row) const { return row.at_layer ? mid_samples + row.first : row.first; }
 
-    int surface, layers, modes = 0;
-    int mid_samples = 0, layer_samples = 0;
-    std::vector<ShellGradient<Nodes>> gauss;  // [q]
-    std::vector<double> weight;               // [q]
-    ShellGradient<Nodes> centre;
+    int surface, layers, modes = 0, centre = 0;
+    std::vector<double> t;       // [layer]
+    std::vector<double> weight;  // [q]
+    std::vector<Place> places;
     std::array<int, 6> row_of;  // component -> row of the tying rule, or -1
     std::vector<Row> rows;
-    std::vector<double> tying_weights;
-    std::vector<Sample> samples;      // of the mid-surface, then layer by layer
+    std::vector<Sample> mid_samples, layer_samples;
     std::vector<int> enhanced;        // enhanced components
     std::vector<ModeEntry> entries;   // which component of which mode is not zero
     std::vector<double> mode_values;  // [q][entry]
 
   private:
-    void tabulate_gauss_points(const Rule& surface_rule, const Rule& thickness) {
-        for (int layer = 0; layer < layers; ++layer)
-            for (int is = 0; is < surface_rule.size(); ++is)
-                for (int ir = 0; ir < surface_rule.size(); ++ir) {
-                    gauss.push_back(shell_gradient<Nodes>(surface_rule.x[ir], surface_rule.x[is], thickness.x[layer]));
-                    weight.push_back(surface_rule.w[ir] * surface_rule.w[is] * thickness.w[layer]);
-                }
-        centre = shell_gradient<Nodes>(0.0, 0.0, 0.0);
+    int place(double r, double s) {
+        for (std::size_t k = 0; k < places.size(); ++k)
+            if (places[k].r == r && places[k].s == s) return static_cast<int>(k);
+        places.push_back({r, s, face_shape<face>(r, s)});
+        return static_cast<int>(places.size()) - 1;
     }
 
-    void tabulate_tying(const Technology& technology, const Rule& surface_rule, const Rule& thickness) {
+    void tabulate_gauss_points(const Technology& technology, const Rule& surface_rule, const Rule& thickness) {
         row_of.fill(-1);
-        for (const Tying& tying : technology.tying) {
-            int& known = tying.at_layer ? layer_samples : mid_samples;
-            const int count = static_cast<int>(tying.r.size() * tying.s.size());
-            row_of[tying.component] = static_cast<int>(rows.size());
-            rows.push_back({tying.at_layer, known, count, static_cast<int>(tying_weights.size())});
-            known += count;
-            for (const double s : surface_rule.x)
-                for (const double r : surface_rule.x)
-                    for (const double ws : lagrange(tying.s, s))
-                        for (const double wr : lagrange(tying.r, r)) tying_weights.push_back(wr * ws);
-        }
-        add_samples(technology, false, 0.0);
-        for (const double t : thickness.x) add_samples(technology, true, t);
+        for (std::size_t row = 0; row < technology.tying.size(); ++row)
+            row_of[technology.tying[row].component] = static_cast<int>(row);
+        for (const double s : surface_rule.x)
+            for (const double r : surface_rule.x) place(r, s);
+        for (const double wt : thickness.w)
+            for (const double ws : surface_rule.w)
+                for (const double wr : surface_rule.w) weight.push_back(wr * ws * wt);
     }
 
-    void add_samples(const Technology& technology, bool at_layer, double t) {
-        for (const Tying& tying : technology.tying) {
-            if (tying.at_layer != at_layer) continue;
-            const auto [i, j] = voigt_pair[tying.component];
-            for (const double s : tying.s)
-                for (const double r : tying.r) {
-                    const ShellGradient<Nodes> dN = shell_gradient<Nodes>(r, s, t);
-                    samples.push_back({tying.component, dN[i], dN[j]});
-                }
-        }
+    void tabulate_tying(const Tying& tying, const Rule& surface_rule) {
+        std::vector<Sample>& samples = tying.at_layer ? layer_samples : mid_samples;
+        const int first = static_cast<int>(samples.size());
+        for (const double s : tying.s)
+            for (const double r : tying.r) samples.push_back({tying.component, place(r, s)});
+        Row row{tying.at_layer, {}};
+        for (const double s : surface_rule.x)
+            for (const double r : surface_rule.x) {
+                std::vector<Share>& shares = row.shares.emplace_back();
+                int sample = first;
+                for (const double ws : lagrange(tying.s, s))
+                    for (const double wr : lagrange(tying.r, r)) {
+                        // Where Gauss and tying points coincide, a weight is zero but for the round-off of both.
+                        if (std::abs(wr * ws) > 1e-14) shares.push_back({sample, wr * ws});
+                        ++sample;
+                    }
+            }
+        rows.push_back(std::move(row));
     }
 
     void tabulate_modes(const Technology& technology, const Rule& surface_rule, const Rule& thickness) {

@@ -10,16 +10,18 @@
 
 namespace umform {
 
+template <class Real>
 struct YieldStress {
-    double value, slope;
+    Real value, slope;
 };
 
 /// y = y0 + H e + (y_inf - y0) (1 - exp(-d e)): perfect plasticity, linear and Voce hardening are its special cases. eq. (3.30)
 struct LinearVoce {
     double y0, modulus, saturation, rate;
 
-    YieldStress operator()(double eqps) const {
-        const double decay = std::exp(-rate * eqps);
+    template <class Real>
+    YieldStress<Real> operator()(Real eqps) const {
+        const Real decay = exp(-rate * eqps);
         const double range = saturation - y0;
         return {y0 + modulus * eqps + range * (1.0 - decay), modulus + range * rate * decay};
     }
@@ -33,8 +35,9 @@ struct LinearVoce {
 struct Swift {
     double strength, offset, exponent;
 
-    YieldStress operator()(double eqps) const {
-        const double value = strength * std::pow(offset + eqps, exponent);
+    template <class Real>
+    YieldStress<Real> operator()(Real eqps) const {
+        const Real value = strength * pow(offset + eqps, exponent);
         return {value, exponent * value / (offset + eqps)};
     }
     double work(double eqps) const {
@@ -47,25 +50,32 @@ struct Swift {
 struct Tabulated {
     std::vector<double> eqps, stress;
 
-    YieldStress operator()(double e) const {
-        if (e >= eqps.back()) return {stress.back(), 0.0};
-        const auto after = std::upper_bound(eqps.begin() + 1, eqps.end() - 1, e) - eqps.begin();
-        const double slope = (stress[after] - stress[after - 1]) / (eqps[after] - eqps[after - 1]);
-        return {stress[after - 1] + slope * (e - eqps[after - 1]), slope};
+    template <class Real>
+    YieldStress<Real> operator()(Real e) const {
+        return {each(e, [this](double x) { return at(x).value; }), each(e, [this](double x) { return at(x).slope; })};
     }
     double work(double e) const {
         double sum = 0.0;
         for (std::size_t k = 1; k < eqps.size() && eqps[k - 1] < e; ++k) {
             const double end = std::min(e, eqps[k]);
-            sum += 0.5 * (stress[k - 1] + (*this)(end).value) * (end - eqps[k - 1]);
+            sum += 0.5 * (stress[k - 1] + at(end).value) * (end - eqps[k - 1]);
         }
         return sum + stress.back() * std::max(e - eqps.back(), 0.0);
+    }
+
+  private:
+    YieldStress<double> at(double e) const {
+        if (e >= eqps.back()) return {stress.back(), 0.0};
+        const auto after = std::upper_bound(eqps.begin() + 1, eqps.end() - 1, e) - eqps.begin();
+        const double slope = (stress[after] - stress[after - 1]) / (eqps[after] - eqps[after - 1]);
+        return {stress[after - 1] + slope * (e - eqps[after - 1]), slope};
     }
 };
 
 using Hardening = std::variant<LinearVoce, Swift, Tabulated>;
 
-inline YieldStress yield_stress(const Hardening& hardening, double eqps) {
+template <class Real>
+YieldStress<Real> yield_stress(const Hardening& hardening, Real eqps) {
     return std::visit([eqps](const auto& curve) { return curve(eqps); }, hardening);
 }
 

@@ -7,38 +7,43 @@
 namespace umform {
 
 /// The invariants of C = 1 + 2E that both forms need, formed without cancellation for small strains. eqs. (3.9), (3.10)
+template <class Real>
 struct RightCauchyGreen {
-    Mat3 inverse;            // C^-1
-    Mat3 one_minus_inverse;  // 1 - C^-1 = 2 C^-1 E
-    double log_det;          // ln I3
-    double isochoric;        // (I1 - 3) / 2 - ln J, of second order in E
+    Mat<Real, 3, 3> inverse;            // C^-1
+    Mat<Real, 3, 3> one_minus_inverse;  // 1 - C^-1 = 2 C^-1 E
+    Real det_minus_one;                 // I3 - 1
+    Real higher;                        // the terms of I3 - 1 that are not linear in E
+    Real log_det;                       // ln I3
 
-    /// False if C is not positive definite.
-    bool set(const Voigt& strain) {
-        const Mat3 E = from_voigt(strain, 0.5);
-        Mat3 C;
+    /// False where C is not positive definite.
+    Mask<Real> set(const Vec<Real, 6>& strain) {
+        const Mat<Real, 3, 3> E = from_voigt(strain, 0.5);
+        Mat<Real, 3, 3> C;
         for (int i = 0; i < 9; ++i) C.a[i] = 2.0 * E.a[i];
         for (int i = 0; i < 3; ++i) C(i, i) += 1.0;
-        const double minor = C(0, 0) * C(1, 1) - C(0, 1) * C(0, 1);
-        const double trace = E(0, 0) + E(1, 1) + E(2, 2);
-        double second = 0.0;
+        const Real minor = C(0, 0) * C(1, 1) - C(0, 1) * C(0, 1);
+        const Real trace = E(0, 0) + E(1, 1) + E(2, 2);
+        Real second = 0.0;
         for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {0, 2}}) second += E(i, i) * E(j, j) - E(i, j) * E(i, j);
-        const double det_minus_one = 2.0 * trace + 4.0 * second + 8.0 * det(E);
-        if (!(C(0, 0) > 0.0 && minor > 0.0 && det_minus_one > -1.0)) return false;
-        log_det = std::log1p(det_minus_one);
-        isochoric = 0.5 * log_remainder(det_minus_one) - 2.0 * second - 4.0 * det(E);
+        higher = 4.0 * second + 8.0 * det(E);
+        det_minus_one = 2.0 * trace + higher;
+        const Mask<Real> positive = (C(0, 0) > 0.0) & (minor > 0.0) & (det_minus_one > -1.0);
+        log_det = det_minus_one * log1p_ratio(det_minus_one);
         inverse = umform::inverse(C);
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) {
-                double sum = 0.0;
+                Real sum = 0.0;
                 for (int k = 0; k < 3; ++k) sum += inverse(i, k) * E(k, j) + E(i, k) * inverse(k, j);
                 one_minus_inverse(i, j) = sum;
             }
-        return true;
+        return positive;
     }
 
+    /// (I1 - 3) / 2 - ln J, of second order in E. eq. (3.36)
+    Real isochoric() const { return 0.5 * (log_remainder(det_minus_one) - higher); }
+
     /// CC = a C^-1 (x) C^-1 + b I_{C^-1} with I_ijkl = (C^-1_ik C^-1_jl + C^-1_il C^-1_jk) / 2.
-    void tangent(double a, double b, Voigt66& CC) const {
+    void tangent(Real a, Real b, Mat<Real, 6, 6>& CC) const {
         for (int p = 0; p < 6; ++p)
             for (int q = 0; q < 6; ++q) {
                 const auto [i, j] = voigt_pair[p];
@@ -56,23 +61,24 @@ struct NeoHookeLogarithmic {
     static constexpr int state_size = 0;
     void initial(double*) const {}
 
-    bool respond(const Voigt& E, const double*, Voigt& S, Voigt66& CC, double*) const {
-        RightCauchyGreen C;
-        if (!C.set(E)) return false;
-        const double pressure = 0.5 * lambda * C.log_det;
+    template <class Real>
+    Mask<Real> respond(const Vec<Real, 6>& E, const Real*, Vec<Real, 6>& S, Mat<Real, 6, 6>& CC, Real*) const {
+        RightCauchyGreen<Real> C;
+        const Mask<Real> positive = C.set(E);
+        const Real pressure = 0.5 * lambda * C.log_det;
         for (int p = 0; p < 6; ++p) {
             const auto [i, j] = voigt_pair[p];
             S[p] = mu * C.one_minus_inverse(i, j) + pressure * C.inverse(i, j);
         }
         C.tangent(lambda, 2.0 * (mu - pressure), CC);
-        return true;
+        return positive;
     }
 
     /// eq. (3.36)
     Energy energy(const Voigt& E, const double*) const {
-        RightCauchyGreen C;
+        RightCauchyGreen<double> C;
         if (!C.set(E)) return {};
-        return {mu * C.isochoric + 0.125 * lambda * C.log_det * C.log_det, 0.0};
+        return {mu * C.isochoric() + 0.125 * lambda * C.log_det * C.log_det, 0.0};
     }
 };
 
@@ -83,25 +89,26 @@ struct NeoHookePower {
     static constexpr int state_size = 0;
     void initial(double*) const {}
 
-    bool respond(const Voigt& E, const double*, Voigt& S, Voigt66& CC, double*) const {
-        RightCauchyGreen C;
-        if (!C.set(E)) return false;
-        const double one_minus_power = -std::expm1(-beta * C.log_det);  // 1 - I3^-beta
-        const double power = 1.0 - one_minus_power;
+    template <class Real>
+    Mask<Real> respond(const Vec<Real, 6>& E, const Real*, Vec<Real, 6>& S, Mat<Real, 6, 6>& CC, Real*) const {
+        RightCauchyGreen<Real> C;
+        const Mask<Real> positive = C.set(E);
+        const Real one_minus_power = -expm1(-beta * C.log_det);  // 1 - I3^-beta
+        const Real power = 1.0 - one_minus_power;
         for (int p = 0; p < 6; ++p) {
             const auto [i, j] = voigt_pair[p];
             S[p] = mu * (C.one_minus_inverse(i, j) + one_minus_power * C.inverse(i, j));
         }
         C.tangent(2.0 * mu * beta * power, 2.0 * mu * power, CC);
-        return true;
+        return positive;
     }
 
     /// eq. (3.37)
     Energy energy(const Voigt& E, const double*) const {
-        RightCauchyGreen C;
+        RightCauchyGreen<double> C;
         if (!C.set(E)) return {};
         const double volumetric = 0.5 * beta * C.log_det * C.log_det * exp_remainder(-beta * C.log_det);
-        return {mu * (C.isochoric + volumetric), 0.0};
+        return {mu * (C.isochoric() + volumetric), 0.0};
     }
 };
 

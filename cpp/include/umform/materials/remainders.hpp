@@ -1,7 +1,9 @@
-// What is left of exp and log1p behind their linear terms, to all digits: energies at small strains are made of it.
+// What is left of exp and log1p behind their first terms, to all digits, for small strains; and both for lanes.
 #pragma once
 
 #include <cmath>
+
+#include "umform/lanes.hpp"
 
 namespace umform {
 
@@ -21,6 +23,37 @@ inline double log_remainder(double x) {
     double sum = 0.0;
     for (int k = 27; k >= 3; k -= 2) sum = 1.0 / k + square * sum;  // 1/3 + s^2/5 + s^4/7 + ...
     return s * (x - 2.0 * square * sum);
+}
+
+/// log(1 + x) / x for x > -1, which is 1 at x = 0: for |x| < 1/16, more than the elastic strains of metals, by its
+/// series. eq. (3.42)
+template <class Real>
+Real log1p_ratio(Real x) {
+    const Real s = x / (2.0 + x), square = s * s;
+    Real sum = 0.0;
+    for (int k = 11; k >= 3; k -= 2) sum = square * (1.0 / k + sum);  // s^2/3 + s^4/5 + ...
+    const Real series = (1.0 - s) * (1.0 + sum);                      // 2 / (2 + x) = 1 - s
+    const Mask<Real> small = abs(x) < 0.0625;
+    if (all(small)) return series;
+    return select(small, series, each(x, [](double value) { return std::log1p(value) / value; }));
+}
+
+using std::exp;
+using std::expm1;
+/// exp(x) - 1 of every lane: for |x| < 1/16 by its series, whose remainder is below 1e-18, else by the library.
+inline Lanes expm1(Lanes x) {
+    Lanes sum = 1.0;
+    for (int k = 10; k >= 2; --k) sum = 1.0 + x * sum * (1.0 / k);
+    const Lanes series = x * sum;
+    const LaneMask small = abs(x) < 0.0625;
+    if (all(small)) return series;
+    return select(small, series, each(x, [](double value) { return std::expm1(value); }));
+}
+inline Lanes exp(Lanes x) {
+    const LaneMask small = abs(x) < 0.0625;
+    const Lanes series = 1.0 + expm1(select(small, x, 0.0));
+    if (all(small)) return series;
+    return select(small, series, each(x, [](double value) { return std::exp(value); }));
 }
 
 }  // namespace umform

@@ -11,9 +11,10 @@ struct SaintVenantKirchhoff {
     static constexpr int state_size = 0;
     void initial(double*) const {}
 
-    bool respond(const Voigt& E, const double*, Voigt& S, Voigt66& CC, double*) const {
-        const double pressure = lambda * (E[0] + E[1] + E[2]);
-        CC = Voigt66{};
+    template <class Real>
+    Mask<Real> respond(const Vec<Real, 6>& E, const Real*, Vec<Real, 6>& S, Mat<Real, 6, 6>& CC, Real*) const {
+        const Real pressure = lambda * (E[0] + E[1] + E[2]);
+        CC = Mat<Real, 6, 6>{};
         for (int i = 0; i < 3; ++i) {
             S[i] = pressure + 2.0 * mu * E[i];
             S[i + 3] = mu * E[i + 3];

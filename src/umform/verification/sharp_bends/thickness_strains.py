@@ -70,13 +70,13 @@ def _perfect(page: Page) -> Ratios:
 
 
 def _logarithm(page: Page, less: Floats) -> None:
-    """Eq. (2.34): the moment that is lost with the logarithm."""
+    """Eq. (2.39): the moment that is lost with the logarithm."""
     columns = ("", *(f"{x:g}" for x in STRAINS))
     leading = [2.0 / 3.0 * x**2 for x in STRAINS]
     rows: list[tuple[str | float, ...]] = [("measured", *less.tolist()), ("leading term (2/3) x²", *leading)]
     page.table("Moment of free E_33 less that of the logarithm, order 3, over Hill's", columns, rows)
     at = STRAINS.index(0.2)
-    page.check("logarithm: moment lost at 0.2 against the leading term (2.34)", float(less[at]), leading[at], 0.3)
+    page.check("logarithm: moment lost at 0.2 against the leading term (2.39)", float(less[at]), leading[at], 0.3)
 
 
 def _hardening(page: Page) -> Ratios:
@@ -187,7 +187,7 @@ def _verdict(page: Page, perfect: Ratios, hardening: Ratios) -> None:
   parameters where order 4 takes 4. Not taken; order 5 has most of the gain, for who must bend to R/h = 1.
 * **The logarithm of the thickness stretch** ({pairs["logarithm"]}) meets the volume with one order less, and is
   wrong all the same: what it makes constant is S_33 C_33, the Kirchhoff stress across the sheet, and that costs
-  (2/3) x² of the moment, eq. (2.34). The error does not fall with the order. Not taken.
+  (2/3) x² of the moment, eq. (2.39). The error does not fall with the order. Not taken.
 * **Averaged volumetric part.** Its mean alone halves the moment
   ({float(perfect[AVERAGED[0].label][a]):.2f} of Hill's): the pressure must jump where the flow changes its sign.
   Linear in t with order 1 it is free of locking with three parameters ({pairs["linear"]}), and too soft. Quadratic
