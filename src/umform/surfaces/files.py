@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from umform.errors import InvalidValue
+from umform.io.atomic import PendingFile
 from umform.surfaces.tool import Tool
 from umform.surfaces.triangles import Box3
 
@@ -48,9 +49,7 @@ def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> P
     surface = tool.triangles(box, chord)
     if len(surface.triangles) == 0:
         raise InvalidValue("nothing of the tool lies in the box", where="write_tool", value=box)
-    import meshio  # slow to import, and so is umform.io, which reads with it
-
-    from umform.io.atomic import PendingFile
+    import meshio  # slow to import
 
     options = {"binary": True} if path.suffix == ".stl" else {}
     with PendingFile(path) as temporary:

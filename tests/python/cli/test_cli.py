@@ -52,6 +52,47 @@ def test_a_public_name_loads_its_own_home_only():
     assert not loaded & {"matplotlib", "h5py", "meshio", "pydantic", "rich", "umform.report", "umform.deck"}
 
 
+@pytest.mark.parametrize("words", [["new", "cantilever"], ["new"]])
+def test_a_template_is_printed_without_loading_what_computes(words):
+    loaded = loaded_by(f"from umform.cli import main; sys.argv = ['umform', *{words}]; main()")
+    assert "umform.deck.templates" in loaded
+    assert not loaded & (HEAVY - {"pydantic", "rich"})  # which typer loads for its own, and the list is a table
+
+
+def test_a_table_is_written_without_loading_readers_of_meshes():
+    loaded = loaded_by("import umform as uf; uf.Result; from umform.io import write_csv")
+    assert "umform.io.tables" in loaded
+    assert not loaded & {"meshio", "h5py", "matplotlib"}
+
+
+@pytest.mark.parametrize(
+    "words", [["new", "cantilever"], ["new"], ["elements"], ["--version"], ["--help"], ["run"], ["run", "missing.toml"]]
+)
+def test_a_pipe_that_nobody_reads_ends_quietly(words):
+    """The reader of both streams has gone before the first word: `umform new cantilever 2>&1 | true`."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    run = subprocess.run([sys.executable, "-m", "umform", *words], stdout=writer, stderr=writer, check=False)
+    os.close(writer)
+    assert run.returncode == cli.CLOSED_PIPE
+
+
+@pytest.mark.parametrize("words", [["new", "cantilever"], ["new"], ["--help"]])
+def test_nothing_is_said_of_a_pipe_that_nobody_reads(words):
+    reader, writer = os.pipe()
+    os.close(reader)
+    run = subprocess.run([sys.executable, "-m", "umform", *words], stdout=writer, stderr=subprocess.PIPE, check=False)
+    os.close(writer)
+    assert run.returncode == cli.CLOSED_PIPE
+    assert run.stderr == b""
+
+
+@pytest.mark.parametrize("start", [["-m", "umform"], ["-c", "from umform.cli import main; main()"]])
+def test_usage_names_the_command_however_it_is_started(start):
+    run = subprocess.run([sys.executable, *start, "new", "--help"], capture_output=True, text=True, check=True)
+    assert "Usage: umform new [OPTIONS]" in run.stdout
+
+
 def test_version_is_printed():
     assert umform_cli("--version").stdout.split() == ["umform", umform.__version__]
 
