@@ -43,7 +43,7 @@ class VtkHdfSeries:
     as it was. The temporary file is flushed after each write: should the process be killed, it can still be
     read. Should the disk be full, the series ends with the last write that fitted.
 
-    A write costs some 10 ms however small it is, since each field and its offsets are data sets of their own. With
+    A write has a cost however small it is, since each field and its offsets are data sets of their own. With
     `buffer` steps wait until that many bytes have come together: right for steps that are all in memory anyway.
 
     Points are in the reference position. A point field ``displacement`` of shape (n, 3) is what ParaView's
