@@ -11,10 +11,12 @@ from typer.testing import CliRunner
 
 import umform
 from umform import cli
+from umform.deck.templates import template_file
 from umform.errors import InvalidValue, NoConvergence
 from umform.processes.bending import case as case_module
 from umform.processes.bending import showcase
 
+BEND = ["--stroke", "0.4", "--increment", "0.0125", "--element", "BEND8", "--layers", "1"]
 RUN = ["--mesh", "24x1", "--contact", "2", "--steps", "30", "--stroke", "2", "--no-unload"]
 
 
@@ -59,32 +61,49 @@ def test_a_template_is_printed_without_loading_what_computes(words):
     assert not loaded & (HEAVY - {"pydantic", "rich"})  # which typer loads for its own, and the list is a table
 
 
-def test_a_table_is_written_without_loading_readers_of_meshes():
-    loaded = loaded_by("import umform as uf; uf.Result; from umform.io import write_csv")
-    assert "umform.io.tables" in loaded
+@pytest.mark.parametrize(
+    "code",
+    [
+        "import umform as uf; uf.Result; uf.solve; from umform.io import write_csv",
+        f"from umform.cli import main; sys.argv = ['umform', 'check', {str(template_file('cantilever'))!r}]; main()",
+    ],
+)
+def test_solving_and_looking_load_nothing_for_files_and_pictures(code):
+    loaded = loaded_by(code)
+    assert {"umform.steps", "umform.io.tables"} <= loaded
     assert not loaded & {"meshio", "h5py", "matplotlib"}
+
+
+def run_unread(*words, stderr):
+    """A command whose reader has gone before the first word: `umform ... | true`, where `true` is the quicker one."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    try:
+        command = [sys.executable, "-m", "umform", *words]
+        return subprocess.run(command, stdout=writer, stderr=writer if stderr is None else stderr, check=False)
+    finally:
+        os.close(writer)
 
 
 @pytest.mark.parametrize(
     "words", [["new", "cantilever"], ["new"], ["elements"], ["--version"], ["--help"], ["run"], ["run", "missing.toml"]]
 )
-def test_a_pipe_that_nobody_reads_ends_quietly(words):
-    """The reader of both streams has gone before the first word: `umform new cantilever 2>&1 | true`."""
-    reader, writer = os.pipe()
-    os.close(reader)
-    run = subprocess.run([sys.executable, "-m", "umform", *words], stdout=writer, stderr=writer, check=False)
-    os.close(writer)
-    assert run.returncode == cli.CLOSED_PIPE
+def test_streams_that_nobody_reads_end_a_command(words):
+    assert run_unread(*words, stderr=None).returncode == cli.CLOSED_PIPE
 
 
 @pytest.mark.parametrize("words", [["new", "cantilever"], ["new"], ["--help"]])
 def test_nothing_is_said_of_a_pipe_that_nobody_reads(words):
-    reader, writer = os.pipe()
-    os.close(reader)
-    run = subprocess.run([sys.executable, "-m", "umform", *words], stdout=writer, stderr=subprocess.PIPE, check=False)
-    os.close(writer)
+    run = run_unread(*words, stderr=subprocess.PIPE)
     assert run.returncode == cli.CLOSED_PIPE
     assert run.stderr == b""
+
+
+def test_a_bend_is_written_although_nobody_reads_of_it(tmp_path):
+    run = run_unread("bend", *BEND, "--out", str(tmp_path), stderr=subprocess.PIPE)
+    assert run.returncode == cli.CLOSED_PIPE
+    assert b"Error" not in run.stderr
+    assert {"curve.csv", "bend.json", "bend.vtkhdf", "report.html"} <= {path.name for path in tmp_path.iterdir()}
 
 
 @pytest.mark.parametrize("start", [["-m", "umform"], ["-c", "from umform.cli import main; main()"]])
