@@ -11,6 +11,8 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -47,7 +49,7 @@ def evaluations(element: str, cells: tuple[int, int]) -> Callable[[], object]:
     return lambda: [model.evaluate(u) for _ in range(10)]
 
 
-def free_bending() -> object:
+def free_bending(frames: int = 0) -> uf.Result:
     """Half of the stroke of the demo on its coarsest mesh: contact, plasticity, a narrow band, much Python."""
     mesh = uf.mesh.strip(length=60, width=10, thickness=1, cells=(24, 1))
     model = uf.Model(mesh, "ANS3DEAS", material=STEEL)
@@ -55,7 +57,16 @@ def free_bending() -> object:
     model.fix(lambda x, y, z: (x < 1e-9) & (y < 1e-9) & (z < 0), "y")
     punch = model.prescribe("x0_lower", "z", name="punch")
     model.contact("lower", uf.Cylinder(centre=(25, 0, -20.5), axis="y", radius=20), penalty=100, points=2)
-    return uf.solve(model, uf.Move(punch, to=-7.5, steps=100), frames=0, progress=False)
+    return uf.solve(model, uf.Move(punch, to=-7.5, steps=100), frames=frames, progress=False)
+
+
+def files(result: uf.Result) -> None:
+    """All files of a small run: table, 60 frames, a picture and the report, with the loading of what they need."""
+    with TemporaryDirectory() as folder:
+        result.write(Path(folder) / "history.csv")
+        result.write(Path(folder) / "fields.vtkhdf")
+        result.plot("punch", "punch_force", Path(folder) / "curve.png")
+        result.report(Path(folder) / "report.html")
 
 
 def bent_plate() -> object:
@@ -71,11 +82,13 @@ def workloads() -> Iterator[tuple[str, float]]:
     """Names and CPU seconds, one after the other."""
     uf.set_threads(1)
     yield "python -c pass, 5 times", start_up("-c", "pass")
-    yield "umform --version, 5 times", start_up("-m", "umform.cli", "--version")
+    yield "umform --version, 5 times", start_up("-c", "from umform.cli import main; main()", "--version")
     yield "import umform; umform.Model, 5 times", start_up("-c", "import umform; umform.Model")
     yield "evaluate ANS3DEAS, J2", cpu_seconds(evaluations("ANS3DEAS", (50, 50)))
     yield "evaluate MI9K3DEAS, J2", cpu_seconds(evaluations("MI9K3DEAS", (16, 16)))
     yield "free bending 24x1", cpu_seconds(free_bending)
+    result = free_bending(frames=60)
+    yield "files of free bending 24x1", cpu_seconds(lambda: files(result))
     yield "bent plate 50x50", cpu_seconds(bent_plate)
 
 

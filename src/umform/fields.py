@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,18 +59,24 @@ class PointFields:
         """
         if kind not in ("cauchy", "pk2") or frame not in ("global", "local"):
             raise InvalidValue("stress is cauchy or pk2, in the global or local frame", value=f"{kind}, {frame}")
-        S = _tensor(self.S)
         if kind == "pk2":
+            S = _tensor(self.S)
             return _voigt(S if frame == "local" else _to_global(S, self.frame))
-        C = np.eye(3) + 2.0 * _tensor(self.E * np.array([1, 1, 1, 0.5, 0.5, 0.5]))
-        values, vectors = np.linalg.eigh(C)
-        U = np.einsum("...ik,...k,...jk->...ij", vectors, np.sqrt(values), vectors)
-        rotated = np.einsum("...ik,...kl,...lj->...ij", U, S, U) / np.sqrt(np.linalg.det(C))[..., None, None]
         if frame == "local":
-            return _voigt(rotated)
+            return _voigt(self._stretched)
         left, _, right = np.linalg.svd(self.F)
         R = left @ right
-        return _voigt(np.einsum("...ik,...kl,...jl->...ij", R, _to_global(rotated, self.frame), R))
+        return _voigt(R @ _to_global(self._stretched, self.frame) @ _transposed(R))
+
+    @cached_property
+    def _stretched(self) -> Floats:
+        """Cauchy stress before it is turned: U S U / det U in the local frame, eq. (3.33)."""
+        C = np.eye(3) + 2.0 * _tensor(self.E * np.array([1, 1, 1, 0.5, 0.5, 0.5]))
+        values, vectors = np.linalg.eigh(C)
+        stretches = np.sqrt(values)
+        U = (vectors * stretches[..., None, :]) @ _transposed(vectors)
+        stretched: Floats = U @ _tensor(self.S) @ U / stretches.prod(axis=-1)[..., None, None]
+        return stretched
 
     def cell_average(self, values: Floats) -> Floats:
         """Average over the volume of each cell of values (cells, points, ...)."""
@@ -153,5 +160,9 @@ def _voigt(tensor: Floats) -> Floats:
 
 
 def _to_global(local: Floats, frame: Floats) -> Floats:
-    tensor: Floats = np.einsum("...ki,...kl,...lj->...ij", frame, local, frame)
+    tensor: Floats = _transposed(frame) @ local @ frame
     return tensor
+
+
+def _transposed(tensors: Floats) -> Floats:
+    return np.swapaxes(tensors, -1, -2)

@@ -52,11 +52,15 @@ _STYLE: Any = {
     "lines.linewidth": 1.4,
     "legend.frameon": False,
     "svg.hashsalt": "umform",
+    "figure.autolayout": False,  # each figure says how it is laid out
+    "figure.constrained_layout.use": False,
 }
 
 #: More faces than these are drawn without their edges, and as pixels in SVG and PDF too.
 _MANY = 4000
 _FORMATS = (".png", ".svg", ".pdf")
+#: Dots an inch of pictures, and of what is pixels in SVG and PDF.
+_DPI = 200
 #: Fields that a shape is coloured by unless another is wanted: the first that is there.
 _FAVOURITES = ("plastic_strain_max", "thickness_change", "displacement")
 
@@ -68,7 +72,26 @@ def house_style() -> Iterator[None]:
         yield
 
 
-def save(figure: Figure, path: str | Path, dpi: int = 200) -> Path:
+class Picture(Figure):
+    """A figure for several files, which the first of them finishes: laid out once, and drawn once as SVG.
+
+    matplotlib lays a figure out anew for each file, which takes as long as to draw it twice.
+    """
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.svg: dict[int, str] = {}  # by dots an inch
+
+    def savefig(self, *args: Any, **kwargs: Any) -> None:
+        """Write the picture as `Figure` does, with the layout of the first time."""
+        engine = self.get_layout_engine()
+        if engine is not None:
+            engine.execute(self)
+            self.set_layout_engine(None)
+        super().savefig(*args, **kwargs)
+
+
+def save(figure: Figure, path: str | Path, dpi: int = _DPI) -> Path:
     """Write a figure as PNG (with so many dots an inch), SVG or PDF, whole or not at all."""
     path = Path(path)
     if path.suffix not in _FORMATS:
@@ -79,18 +102,29 @@ def save(figure: Figure, path: str | Path, dpi: int = 200) -> Path:
             cause="the end of the name says which",
             remedy="end it in .png or .svg",
         )
-    with house_style(), PendingFile(path) as temporary:
-        undated = {"CreationDate": None} if path.suffix == ".pdf" else {}
-        figure.savefig(temporary, dpi=dpi, metadata={"Date": None} if path.suffix == ".svg" else undated)
+    with PendingFile(path) as temporary:
+        if path.suffix == ".svg":
+            temporary.write_text(_svg(figure, dpi), encoding="utf-8", newline="\n")
+        else:
+            with house_style():
+                figure.savefig(temporary, dpi=dpi, metadata={"CreationDate": None} if path.suffix == ".pdf" else {})
     return path
+
+
+def _svg(figure: Figure, dpi: int) -> str:
+    """The figure as a file of SVG without a date, drawn once if it is a picture."""
+    drawn = figure.svg if isinstance(figure, Picture) else {}
+    if dpi not in drawn:
+        text = io.StringIO()
+        with house_style():
+            figure.savefig(text, format="svg", dpi=dpi, metadata={"Date": None})
+        drawn[dpi] = text.getvalue()
+    return drawn[dpi]
 
 
 def inline_svg(figure: Figure) -> str:
     """The figure as an <svg> element for a page of HTML: no prologue, no metadata, no address of any kind."""
-    text = io.StringIO()
-    with house_style():
-        figure.savefig(text, format="svg", dpi=200, metadata={"Date": None})
-    svg = text.getvalue()
+    svg = _svg(figure, _DPI)
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<metadata>.*?</metadata>\s*", "", svg, flags=re.DOTALL)
     return re.sub(r' xmlns(:\w+)?="[^"]*"', "", svg)

@@ -214,12 +214,12 @@ class Result:
         if path.suffix == ".csv":
             write_csv(path, self.table())
         elif path.suffix == ".vtkhdf":
-            from umform.io.vtkhdf import VtkHdfSeries
+            from umform.io.vtkhdf import BUFFER, VtkHdfSeries
 
             if not self.frames:
                 raise InvalidValue("this run kept no frames", remedy="solve(..., frames=60)")
-            mesh = self.model.mesh
-            with VtkHdfSeries(path, mesh.points, mesh.cell, mesh.connectivity, lagrange=lagrange) as series:
+            mesh = (self.model.mesh.points, self.model.mesh.cell, self.model.mesh.connectivity)
+            with VtkHdfSeries(path, *mesh, lagrange=lagrange, buffer=BUFFER) as series:
                 for frame in self.frames:
                     series.append(frame.time, frame.points, frame.cells)
         else:

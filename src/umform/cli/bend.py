@@ -109,9 +109,11 @@ def bend(
         rows = bending_table(case, strokes) if strokes else []
         done = air_bending(case)
     errors = error_budget(case, done.measures, processes=processes) if budget else None
-    _show(done, rows, errors, note)
-    with done.result.timing.files:
-        files = write_files(out, done, rows, errors)
+    try:
+        _show(done, rows, errors, note)
+    finally:  # also if nobody reads the table
+        with done.result.timing.files:
+            files = write_files(out, done, rows, errors)
     console().print(f"Written to {out}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")

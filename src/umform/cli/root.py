@@ -32,6 +32,8 @@ class Commands(TyperGroup):
         except KeyboardInterrupt as error:
             typer.echo("\numform: interrupted; the runs are given up, files of before stay as they were", err=True)
             raise typer.Exit(INTERRUPTED) from error
+        except BrokenPipeError:
+            raise  # nobody reads on: `main` ends without a word
         except Exception as error:
             if type(error).__module__.split(".")[0] in ("typer", "click"):
                 raise  # usage errors and regular exits

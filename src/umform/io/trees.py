@@ -14,7 +14,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import h5py
 import numpy as np
 from numpy.typing import NDArray
 
@@ -42,6 +41,8 @@ def write_tree(path: str | os.PathLike[str], tree: dict[str, Any], kind: str) ->
     FileProblem
         The file cannot be written.
     """
+    import h5py  # slow to import, and most runs keep no checkpoints
+
     arrays: list[Array] = []
     document = json.dumps(_plain(tree, arrays))
     image = io.BytesIO()  # HDF5 cannot forget a write that failed: it writes to memory, and the image in one go
@@ -70,6 +71,8 @@ def read_tree(path: str | os.PathLike[str], kind: str) -> dict[str, Any]:
     FileProblem
         There is no such file, it is damaged, or it holds something else.
     """
+    import h5py
+
     try:
         with h5py.File(Path(path), "r") as file:
             found, checksum = file.attrs.get("kind"), file.attrs.get("checksum")

@@ -11,6 +11,7 @@ from __future__ import annotations
 import io
 import math
 import os
+from collections.abc import Sequence
 from types import TracebackType
 from typing import Any, Self
 
@@ -27,6 +28,8 @@ VERSION = (2, 0)
 VERSION_OF_ATTRIBUTES = (2, 6)
 DEGREES = "HigherOrderDegrees"
 SMALL_CHUNK = 256
+#: Bytes of steps at a time that make the cost of a write small beside that of compressing them.
+BUFFER = 4_000_000
 COMPRESSION = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
 MESH_OFFSETS = ("PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets")
 
@@ -37,8 +40,11 @@ class VtkHdfSeries:
     The steps go to a temporary file beside `path`, which takes the name `path` at the end of the block. This
     also happens when the block ends with an exception: the file then holds the steps appended before it, so
     that the last converged state survives. A block without any step leaves no new file, and an existing one
-    as it was. The temporary file is flushed after each step: should the process be killed, it can still be
-    read. Should the disk be full, the series ends with the last step that fitted.
+    as it was. The temporary file is flushed after each write: should the process be killed, it can still be
+    read. Should the disk be full, the series ends with the last write that fitted.
+
+    A write has a cost however small it is, since each field and its offsets are data sets of their own. With
+    `buffer` steps wait until that many bytes have come together: right for steps that are all in memory anyway.
 
     Points are in the reference position. A point field ``displacement`` of shape (n, 3) is what ParaView's
     *Warp By Vector* and PyVista's ``warp_by_vector`` take. A symmetric tensor is a field with six components
@@ -62,6 +68,9 @@ class VtkHdfSeries:
     lagrange : bool, optional
         Whether to store ``hex18`` as ``VTK_LAGRANGE_HEXAHEDRON`` of the degrees (2, 2, 1), for VTK 9.7 and
         later; cells ``hex8`` are the same either way.
+    buffer : int, optional
+        Bytes of steps that are written at a time; by default each step is written when it is appended. Arrays that
+        wait are not copied: leave them as they are until the end of the block.
 
     Raises
     ------
@@ -92,12 +101,16 @@ class VtkHdfSeries:
         connectivity: ArrayLike,
         *,
         lagrange: bool = False,
+        buffer: int = 0,
     ) -> None:
         self._grid = to_vtk(cell_type(cells, lagrange=lagrange), points, connectivity)
         self._target = PendingFile(path)
         self._raw: io.FileIO
         self._file: Any = None
         self._times: list[float] = []
+        self._written = 0  # steps in the file
+        self._waiting: list[dict[str, FloatArray]] = []  # fields of the steps after them
+        self._buffer = buffer
         self._shapes: dict[str, tuple[int, ...]] = {}
         self._mesh_offsets: tuple[str, ...] = MESH_OFFSETS
 
@@ -116,8 +129,15 @@ class VtkHdfSeries:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         try:
+            self._write_waiting()
+        finally:
+            self._end()
+
+    def _end(self) -> None:
+        """Close the temporary file and give it its name, or remove it if there is no step in it."""
+        try:
             self._close()
-            if self._times:
+            if self._written:
                 self._target.commit()
             else:
                 self._target.discard()
@@ -155,7 +175,7 @@ class VtkHdfSeries:
             The time does not increase, a field has a wrong shape or name, the fields differ from those of the
             first step, or the series is not open. In the cells the name ``HigherOrderDegrees`` is VTK's own.
         FileProblem
-            The step cannot be written.
+            The step cannot be written, or one that waited for it.
         """
         if self._file is None:
             raise InvalidValue(
@@ -180,12 +200,10 @@ class VtkHdfSeries:
         if f"CellData/{DEGREES}" in fields:
             raise InvalidValue("VTK takes a field of this name for the degrees of the cells", value=DEGREES)
         self._check_fields({name: array.shape for name, array in fields.items()})
-        try:
-            self._write_step(time, fields)
-        except OSError as error:
-            self._close()
-            raise write_problem(self._target.path, error) from error
         self._times.append(time)
+        self._waiting.append(fields)
+        if len(self._waiting) * sum(array.nbytes for array in fields.values()) >= self._buffer:
+            self._write_waiting()
 
     def _close(self) -> None:
         """Close the temporary file; the series takes no more steps."""
@@ -236,36 +254,44 @@ class VtkHdfSeries:
             root.create_dataset(f"CellData/{DEGREES}", data=rows, **COMPRESSION).attrs["Attribute"] = np.bytes_(DEGREES)
             self._mesh_offsets = (*MESH_OFFSETS, f"CellDataOffsets/{DEGREES}")
 
-    def _write_step(self, time: float, fields: dict[str, FloatArray]) -> None:
-        """Write the data of a step and then, last of all, count it."""
-        step, root = len(self._times), self._file["VTKHDF"]
-        for name, array in fields.items():
+    def _write_waiting(self) -> None:
+        """Write the steps that wait; they are lost if they cannot be written."""
+        steps, self._waiting = self._waiting, []
+        if not steps:
+            return
+        try:
+            self._write_steps(steps)
+        except OSError as error:
+            del self._times[self._written :]
+            self._close()
+            raise write_problem(self._target.path, error) from error
+        self._written += len(steps)
+
+    def _write_steps(self, steps: Sequence[dict[str, FloatArray]]) -> None:
+        """Write the data of steps, each field at once, and then, last of all, count them."""
+        before, count, root = self._written, len(steps), self._file["VTKHDF"]
+        for name, (rows, *_) in self._shapes.items():
             kind, field = name.split("/")
-            _put(root, name, step, array)
-            _put(root, f"Steps/{kind}Offsets/{field}", step, np.array([step * len(array)]))
+            values = steps[0][name] if count == 1 else np.concatenate([step[name] for step in steps])
+            _put(root, name, before * rows, values, rows if rows > 1 else SMALL_CHUNK)
+            _put(root, f"Steps/{kind}Offsets/{field}", before, rows * np.arange(before, before + count))
         for name in self._mesh_offsets:
-            _put(root, f"Steps/{name}", step, np.array([0]))
-        _put(root, "Steps/NumberOfParts", step, np.array([1]))
-        _put(root, "Steps/Values", step, np.array([time]))
-        root["Steps"].attrs["NSteps"] = np.int64(step + 1)
+            _put(root, f"Steps/{name}", before, np.zeros(count, dtype=np.int64))
+        _put(root, "Steps/NumberOfParts", before, np.ones(count, dtype=np.int64))
+        _put(root, "Steps/Values", before, np.array(self._times[before:]))
+        root["Steps"].attrs["NSteps"] = np.int64(before + count)
         self._file.flush()
 
 
-def _put(root: Any, name: str, step: int, array: FloatArray | IntArray) -> None:
-    """Write the rows of a step behind those of the steps before, in a dataset created at need.
+def _put(root: Any, name: str, start: int, rows: FloatArray | IntArray, chunk: int = SMALL_CHUNK) -> None:
+    """Write rows from `start` on, in a dataset created at need.
 
     The step of a field is one chunk, so that it is compressed and read as a whole.
     """
-    rows = len(array)
-    if name not in root:
-        root.create_dataset(
-            name,
-            shape=(0, *array.shape[1:]),
-            maxshape=(None, *array.shape[1:]),
-            dtype=array.dtype,
-            chunks=(rows if rows > 1 else SMALL_CHUNK, *array.shape[1:]),
-            **COMPRESSION,
-        )
-    data = root[name]
-    data.resize((step + 1) * rows, axis=0)
-    data[step * rows :] = array
+    if name in root:
+        data = root[name]
+        data.resize(start + len(rows), axis=0)
+        data[start:] = rows
+    else:
+        shape = rows.shape[1:]
+        root.create_dataset(name, data=rows, maxshape=(None, *shape), chunks=(chunk, *shape), **COMPRESSION)

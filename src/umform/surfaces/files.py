@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from umform.errors import InvalidValue
+from umform.io.atomic import PendingFile
 from umform.surfaces.tool import Tool
 from umform.surfaces.triangles import Box3
 
@@ -55,9 +56,7 @@ def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> P
             cause="a box beside the tool, or wholly inside of it",
             remedy="a box around the part of the surface that is wanted",
         )
-    import meshio  # slow to import, and so is umform.io, which reads with it
-
-    from umform.io.atomic import PendingFile
+    import meshio  # slow to import
 
     options = {"binary": True} if path.suffix == ".stl" else {}
     with PendingFile(path) as temporary:

@@ -11,10 +11,12 @@ from typer.testing import CliRunner
 
 import umform
 from umform import cli
+from umform.deck.templates import template_file
 from umform.errors import InvalidValue, NoConvergence
 from umform.processes.bending import case as case_module
 from umform.processes.bending import showcase
 
+BEND = ["--stroke", "0.4", "--increment", "0.0125", "--element", "BEND8", "--layers", "1"]
 RUN = ["--mesh", "24x1", "--contact", "2", "--steps", "30", "--stroke", "2", "--no-unload"]
 
 
@@ -50,6 +52,64 @@ def test_a_public_name_loads_its_own_home_only():
     loaded = loaded_by("import umform as uf; uf.Model")
     assert "umform.model" in loaded
     assert not loaded & {"matplotlib", "h5py", "meshio", "pydantic", "rich", "umform.report", "umform.deck"}
+
+
+@pytest.mark.parametrize("words", [["new", "cantilever"], ["new"]])
+def test_a_template_is_printed_without_loading_what_computes(words):
+    loaded = loaded_by(f"from umform.cli import main; sys.argv = ['umform', *{words}]; main()")
+    assert "umform.deck.templates" in loaded
+    assert not loaded & (HEAVY - {"pydantic", "rich"})  # which typer loads for its own, and the list is a table
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "import umform as uf; uf.Result; uf.solve; from umform.io import write_csv",
+        f"from umform.cli import main; sys.argv = ['umform', 'check', {str(template_file('cantilever'))!r}]; main()",
+    ],
+)
+def test_solving_and_looking_load_nothing_for_files_and_pictures(code):
+    loaded = loaded_by(code)
+    assert {"umform.steps", "umform.io.tables"} <= loaded
+    assert not loaded & {"meshio", "h5py", "matplotlib"}
+
+
+def run_unread(*words, stderr):
+    """A command whose reader has gone before the first word: `umform ... | true`, where `true` is the quicker one."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    try:
+        command = [sys.executable, "-m", "umform", *words]
+        return subprocess.run(command, stdout=writer, stderr=writer if stderr is None else stderr, check=False)
+    finally:
+        os.close(writer)
+
+
+@pytest.mark.parametrize(
+    "words", [["new", "cantilever"], ["new"], ["elements"], ["--version"], ["--help"], ["run"], ["run", "missing.toml"]]
+)
+def test_streams_that_nobody_reads_end_a_command(words):
+    assert run_unread(*words, stderr=None).returncode == cli.CLOSED_PIPE
+
+
+@pytest.mark.parametrize("words", [["new", "cantilever"], ["new"], ["--help"]])
+def test_nothing_is_said_of_a_pipe_that_nobody_reads(words):
+    run = run_unread(*words, stderr=subprocess.PIPE)
+    assert run.returncode == cli.CLOSED_PIPE
+    assert run.stderr == b""
+
+
+def test_a_bend_is_written_although_nobody_reads_of_it(tmp_path):
+    run = run_unread("bend", *BEND, "--out", str(tmp_path), stderr=subprocess.PIPE)
+    assert run.returncode == cli.CLOSED_PIPE
+    assert b"Error" not in run.stderr
+    assert {"curve.csv", "bend.json", "bend.vtkhdf", "report.html"} <= {path.name for path in tmp_path.iterdir()}
+
+
+@pytest.mark.parametrize("start", [["-m", "umform"], ["-c", "from umform.cli import main; main()"]])
+def test_usage_names_the_command_however_it_is_started(start):
+    run = subprocess.run([sys.executable, *start, "new", "--help"], capture_output=True, text=True, check=True)
+    assert "Usage: umform new [OPTIONS]" in run.stdout
 
 
 def test_version_is_printed():

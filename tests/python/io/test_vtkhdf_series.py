@@ -5,6 +5,7 @@ import subprocess
 import sys
 import textwrap
 
+import h5py
 import numpy as np
 import pytest
 import pyvista as pv
@@ -152,6 +153,64 @@ def test_series_of_mesh_alone_has_steps(sheet, tmp_path):
     with VtkHdfSeries(path, sheet.points, sheet.cells, sheet.connectivity) as series:
         series.append(0.0)
     assert pv.read(path).n_cells == len(sheet.connectivity)
+
+
+@pytest.mark.parametrize("count", [1, 2, 7])
+def test_steps_written_together_make_the_same_file(sheet, tmp_path, count):
+    """One step at a time, some together with a rest at the end, and all of them at the end."""
+    at_once = sum(np.asarray(a).nbytes for part in fields(sheet, 0.0) for a in part.values())
+    contents = []
+    for name, buffer in (("one", 0), ("some", 3 * at_once), ("all", 10**9)):
+        path = tmp_path / f"{name}.vtkhdf"
+        with VtkHdfSeries(path, sheet.points, sheet.cells, sheet.connectivity, buffer=buffer) as series:
+            for time in range(count):
+                series.append(time, *fields(sheet, time))
+                assert series.times == tuple(range(time + 1))
+        contents.append(content(path))
+    assert contents[0]["VTKHDF/Steps"] == {"NSteps": [count]}
+    assert contents[0] == contents[1] == contents[2]
+
+
+def content(path):
+    """Groups and data sets of a file with all that describes them."""
+    found = {}
+
+    def see(name, item):
+        found[name] = {key: np.atleast_1d(value).tolist() for key, value in item.attrs.items()}
+        if isinstance(item, h5py.Dataset):
+            layout = (item.shape, item.maxshape, item.chunks, item.dtype, item.compression, item.shuffle)
+            found[name] |= {"layout": layout, "values": item[()].tolist()}
+
+    with h5py.File(path) as file:
+        file.visititems(see)
+    return found
+
+
+def test_steps_that_wait_are_lost_with_the_write_that_fails(sheet, tmp_path, monkeypatch, vtk):
+    path = tmp_path / "a.vtkhdf"
+    u = {"u": sheet.points}
+    full = sheet.points.nbytes * (3 if sheet.cells == "hex18" else 2) // 2  # with the nodes of the middle layer
+    mesh = (sheet.points, sheet.cells, sheet.connectivity)
+    with pytest.raises(FileProblem, match="No space left"), VtkHdfSeries(path, *mesh, buffer=2 * full) as series:
+        for time in range(3):
+            series.append(time, u)
+        assert series.times == (0, 1, 2)
+        monkeypatch.setattr("h5py.AttributeManager.__setitem__", _disk_full)
+    assert series.times == (0, 1)
+    assert [p.name for p in tmp_path.iterdir()] == ["a.vtkhdf"]
+    assert vtk.steps(path) == 2
+
+
+def test_exception_keeps_the_steps_that_wait(sheet, tmp_path, vtk):
+    path = tmp_path / "a.vtkhdf"
+    mesh = (sheet.points, sheet.cells, sheet.connectivity)
+    with pytest.raises(ZeroDivisionError), VtkHdfSeries(path, *mesh, buffer=10**9) as series:
+        series.append(0.5, *fields(sheet, 0.5))
+        with pytest.raises(InvalidValue, match="increase"):
+            series.append(0.5, *fields(sheet, 0.5))
+        raise ZeroDivisionError
+    assert vtk.steps(path) == 1
+    np.testing.assert_array_equal(vtk.read(path, 0)["displacement"][: len(sheet.points)], 0.5 * sheet.points)
 
 
 def test_missing_directory(sheet, tmp_path):

@@ -1,10 +1,11 @@
 import matplotlib as mpl
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 import umform as uf
 from umform.errors import FileProblem, InvalidValue
-from umform.plotting import inline_svg, plot_history, plot_shape
+from umform.plotting import Picture, house_style, inline_svg, plot_history, plot_shape, save
 from umform.shape import Shape
 
 
@@ -38,6 +39,51 @@ def test_inline_svg_has_no_addresses(result):
     assert svg.startswith("<svg")
     assert svg.rstrip().endswith("</svg>")
     assert "http" not in svg
+
+
+def bars(kind):
+    """A figure with a colour bar, which ties its layout."""
+    with house_style():
+        figure = kind(figsize=(4.0, 3.0), layout="constrained")
+        drawn = figure.add_subplot().imshow([[0.0, 1.0], [2.0, 3.0]])
+        figure.colorbar(drawn, label="a quantity with a long name")
+        figure.axes[0].set(xlabel="x", ylabel="y", title="title")
+    return figure
+
+
+def test_a_picture_is_laid_out_once_and_drawn_once_as_svg(tmp_path, monkeypatch):
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    layouts, drawings = [], []
+    execute, draw = ConstrainedLayoutEngine.execute, Picture.draw
+    monkeypatch.setattr(ConstrainedLayoutEngine, "execute", lambda *args: (layouts.append(1), execute(*args)))
+    monkeypatch.setattr(Picture, "draw", lambda *args: (drawings.append(1), draw(*args)))
+    picture = bars(Picture)
+    for name in ("a.png", "a.svg", "b.svg"):
+        save(picture, tmp_path / name)
+    inline = inline_svg(picture)
+    assert (len(layouts), len(drawings)) == (1, 2)  # one drawing for PNG, one for all SVG
+    assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
+    assert inline[-2000:] == (tmp_path / "a.svg").read_text()[-2000:]
+
+
+def test_a_picture_is_laid_out_as_a_figure_is(tmp_path):
+    """But for the width of words, which depends a little on the dots an inch that they are measured with."""
+    places = []
+    for kind in (Picture, Figure):
+        figure = bars(kind)
+        save(figure, tmp_path / "a.svg")
+        places.append([axes.get_position().bounds for axes in figure.axes])
+    assert np.allclose(*places, atol=0.01)
+    untouched = [axes.get_position().bounds for axes in bars(Figure).axes]
+    assert not np.allclose(places[0], untouched, atol=0.01)
+
+
+def test_svg_is_what_matplotlib_writes(result, tmp_path):
+    figure = plot_history(result, "end", ["end_force"], tmp_path / "a.svg")
+    with house_style():
+        figure.savefig(tmp_path / "b.svg", dpi=200, metadata={"Date": None})
+    assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
 
 
 def test_refusals(result, tmp_path):

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Arc
 from numpy.typing import NDArray
 
-from umform.plotting import COLOURS, INK, house_style
+from umform.plotting import COLOURS, INK, Picture, house_style
 from umform.processes.air_bending.case import AirBend
 from umform.processes.air_bending.section import Section
 
@@ -25,7 +25,7 @@ def drawing(bend: AirBend) -> Figure:
     """The released section with what is measured of it."""
     section = bend.released
     with house_style():
-        figure = Figure(figsize=(7.2, 5.0), layout="constrained")
+        figure = Picture(figsize=(7.2, 5.0), layout="constrained")
         axes = figure.add_subplot()
         _draw_outline(axes, section)
         _draw_neutral_fibre(axes, section)

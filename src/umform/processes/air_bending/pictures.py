@@ -11,7 +11,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from umform.plotting import COLOURS, house_style
+from umform.plotting import COLOURS, Picture, house_style
 from umform.processes.air_bending.case import AirBend
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
@@ -29,7 +29,7 @@ _FIELD = "plastic_strain_mean"
 def curves(bend: AirBend, table: Sequence[Measures] = ()) -> Figure:
     """Force over stroke in loading and unloading; angle over stroke under load and after unloading."""
     with house_style():
-        figure = Figure(figsize=(9.0, 3.6), layout="constrained")
+        figure = Picture(figsize=(9.0, 3.6), layout="constrained")
         left, right = figure.subplots(1, 2)
         _draw_force(left, bend)
         _draw_angle(right, bend, table)
@@ -45,7 +45,7 @@ def shapes(bend: AirBend) -> Figure:
     ]
     largest = max(float(frame.cells[_FIELD].max()) for _, _, frame in states)
     with house_style():
-        figure = Figure(figsize=(9.0, 4.2), layout="constrained")
+        figure = Picture(figsize=(9.0, 4.2), layout="constrained")
         grid = figure.subplots(1, 2, sharex=True, sharey=True)
         for axes, (title, section, frame) in zip(grid, states, strict=True):
             drawn = _draw_sheet(axes, bend, section, frame)

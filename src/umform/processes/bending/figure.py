@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from umform.plotting import COLOURS, INK, camera, draw_shape, house_style
+from umform.plotting import COLOURS, INK, Picture, camera, draw_shape, house_style
 from umform.processes.bending.case import Bending
 from umform.processes.bending.parameters import FreeBending
 
@@ -41,7 +41,7 @@ def curves(runs: Sequence[Bending]) -> Figure:
     columns = 1 if len(groups) == 1 else 2
     rows = -(-len(groups) // columns)
     with house_style():
-        figure = Figure(figsize=(4.6 * columns + 0.4, 3.5 * rows + 0.2), layout="constrained")
+        figure = Picture(figsize=(4.6 * columns + 0.4, 3.5 * rows + 0.2), layout="constrained")
         grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
         for axes, ((element, mesh), group) in zip(grid.flat, groups.items(), strict=False):
             _draw_panel(axes, group)
@@ -91,7 +91,7 @@ def shapes(runs: Sequence[Bending]) -> Figure:
     pictures = [(run, run.shape) for run in runs if run.shape is not None]
     top = max(float(shape.values[_FIELD].max()) for _, shape in pictures)
     with house_style():
-        figure = Figure(figsize=(4.6 * len(pictures) + 0.4, 4.1), layout="constrained")
+        figure = Picture(figsize=(4.6 * len(pictures) + 0.4, 4.1), layout="constrained")
         grid = figure.subplots(1, len(pictures), sharex=True, sharey=True, squeeze=False)[0]
         for axes, (run, shape) in zip(grid, pictures, strict=True):
             for side in (-1.0, 1.0):
