@@ -1,9 +1,9 @@
 """Residual and tangent of every element and law: microseconds, floating-point operations, bytes, share of the peak.
 
 Prints a table; ``--json FILE`` adds it to a file. Operations are counted by running the kernels with a scalar that
-counts (``flops.cpp``), the peak of a core is that of a loop of multiply-adds in registers (``peak.cpp``); both are compiled
-when a C++ compiler is found. ``--scaling N`` measures 1 and 2 threads side by side on about N elements instead. Ratios
-within one run are what counts: the machine may be shared.
+counts (``flops.cpp``), the peak of a core is that of a loop of multiply-adds in registers (``peak.cpp``); both are
+compiled when a C++ compiler is found. ``--scaling N`` measures 1 and 2 threads side by side on about N elements
+instead. Ratios within one run are what counts: the machine may be shared.
 """
 
 from __future__ import annotations
