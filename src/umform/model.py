@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +22,7 @@ from umform.loads import Loaded
 from umform.materials import Material
 from umform.mesh import Mesh
 from umform.model_checks import check_model
+from umform.ranks import ONE, Ranks
 from umform.solvers import Pattern
 from umform.supports import Supported
 from umform.ties import MidLine
@@ -57,6 +60,11 @@ class Model(Supported, Loaded, Touched):
         If an option does not fit.
     """
 
+    #: Who shares the model.
+    ranks: Ranks = ONE
+    #: Nodes that count here where each is to be counted once.
+    owned: slice | NDArray[np.int64] = slice(None)
+
     def __init__(
         self,
         mesh: Mesh,
@@ -90,11 +98,8 @@ class Model(Supported, Loaded, Touched):
                 cause="fewer points cannot see the highest mode",
                 remedy=f"thickness_points={least} or more",
             )
-        t, w = make_thickness_rule(self.thickness_points, self.thickness_rule)
-        self.element.check_modes(t)
-        self.block = _core.shell_block(
-            self.element.technology(), self.element.surface_points, t, w, material.law(), mesh.connectivity, mesh.points
-        )
+        self._through = make_thickness_rule(self.thickness_points, self.thickness_rule)
+        self.element.check_modes(self._through[0])
         self.u: Floats = np.zeros(3 * len(mesh.points))
         self.time = 0.0
 
@@ -105,6 +110,13 @@ class Model(Supported, Loaded, Touched):
         if points is not None:
             return points, rule or "gauss"
         return max(wanted, self.material.thickness_points, self.element.thickness_order + 1), rule or wanted_rule
+
+    @cached_property
+    def block(self) -> _core.ShellBlock:
+        """All elements with their history: large, so made when first asked for."""
+        mesh, (t, w) = self.mesh, self._through
+        technology, law = self.element.technology(), self.material.law()
+        return _core.shell_block(technology, self.element.surface_points, t, w, law, mesh.connectivity, mesh.points)
 
     # Evaluation ----------------------------------------------------------------------------------------------
 
@@ -121,6 +133,14 @@ class Model(Supported, Loaded, Touched):
     def restrict(self, r: Floats) -> Floats:
         """Unknowns' share of a vector at all degrees of freedom, shape (3 n,). eq. (5.18)"""
         return self._assembly().unknowns.restrict(r)
+
+    def coefficients(self, u: Floats) -> Floats:
+        """Unknowns in a displacement of all degrees of freedom, shape (3 n,). eq. (5.18)"""
+        return self._assembly().unknowns.restrict(u)
+
+    def largest_entry(self, values: Floats) -> float:
+        """Size of the largest entry of the tangent."""
+        return float(np.abs(values).max(initial=0.0))
 
     def extend(self, x: Floats) -> Floats:
         """Displacement of all degrees of freedom, shape (3 n,), that the unknowns make. eq. (5.17)"""
@@ -218,15 +238,33 @@ class Model(Supported, Loaded, Touched):
     def conjugate_force(self, control: Control, residual: Floats) -> float:
         """Force that belongs to a control: sum of reactions, force on a tool along its motion, or the load itself."""
         if isinstance(control, Prescribed | MidLine):
-            return float(residual[control.dofs].sum())
+            return self.ranks.sum(float(residual[control.dofs].sum()))
         if isinstance(control, ToolMotion):
             owner = next(contact for contact in self.contacts if control in contact.translations)
-            return float(owner.resultant()[0] @ np.asarray(control.direction))
+            return float(self.ranks.sum(owner.resultant()[0]) @ np.asarray(control.direction))
         return control.value
 
     def check(self) -> None:
         """Refuse what cannot be solved before time is spent on it, see :func:`umform.model_checks.check_model`."""
         check_model(self)
+
+    # What many ranks have in parts, and one as a whole -------------------------------------------------------
+
+    def node_number(self, node: int) -> int:
+        """Number of a node in the whole mesh."""
+        return int(node)
+
+    def sum_at_nodes(self, shares: Floats) -> Floats:
+        """Values at nodes, shape (n,) or (n, k), from the shares that the elements of each rank give."""
+        return shares
+
+    def gathered(self, tree: dict[str, Any]) -> dict[str, Any]:
+        """The state of a run (see :mod:`umform.checkpoint`) over all nodes, cells and contact points."""
+        return tree
+
+    def handed_out(self, tree: dict[str, Any]) -> dict[str, Any]:
+        """The state of a run at the nodes, cells and contact points that are here."""
+        return tree
 
     # Inside --------------------------------------------------------------------------------------------------
 

@@ -72,12 +72,12 @@ class Result:
             row[control.name] = control.value
             row[f"{control.name}_force"] = model.conjugate_force(control, residual)
         for contact in model.contacts:
-            force, moment = contact.resultant()
+            force, moment = (model.ranks.sum(part) for part in contact.resultant())
             row |= {f"{contact.name}_f{axis}": float(value) for axis, value in zip("xyz", force, strict=True)}
             row |= {f"{contact.name}_m{axis}": float(value) for axis, value in zip("xyz", moment, strict=True)}
             gaps = contact.block.gaps
-            row[f"{contact.name}_penetration"] = float(max(0.0, -gaps.min()))
-            row[f"{contact.name}_active"] = int(contact.active().sum())
+            row[f"{contact.name}_penetration"] = model.ranks.max(float(max(0.0, -gaps.min(initial=np.inf))))
+            row[f"{contact.name}_active"] = int(model.ranks.sum(float(contact.active().sum())))
         row |= self._energy_columns(residual)
         row["iterations"] = len(iterations)
         self._residual = residual
@@ -166,11 +166,11 @@ class Result:
         }
         if at.eqps is not None:
             cells |= {"plastic_strain_mean": at.cell_average(at.eqps), "plastic_strain_max": at.eqps.max(axis=1)}
-        reaction = residual.copy()
-        reaction[model.free] = 0.0
+        reaction = model.sum_at_nodes(residual.reshape(-1, 3)).copy()
+        reaction.ravel()[model.free] = 0.0
         points = {
             "displacement": model.u.reshape(-1, 3).copy(),
-            "reaction": reaction.reshape(-1, 3),
+            "reaction": reaction,
             "thickness_change": fields.thickness_change(model),
         }
         if model.contacts:
