@@ -20,6 +20,7 @@ from umform.io.atomic import PendingFile
 from umform.io.trees import read_tree, write_tree
 from umform.model import Snapshot
 from umform.newton import Iteration
+from umform.ranks import ONE, Ranks
 from umform.results import Frame, Result
 from umform.solvers.pardiso import Pardiso
 
@@ -54,14 +55,15 @@ class Checkpoints:
         If the seconds are not a number, zero or more.
     """
 
-    def __init__(self, path: str | PathLike[str], every: float, fingerprint: dict[str, str]) -> None:
+    def __init__(
+        self, path: str | PathLike[str], every: float, fingerprint: dict[str, str], ranks: Ranks = ONE
+    ) -> None:
         if not 0.0 <= every < np.inf:
             raise InvalidValue("checkpoints are written every so many seconds, 0 or more", value=every)
         self.path, self.every, self.fingerprint = Path(path), every, fingerprint
+        self._writes = ranks.rank == 0  # one rank writes for all
         self._last, self._cost, self.problem = clock.perf_counter(), 0.0, ""
-        trial = PendingFile(self.path)  # better now than after an hour
-        trial.__enter__()
-        trial.discard()
+        ranks.agree(_problem_of_writing(self.path) if self._writes else None)  # better now than after an hour
 
     def due(self) -> bool:
         """Whether it is time for the next one."""
@@ -71,8 +73,10 @@ class Checkpoints:
     def write(self, run: Run) -> None:
         """Write the state of a run between two increments; if that fails, the result is warned and the run goes on."""
         start = clock.perf_counter()
+        tree = {"fingerprint": self.fingerprint, **_tree(run)}
         try:
-            write_tree(self.path, {"fingerprint": self.fingerprint, **_tree(run)}, _KIND)
+            if self._writes:
+                write_tree(self.path, tree, _KIND)
         except FileProblem as problem:
             if problem.cause != self.problem:  # say it once
                 run.result.warn(f"no checkpoint was written to {self.path}: {problem.cause}; what was there stays")
@@ -81,6 +85,16 @@ class Checkpoints:
             self.problem = ""
         self._last = clock.perf_counter()
         self._cost = self._last - start
+
+
+def _problem_of_writing(path: Path) -> FileProblem | None:
+    trial = PendingFile(path)
+    try:
+        trial.__enter__()
+        trial.discard()
+    except FileProblem as problem:
+        return problem
+    return None
 
 
 def take_up(run: Run, path: str | PathLike[str], fingerprint: dict[str, str]) -> dict[str, Any] | None:
@@ -105,8 +119,13 @@ def take_up(run: Run, path: str | PathLike[str], fingerprint: dict[str, str]) ->
     FileProblem
         If the file cannot be read, or belongs to another run.
     """
-    tree = read_tree(path, _KIND)
-    _refuse_another_run(path, tree["fingerprint"], fingerprint)
+
+    def read() -> dict[str, Any]:
+        whole = read_tree(path, _KIND)
+        _refuse_another_run(path, whole["fingerprint"], fingerprint)
+        return whole
+
+    tree = run.model.own_state(read)
     model, snapshot = run.model, Snapshot(**tree["model"])
     model.restore(snapshot)
     model.block.restore(tree["history"], snapshot.alpha)
@@ -114,7 +133,7 @@ def take_up(run: Run, path: str | PathLike[str], fingerprint: dict[str, str]) ->
     model.block.restore(snapshot.state, snapshot.alpha)
     run.number, run.last_du, run.history = tree["number"], tree["last_du"], tree["history"]
     solver = run.newton.ready_solver()
-    if isinstance(solver, Pardiso) and solver._handle.kind != tree["factors"]:
+    if isinstance(solver, Pardiso) and tree["factors"] not in (None, solver._handle.kind):
         solver._start(tree["factors"])
     _recall_result(run.result, tree["result"])
     memory: dict[str, Any] | None = tree["loop"]
@@ -123,20 +142,24 @@ def take_up(run: Run, path: str | PathLike[str], fingerprint: dict[str, str]) ->
 
 def _tree(run: Run) -> dict[str, Any]:
     solver = run.newton.ready_solver()
-    return {
-        "number": run.number,
-        # The one solver with a memory: once it needs the factors of an indefinite matrix, it stays with them.
-        "factors": solver._handle.kind if isinstance(solver, Pardiso) else None,
-        "loop": None if run.loop is None else run.loop.memory(),
-        "model": vars(run.model.snapshot()),
-        "history": run.history,
-        "last_du": run.last_du,
-        "result": _result_tree(run.result),
-    }
+    return run.model.whole_state(
+        {
+            "number": run.number,
+            # The one solver with a memory: once it needs the factors of an indefinite matrix, it stays with them.
+            "factors": solver._handle.kind if isinstance(solver, Pardiso) else None,
+            "loop": None if run.loop is None else run.loop.memory(),
+            "model": vars(run.model.snapshot()),
+            "history": run.history,
+            "last_du": run.last_du,
+            "result": _result_tree(run.result),
+        }
+    )
 
 
 def _refuse_another_run(path: str | PathLike[str], there: dict[str, str], here: dict[str, str]) -> None:
     different = [part for part in here if there.get(part) != here[part]]
+    if different == ["solver"] and "petsc" in (there.get("solver"), here["solver"]):
+        return  # on ranks, then on more of them or on one: the same to rounding
     if not different:
         return
     part = different[0]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,13 +25,14 @@ from umform.ranks import ONE, Ranks
 from umform.solvers import Pattern
 from umform.supports import Supported
 from umform.ties import MidLine
+from umform.whole import Whole, not_here
 
 __all__ = ["Evaluation", "Model", "Snapshot"]
 
 Floats = NDArray[np.float64]
 
 
-class Model(Supported, Loaded, Touched):
+class Model(Supported, Loaded, Touched, Whole):
     """Solid-shells with supports, loads and rigid tools.
 
     Parameters
@@ -62,8 +62,6 @@ class Model(Supported, Loaded, Touched):
 
     #: Who shares the model.
     ranks: Ranks = ONE
-    #: Nodes that count here where each is to be counted once.
-    owned: slice | NDArray[np.int64] = slice(None)
 
     def __init__(
         self,
@@ -113,7 +111,15 @@ class Model(Supported, Loaded, Touched):
 
     @cached_property
     def block(self) -> _core.ShellBlock:
-        """All elements with their history: large, so made when first asked for."""
+        """All elements with their history: large, so made when first asked for.
+
+        Raises
+        ------
+        ModelError
+            If the model was solved on many ranks: they have its history.
+        """
+        if self.elsewhere:
+            raise not_here("the history of the elements")
         mesh, (t, w) = self.mesh, self._through
         technology, law = self.element.technology(), self.material.law()
         return _core.shell_block(technology, self.element.surface_points, t, w, law, mesh.connectivity, mesh.points)
@@ -247,24 +253,6 @@ class Model(Supported, Loaded, Touched):
     def check(self) -> None:
         """Refuse what cannot be solved before time is spent on it, see :func:`umform.model_checks.check_model`."""
         check_model(self)
-
-    # What many ranks have in parts, and one as a whole -------------------------------------------------------
-
-    def node_number(self, node: int) -> int:
-        """Number of a node in the whole mesh."""
-        return int(node)
-
-    def sum_at_nodes(self, shares: Floats) -> Floats:
-        """Values at nodes, shape (n,) or (n, k), from the shares that the elements of each rank give."""
-        return shares
-
-    def gathered(self, tree: dict[str, Any]) -> dict[str, Any]:
-        """The state of a run (see :mod:`umform.checkpoint`) over all nodes, cells and contact points."""
-        return tree
-
-    def handed_out(self, tree: dict[str, Any]) -> dict[str, Any]:
-        """The state of a run at the nodes, cells and contact points that are here."""
-        return tree
 
     # Inside --------------------------------------------------------------------------------------------------
 

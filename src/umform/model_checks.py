@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from umform import boundary
 from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
+from umform.mesh import Mesh
 
 if TYPE_CHECKING:
     from umform.model import Model
@@ -18,7 +19,7 @@ Floats = NDArray[np.float64]
 
 
 def check_model(model: Model) -> None:
-    """Look at supports and tools.
+    """Look at nodes, supports and tools.
 
     Raises
     ------
@@ -27,7 +28,12 @@ def check_model(model: Model) -> None:
     ToolSwallowsSheet
         If a tool overlaps the sheet by more than half of its thickness.
     """
-    mesh = model.mesh
+    check_nodes(model.mesh)
+    check_held(model)
+
+
+def check_nodes(mesh: Mesh) -> None:
+    """Refuse nodes without a cell."""
     unused = np.setdiff1d(np.arange(len(mesh.points)), mesh.connectivity)
     if len(unused):
         raise RigidBodyMotion(
@@ -36,9 +42,19 @@ def check_model(model: Model) -> None:
             cause="left over from a mesh generator",
             remedy="take unused nodes out of the mesh; umform.mesh.read does so",
         )
-    centre = model.ranks.sum(mesh.points.sum(axis=0)) / model.ranks.sum(float(len(mesh.points)))
-    size = max(model.ranks.max(float(np.abs(mesh.points - centre).max())), 1e-300)
-    modes = boundary.rigid_body_modes(mesh.points, centre, size)
+
+
+def middle(model: Model) -> tuple[Floats, float]:
+    """Mean of the nodes, and the largest distance from it along an axis."""
+    points, ranks = model.mesh.points, model.ranks
+    centre = ranks.sum(points.sum(axis=0)) / ranks.sum(float(len(points)))
+    return centre, max(ranks.max(float(np.abs(points - centre).max())), 1e-300)
+
+
+def check_held(model: Model) -> None:
+    """Refuse supports that leave a rigid-body motion free, and tools that swallow the sheet."""
+    centre, size = middle(model)
+    modes = boundary.rigid_body_modes(model.mesh.points, centre, size)
     rows = [modes[:, np.flatnonzero(model.constrained())].T]
     rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.ties]
     problem = None

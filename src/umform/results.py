@@ -62,6 +62,7 @@ class Result:
         self.solver = ""
         self.seconds = 0.0
         self._work = ExternalWork(model)
+        self._writes = model.ranks.rank == 0  # one rank writes for all
         self._residual: Floats = np.empty(0)
 
     def add(self, residual: Floats, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
@@ -91,7 +92,9 @@ class Result:
             len(iterations),
         )
         if frame:
-            self.frames.append(self._frame(residual))
+            whole = model.whole_frame(self._frame(residual))
+            if whole is not None:
+                self.frames.append(whole)
 
     def _energy_columns(self, residual: Floats) -> dict[str, float]:
         self._work.advance(residual)
@@ -214,6 +217,8 @@ class Result:
             The file written.
         """
         path = Path(path)
+        if not self._writes:
+            return path
         if path.suffix == ".csv":
             write_csv(path, self.table())
         elif path.suffix == ".vtkhdf":
@@ -243,7 +248,7 @@ class Result:
         """
         from umform.plotting import plot_history
 
-        return plot_history(self, x, [y] if isinstance(y, str) else y, path)
+        return plot_history(self, x, [y] if isinstance(y, str) else y, path if self._writes else None)
 
     def report(self, path: str | Path) -> Path:
         """Write one self-contained HTML page: curves, last shape, history, settings, versions.
@@ -255,7 +260,7 @@ class Result:
         """
         from umform.report.page import write_report
 
-        return write_report(self, path)
+        return write_report(self, path) if self._writes else Path(path)
 
     def summary(self) -> dict[str, Any]:
         """Numbers that describe the run."""

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Sequence
 from os import PathLike
 from typing import Any
 
@@ -18,13 +17,14 @@ from umform.interrupt import Interrupt, gentle_interrupt
 from umform.model import Model
 from umform.move import Move, Moving
 from umform.newton import Newton, NewtonOptions
-from umform.progress import Tick, progress_bar
+from umform.progress import progress_bar
 from umform.release import Release, Releasing
 from umform.results import Result
 
 __all__ = ["Arc", "Move", "Release", "Step", "resume", "solve"]
 
 Step = Move | Release | Arc
+_Work = Callable[[Model, Sequence[Step]], Result]
 _LOOPS: dict[type, Any] = {Move: Moving, Release: Releasing, Arc: Following}
 
 
@@ -80,11 +80,15 @@ def solve(
     Any exception that ends the run, Ctrl-C too, carries all that was reached as its attribute ``result``. The first
     Ctrl-C ends the run after the present increment, the second one at once.
     """
-    run, sequence = _ready(model, steps, solver, options, frames)
-    checkpoints = _checkpoints(run, sequence, checkpoint, every)
-    run.history = model.block.state
-    run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
-    return _go_on(run, sequence, progress_bar(progress), checkpoints)
+
+    def work(model: Model, steps: Sequence[Step]) -> Result:
+        run = _ready(model, solver, options, frames)
+        checkpoints = _checkpoints(run, steps, checkpoint, every)
+        run.history = model.block.state
+        run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
+        return _go_on(run, steps, progress, checkpoints)
+
+    return _where(solver)(model, _checked(model, steps), work)
 
 
 def resume(
@@ -125,20 +129,31 @@ def resume(
     -----
     The bits are the same on the same machine with the same versions of Python's packages, see docs/long-runs.md.
     """
-    run, sequence = _ready(model, steps, solver, options, frames)
-    checkpoints = _checkpoints(run, sequence, path, every)
-    assert checkpoints is not None
-    memory = take_up(run, path, checkpoints.fingerprint)
-    if memory is not None:
-        step = sequence[run.number - 1]
-        run.loop = _LOOPS[type(step)].recall(run, step, memory)
-    return _go_on(run, sequence, progress_bar(progress), checkpoints)
+
+    def work(model: Model, steps: Sequence[Step]) -> Result:
+        run = _ready(model, solver, options, frames)
+        checkpoints = _checkpoints(run, steps, path, every)
+        assert checkpoints is not None
+        memory = take_up(run, path, checkpoints.fingerprint)
+        if memory is not None:
+            step = steps[run.number - 1]
+            run.loop = _LOOPS[type(step)].recall(run, step, memory)
+        return _go_on(run, steps, progress, checkpoints)
+
+    return _where(solver)(model, _checked(model, steps), work)
 
 
-def _ready(
-    model: Model, steps: Sequence[Step] | Step, solver: str, options: NewtonOptions | None, frames: int
-) -> tuple[Run, list[Step]]:
-    """Refuse what cannot be run, and make the run that has not begun."""
+def _where(solver: str) -> Callable[[Model, Sequence[Step], _Work], Result]:
+    """Where a run goes: through this process, or on all ranks that mpiexec has started."""
+    if solver == "petsc":
+        from umform.distributed.run import on_ranks  # MPI starts only where it is asked for
+
+        return on_ranks
+    return lambda model, steps, work: work(model, steps)
+
+
+def _checked(model: Model, steps: Sequence[Step] | Step) -> list[Step]:
+    """The steps, if the model can go them."""
     sequence = [steps] if isinstance(steps, Step) else list(steps)
     for number, step in enumerate(sequence, start=1):
         if isinstance(step, Arc):
@@ -154,25 +169,28 @@ def _ready(
                     cause="it belongs to another model",
                     remedy="use what prescribe(), force(), pressure() or drive() of this model returned",
                 )
+    return sequence
+
+
+def _ready(model: Model, solver: str, options: NewtonOptions | None, frames: int) -> Run:
+    """Refuse a model that cannot be solved, and make the run that has not begun."""
     model.check()
     run = Run(model, Newton(model, options, solver), Result(model), frames)
     run.result.solver = run.newton.solver
-    return run, sequence
+    return run
 
 
 def _checkpoints(run: Run, steps: Sequence[Step], path: str | PathLike[str] | None, every: float) -> Checkpoints | None:
     if path is None:
         return None
-    return Checkpoints(path, every, fingerprint(run.model, steps, run.newton, run.frames))
+    return Checkpoints(path, every, fingerprint(run.model.described, steps, run.newton, run.frames), run.model.ranks)
 
 
-def _go_on(
-    run: Run, steps: Sequence[Step], bar: AbstractContextManager[Tick], checkpoints: Checkpoints | None
-) -> Result:
+def _go_on(run: Run, steps: Sequence[Step], progress: bool | None, checkpoints: Checkpoints | None) -> Result:
     """Go on to the end from wherever the run stands."""
-    result = run.result
+    result, talks = run.result, run.model.ranks.rank == 0
     start = clock.perf_counter() - result.seconds
-    with bar as tick, gentle_interrupt() as stop:
+    with progress_bar(progress if talks else False) as tick, gentle_interrupt() as stop:
         run.tick, run.pause = tick, lambda: _pause(run, start, checkpoints, stop)
         try:
             while run.number <= len(steps):
@@ -198,10 +216,11 @@ def _finish(run: Run, step: Step) -> None:
 
 def _pause(run: Run, start: float, checkpoints: Checkpoints | None, stop: Interrupt, *, last: bool = False) -> None:
     """Between two increments: write a checkpoint if it is time to, and stop if somebody has asked to."""
-    run.result.seconds = clock.perf_counter() - start
-    if checkpoints is not None and (last or stop.asked or checkpoints.due()):
+    run.result.seconds, ranks = clock.perf_counter() - start, run.model.ranks
+    asked = ranks.any(stop.asked)
+    if checkpoints is not None and (last or asked or ranks.any(checkpoints.due())):
         checkpoints.write(run)
-    if stop.asked:
+    if asked:
         how = ""
         if checkpoints is not None and not checkpoints.problem:
             how = f"; umform.resume({str(checkpoints.path)!r}, ...) goes on"

@@ -39,7 +39,9 @@ def augmented(model: Model, newton: Newton, converged: Converged) -> Converged:
         If a pass does not converge; the model is reverted, with its multipliers.
     """
     for number in range(1, _PASSES + 1):
-        pairs = [contact for contact in model.contacts if contact.augmented and _anywhere(model, contact.active().any())]
+        pairs = [
+            contact for contact in model.contacts if contact.augmented and _anywhere(model, contact.active().any())
+        ]
         if not pairs or (number > 1 and not _anywhere(model, any(contact.loose() for contact in pairs))):
             break
         change = np.zeros_like(converged.u)

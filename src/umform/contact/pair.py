@@ -17,6 +17,7 @@ from umform.boundary import Control, vector3
 from umform.contact.settings import ContactSettings
 from umform.mesh import Ids, Mesh, Selector
 from umform.surfaces import Surface
+from umform.whole import not_here
 
 Floats = NDArray[np.float64]
 
@@ -90,14 +91,24 @@ class Contact:
         self.translations: list[ToolMotion] = []
         self.motion: Motion | None = None
         self.reference_point = np.zeros(3)
+        self.elsewhere = False
 
     @cached_property
     def block(self) -> _core.ContactBlock:
-        """The contact points: made when first asked for."""
+        """The contact points: made when first asked for.
+
+        Raises
+        ------
+        ModelError
+            If the model was solved on many ranks: each had the points of its own facets.
+        """
+        if self.elsewhere:
+            raise not_here(f"the state of contact {self.name}")
         at_nodes = isinstance(self.points, str)
         per_side = 1 if isinstance(self.points, str) else self.points
         block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self._kernel)
         block.penalty = self.penalty
+        block.set_pose(*self.pose)
         self.multipliers = block.multipliers
         return block
 
@@ -129,8 +140,13 @@ class Contact:
             shift += vector3(translation, where)
             rotation = Rotation.from_rotvec(vector3(turn, where)).as_matrix()
         centre = self.reference_point
-        self.pose = np.ascontiguousarray(rotation), centre + shift - rotation @ centre
-        self.block.set_pose(*self.pose)
+        self.put((np.ascontiguousarray(rotation), centre + shift - rotation @ centre))
+
+    def put(self, pose: tuple[Floats, Floats]) -> None:
+        """Put the tool into a pose: rotation and shift."""
+        self.pose = pose
+        if "block" in vars(self):
+            self.block.set_pose(*pose)
 
     @property
     def _shifted_gap(self) -> Floats:
