@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from umform.cli.check import Changes, DeckFile, build, told
+from umform.cli.check import Changes, DeckFile, read, told
+from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import INTERRUPTED, Debug, Verbose, app, console
 from umform.errors import UmformError
 
@@ -16,8 +17,9 @@ if TYPE_CHECKING:
     from umform.results import Result
 
 
-@app.command()
+@app.command(cls=WithPetscOptions)
 def run(
+    ctx: typer.Context,
     deck: DeckFile,
     out: Annotated[
         Path | None, typer.Option(metavar="FOLDER", help="Folder for what comes out; default: that of the deck.")
@@ -30,12 +32,18 @@ def run(
     """Solve a deck: history, fields, report, pictures, and a copy of the deck.
 
     What was reached is written even if Newton's method gives up (exit code 1) or Ctrl-C ends the run (130).
+
+    On many ranks: `mpiexec -n 4 umform run deck.toml --solver petsc`, with options of PETSc by their prefix, such as
+    `-umform_ksp_type cg -umform_pc_type gamg` (docs/parallel.md).
     """
     from umform.deck import running
 
+    let_the_first_talk()
     with told():
-        loaded, problem = build(deck, changes or ())
-        outcome = running.run(loaded, problem, out, solver=solver)
+        loaded = read(deck, changes or ())
+        chosen = solver or loaded.contents.solution.solver
+        with on_all_ranks(chosen, petsc_options(ctx)):
+            outcome = running.run(loaded, loaded.build(chosen), out)
     _show(outcome)
     _end(outcome.ended_by)
 

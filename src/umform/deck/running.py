@@ -74,16 +74,35 @@ def run(
     UmformError
         If the model cannot be solved as it stands, or the folder cannot be written.
     """
-    with staging(out if out is not None else folder_of(deck), _FILES) as stage:
-        ended_by: BaseException | None = None
-        try:
-            result = problem.solve(solver=solver, progress=progress)
-        except BaseException as error:
-            reached: Result | None = getattr(error, "result", None)
-            if reached is None or not reached.frames:
-                raise
-            result, ended_by = reached, error
+    solver = solver or problem.solver
+    if solver != "petsc":
+        return _run(deck, problem, folder_of(deck) if out is None else out, solver, progress)
+    from umform.distributed.mpi_ranks import world
+    from umform.distributed.together import together
+
+    ranks = world()
+    with together(ranks):
+        if ranks.rank > 0:  # the first rank writes for all
+            result, ended_by = _solved(problem, solver, False)
+            return Outcome(result, [], ended_by)
+        return _run(deck, problem, folder_of(deck) if out is None else out, solver, progress)
+
+
+def _run(deck: Deck, problem: Problem, out: str | Path, solver: str, progress: bool | None) -> Outcome:
+    with staging(out, _FILES) as stage:
+        result, ended_by = _solved(problem, solver, progress)
         return Outcome(result, write(deck, problem, result, stage), ended_by)
+
+
+def _solved(problem: Problem, solver: str, progress: bool | None) -> tuple[Result, BaseException | None]:
+    """What was reached, and what ended it early."""
+    try:
+        return problem.solve(solver=solver, progress=progress), None
+    except BaseException as error:
+        reached: Result | None = getattr(error, "result", None)
+        if reached is None or not reached.rows:
+            raise
+        return reached, error
 
 
 def write(deck: Deck, problem: Problem, result: Result, stage: Staging) -> list[Path]:

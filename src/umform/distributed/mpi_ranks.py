@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import time as clock
+from functools import cache
 from typing import Any, TypeVar
 
 import numpy as np
@@ -16,12 +17,7 @@ _Sum = TypeVar("_Sum", float, Floats)
 
 
 class MpiRanks:
-    """All ranks of a communicator, see :class:`umform.ranks.Ranks`.
-
-    Parameters
-    ----------
-    comm : communicator of petsc4py, optional
-        Default: all processes that mpiexec has started.
+    """All processes that mpiexec has started, see :class:`umform.ranks.Ranks`.
 
     Attributes
     ----------
@@ -31,8 +27,8 @@ class MpiRanks:
         A copy for sums and files, so that nothing gets mixed up.
     """
 
-    def __init__(self, comm: Any = None) -> None:
-        self.petsc_comm = petsc().COMM_WORLD if comm is None else comm
+    def __init__(self) -> None:
+        self.petsc_comm: Any = petsc().COMM_WORLD
         whole = self.petsc_comm.tompi4py()
         self.comm, self._trouble = whole.Dup(), whole.Dup()
         self.rank: int = self.comm.rank
@@ -86,3 +82,9 @@ class MpiRanks:
     def abort(self) -> None:
         """End all processes at once."""
         self.comm.Abort(1)
+
+
+@cache
+def world() -> MpiRanks:
+    """All processes that mpiexec has started."""
+    return MpiRanks()

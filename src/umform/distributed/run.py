@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from umform.arc import Arc
-from umform.distributed.mpi_ranks import MpiRanks
+from umform.distributed.mpi_ranks import MpiRanks, world
 from umform.distributed.partition import partition
 from umform.distributed.share import Share
 from umform.distributed.solver import Petsc
@@ -47,7 +47,7 @@ def on_ranks(model: Model, steps: Sequence[Step], work: Callable[[Model, Sequenc
     InvalidValue
         If a step cannot be run on ranks.
     """
-    ranks = MpiRanks()
+    ranks = world()
     with together(ranks):
         share, own = _shared(model, steps, ranks)
     try:

@@ -1,8 +1,7 @@
 """PETSc as a sparse solver: MUMPS unless the options say otherwise, on the ranks that share a model.
 
-A matrix is assembled from the shares of all ranks. Symmetric ones are stored whole: MUMPS takes one triangle of them, and
-iterative solvers and multigrid need both. Every option of PETSc comes in by the prefix ``-umform_``, and goes before the
-defaults here.
+A matrix is assembled from the shares of all ranks. Symmetric ones are stored whole: MUMPS takes one triangle of them,
+and iterative solvers and multigrid need both. Options of PETSc with the prefix ``-umform_`` go before the defaults.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
-"""All ranks end together: an error that all have is raised on all, an error of one alone ends the run with its message."""
+"""All ranks end together: an error that all have goes on, an error of one alone ends them all with its message."""
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -19,8 +18,8 @@ _PATIENCE, _NEXT = 5.0, 0.5
 def together(ranks: MpiRanks) -> Iterator[None]:
     """Let no rank wait for one that has failed.
 
-    An error that all ranks come out with (no convergence, a wrong value) goes on as it is, and the first rank alone tells
-    it. Where one fails alone, the others wait for it in a sum or a factorisation: it says so and ends them all.
+    An error that all ranks come out with (no convergence, a wrong value) goes on as it is, and the first rank alone
+    tells it. Where one fails alone, the others wait for it in a sum or a factorisation: it says so and ends them all.
     """
     try:
         yield
@@ -52,11 +51,3 @@ def _leave_it_to_the_first(ranks: MpiRanks) -> None:
             usual(kind, error, trace)
 
     sys.excepthook = quiet
-
-
-def launched() -> tuple[int, int]:
-    """Number of this process and of all that mpiexec has started, told by their environment; (0, 1) without mpiexec."""
-    for rank, size in (("OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"), ("PMI_RANK", "PMI_SIZE")):
-        if rank in os.environ and size in os.environ:
-            return int(os.environ[rank]), int(os.environ[size])
-    return 0, 1
