@@ -1,4 +1,4 @@
-"""Runs that must be the same on any number of ranks. ``mpiexec -n 2 python cases.py solve petsc FOLDER`` runs all of them.
+"""Runs that must be the same on any number of ranks; ``mpiexec -n 2 python cases.py solve petsc FOLDER`` runs all.
 
 Each case brings in something that the ranks must agree on: contact, two tools, ties across the thickness, a follower
 pressure, multipliers, automatic penalties and points, tools of the user, cuts, release and lift-off.
@@ -7,7 +7,6 @@ pressure, multipliers, automatic penalties and points, tools of the user, cuts, 
 from __future__ import annotations
 
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -18,22 +17,22 @@ from umform.deck.templates import template_file
 from umform.mesh import strip
 from umform.newton import NewtonOptions
 
-STEEL = dict(kappa=175e3, mu=80.77e3)
-#: What the functions of the cases look at; set by the command line.
-TROUBLE = ""
+STEEL = {"kappa": 175e3, "mu": 80.77e3}
+#: Of the command line: the trouble that the functions of the cases make, and the solver that decks are built for.
+TROUBLE, SOLVER = "", "superlu"
 
 
 def free_bending():
     """Contact with a cylinder, J2, release to lift-off: the deck of the template."""
     changes = {"mesh.cells": [12, 2], "steps.0.increments": 8, "steps.0.to.punch": -8.0}
-    problem = load(template_file("free-bending"), changes).build("petsc" if "petsc" in sys.argv else None)
+    problem = load(template_file("free-bending"), changes).build(SOLVER)
     return problem.model, problem.steps, problem.options
 
 
 def air_bending():
     """A driven punch against a die, cells of high thickness order, increments that grow."""
     changes = {"mesh.cells": [16, 2], "steps.0.increments": 12, "steps.0.to.stroke": 1.5}
-    problem = load(template_file("air-bending"), changes).build("petsc" if "petsc" in sys.argv else None)
+    problem = load(template_file("air-bending"), changes).build(SOLVER)
     return problem.model, problem.steps, problem.options
 
 
@@ -83,32 +82,43 @@ def held_by_multipliers():
     tool = uf.Cylinder(centre=(0.0, 0.0, 5.49), axis="y", radius=5.0)
     ram = model.contact("upper", tool, points="auto", augmented=True, name="ram")
     drive = model.drive(ram, "-z", "ram_way")
-    return model, [uf.Move(drive, 0.8, steps=4), uf.Release(drive)], None
+    return model, [uf.Move(drive, inwards, steps=4), uf.Release(drive)], None
 
 
 def cut():
-    """Increments that fail and are cut, along a function of time; a trouble may be asked for in the middle."""
+    """Increments that fail and are cut, along a function of time."""
     model = uf.Model(strip(60.0, 10.0, 1.0, (12, 2)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
     model.symmetry("x0", normal="x")
     model.fix(lambda x, y, z: (x < 1e-9) & (y < 1e-9) & (z < 0), "y")
     punch = model.prescribe("x0_lower", "z", "punch")
     tool = uf.Cylinder(centre=(25.0, 0.0, -20.5), axis="y", radius=20.0)
     model.contact("lower", tool, penalty=100.0, points="nodes", name="tool")
-    steps = [uf.Move(punch, downwards, steps=4, grow=2.0), uf.Release(punch)]
-    return model, steps, NewtonOptions(max_iterations=8)
+    steps = [uf.Move(punch, downwards, steps=3, grow=2.0), uf.Release(punch)]
+    return model, steps, NewtonOptions(max_iterations=7)
 
 
 class Stop(Exception):
     """The end of a run in its middle."""
 
 
+def inwards(fraction):
+    """Way of the ram."""
+    trouble_at(fraction)
+    return 0.8 * fraction
+
+
 def downwards(fraction):
-    """Way of the punch, and the trouble on it."""
+    """Way of the punch."""
+    trouble_at(fraction)
+    return -4.0 * fraction**1.5
+
+
+def trouble_at(fraction):
+    """What ends a run in its middle, if that is asked for."""
     if fraction > 0.6 and TROUBLE == "stop":
         raise Stop
-    if fraction > 0.6 and TROUBLE == "fail alone" and rank() == 1:
-        raise ZeroDivisionError("a user's function on one rank")
-    return -4.0 * fraction**1.5
+    if fraction > 0.6 and TROUBLE == "fail" and rank() == 1:
+        raise ZeroDivisionError("a function of the user on one rank")
 
 
 CASES = [free_bending, air_bending, hinged_strip, blown_strip, held_by_multipliers, cut]
@@ -133,27 +143,25 @@ def save(result, path):
 
 
 def main(task, solver, folder, *names):
-    global TROUBLE
+    """Solve, resume, or begin and ("stop", "fail") end in the middle."""
+    global TROUBLE, SOLVER
+    TROUBLE, SOLVER = task, solver
     for case in CASES:
         if names and case.__name__ not in names:
             continue
         model, steps, options = case()
         how = {"solver": solver, "options": options, "frames": 2}
-        file = Path(folder) / "run.chk.h5"
-        if task == "resume":
-            result = uf.resume(file, model, steps, **how)
-        elif task == "solve":
-            result = uf.solve(model, steps, **how)
-        else:
-            TROUBLE = task
-            try:
-                result = uf.solve(model, steps, checkpoint=file, every=0.0, **how)
-            except Stop as stop:
-                result = stop.result
+        checkpoint = Path(folder) / f"{case.__name__}.chk.h5"
+        try:
+            if task == "resume":
+                result = uf.resume(checkpoint, model, steps, **how)
+            else:
+                result = uf.solve(model, steps, checkpoint=None if task == "solve" else checkpoint, every=0.0, **how)
+        except Stop as stop:
+            result = stop.result
         if solver != "petsc" or rank() == 0:
             save(result, Path(folder) / f"{case.__name__}.npz")
 
 
 if __name__ == "__main__":
-    start = time.perf_counter()
     main(*sys.argv[1:])

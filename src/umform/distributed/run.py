@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from umform.arc import Arc
+from umform.boundary import Control
 from umform.distributed.mpi_ranks import MpiRanks, world
 from umform.distributed.partition import partition
 from umform.distributed.share import Share
@@ -80,9 +81,9 @@ def _shared(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> tuple[Share
 
 def _own_step(step: Step, share: Share) -> Step:
     """The same step of the controls of a share."""
-    if isinstance(step, Release):
-        return replace(step, control=share.twin[step.control])
-    return replace(step, control=[share.twin[control] for control in step.moved()])
+    one = isinstance(step.control, Control)
+    own = share.twin[step.control] if one else [share.twin[control] for control in step.control]  # type: ignore
+    return replace(step, control=own)  # type: ignore[arg-type]
 
 
 def _give_back(share: Share, result: Result | None) -> None:
