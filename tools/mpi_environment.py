@@ -1,7 +1,7 @@
 """Make .venv-mpi, the environment that runs umform on many ranks with Debian's PETSc; ``make mpi`` calls it.
 
-It holds the umform that is installed in .venv, Debian's petsc4py and mpi4py by links, the packages that umform needs from
-PyPI, and NumPy 1: Debian's petsc4py is built with it. docs/parallel.md has the other way, PETSc from PyPI.
+It holds the umform that is installed in .venv, Debian's petsc4py and mpi4py by links, the packages that umform needs
+from PyPI, and NumPy 1: Debian's petsc4py is built with it. docs/parallel.md has the other way, PETSc from PyPI.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from pathlib import Path
 
 from requirements import requirements
 
-PACKAGES = ("openmpi-bin", "python3-petsc4py", "python3-mpi4py")
+PACKAGES = ("openmpi-bin", "python3-petsc4py", "python3-mpi4py", "libopenblas0-serial")
 #: Where Debian and Ubuntu put petsc4py (one folder for each release of PETSc) and mpi4py.
 PETSC4PY = "usr/lib/petscdir/*/*-real/lib/python3/dist-packages/petsc4py"
 MPI4PY = "usr/lib/python3/dist-packages/mpi4py"

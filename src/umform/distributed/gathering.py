@@ -54,15 +54,15 @@ class Gathering:
     def frame(self, frame: Frame) -> Frame | None:
         """The frame over the whole model, on the first rank."""
         owned = self.share.owned
-        points = {name: self.own_nodes.collect(values[owned]) for name, values in frame.points.items()}
-        cells = {name: self.cells.collect(values) for name, values in frame.cells.items()}
-        contacts = {
+        points: dict[str, Any] = {name: self.own_nodes.collect(values[owned]) for name, values in frame.points.items()}
+        cells: dict[str, Any] = {name: self.cells.collect(values) for name, values in frame.cells.items()}
+        contacts: dict[str, dict[str, Any]] = {
             name: {key: self.points(number, values) for key, values in vars(at).items()}
             for number, (name, at) in enumerate(frame.contacts.items())
         }
         if self.ranks.rank > 0:
             return None
-        at_points = {name: ContactPoints(**values) for name, values in contacts.items()}  # type: ignore[arg-type]
+        at_points: dict[str, Any] = {name: ContactPoints(**values) for name, values in contacts.items()}
         return replace(frame, points=points, cells=cells, contacts=at_points)
 
     # The state of a run --------------------------------------------------------------------------------------

@@ -36,10 +36,10 @@ class MpiRanks:
 
     def sum(self, value: _Sum) -> _Sum:
         """Sum in the order of the ranks: MPI does not promise that all ranks get the same bits from a reduction."""
-        mine = np.ascontiguousarray(value, dtype=float)
+        mine: Floats = np.array(value, dtype=float)
         parts = np.empty((self.size, *mine.shape))
         self.comm.Allgather(mine, parts)
-        total = parts.sum(axis=0)
+        total: Floats = parts.sum(axis=0)
         return total if isinstance(value, np.ndarray) else float(total)
 
     def max(self, value: float) -> float:

@@ -72,7 +72,7 @@ def columns(mesh: Mesh) -> Ids:
     face = face.ravel()
     members = sparse.csr_matrix((np.ones(2 * count), (face, np.tile(np.arange(count), 2))))
     _, column = csgraph.connected_components(members.T @ members, directed=False)
-    return column.astype(np.int32)
+    return np.asarray(column, dtype=np.int32)
 
 
 def _neighbours(mesh: Mesh, column: Ids, first: int, last: int) -> sparse.csr_matrix:

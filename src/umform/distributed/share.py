@@ -60,6 +60,7 @@ class Share(Model):
     """
 
     ranks: MpiRanks
+    owned: NDArray[np.int64]
 
     def __init__(self, whole: Model, part: Ids, ranks: MpiRanks) -> None:
         owners = Owners.of(whole, part, ranks.size)
@@ -67,7 +68,7 @@ class Share(Model):
         corners, pairs = whole.mesh.connectivity[self.cells], tied_pairs(whole)
         known = np.zeros(len(whole.mesh.points), dtype=bool)
         known[corners] = True
-        tied = known[pairs // 3].any(axis=1)  # with the partners of its tied nodes, which may be without a cell here
+        tied: NDArray[np.bool_] = np.logical_or(*known[pairs // 3].T)  # with the partners of nodes, cells or not
         known[pairs[tied] // 3] = True
         self.nodes = np.flatnonzero(known)
         self._place = np.where(known, np.cumsum(known) - 1, -1).astype(np.int32)
