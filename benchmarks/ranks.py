@@ -1,4 +1,4 @@
-"""One Newton iteration on 1 and 2 ranks: time, memory a rank, fill of the factors; how they grow to 10 million elements.
+"""One Newton iteration on 1 and 2 ranks: time, memory a rank, fill of the factors; growth to 10 million elements.
 
     python benchmarks/ranks.py                    # measures (minutes, and 6 GB at 102 400 elements); writes the figure
     mpiexec -n 2 python benchmarks/ranks.py 160   # one measurement: a sheet of 160 x 160 elements, as one line of JSON

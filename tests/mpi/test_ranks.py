@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 
@@ -51,3 +53,14 @@ def test_a_run_stopped_on_some_ranks_goes_on_on_others(case, first, second, foun
     assert 2 < len(stopped) < len(found(0, case)["iterations"])
     mpi.run(second, mpi.cases, "resume", solver[second > 0], tmp_path, case)
     compare(found(0, case), np.load(tmp_path / f"{case}.npz"))
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_mumps_tells_inertia_and_singular_matrices_as_superlu_does(ranks, mpi):
+    answer = json.loads(mpi.run(ranks, mpi.cases.with_name("algebra.py")).stdout)
+    assert answer["negative"] == answer["serial"]
+    assert answer["negative"][0] == 0 < answer["negative"][1] < answer["negative"][2]
+    np.testing.assert_allclose(answer["largest"], 0.0, atol=1e-13)
+    assert max(answer["error"]) < 1e-8
+    assert answer["nan"] == "NotFinite"  # on one rank only, and refused on all
+    assert answer["loose"] == "SingularMatrix"

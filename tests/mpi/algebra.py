@@ -1,0 +1,81 @@
+"""Tangents on ranks against the whole ones in one process: entries, inertia, solutions; singular and not finite ones.
+
+``mpiexec -n 2 python algebra.py`` prints one line of JSON on the first rank.
+"""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+
+import umform as uf
+from umform.distributed.mpi_ranks import world
+from umform.distributed.partition import partition
+from umform.distributed.share import Share
+from umform.distributed.solver import Petsc
+from umform.errors import NotFinite, SingularMatrix
+from umform.mesh import strip
+from umform.solvers import make_solver
+
+
+def strut(clamped=True):
+    """A sheet that is pressed along its length, with hinges at its far end."""
+    model = uf.Model(strip(20.0, 4.0, 0.2, (12, 3)), material=uf.SVK(E=210e3, nu=0.3))
+    if clamped:
+        model.fix("x0")
+        model.hinge("x1", "yz")
+    return model
+
+
+def pressed(points, strain):
+    """Shortened along x."""
+    u = np.zeros_like(points)
+    u[:, 0] = -strain * points[:, 0]
+    return u.ravel()
+
+
+def shared(model):
+    return Share(model, partition(model.mesh, world()), world())
+
+
+def refused(solver, values):
+    try:
+        solver.factor(values)
+    except (SingularMatrix, NotFinite) as error:
+        return type(error).__name__
+    return "taken"
+
+
+def main():
+    answer = {"negative": [], "serial": [], "error": [], "largest": []}
+    whole = strut()
+    share, serial, petsc = shared(whole), make_solver(whole.pattern, "superlu"), Petsc()
+    petsc.analyse(share.pattern)
+    for strain in (0.0, 0.001, 0.01):
+        u = pressed(whole.mesh.points, strain)
+        one, own = whole.evaluate(u), share.evaluate(pressed(share.mesh.points, strain))
+        answer["negative"].append(petsc.factor(own.values).negative_pivots)
+        answer["serial"].append(serial.factor(one.values).negative_pivots)
+        load = np.random.default_rng(1).normal(size=u.size)
+        expected = whole.extend(serial.solve(whole.restrict(load)))
+        mine = np.zeros(share.u.size)
+        mine.reshape(-1, 3)[share.owned] = load.reshape(-1, 3)[share.nodes[share.owned]]
+        found = share.extend(petsc.solve(share.restrict(mine)))
+        difference = np.abs(found - expected.reshape(-1, 3)[share.nodes].ravel()).max() / np.abs(expected).max()
+        answer["error"].append(world().max(float(difference)))
+        answer["largest"].append(share.largest_entry(own.values) / whole.largest_entry(one.values) - 1.0)
+    values = own.values.copy()
+    if world().rank == world().size - 1:
+        values[0] = np.nan
+    answer["nan"] = refused(petsc, values)
+    loose, rigid = Petsc(), shared(strut(clamped=False))
+    loose.analyse(rigid.pattern)
+    answer["loose"] = refused(loose, rigid.evaluate(rigid.u).values)
+    return answer
+
+
+if __name__ == "__main__":
+    outcome = main()
+    if world().rank == 0:
+        print(json.dumps(outcome))
