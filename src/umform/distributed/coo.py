@@ -17,7 +17,7 @@ from umform.errors import SolveError
 Floats = NDArray[np.float64]
 
 
-def preallocate(matrix: Any, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> None:
+def preallocate(matrix: Any, rows: NDArray[Any], columns: NDArray[Any]) -> None:
     """Tell a matrix where its values will go; a place may occur more than once, and on more than one rank.
 
     Parameters
@@ -25,10 +25,10 @@ def preallocate(matrix: Any, rows: NDArray[np.int64], columns: NDArray[np.int64]
     matrix : Mat of petsc4py
         With its sizes and its type.
     rows, columns : ndarray of int
-        Global numbers of row and column of each value.
+        Global numbers of row and column of each value; PETSc may overwrite them.
     """
     kind = petsc().IntType
-    i, j = np.array(rows, dtype=kind), np.array(columns, dtype=kind)  # PETSc may overwrite them
+    i, j = np.ascontiguousarray(rows, dtype=kind), np.ascontiguousarray(columns, dtype=kind)
     if hasattr(matrix, "setPreallocationCOO"):
         matrix.setPreallocationCOO(i, j)
         return

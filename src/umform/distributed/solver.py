@@ -55,7 +55,8 @@ class Petsc:
         PETSc = petsc()
         self._pattern, self._ready = pattern, False
         comm, size = pattern.ranks.petsc_comm, ((pattern.own, None), (pattern.own, None))
-        i, j = pattern.numbers[pattern.rows], pattern.numbers[pattern.indices]
+        numbers = pattern.numbers.astype(PETSc.IntType)
+        i, j = numbers[pattern.rows], numbers[pattern.indices]
         self._mirrored = np.flatnonzero(i != j) if pattern.symmetric else np.empty(0, dtype=np.int64)
         self._matrix = PETSc.Mat().create(comm)
         self._matrix.setSizes(size)
