@@ -1,7 +1,9 @@
 """One Newton iteration on 1 and 2 ranks: time, memory a rank, fill of the factors; growth to 10 million elements.
 
     python benchmarks/ranks.py                    # measures (minutes, and 6 GB at 102 400 elements); writes the figure
+    python benchmarks/ranks.py results/ranks.json # tables and figure once more, from what was measured
     mpiexec -n 2 python benchmarks/ranks.py 160   # one measurement: a sheet of 160 x 160 elements, as one line of JSON
+    mpiexec -n 2 python benchmarks/ranks.py 1000 describe   # no more than the description of the sheet, and its parts
 
 Needs the solver petsc (docs/parallel.md). A sheet of J2 over a cylinder, element ANS3DEAS with 5 points through the
 thickness, is bent to where it is plastic; the displacement is given, so that every run does the same work.
@@ -21,7 +23,8 @@ import numpy as np
 
 import umform as uf
 
-SIZES, RANKS = (80, 160, 320), (1, 2)
+SIZES, RANKS, DESCRIBED = (80, 160, 320), (1, 2), 1000
+MEASURED = Path("results/ranks.json")
 FIGURE = Path("docs/images/ranks.png")
 GB = 1e9
 
@@ -93,10 +96,27 @@ def measure(cells: int) -> dict[str, object]:
     }
 
 
-def launch(cells: int, ranks: int) -> dict:
+def describe(cells: int) -> dict[str, object]:
+    """Memory in bytes an element that each rank takes for the description of the whole sheet, and to part it."""
+    from umform.distributed.mpi_ranks import world
+    from umform.distributed.numbering import Owners
+    from umform.distributed.partition import partition
+
+    world()
+    before, start = memory(), time.process_time()
+    model = sheet(cells)
+    elements = len(model.mesh.connectivity)
+    kept = memory() - before
+    Owners.of(model, partition(model.mesh, world()), world().size)
+    sizes = {"kept": kept, "peak": memory(peak=True) - before}
+    bytes_each = {name: world().max(size) * GB / elements for name, size in sizes.items()}
+    return {"elements": elements, "seconds": time.process_time() - start, **bytes_each}
+
+
+def launch(ranks: int, *words: object) -> dict:
     """The same in processes of its own."""
     root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1"}
-    command = ["mpiexec", "--oversubscribe", "-n", str(ranks), sys.executable, __file__, str(cells)]
+    command = ["mpiexec", "--oversubscribe", "-n", str(ranks), sys.executable, __file__, *map(str, words)]
     done = subprocess.run(command, env={**os.environ, **root}, capture_output=True, text=True, check=True)
     return json.loads(done.stdout.splitlines()[-1])
 
@@ -130,10 +150,10 @@ class Growth:
 class Costs:
     """What an element, an entry of the factors and an operation cost, by the largest run on one rank."""
 
-    def __init__(self, run: dict) -> None:
+    def __init__(self, run: dict, described: dict) -> None:
         m, held, cpu = run["elements"], run["memory"], run["cpu"]
         self.start = held["start"]
-        self.described = (held["describe"] - held["start"]) / m
+        self.described, self.parting = described["kept"] / GB, described["peak"] / GB
         self.own = (held["matrix"] - held["describe"]) / m
         self.entry = (held["peak"] - held["matrix"]) / run["fill"]
         self.evaluation = cpu["evaluation"] / m
@@ -142,7 +162,8 @@ class Costs:
 
     def memory(self, m: float, ranks: int, growth: Growth) -> float:
         """GB of a rank: the description of the whole, its elements and matrix, its part of the factors."""
-        return self.start + self.described * m + (self.own * m + self.entry * growth.fill(m)) / ranks
+        solving = self.start + self.described * m + (self.own * m + self.entry * growth.fill(m)) / ranks
+        return max(solving, self.start + self.parting * m)
 
     def seconds(self, m: float, growth: Growth) -> float:
         """CPU seconds of an iteration, over all ranks."""
@@ -162,17 +183,18 @@ def table(runs: list[dict]) -> None:
               f"| {run['memory']['peak']:.2f} | {run['fill']:.3g} | {run['flops']:.3g} |")  # fmt: skip
 
 
-def forecast(runs: list[dict]) -> None:
+def forecast(runs: list[dict], described: dict) -> None:
     """The model with all points, how well it foretells the largest run from the others, and what it says."""
     alone = [run for run in runs if run["ranks"] == 1]
     *smaller, last = alone
-    before, growth, costs = Growth(smaller), Growth(alone), Costs(last)
+    before, growth, costs = Growth(smaller), Growth(alone), Costs(last, described)
     m = last["elements"]
     print(f"\nfill of {m} elements, foretold by the smaller runs: {before.fill(m) / last['fill'] - 1:+.1%}, "
           f"operations {before.flops(m) / last['flops'] - 1:+.1%}")  # fmt: skip
     print(f"a = {growth.fill_terms[0]:.3g}, b = {growth.fill_terms[1]:.3g}, c = {growth.flop_terms[0]:.3g}, "
           f"d = {growth.flop_terms[1]:.3g}; {costs.rate:.3g} operations a second")  # fmt: skip
-    print(f"bytes an element: described {costs.described * GB:.0f} on each rank, own {costs.own * GB:.0f}; "
+    print(f"bytes an element: description {costs.described * GB:.0f} a rank, {costs.parting * GB:.0f} until it is "
+          f"parted ({described['seconds'] / described['elements'] * 1e6:.1f} s a million), own {costs.own * GB:.0f}; "
           f"{costs.entry * GB:.1f} an entry of the factors\n")  # fmt: skip
     print("| elements | entries of the factors | core hours an iteration | GB a rank, 1 rank | 16 | 64 | 256 |")
     print("|" + "---|" * 7)
@@ -206,13 +228,25 @@ def draw(alone: list[dict], growth: Growth, costs: Costs) -> None:
     figure.savefig(FIGURE, dpi=150)
 
 
-if __name__ == "__main__":
-    if len(sys.argv) > 1:
-        outcome = measure(int(sys.argv[1]))
-        if outcome is not None and "OMPI_COMM_WORLD_RANK" in os.environ and os.environ["OMPI_COMM_WORLD_RANK"] != "0":
-            sys.exit()
-        print(json.dumps(outcome))
+def main(words: list[str]) -> None:
+    """Measure here, or start the measurements and draw conclusions."""
+    if words and words[0].isdecimal():
+        outcome = describe(int(words[0])) if "describe" in words else measure(int(words[0]))
+        from umform.distributed.mpi_ranks import world
+
+        if world().rank == 0:
+            print(json.dumps(outcome))
+        return
+    if words:
+        found = json.loads(Path(words[0]).read_text())
     else:
-        runs = [launch(cells, ranks) for cells in SIZES for ranks in RANKS]
-        table(runs)
-        forecast(runs)
+        runs = [launch(ranks, cells) for cells in SIZES for ranks in RANKS]
+        found = {"runs": runs, "described": launch(RANKS[-1], DESCRIBED, "describe")}
+        MEASURED.parent.mkdir(exist_ok=True)
+        MEASURED.write_text(json.dumps(found, indent=1))
+    table(found["runs"])
+    forecast(found["runs"], found["described"])
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

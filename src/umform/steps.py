@@ -48,7 +48,7 @@ def solve(
     steps : Step or sequence of Step
         What happens, in a row.
     solver : str
-        Sparse solver, see :mod:`umform.solvers`.
+        Sparse solver, see :mod:`umform.solvers`; "petsc" runs on all ranks that mpiexec has started (docs/parallel.md).
     options : NewtonOptions, optional
         Tolerances, line search, predictor.
     frames : int

@@ -18,10 +18,12 @@ from umform.errors import NotFinite, SingularMatrix
 from umform.mesh import strip
 from umform.solvers import make_solver
 
+ELASTIC = uf.SVK(E=210e3, nu=0.3)
 
-def strut(clamped=True):
+
+def strut(clamped=True, material=ELASTIC):
     """A sheet that is pressed along its length, with hinges at its far end."""
-    model = uf.Model(strip(20.0, 4.0, 0.2, (12, 3)), material=uf.SVK(E=210e3, nu=0.3))
+    model = uf.Model(strip(20.0, 4.0, 0.2, (12, 3)), material=material)
     if clamped:
         model.fix("x0")
         model.hinge("x1", "yz")
@@ -37,6 +39,35 @@ def pressed(points, strain):
 
 def shared(model):
     return Share(model, partition(model.mesh, world()), world())
+
+
+def flattened(model):
+    """Two cells without a thickness, one at each end."""
+    u = np.zeros_like(model.mesh.points)
+    for cell in (5, len(model.mesh.connectivity) - 1):
+        u[model.mesh.connectivity[cell, 4:], 2] = -0.2
+    return u.ravel()
+
+
+def dofs(share):
+    return (3 * share.nodes[:, None] + np.arange(3)).ravel()
+
+
+def refused_tool():
+    """A tool of the user that is not finite at the points of one rank only."""
+
+    def gap(x):
+        far = x[:, 0] > 15.0
+        return np.where(far, np.nan, x[:, 2] + 1.0), np.tile((0.0, 0.0, 1.0), (len(x), 1)), np.zeros((len(x), 3, 3))
+
+    model = strut()
+    model.contact("lower", uf.UserSurface(gap), penalty=1.0)
+    part = shared(model)
+    try:
+        part.evaluate(part.u)
+    except NotFinite as error:
+        return error.what
+    return "taken"
 
 
 def refused(solver, values):
@@ -69,6 +100,10 @@ def main():
     if world().rank == world().size - 1:
         values[0] = np.nan
     answer["nan"] = refused(petsc, values)
+    steel = strut(material=uf.J2(kappa=175e3, mu=80.77e3, hardening=uf.Linear(160.0, 500.0)))
+    part, flat = shared(steel), flattened(steel)
+    answer["failed"] = [steel.evaluate(flat).failed, part.evaluate(flat[dofs(part)]).failed]
+    answer["tool"] = refused_tool()
     loose, rigid = Petsc(), shared(strut(clamped=False))
     loose.analyse(rigid.pattern)
     answer["loose"] = refused(loose, rigid.evaluate(rigid.u).values)

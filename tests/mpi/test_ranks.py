@@ -63,4 +63,6 @@ def test_mumps_tells_inertia_and_singular_matrices_as_superlu_does(ranks, mpi):
     np.testing.assert_allclose(answer["largest"], 0.0, atol=1e-13)
     assert max(answer["error"]) < 1e-8
     assert answer["nan"] == "NotFinite"  # on one rank only, and refused on all
+    assert answer["failed"] == [5, 5]
+    assert answer["tool"] == "g of a surface function is not finite"
     assert answer["loose"] == "SingularMatrix"
