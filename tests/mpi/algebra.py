@@ -70,6 +70,29 @@ def refused_tool():
     return "taken"
 
 
+def refused_runs():
+    """A second run after the history of the first one has stayed with the ranks; models that differ."""
+    model = uf.Model(strip(20.0, 4.0, 1.0, (12, 3)), material=ELASTIC)
+    model.fix("x0")
+    pull = model.prescribe("x1", "x", "pull")
+    result = uf.solve(model, uf.Move(pull, 0.1, steps=1), solver="petsc")
+    assert (world().rank == 0) == bool(np.isfinite(result.model.u).all())
+    yield lambda: uf.solve(model, uf.Move(pull, 0.2, steps=1), solver="petsc")
+    yield lambda: uf.fields.point_fields(model)
+    other = uf.Model(strip(20.0, 4.0 + world().rank, 1.0, (12, 3)), material=ELASTIC)
+    other.fix("x0")
+    push = other.prescribe("x1", "x", "push")
+    yield lambda: uf.solve(other, uf.Move(push, 0.2, steps=1), solver="petsc")
+
+
+def message(run):
+    try:
+        run()
+    except uf.UmformError as error:
+        return error.what
+    return "done"
+
+
 def refused(solver, values):
     try:
         solver.factor(values)
@@ -104,6 +127,7 @@ def main():
     part, flat = shared(steel), flattened(steel)
     answer["failed"] = [steel.evaluate(flat).failed, part.evaluate(flat[dofs(part)]).failed]
     answer["tool"] = refused_tool()
+    answer["runs"] = [message(run) for run in refused_runs()]
     loose, rigid = Petsc(), shared(strut(clamped=False))
     loose.analyse(rigid.pattern)
     answer["loose"] = refused(loose, rigid.evaluate(rigid.u).values)

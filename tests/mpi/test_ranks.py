@@ -56,7 +56,8 @@ def test_a_run_stopped_on_some_ranks_goes_on_on_others(case, first, second, foun
 
 
 @pytest.mark.parametrize("ranks", [1, 3])
-def test_mumps_tells_inertia_and_singular_matrices_as_superlu_does(ranks, mpi):
+def test_what_one_rank_meets_all_ranks_know(ranks, mpi):
+    """Inertia and singular matrices as SuperLU tells them; failed cells, tools that are not finite, wrong runs."""
     answer = json.loads(mpi.run(ranks, mpi.cases.with_name("algebra.py")).stdout)
     assert answer["negative"] == answer["serial"]
     assert answer["negative"][0] == 0 < answer["negative"][1] < answer["negative"][2]
@@ -65,4 +66,7 @@ def test_mumps_tells_inertia_and_singular_matrices_as_superlu_does(ranks, mpi):
     assert answer["nan"] == "NotFinite"  # on one rank only, and refused on all
     assert answer["failed"] == [5, 5]
     assert answer["tool"] == "g of a surface function is not finite"
+    twice, fields, other = answer["runs"]
+    assert twice == fields == "the history of the elements is not here"
+    assert other == ("done" if ranks == 1 else "the ranks have built different models")
     assert answer["loose"] == "SingularMatrix"

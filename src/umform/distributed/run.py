@@ -5,23 +5,26 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from umform.arc import Arc
-from umform.boundary import Control
+from umform.boundary import Control, Load
 from umform.distributed.mpi_ranks import MpiRanks, world
 from umform.distributed.partition import partition
 from umform.distributed.share import Share
 from umform.distributed.solver import Petsc
 from umform.distributed.together import together
 from umform.errors import InvalidValue
+from umform.fingerprint import digest
 from umform.model import Model
 from umform.model_checks import check_nodes
 from umform.move import Move
 from umform.release import Release
 from umform.results import Result
 from umform.solvers import register
+from umform.whole import not_here
 
 Step = Move | Release | Arc
 
@@ -73,7 +76,10 @@ def _shared(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> tuple[Share
             )
     if ranks.rank > 0:
         logging.getLogger("umform").setLevel(logging.CRITICAL + 1)  # the first rank talks
+    if model.elsewhere:
+        raise not_here("the history of the elements")
     check_nodes(model.mesh)
+    _check_alike(model, ranks)
     register(Petsc.name, Petsc)
     share = Share(model, partition(model.mesh, ranks), ranks)
     return share, [_own_step(step, share) for step in steps]
@@ -81,9 +87,23 @@ def _shared(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> tuple[Share
 
 def _own_step(step: Step, share: Share) -> Step:
     """The same step of the controls of a share."""
-    one = isinstance(step.control, Control)
-    own = share.twin[step.control] if one else [share.twin[control] for control in step.control]  # type: ignore
-    return replace(step, control=own)  # type: ignore[arg-type]
+    moved = step.control
+    own: Any = share.twin[moved] if isinstance(moved, Control) else [share.twin[control] for control in moved]
+    return replace(step, control=own)
+
+
+def _check_alike(model: Model, ranks: MpiRanks) -> None:
+    """Refuse models that are not the same on all ranks."""
+    mesh, loads = model.mesh, [load.vector for load in model.of_kind(Load)]
+    facets = [contact.facets for contact in model.contacts]
+    mine = digest(mesh.points, mesh.connectivity, model.constrained(), *loads, *facets)
+    first = ranks.comm.bcast(mine)
+    if ranks.any(mine != first):
+        raise InvalidValue(
+            "the ranks have built different models",
+            cause="random numbers, or files that are not the same on all machines",
+            remedy="build the same mesh, supports, loads and contacts on all ranks",
+        )
 
 
 def _give_back(share: Share, result: Result | None) -> None:

@@ -68,8 +68,8 @@ class Share(Model):
         corners, pairs = whole.mesh.connectivity[self.cells], tied_pairs(whole)
         known = np.zeros(len(whole.mesh.points), dtype=bool)
         known[corners] = True
-        tied: NDArray[np.bool_] = np.logical_or(*known[pairs // 3].T)  # with the partners of nodes, cells or not
-        known[pairs[tied] // 3] = True
+        tied: NDArray[np.bool_] = np.logical_or(*known[pairs // 3].T)
+        known[pairs[tied] // 3] = True  # the partner of a tied node is here too, even without a cell
         self.nodes = np.flatnonzero(known)
         self._place = np.where(known, np.cumsum(known) - 1, -1).astype(np.int32)
         mesh = Mesh(whole.mesh.points[self.nodes], {whole.mesh.cell: self._place[corners]})
