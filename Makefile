@@ -9,6 +9,7 @@ ARGS   ?=
 JSON   ?= build/bench.json
 
 VENV   := .venv
+MPI    := .venv-mpi
 BIN    := $(VENV)/bin
 BUILD  := build/venv
 PIP    := $(BIN)/python -m pip --disable-pip-version-check -q
@@ -26,7 +27,7 @@ unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso instructions verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
+.PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
         format bench compare peers clean
 
 help:  ## show this help
@@ -115,6 +116,19 @@ test-pardiso: pardiso  ## tests of solvers, threads and a bend with PARDISO
 	    $(BIN)/pytest -q $(PARDISO_TESTS) $(ARGS); \
 	else echo 'There is no wheel of MKL for this platform: PARDISO is not tested here'; fi
 
+# Beside .venv, never in it: Debian's petsc4py wants NumPy 1.
+$(MPI)/.made: pyproject.toml tools/mpi_environment.py tools/requirements.py | $(VENV)/.package
+	$(SAY) 'Making $(MPI): PETSc and MPI from Debian (apt-get, if they are missing), the rest from PyPI'
+	@$(BIN)/python tools/mpi_environment.py $(MPI) \
+	    "$$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')/umform"
+	@touch $@
+
+mpi: env $(MPI)/.made  ## make .venv-mpi, which runs umform on many ranks
+
+test-mpi: mpi  ## tests on 1, 2 and 3 ranks with PETSc
+	$(SAY) 'Testing on 1, 2 and 3 ranks with PETSc'
+	@$(MPI)/bin/python -m pytest -q tests/mpi $(ARGS)
+
 verification: pardiso  ## run the whole verification book and write docs/verification (some 12 minutes on 2 cores)
 	$(SAY) 'Running all cases of the verification book'
 	@$(BIN)/umform verify --all --out docs/verification $(ARGS)
@@ -164,4 +178,4 @@ format: $(VENV)/.dev  ## put Python and C++ into the style of the house
 	@$(BIN)/clang-format -i $(CPP) $(CPP_TESTS)
 
 clean:  ## remove what make has made, but not results/
-	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) $(MPI) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

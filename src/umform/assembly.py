@@ -70,7 +70,7 @@ class Assembly:
         pairs = np.concatenate([np.empty((0, 2), dtype=np.int32), *[tie.dofs for tie in model.ties]])
         constrained[pairs] = True
         free = np.flatnonzero(~constrained)
-        if len(free) + len(pairs) == 0:
+        if not model.ranks.any(len(free) + len(pairs) > 0):
             raise InvalidValue("all degrees of freedom are prescribed", remedy="leave some nodes free")
         self.unknowns = Unknowns(free, pairs, constrained.size)
         equation = np.full(constrained.size, -1, dtype=np.int32)

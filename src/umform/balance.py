@@ -20,6 +20,7 @@ from umform import _core
 from umform.boundary import Load, Pressure
 from umform.contact import Contact
 from umform.model import Model
+from umform.ranks import Ranks
 
 Floats = NDArray[np.float64]
 
@@ -57,7 +58,8 @@ def energies(model: Model) -> Energies:
         A model that has been evaluated at its converged state.
     """
     elastic, plastic = model.block.energy(model.u)
-    return Energies(elastic, plastic, sum(_contact_energy(contact) for contact in model.contacts))
+    parts = [elastic, plastic, sum(_contact_energy(contact) for contact in model.contacts)]
+    return Energies(*(model.ranks.sum(part) for part in parts))
 
 
 def _contact_energy(contact: Contact) -> float:
@@ -124,13 +126,14 @@ class _Tool:
     magnitude: float
 
     @classmethod
-    def of(cls, contact: Contact) -> _Tool:
+    def of(cls, contact: Contact, ranks: Ranks) -> _Tool:
         rotation, shift = contact.pose
         point = rotation @ contact.reference_point + shift
         at = contact.at_points()
         magnitudes = at.pressure * at.area
         forces = -magnitudes[:, None] * at.normal
-        return cls(point, rotation, forces.sum(axis=0), _moment(at.x - point, forces), float(magnitudes.sum()))
+        force, moment = ranks.sum(forces.sum(axis=0)), ranks.sum(_moment(at.x - point, forces))
+        return cls(point, rotation, force, moment, ranks.sum(float(magnitudes.sum())))
 
     def work_since(self, before: _Tool) -> float:
         """Work that moves the tool against the sheet, from a state before. eq. (5.32)"""
@@ -173,7 +176,8 @@ class ExternalWork:
         self.imbalances: list[tuple[float, float]] = []
         self._before: _State | None = None
         self._largest = 0.0  # sum of the magnitudes of the external forces
-        self._length = float(np.linalg.norm(model.mesh.points + model.u.reshape(-1, 3), axis=1).max())
+        distances = np.linalg.norm(model.mesh.points + model.u.reshape(-1, 3), axis=1)
+        self._length = model.ranks.max(float(distances.max()))
         self._pressures = [control for control in model.controls if isinstance(control, Pressure)]
         blocks = [control.block for control in self._pressures if control.block is not None]
         # Facets add their forces but no tangent: in this pattern no degree of freedom is free.
@@ -189,7 +193,8 @@ class ExternalWork:
             Residual of the last evaluation, which was at this state; reactions where it is held, prescribed or tied.
         """
         model = self.model
-        state = _State(model.u.copy(), self._nodal_forces(residual), [_Tool.of(contact) for contact in model.contacts])
+        tools = [_Tool.of(contact, model.ranks) for contact in model.contacts]
+        state = _State(model.u.copy(), self._nodal_forces(residual), tools)
         self.energies = energies(model)
         if self._before is None:
             self.value = 0.0 if np.isnan(self.energies.total) else self.energies.total
@@ -232,17 +237,18 @@ class ExternalWork:
             forces -= inward
         return forces
 
-    @staticmethod
-    def _work(before: _State, state: _State) -> float:
+    def _work(self, before: _State, state: _State) -> float:
         """Trapezoidal rule over the way from one state to the next. eqs. (5.31), (5.32)"""
-        nodes = 0.5 * float((before.forces + state.forces) @ (state.u - before.u))
+        nodes = 0.5 * self.model.ranks.dot(before.forces + state.forces, state.u - before.u)
         return nodes + sum(now.work_since(then) for now, then in zip(state.tools, before.tools, strict=True))
 
     def _imbalance(self, state: _State) -> tuple[float, float]:
         """Resultants in the current configuration, over the largest magnitudes so far. eq. (5.34)"""
-        forces, x = state.forces.reshape(-1, 3), self.model.mesh.points + state.u.reshape(-1, 3)
-        force, moment = forces.sum(axis=0), _moment(x, forces)
-        magnitude = float(np.sqrt((forces * forces).sum(axis=1)).sum())
+        ranks, owned = self.model.ranks, self.model.owned
+        x = (self.model.mesh.points + state.u.reshape(-1, 3))[owned]
+        forces = self.model.sum_at_nodes(state.forces.reshape(-1, 3))[owned]
+        force, moment = ranks.sum(forces.sum(axis=0)), ranks.sum(_moment(x, forces))
+        magnitude = ranks.sum(float(np.sqrt((forces * forces).sum(axis=1)).sum()))
         for tool in state.tools:
             force -= tool.force
             moment -= tool.moment + _moment(tool.point[None], tool.force[None])

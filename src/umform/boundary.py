@@ -53,10 +53,10 @@ class Load(Control):
 
 @dataclass(eq=False, repr=False)
 class Pressure(Control):
-    """A follower pressure ``value`` against the outward normal of faces, given by their nodes."""
+    """A follower pressure ``value`` against the outward normal of faces, rows (cell, face)."""
 
     block: _core.PressureBlock | None = None
-    facets: Ids = field(default_factory=lambda: np.empty((0, 4), dtype=np.int32))
+    faces: Ids = field(default_factory=lambda: np.empty((0, 2), dtype=np.int32))
 
 
 def vector3(values: ArrayLike, where: str) -> Floats:
@@ -147,10 +147,13 @@ def nodal_forces(mesh: Mesh, nodes: Selector, force: ArrayLike) -> Floats:
     return vector.ravel()
 
 
-def rigid_body_modes(points: Floats) -> Floats:
-    """Three translations and three rotations about the centroid, of unit size; shape (6, 3 n)."""
-    centred = points - points.mean(axis=0)
-    size = max(float(np.abs(centred).max()), 1e-300)
+def rigid_body_modes(points: Floats, centre: Floats | None = None, size: float | None = None) -> Floats:
+    """Three translations and three rotations about a centre, 1 at the distance ``size`` from it; shape (6, 3 n).
+
+    The centre is that of the points, and the size its largest distance, unless they are given.
+    """
+    centred = points - (points.mean(axis=0) if centre is None else centre)
+    size = max(float(np.abs(centred).max()), 1e-300) if size is None else size
     modes = np.zeros((6, len(points), 3))
     for k in range(3):
         modes[k, :, k] = 1.0

@@ -21,6 +21,7 @@ from umform.io.atomic import PendingFile
 from umform.io.trees import read_tree, write_tree
 from umform.model import Snapshot
 from umform.newton import Iteration
+from umform.ranks import ONE, Ranks
 from umform.results import Frame, Result
 from umform.solvers.pardiso import Pardiso
 
@@ -63,6 +64,7 @@ class Checkpoints:
         every: float,
         fingerprint: dict[str, str],
         note: Mapping[str, Any] | None = None,
+        ranks: Ranks = ONE,
     ) -> None:
         if not 0.0 <= every < np.inf:
             raise InvalidValue(
@@ -74,10 +76,9 @@ class Checkpoints:
             )
         self.path, self.every, self.fingerprint = Path(path), every, fingerprint
         self.note = dict(note or {})
+        self._writes = ranks.rank == 0  # one rank writes for all
         self._last, self._cost, self.problem = clock.perf_counter(), 0.0, ""
-        trial = PendingFile(self.path)  # better now than after an hour
-        trial.__enter__()
-        trial.discard()
+        ranks.agree(_problem_of_writing(self.path) if self._writes else None)  # better now than after an hour
 
     def due(self) -> bool:
         """Whether it is time for the next one."""
@@ -87,8 +88,10 @@ class Checkpoints:
     def write(self, run: Run) -> None:
         """Write the state of a run between two increments; if that fails, the result is warned and the run goes on."""
         start = clock.perf_counter()
+        tree = {"fingerprint": self.fingerprint, "note": self.note, **_tree(run)}
         try:
-            write_tree(self.path, {"fingerprint": self.fingerprint, "note": self.note, **_tree(run)}, _KIND)
+            if self._writes:
+                write_tree(self.path, tree, _KIND)
         except FileProblem as problem:
             if problem.cause != self.problem:  # say it once
                 run.result.warn(f"no checkpoint was written to {self.path}: {problem.cause}; what was there stays")
@@ -110,21 +113,25 @@ def read_checkpoint(path: str | PathLike[str]) -> dict[str, Any]:
     return read_tree(path, _KIND)
 
 
-def take_up(
-    run: Run, path: str | PathLike[str], tree: Mapping[str, Any], fingerprint: dict[str, str]
-) -> dict[str, Any] | None:
+def _problem_of_writing(path: Path) -> FileProblem | None:
+    trial = PendingFile(path)
+    try:
+        trial.__enter__()
+        trial.discard()
+    except FileProblem as problem:
+        return problem
+    return None
+
+
+def take_up(run: Run, checkpoints: Checkpoints) -> dict[str, Any] | None:
     """Let a run that has not begun stand where its checkpoint says.
 
     Parameters
     ----------
     run : Run
         The run, with its model.
-    path : str or PathLike
-        The checkpoint, for messages.
-    tree : mapping
-        What it holds.
-    fingerprint : dict of str to str
-        What the run is made of.
+    checkpoints : Checkpoints
+        Where it is, and what the run is made of; gets the note that was kept there.
 
     Returns
     -------
@@ -134,9 +141,16 @@ def take_up(
     Raises
     ------
     FileProblem
-        If the file belongs to another run.
+        If the file cannot be read, or belongs to another run.
     """
-    _refuse_another_run(path, tree["fingerprint"], fingerprint)
+
+    def read() -> dict[str, Any]:
+        whole = read_checkpoint(checkpoints.path)
+        _refuse_another_run(checkpoints.path, whole["fingerprint"], checkpoints.fingerprint)
+        return whole
+
+    tree = run.model.own_state(read)
+    checkpoints.note = tree["note"]
     model, snapshot = run.model, Snapshot(**tree["model"])
     model.restore(snapshot)
     model.block.restore(tree["history"], snapshot.alpha)
@@ -153,20 +167,24 @@ def take_up(
 
 def _tree(run: Run) -> dict[str, Any]:
     solver = run.newton.ready_solver().solver
-    return {
-        "number": run.number,
-        # The one solver with a memory: once it needs the factors of an indefinite matrix, it stays with them.
-        "factors": solver.memory() if isinstance(solver, Pardiso) else None,
-        "loop": None if run.loop is None else run.loop.memory(),
-        "model": vars(run.model.snapshot()),
-        "history": run.history,
-        "last_du": run.last_du,
-        "result": _result_tree(run.result),
-    }
+    return run.model.whole_state(
+        {
+            "number": run.number,
+            # The one solver with a memory: once it needs the factors of an indefinite matrix, it stays with them.
+            "factors": solver.memory() if isinstance(solver, Pardiso) else None,
+            "loop": None if run.loop is None else run.loop.memory(),
+            "model": vars(run.model.snapshot()),
+            "history": run.history,
+            "last_du": run.last_du,
+            "result": _result_tree(run.result),
+        }
+    )
 
 
 def _refuse_another_run(path: str | PathLike[str], there: dict[str, str], here: dict[str, str]) -> None:
     different = [part for part in here if there.get(part) != here[part]]
+    if different == ["solver"] and "petsc" in (there.get("solver"), here["solver"]):
+        return  # on ranks, then on more of them or on one: the same to rounding
     if not different:
         return
     part = different[0]

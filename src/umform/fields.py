@@ -122,11 +122,13 @@ def _thickness(model: Model, x: Floats) -> Floats:
     normal = np.cross(g[:, :, 0], g[:, :, 1])
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
     distance = np.abs(np.einsum("eqk,eqk->eq", 2.0 * g[:, :, 2], normal))
-    total, count = np.zeros(len(x)), np.zeros(len(x))
+    shares = np.zeros((len(x), 2))  # distances, and how many
     for side in (cells[:, :half], cells[:, half:]):
-        np.add.at(total, side, distance)
-        np.add.at(count, side, 1.0)
-    return total / np.maximum(count, 1.0)
+        np.add.at(shares[:, 0], side, distance)
+        np.add.at(shares[:, 1], side, 1.0)
+    total, count = model.sum_at_nodes(shares).T
+    thickness: Floats = total / np.maximum(count, 1.0)
+    return thickness
 
 
 def contact_at_nodes(model: Model) -> tuple[Floats, Floats]:
@@ -139,7 +141,7 @@ def contact_at_nodes(model: Model) -> tuple[Floats, Floats]:
     pressure, gap = np.zeros(len(model.mesh.points)), np.full(len(model.mesh.points), np.nan)
     for contact in model.contacts:
         contact.block.locate(model.u)
-        here, distance = contact.at_nodes(model.u, model.mesh)
+        here, distance = contact.at_nodes(model.u, model.mesh, model.sum_at_nodes)
         pressure += here
         gap = np.fmin(gap, distance)
     return pressure, gap

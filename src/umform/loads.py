@@ -109,9 +109,9 @@ class Loaded(Controlled):
         Pressure
             The control whose value (force per current area) steps move.
         """
-        facets = self.mesh.facets(faces)
-        block = _core.pressure_block(facets, self.mesh.points)
-        return self._add(Pressure(name or self._name("pressure"), block=block, facets=facets))
+        rows = self.mesh.face_set(faces)
+        block = _core.pressure_block(self.mesh.facets(rows), self.mesh.points)
+        return self._add(Pressure(name or self._name("pressure"), block=block, faces=rows))
 
     def _load(self, vector: Floats, name: str) -> Load:
         return self._add(Load(name, vector=vector))

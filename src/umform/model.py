@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,17 +21,19 @@ from umform.loads import Loaded
 from umform.materials import Material
 from umform.mesh import Mesh
 from umform.model_checks import check_model
+from umform.ranks import ONE, Ranks
 from umform.solvers import Pattern
 from umform.supports import Supported
 from umform.ties import MidLine
 from umform.timing import Timing
+from umform.whole import Whole, not_here
 
 __all__ = ["Evaluation", "Model", "Snapshot"]
 
 Floats = NDArray[np.float64]
 
 
-class Model(Supported, Loaded, Touched):
+class Model(Supported, Loaded, Touched, Whole):
     """Solid-shells with supports, loads and rigid tools.
 
     Parameters
@@ -57,6 +60,9 @@ class Model(Supported, Loaded, Touched):
     InvalidValue
         If an option does not fit.
     """
+
+    #: Who shares the model.
+    ranks: Ranks = ONE
 
     def __init__(
         self,
@@ -91,11 +97,8 @@ class Model(Supported, Loaded, Touched):
                 cause="fewer points cannot see the highest mode",
                 remedy=f"thickness_points={least} or more",
             )
-        t, w = make_thickness_rule(self.thickness_points, self.thickness_rule)
-        self.element.check_modes(t)
-        self.block = _core.shell_block(
-            self.element.technology(), self.element.surface_points, t, w, material.law(), mesh.connectivity, mesh.points
-        )
+        self._through = make_thickness_rule(self.thickness_points, self.thickness_rule)
+        self.element.check_modes(self._through[0])
         self.u: Floats = np.zeros(3 * len(mesh.points))
         self.time = 0.0
         #: Where the time goes; :func:`umform.solve` puts a new one here.
@@ -108,6 +111,21 @@ class Model(Supported, Loaded, Touched):
         if points is not None:
             return points, rule or "gauss"
         return max(wanted, self.material.thickness_points, self.element.thickness_order + 1), rule or wanted_rule
+
+    @cached_property
+    def block(self) -> _core.ShellBlock:
+        """All elements with their history: large, so made when first asked for.
+
+        Raises
+        ------
+        ModelError
+            If the model was solved on many ranks: they have its history.
+        """
+        if self.elsewhere:
+            raise not_here("the history of the elements")
+        mesh, (t, w) = self.mesh, self._through
+        technology, law = self.element.technology(), self.material.law()
+        return _core.shell_block(technology, self.element.surface_points, t, w, law, mesh.connectivity, mesh.points)
 
     # Evaluation ----------------------------------------------------------------------------------------------
 
@@ -136,6 +154,14 @@ class Model(Supported, Loaded, Touched):
     def restrict(self, r: Floats) -> Floats:
         """Unknowns' share of a vector at all degrees of freedom, shape (3 n,). eq. (5.18)"""
         return self._assembly().unknowns.restrict(r)
+
+    def coefficients(self, u: Floats) -> Floats:
+        """Unknowns in a displacement of all degrees of freedom, shape (3 n,). eq. (5.18)"""
+        return self._assembly().unknowns.restrict(u)
+
+    def largest_entry(self, values: Floats) -> float:
+        """Size of the largest entry of the tangent."""
+        return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))  # no copy of the matrix
 
     def extend(self, x: Floats) -> Floats:
         """Displacement of all degrees of freedom, shape (3 n,), that the unknowns make. eq. (5.17)"""
@@ -259,10 +285,10 @@ class Model(Supported, Loaded, Touched):
     def conjugate_force(self, control: Control, residual: Floats) -> float:
         """Force that belongs to a control: sum of reactions, force on a tool along its motion, or the load itself."""
         if isinstance(control, Prescribed | MidLine):
-            return float(residual[control.dofs].sum())
+            return self.ranks.sum(float(residual[control.dofs].sum()))
         if isinstance(control, ToolMotion):
             owner = next(contact for contact in self.contacts if control in contact.translations)
-            return float(owner.resultant()[0] @ np.asarray(control.direction))
+            return float(self.ranks.sum(owner.resultant()[0]) @ np.asarray(control.direction))
         return control.value
 
     def check(self) -> None:

@@ -261,7 +261,7 @@ class Newton:
         u = system.u.copy()
         du = self.prescribed_increment(u)
         if extrapolation is not None:
-            du += system.extend(system.restrict(extrapolation))
+            du += system.extend(system.coefficients(extrapolation))
         else:
             first = system.evaluate(u, du)
             self.check_domain(first, [])
@@ -272,7 +272,7 @@ class Newton:
     def prescribed_increment(self, u: Floats) -> Floats:
         """What takes the supports from ``u`` to where they are prescribed; nothing of it is left to the unknowns."""
         gap = self.system.prescribed_displacement() - u
-        return gap - self.system.extend(self.system.restrict(gap))
+        return gap - self.system.extend(self.system.coefficients(gap))
 
     def correct(self, u: Floats, du: Floats, corrector: Corrector, start: float | None = None) -> Converged:
         """Take a first increment ``du`` from ``u``, and iterate until residual and increments are small. eq. (5.9)"""
@@ -283,7 +283,7 @@ class Newton:
         seen: list[bytes] = []
         system.recover(du, 1.0)
         u = u + du
-        increment, step_length, pivots = _size(du, u), 1.0, None
+        increment, step_length, pivots = self._size(du, u), 1.0, None
         evaluation = corrector.evaluate(u)
         active = system.active_set()
         previous_active = active
@@ -293,11 +293,11 @@ class Newton:
         for number in range(1, options.max_iterations + 1):
             self.check_domain(evaluation, iterations)
             r = system.restrict(evaluation.residual)
-            norm = float(np.linalg.norm(r))
+            norm = math.sqrt(system.ranks.dot(r, r))
             scale = evaluation.force_scale or 1.0
-            if not np.isfinite(norm):
+            if not math.isfinite(norm):
                 raise Failed("the residual is not finite", iterations)
-            entered, left = int((active & ~previous_active).sum()), int((~active & previous_active).sum())
+            entered, left = self._count(active & ~previous_active), self._count(~active & previous_active)
             floor = self._floor(evaluation.values, u)
             floor = math.hypot(floor, self._floor_of_gaps(evaluation))
             small = norm <= max(options.residual * scale, floor) and increment <= options.increment
@@ -315,10 +315,10 @@ class Newton:
             if not reuse.factors_will_do(norm / scale, increment, settled=quiet):
                 pivots = reuse.remember(solver.factor(evaluation.values))
             du = corrector.direction(solver, u, evaluation)
-            energy = abs(float(r @ system.restrict(du)))
+            energy = abs(system.ranks.dot(r, system.coefficients(du)))
             self._record(iterations, number, norm / scale, increment, energy, entered, left, step_length, pivots, start)
             u, evaluation, step_length = self._advance(u, du, r, corrector)
-            increment = step_length * _size(du, u)
+            increment = step_length * self._size(du, u)
             previous_active, active = active, system.active_set()
         raise Failed(f"no convergence in {options.max_iterations} iterations", iterations)
 
@@ -326,15 +326,15 @@ class Newton:
         """Take the increment, shortened by the line search if that is wanted. eq. (5.12)"""
         system = self.system
         s = 1.0
-        x = system.restrict(du)
-        slope = float(r @ x)
+        x = system.coefficients(du)
+        slope = system.ranks.dot(r, x)
         for _ in range(_LINE_SEARCH_TRIALS):
             system.recover(du, s)
             trial = u + s * du
             evaluation = corrector.evaluate(trial)
             if not corrector.line_search:
                 break
-            along = float(system.restrict(evaluation.residual) @ x) if evaluation.failed < 0 else np.inf
+            along = system.ranks.dot(system.restrict(evaluation.residual), x) if evaluation.failed < 0 else np.inf
             if abs(along) <= 0.8 * abs(slope):
                 break
             # Evaluation is pure: put the parameters back and evaluate at u again, and nothing of the trial is left.
@@ -359,8 +359,8 @@ class Newton:
 
     def _floor(self, values: Floats, u: Floats) -> float:
         """Residual that round-off of the displacements leaves behind. eq. (5.10)"""
-        largest = max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))  # no copy of the matrix
-        return _EPS * largest * float(np.abs(u).max()) * math.sqrt(self.system.pattern.n)
+        largest, furthest = self.system.largest_entry(values), self.system.ranks.max(_largest(u))
+        return _EPS * largest * furthest * math.sqrt(self.system.pattern.n)
 
     def _record(
         self,
@@ -376,7 +376,7 @@ class Newton:
         start: float,
     ) -> None:
         flowing, before = self.system.flowing(), self._flowing
-        switched = 0 if number == 1 or before is None else int((flowing != before).sum())
+        switched = 0 if number == 1 or before is None else self._count(flowing != before)
         self._flowing = flowing
         seconds = clock.perf_counter() - start
         record = Iteration(number, residual, increment, energy, entered, left, step_length, pivots, seconds, switched)
@@ -409,13 +409,18 @@ class Newton:
                 iterations,
             )
 
-    @staticmethod
-    def _detect_chatter(seen: list[bytes], active: NDArray[np.bool_], iterations: list[Iteration]) -> None:
+    def _count(self, points: NDArray[np.bool_]) -> int:
+        return int(self.system.ranks.sum(float(points.sum())))
+
+    def _size(self, du: Floats, u: Floats) -> float:
+        largest = self.system.ranks.max(_largest(u))
+        return self.system.ranks.max(_largest(du)) / largest if largest > 0 else 0.0
+
+    def _detect_chatter(self, seen: list[bytes], active: NDArray[np.bool_], iterations: list[Iteration]) -> None:
         """Give up when contact points go in and out in a cycle and the residual does not fall any more."""
-        if active.size == 0:
+        if not self.system.ranks.any(active.size > 0):
             return
-        state = np.packbits(active).tobytes()
-        seen.append(state)
+        seen.append(self.system.ranks.join(np.packbits(active).tobytes()))
         for period in (2, 3):
             if len(seen) < 3 * period or len(iterations) < 2 * period:
                 continue
@@ -427,6 +432,5 @@ class Newton:
                 )
 
 
-def _size(du: Floats, u: Floats) -> float:
-    largest = float(np.abs(u).max())
-    return float(np.abs(du).max()) / largest if largest > 0 else 0.0
+def _largest(u: Floats) -> float:
+    return float(np.abs(u).max())

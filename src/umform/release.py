@@ -103,7 +103,7 @@ class Releasing:
     def advance(self, run: Run, step: Release) -> None:
         """Try one increment."""
         model, control = run.model, step.control
-        saved, value, touching = model.snapshot(), control.value, bool(model.active_set().any())
+        saved, value, touching = model.snapshot(), control.value, model.touching()
         target = _next_release(value, self.force, self.before, self.bound, self.size, self.finest)
         if self.failures and self.bound is None and target != value:
             target = _short_of_zero(value, self.force, self.before, target)
@@ -126,7 +126,7 @@ class Releasing:
             return
         force = model.conjugate_force(control, converged.residual)
         zero = abs(force) <= step.tolerance * self.scale
-        lifted = touching and zero and not model.active_set().any()
+        lifted = touching and zero and not model.touching()
         resolution = 1e-6 * abs(self.start_value)
         if (force * self.force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
             self._go_back(run, saved, target, resolution if lifted else 0.0)

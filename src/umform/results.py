@@ -65,6 +65,7 @@ class Result:
         self.solver = ""
         self.seconds = 0.0
         self._work = ExternalWork(model)
+        self._writes = model.ranks.rank == 0  # one rank writes for all
         self._residual: Floats = np.empty(0)
 
     def add(self, residual: Floats, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
@@ -79,12 +80,12 @@ class Result:
             row[control.name] = control.value
             row[f"{control.name}_force"] = model.conjugate_force(control, residual)
         for contact in model.contacts:
-            force, moment = contact.resultant()
+            force, moment = (model.ranks.sum(part) for part in contact.resultant())
             row |= {f"{contact.name}_f{axis}": float(value) for axis, value in zip("xyz", force, strict=True)}
             row |= {f"{contact.name}_m{axis}": float(value) for axis, value in zip("xyz", moment, strict=True)}
             gaps = contact.block.gaps
-            row[f"{contact.name}_penetration"] = float(max(0.0, -gaps.min()))
-            row[f"{contact.name}_active"] = int(contact.active().sum())
+            row[f"{contact.name}_penetration"] = model.ranks.max(float(max(0.0, -gaps.min(initial=np.inf))))
+            row[f"{contact.name}_active"] = int(model.ranks.sum(float(contact.active().sum())))
         row |= self._energy_columns(residual)
         row["iterations"] = len(iterations)
         self._residual = residual
@@ -98,7 +99,9 @@ class Result:
             len(iterations),
         )
         if frame:
-            self.frames.append(self._frame(residual))
+            whole = model.whole_frame(self._frame(residual))
+            if whole is not None:
+                self.frames.append(whole)
 
     def _energy_columns(self, residual: Floats) -> dict[str, float]:
         self._work.advance(residual)
@@ -163,11 +166,11 @@ class Result:
         }
         if at.eqps is not None:
             cells |= {"plastic_strain_mean": at.cell_average(at.eqps), "plastic_strain_max": at.eqps.max(axis=1)}
-        reaction = residual.copy()
-        reaction[model.free] = 0.0
+        reaction = model.sum_at_nodes(residual.reshape(-1, 3)).copy()
+        reaction.ravel()[model.free] = 0.0
         points = {
             "displacement": model.u.reshape(-1, 3).copy(),
-            "reaction": reaction.reshape(-1, 3),
+            "reaction": reaction,
             "thickness_change": fields.thickness_change(model),
         }
         if model.contacts:
@@ -211,6 +214,8 @@ class Result:
             The file written.
         """
         path = Path(path)
+        if not self._writes:
+            return path
         if path.suffix == ".csv":
             write_csv(path, self.table())
         elif path.suffix == ".vtkhdf":
@@ -240,7 +245,7 @@ class Result:
         """
         from umform.plotting import plot_history
 
-        return plot_history(self, x, [y] if isinstance(y, str) else y, path)
+        return plot_history(self, x, [y] if isinstance(y, str) else y, path if self._writes else None)
 
     def report(self, path: str | Path, *, deck: str = "") -> Path:
         """Write one self-contained HTML page: the shape in 3D, curves, events, history, settings, deck, versions.
@@ -264,7 +269,7 @@ class Result:
         """
         from umform.report.page import write_report
 
-        return write_report(self, path, deck=deck)
+        return write_report(self, path, deck=deck) if self._writes else Path(path)
 
     def summary(self) -> dict[str, Any]:
         """Numbers that describe the run."""

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Mapping, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any
 
 from umform.arc import Arc, Following
-from umform.checkpoint import Checkpoints, read_checkpoint, take_up
+from umform.checkpoint import Checkpoints, take_up
 from umform.contact.augmentation import refuse_on_an_arc, warn_of_penetration
 from umform.errors import InvalidValue
 from umform.fingerprint import fingerprint
@@ -18,7 +17,7 @@ from umform.interrupt import Interrupt, gentle_interrupt
 from umform.model import Model
 from umform.move import Move, Moving
 from umform.newton import Newton, NewtonOptions
-from umform.progress import Tick, progress_bar
+from umform.progress import progress_bar
 from umform.release import Release, Releasing
 from umform.results import Result
 from umform.timing import Timing, new_timing
@@ -26,6 +25,7 @@ from umform.timing import Timing, new_timing
 __all__ = ["Arc", "Move", "Release", "Step", "resume", "solve"]
 
 Step = Move | Release | Arc
+_Work = Callable[[Model, Sequence[Step]], Result]
 _LOOPS: dict[type, Any] = {Move: Moving, Release: Releasing, Arc: Following}
 
 
@@ -50,7 +50,7 @@ def solve(
     steps : Step or sequence of Step
         What happens, in a row.
     solver : str
-        Sparse solver, see :mod:`umform.solvers`.
+        Sparse solver, see :mod:`umform.solvers`; "petsc" runs on all ranks that mpiexec has started (docs/parallel.md).
     options : NewtonOptions, optional
         Tolerances, line search, predictor.
     frames : int
@@ -84,15 +84,17 @@ def solve(
     Any exception that ends the run, Ctrl-C too, carries all that was reached as its attribute ``result``. The first
     Ctrl-C ends the run after the present increment, the second one at once.
     """
-    timing = new_timing()
-    with timing.run:
-        run, sequence = _ready(model, steps, solver, options, frames, timing)
-        checkpoints = None
-        if checkpoint is not None:
-            checkpoints = Checkpoints(checkpoint, every, fingerprint(model, sequence, run.newton, frames), note)
-        run.history = model.block.state
-        run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
-        return _go_on(run, sequence, progress_bar(progress), checkpoints)
+
+    def work(model: Model, steps: Sequence[Step]) -> Result:
+        timing = new_timing()
+        with timing.run:
+            run = _ready(model, solver, options, frames, timing)
+            checkpoints = _checkpoints(run, steps, checkpoint, every, note)
+            run.history = model.block.state
+            run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
+            return _go_on(run, steps, progress, checkpoints)
+
+    return _where(solver)(model, _checked(model, steps), work)
 
 
 def resume(
@@ -133,27 +135,33 @@ def resume(
     -----
     The bits are the same on the same machine with the same versions of Python's packages, see docs/long-runs.md.
     """
-    timing = new_timing()
-    with timing.run:
-        run, sequence = _ready(model, steps, solver, options, frames, timing)
-        tree = read_checkpoint(path)
-        checkpoints = Checkpoints(path, every, fingerprint(model, sequence, run.newton, frames), tree["note"])
-        memory = take_up(run, path, tree, checkpoints.fingerprint)
-        if memory is not None:
-            step = sequence[run.number - 1]
-            run.loop = _LOOPS[type(step)].recall(run, step, memory)
-        return _go_on(run, sequence, progress_bar(progress), checkpoints)
+
+    def work(model: Model, steps: Sequence[Step]) -> Result:
+        timing = new_timing()
+        with timing.run:
+            run = _ready(model, solver, options, frames, timing)
+            checkpoints = _checkpoints(run, steps, path, every)
+            assert checkpoints is not None
+            memory = take_up(run, checkpoints)
+            if memory is not None:
+                step = steps[run.number - 1]
+                run.loop = _LOOPS[type(step)].recall(run, step, memory)
+            return _go_on(run, steps, progress, checkpoints)
+
+    return _where(solver)(model, _checked(model, steps), work)
 
 
-def _ready(
-    model: Model,
-    steps: Sequence[Step] | Step,
-    solver: str,
-    options: NewtonOptions | None,
-    frames: int,
-    timing: Timing,
-) -> tuple[Run, list[Step]]:
-    """Refuse what cannot be run, and make the run that has not begun."""
+def _where(solver: str) -> Callable[[Model, Sequence[Step], _Work], Result]:
+    """Where a run goes: through this process, or on all ranks that mpiexec has started."""
+    if solver == "petsc":
+        from umform.distributed.run import on_ranks  # MPI starts only where it is asked for
+
+        return on_ranks
+    return lambda model, steps, work: work(model, steps)
+
+
+def _checked(model: Model, steps: Sequence[Step] | Step) -> list[Step]:
+    """The steps, if the model can go them."""
     sequence = [steps] if isinstance(steps, Step) else list(steps)
     for number, step in enumerate(sequence, start=1):
         if isinstance(step, Arc):
@@ -169,20 +177,36 @@ def _ready(
                     cause="it belongs to another model",
                     remedy="use what prescribe(), force(), pressure() or drive() of this model returned",
                 )
+    return sequence
+
+
+def _ready(model: Model, solver: str, options: NewtonOptions | None, frames: int, timing: Timing) -> Run:
+    """Refuse a model that cannot be solved, and make the run that has not begun."""
     model.timing = timing
     model.check()
     run = Run(model, Newton(model, options, solver, timing), Result(model, timing), frames)
     run.result.solver = run.newton.solver
-    return run, sequence
+    return run
 
 
-def _go_on(
-    run: Run, steps: Sequence[Step], bar: AbstractContextManager[Tick], checkpoints: Checkpoints | None
-) -> Result:
+def _checkpoints(
+    run: Run,
+    steps: Sequence[Step],
+    path: str | PathLike[str] | None,
+    every: float,
+    note: Mapping[str, Any] | None = None,
+) -> Checkpoints | None:
+    if path is None:
+        return None
+    marks = fingerprint(run.model.described, steps, run.newton, run.frames)
+    return Checkpoints(path, every, marks, note, run.model.ranks)
+
+
+def _go_on(run: Run, steps: Sequence[Step], progress: bool | None, checkpoints: Checkpoints | None) -> Result:
     """Go on to the end from wherever the run stands."""
-    result = run.result
+    result, talks = run.result, run.model.ranks.rank == 0
     start = clock.perf_counter() - result.seconds
-    with bar as tick, gentle_interrupt() as stop:
+    with progress_bar(progress if talks else False) as tick, gentle_interrupt() as stop:
         run.tick, run.pause = tick, lambda: _pause(run, start, checkpoints, stop)
         try:
             while run.number <= len(steps):
@@ -208,11 +232,12 @@ def _finish(run: Run, step: Step) -> None:
 
 def _pause(run: Run, start: float, checkpoints: Checkpoints | None, stop: Interrupt, *, last: bool = False) -> None:
     """Between two increments: write a checkpoint if it is time to, and stop if somebody has asked to."""
-    run.result.seconds = clock.perf_counter() - start
-    if checkpoints is not None and (last or stop.asked or checkpoints.due()):
+    run.result.seconds, ranks = clock.perf_counter() - start, run.model.ranks
+    asked = ranks.any(stop.asked)
+    if checkpoints is not None and (last or asked or ranks.any(checkpoints.due())):
         with run.result.timing.output:
             checkpoints.write(run)
-    if stop.asked:
+    if asked:
         how = ""
         if checkpoints is not None and not checkpoints.problem:
             how = f"; umform.resume({str(checkpoints.path)!r}, ...) goes on"

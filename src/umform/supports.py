@@ -178,6 +178,11 @@ class Supported(Controlled):
             constrained[control.dofs] = True
         return constrained
 
+    @property
+    def unknown_count(self) -> int:
+        """Number of unknowns: degrees of freedom that are neither held nor prescribed; two that are tied make one."""
+        return int((~self.constrained()).sum()) - sum(len(tie.dofs) for tie in self.ties)
+
     def displacement_of_supports(self, values: Mapping[Control, float]) -> Floats:
         """Displacement that supports prescribe if their controls have these values (others zero); zero elsewhere.
 

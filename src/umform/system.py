@@ -7,6 +7,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.ranks import Ranks
 from umform.solvers import Pattern
 
 Floats = NDArray[np.float64]
@@ -46,6 +47,10 @@ class System(Protocol):
     u: Floats
 
     @property
+    def ranks(self) -> Ranks:
+        """Who shares the model: forces are then shares that are to be summed up, displacements the same on all."""
+
+    @property
     def pattern(self) -> Pattern:
         """Sparse pattern of the tangent."""
 
@@ -54,13 +59,19 @@ class System(Protocol):
         """What an evaluation costs for each equation; 1 for 8-node elements with 20 points."""
 
     def restrict(self, r: Floats) -> Floats:
-        """Unknowns' share of a vector at all degrees of freedom. eq. (5.18)"""
+        """Unknowns' share of forces at all degrees of freedom, summed over the ranks. eq. (5.18)"""
+
+    def coefficients(self, u: Floats) -> Floats:
+        """Unknowns in a displacement of all degrees of freedom. eq. (5.18)"""
 
     def extend(self, x: Floats) -> Floats:
         """Displacement of all degrees of freedom that the unknowns make. eq. (5.17)"""
 
     def prescribed_displacement(self) -> Floats:
         """Displacement that the supports prescribe, zero elsewhere."""
+
+    def largest_entry(self, values: Floats) -> float:
+        """Size of the largest entry of the tangent."""
 
     def evaluate(self, u: Floats, du: Floats | None = None) -> Evaluation:
         """Residual and tangent."""

@@ -13,6 +13,7 @@ from umform.errors import InvalidValue
 from umform.mesh import strip
 from umform.model import Model
 from umform.newton import Failed, Newton, NewtonOptions
+from umform.ranks import ONE
 from umform.solvers import Pattern
 from umform.steps import Move, solve
 
@@ -216,10 +217,15 @@ class Scalar:
         self.residual, self.slope, self.active, self.scale = residual, slope, active, scale
         self.x, self.calls = start, []
 
+    ranks = ONE
+
     def restrict(self, r):
         return r
 
-    extend = restrict
+    coefficients = extend = restrict
+
+    def largest_entry(self, values):
+        return float(np.abs(values).max())
 
     def prescribed_displacement(self):
         return np.zeros(1)

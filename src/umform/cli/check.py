@@ -14,7 +14,7 @@ from umform.cli.root import Debug, Verbose, app, console
 from umform.errors import InvalidValue, UmformError
 
 if TYPE_CHECKING:
-    from umform.deck import Deck, Problem
+    from umform.deck import Deck
     from umform.deck.findings import Finding
 
 DeckFile = Annotated[Path, typer.Argument(metavar="DECK", help="A deck: one TOML file.")]
@@ -34,19 +34,19 @@ def check(deck: DeckFile, changes: Changes = None, verbose: Verbose = 0, debug: 
     from umform.deck.look import look
 
     with told():
-        loaded, problem = build(deck, changes or ())
+        loaded = read(deck, changes or ())
+        problem = loaded.build()
         findings = list(look(loaded, problem))
     _show(findings)
     if any(finding.level is Level.ERROR for finding in findings):
         raise typer.Exit(1)
 
 
-def build(path: Path, changes: Sequence[str]) -> tuple[Deck, Problem]:
-    """The deck of a file with some values changed, and what it builds."""
+def read(path: Path, changes: Sequence[str]) -> Deck:
+    """The deck of a file with some values changed."""
     from umform.deck import load
 
-    deck = load(path, dict(_change(text) for text in changes))
-    return deck, deck.build()
+    return load(path, dict(_change(text) for text in changes))
 
 
 @contextmanager

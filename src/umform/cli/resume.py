@@ -8,12 +8,14 @@ from typing import Annotated
 import typer
 
 from umform.cli.check import told
+from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Verbose, app
 from umform.cli.run import Every, end, show
 
 
-@app.command()
+@app.command(cls=WithPetscOptions)
 def resume(
+    ctx: typer.Context,
     checkpoint: Annotated[Path, typer.Argument(metavar="CHECKPOINT", help="The file that `umform run` has left.")],
     out: Annotated[
         Path | None, typer.Option(metavar="FOLDER", help="Folder for what comes out; default: that of the run.")
@@ -24,11 +26,16 @@ def resume(
 ) -> None:
     """Take up a run that was stopped or killed: what comes out is what it would have given, to the last bit.
 
-    The checkpoint holds the deck. A mesh file that the deck reads must still be there, and be the same.
+    The checkpoint holds the deck. A mesh file that the deck reads must still be there, and be the same. A run on many
+    ranks goes on with `mpiexec`, on as many ranks as you like.
     """
     from umform.deck import running
+    from umform.deck.kept import Kept
 
+    let_the_first_talk()
     with told():
-        outcome = running.resume(checkpoint, out, every=every)
+        kept = Kept.read(checkpoint)
+        with on_all_ranks(kept.chosen_solver, petsc_options(ctx)):
+            outcome = running.resume(checkpoint, kept, out, every=every)
     show(outcome)
     end(outcome)

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from umform.cli.check import Changes, DeckFile, build, told
+from umform.cli.check import Changes, DeckFile, read, told
+from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import INTERRUPTED, Debug, Verbose, app, console
 from umform.cli.timing import Timed, show_timing
 from umform.errors import UmformError
@@ -22,8 +23,9 @@ Every = Annotated[
 ]
 
 
-@app.command()
+@app.command(cls=WithPetscOptions)
 def run(
+    ctx: typer.Context,
     deck: DeckFile,
     out: Annotated[
         Path | None, typer.Option(metavar="FOLDER", help="Folder for what comes out; default: that of the deck.")
@@ -43,12 +45,19 @@ def run(
 
     What was reached is written even if Newton's method gives up (exit code 1) or Ctrl-C ends the run (130). A run that
     was stopped goes on with `umform resume`.
+
+    On many ranks: `mpiexec -n 4 umform run deck.toml --solver petsc`, with options of PETSc by their prefix, such as
+    `-umform_ksp_type cg -umform_pc_type gamg` (docs/parallel.md).
     """
     from umform.deck import running
 
+    let_the_first_talk()
     with told():
-        loaded, problem = build(deck, changes or ())
-        outcome = running.run(loaded, problem, out, solver=solver, checkpoint=checkpoint, every=every)
+        loaded = read(deck, changes or ())
+        chosen = solver or loaded.contents.solution.solver
+        with on_all_ranks(chosen, petsc_options(ctx)):
+            problem = loaded.build(chosen)
+            outcome = running.run(loaded, problem, out, solver=solver, checkpoint=checkpoint, every=every)
     show(outcome)
     if timing:
         show_timing(outcome.result.timing)

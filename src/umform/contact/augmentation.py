@@ -39,8 +39,10 @@ def augmented(model: Model, newton: Newton, converged: Converged) -> Converged:
         If a pass does not converge; the model is reverted, with its multipliers.
     """
     for number in range(1, _PASSES + 1):
-        pairs = [contact for contact in model.contacts if contact.augmented and contact.active().any()]
-        if not pairs or (number > 1 and not any(contact.loose() for contact in pairs)):
+        pairs = [
+            contact for contact in model.contacts if contact.augmented and _anywhere(model, contact.active().any())
+        ]
+        if not pairs or (number > 1 and not _anywhere(model, any(contact.loose() for contact in pairs))):
             break
         change = np.zeros_like(converged.u)
         for contact in pairs:
@@ -49,6 +51,10 @@ def augmented(model: Model, newton: Newton, converged: Converged) -> Converged:
         converged = replace(again, iterations=converged.iterations, passes=converged.passes + again.iterations)
         log.debug("    pass %d of the multipliers, %d iterations", number, len(again.iterations))
     return converged
+
+
+def _anywhere(model: Model, flag: bool | np.bool_) -> bool:
+    return model.ranks.any(bool(flag))
 
 
 def refuse_on_an_arc(model: Model, where: str) -> None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +17,7 @@ from umform.boundary import Control, vector3
 from umform.contact.settings import ContactSettings
 from umform.mesh import FACE_NODES, Ids, Mesh, Selector
 from umform.surfaces import Surface
+from umform.whole import not_here
 
 Floats = NDArray[np.float64]
 
@@ -77,25 +81,62 @@ class Contact:
         self.tool = tool
         self.penalty, self.points = settings.penalty, settings.points
         self.allowed, self.augmented = settings.allowed, settings.augmented
-        self.facets: Ids = mesh.facets(faces)
+        #: Rows (cell, number of the face), and the nodes of these facets.
+        self.faces: Ids = mesh.face_set(faces)
+        self.facets: Ids = mesh.facets(self.faces)
         #: Nodes of all cells that bear a facet, those of the far face too.
-        self.nodes: Ids = np.unique(mesh.connectivity[mesh.face_set(faces)[:, 0]])
-        self._kernel = tool.kernel()
-        at_nodes = isinstance(self.points, str)
-        per_side = 1 if isinstance(self.points, str) else self.points
-        self.block = _core.contact_block(self.facets, mesh.points, per_side, at_nodes, self._kernel)
-        self.block.penalty = self.penalty
-        #: Multipliers of the converged state at the contact points; zero without augmentation.
-        self.multipliers: Floats = self.block.multipliers
+        self.nodes: Ids = np.unique(mesh.connectivity[self.faces[:, 0]])
+        self._kernel, self._mesh_points = tool.kernel(), mesh.points
         self.pose: tuple[Floats, Floats] = (np.eye(3), np.zeros(3))
         self.translations: list[ToolMotion] = []
         self.motion: Motion | None = None
         self.reference_point = np.zeros(3)
+        self.elsewhere = False
+
+    @cached_property
+    def block(self) -> _core.ContactBlock:
+        """The contact points: made when first asked for.
+
+        Raises
+        ------
+        ModelError
+            If the model was solved on many ranks: each had the points of its own facets.
+        """
+        if self.elsewhere:
+            raise not_here(f"the state of contact {self.name}")
+        at_nodes = isinstance(self.points, str)
+        per_side = 1 if isinstance(self.points, str) else self.points
+        block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self._kernel)
+        block.penalty = self.penalty
+        block.set_pose(*self.pose)
+        self.multipliers = block.multipliers
+        return block
+
+    @cached_property
+    def multipliers(self) -> Floats:
+        """Multipliers of the converged state at the contact points; zero without augmentation."""
+        return self.block.multipliers
+
+    def part(self, mesh: Mesh, faces: Ids) -> Self:
+        """The same contact on some faces of a part of the mesh, rows (cell, face) there; its tool has no drive yet."""
+        part = copy.copy(self)
+        for made in ("block", "multipliers"):
+            part.__dict__.pop(made, None)
+        part.faces = faces
+        part.facets = mesh.facets(faces) if len(faces) else self.facets[:0]
+        part.nodes = np.unique(mesh.connectivity[faces[:, 0]])
+        part._mesh_points, part.translations = mesh.points, []
+        return part
 
     def place(self, time: float) -> None:
         """Put the tool where its motions have it at ``time``. eq. (4.18)"""
-        self.pose = self._pose_at(time)
-        self.block.set_pose(*self.pose)
+        self.put(self._pose_at(time))
+
+    def put(self, pose: tuple[Floats, Floats]) -> None:
+        """Put the tool into a pose: rotation and shift."""
+        self.pose = pose
+        if "block" in vars(self):
+            self.block.set_pose(*pose)
 
     def _pose_at(self, time: float) -> tuple[Floats, Floats]:
         """Rotation and shift of the tool at ``time``, at the present values of the controls."""
@@ -168,7 +209,8 @@ class Contact:
 
     def _spread(self, forces: Floats, change: Floats) -> None:
         """Add forces (points, 3) at the contact points to their nodes. eq. (4.9)"""
-        nodal = np.einsum("qa,eqk->eak", self.block.shape_values, forces.reshape(len(self.facets), -1, 3))
+        N = self.block.shape_values
+        nodal = np.einsum("qa,eqk->eak", N, forces.reshape(len(self.facets), len(N), 3))
         np.add.at(change.reshape(-1, 3), self.facets, nodal)
 
     def carried(self, x: Floats, time: float) -> Floats:
@@ -220,25 +262,29 @@ class Contact:
         arm = at.x - (np.zeros(3) if about is None else np.asarray(about, dtype=float))
         return forces.sum(axis=0), np.cross(arm, forces).sum(axis=0)
 
-    def at_nodes(self, u: Floats, mesh: Mesh) -> tuple[Floats, Floats]:
+    def at_nodes(
+        self, u: Floats, mesh: Mesh, add: Callable[[Floats], Floats] = lambda shares: shares
+    ) -> tuple[Floats, Floats]:
         """Pressure and gap at the nodes of the facets; zero and NaN at other nodes; two arrays of shape (nodes,).
 
         The pressure is the average of that at the contact points, weighted by their areas and the hat functions of the
         nodes, which are not negative and have the sum one. eq. (4.38). The gap is measured at the nodes themselves.
+        ``add`` sums values at nodes, shape (nodes, k), over all that share the mesh.
         """
         at = self.at_points()
         hats = hat_functions(self.block.shape_values)
-        weight = hats[None, :, :] * at.area.reshape(len(self.facets), -1, 1)  # [facet][point][node]
-        share = np.einsum("eqa,eq->ea", weight, at.pressure.reshape(len(self.facets), -1))
+        places = len(self.facets), len(hats)
+        weight = hats * at.area.reshape(*places, 1)  # [facet][point][node]
+        share = np.einsum("eqa,eq->ea", weight, at.pressure.reshape(places))
         count = len(mesh.points)
-        total, area = np.zeros(count), np.zeros(count)
-        np.add.at(total, self.facets.ravel(), share.ravel())
-        np.add.at(area, self.facets.ravel(), weight.sum(axis=1).ravel())
-        pressure = np.divide(total, area, out=np.zeros(count), where=area > 0)
-        gap = np.full(count, np.nan)
+        shares = np.zeros((count, 4))  # pressure times area, area; gap, and how many know it
+        np.add.at(shares[:, 0], self.facets.ravel(), share.ravel())
+        np.add.at(shares[:, 1], self.facets.ravel(), weight.sum(axis=1).ravel())
         nodes = np.unique(self.facets)
-        gap[nodes] = self.gap((mesh.points + u.reshape(-1, 3))[nodes])
-        return pressure, gap
+        shares[nodes, 2], shares[nodes, 3] = self.gap((mesh.points + u.reshape(-1, 3))[nodes]), 1.0
+        total, area, gap, known = add(shares).T
+        pressure = np.divide(total, area, out=np.zeros(count), where=area > 0)
+        return pressure, np.divide(gap, known, out=np.full(count, np.nan), where=known > 0)
 
     def gap(self, x: Floats) -> Floats:
         """Signed distance of positions (n, 3) to the tool where it stands now; shape (n,)."""

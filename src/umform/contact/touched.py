@@ -11,6 +11,7 @@ from umform.controls import Controlled
 from umform.errors import InvalidValue
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
+from umform.ranks import Ranks
 from umform.surfaces import Direction, Surface, unit_vector
 
 
@@ -19,10 +20,15 @@ class Touched(Controlled):
 
     mesh: Mesh
     material: Material
+    ranks: Ranks
 
     def __init__(self) -> None:
         super().__init__()
         self.contacts: list[Contact] = []
+
+    def touching(self) -> bool:
+        """Whether a tool holds the sheet anywhere, by the last evaluation."""
+        return self.ranks.any(any(bool(contact.active().any()) for contact in self.contacts))
 
     def contact(
         self,

@@ -69,15 +69,20 @@ class Deck:
             raise DeckError(errors)
         return cls(contents, source)
 
-    def build(self) -> Problem:
+    def build(self, solver: str | None = None) -> Problem:
         """Build the model and all that happens to it.
+
+        Parameters
+        ----------
+        solver : str, optional
+            Another sparse solver than that of the deck.
 
         Raises
         ------
         DeckError
             With all that does not fit.
         """
-        return build(self.contents, self.source)
+        return build(self.contents, self.source, solver)
 
 
 def load(path: str | Path, changes: Mapping[str, Any] | None = None) -> Deck:

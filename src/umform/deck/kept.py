@@ -30,6 +30,11 @@ class Kept:
     out: Path
     solver: str | None = None
 
+    @property
+    def chosen_solver(self) -> str:
+        """The solver of the run."""
+        return self.solver or self.deck.contents.solution.solver
+
     def note(self, checkpoint: Path) -> dict[str, Any]:
         """What goes into a checkpoint; folders also as seen from there, for the case that all of them move."""
         source, here = self.deck.source, checkpoint.parent

@@ -67,7 +67,7 @@ class Problem:
         return {"solver": solver or self.solver, "options": self.options, "frames": self.frames}
 
 
-def build(contents: Contents, source: Source) -> Problem:
+def build(contents: Contents, source: Source, solver: str | None = None) -> Problem:
     """Build the problem of a deck.
 
     Parameters
@@ -76,6 +76,8 @@ def build(contents: Contents, source: Source) -> Problem:
         What stands in it.
     source : Source
         Where it stands.
+    solver : str, optional
+        Another sparse solver than that of the deck.
 
     Raises
     ------
@@ -83,7 +85,7 @@ def build(contents: Contents, source: Source) -> Problem:
         With all that does not fit.
     """
     with np.errstate(all="ignore"):
-        return _Builder(contents, source).problem()
+        return _Builder(contents, source, solver or contents.solution.solver).problem()
 
 
 @dataclass
@@ -92,6 +94,7 @@ class _Builder:
 
     contents: Contents
     source: Source
+    solver: str
     errors: list[UmformError] = field(default_factory=list)
 
     def problem(self) -> Problem:
@@ -106,8 +109,7 @@ class _Builder:
         self._raise()
         steps = self._steps(controls)
         self._raise()
-        solution, output = self.contents.solution, self.contents.output
-        return Problem(model, contacts, controls, steps, options, solution.solver, output.frames)
+        return Problem(model, contacts, controls, steps, options, self.solver, self.contents.output.frames)
 
     def _tools(self) -> dict[str, Tool]:
         tools: dict[str, Tool] = {}
@@ -184,12 +186,18 @@ class _Builder:
         options = NewtonOptions()
         with self._at("solution"):
             options = self.contents.solution.build()
+        if self.solver == "petsc":  # each rank will have the pattern of its share
+            from umform.distributed.petsc import petsc
+
+            with self._at("solution", "solver"):
+                petsc()
+            return options
         if not self.errors:
             with self._at("supports"):
                 _ = model.pattern
         if not self.errors:
             with self._at("solution", "solver"):
-                _ = Newton(model, options, self.contents.solution.solver).solver
+                _ = Newton(model, options, self.solver).solver
         return options
 
     def _steps(self, controls: dict[str, Control]) -> list[Step]:

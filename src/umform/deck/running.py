@@ -100,11 +100,16 @@ def run(
         note = kept.note(path)
         return problem.solve(solver=solver, progress=progress, checkpoint=path, every=every, note=note)
 
-    return _finish(kept, problem, place, path, solve)
+    return _finish(kept, problem, place, path, solve, solver or problem.solver)
 
 
 def resume(
-    checkpoint: str | Path, out: str | Path | None = None, *, progress: bool | None = None, every: float = 60.0
+    checkpoint: str | Path,
+    kept: Kept,
+    out: str | Path | None = None,
+    *,
+    progress: bool | None = None,
+    every: float = 60.0,
 ) -> Outcome:
     """Take up the run of a deck from its checkpoint, and write its files as if it had never been stopped.
 
@@ -112,6 +117,8 @@ def resume(
     ----------
     checkpoint : str or Path
         The file, which the run goes on to write.
+    kept : Kept
+        What it keeps of the deck.
     out : str or Path, optional
         Folder; default that of the run.
     progress, every
@@ -130,32 +137,53 @@ def resume(
         If nothing can be built from the deck any more, a mesh file that is gone for one.
     """
     path = Path(checkpoint)
-    kept = Kept.read(path)
-    problem = kept.deck.build()
+    problem = kept.deck.build(kept.chosen_solver)
 
     def solve() -> Result:
         return problem.resume(path, solver=kept.solver, progress=progress, every=every)
 
-    return _finish(kept, problem, out if out is not None else kept.out, path, solve)
+    place = out if out is not None else kept.out
+    return _finish(kept, problem, place, path, solve, kept.solver or problem.solver)
 
 
-def _finish(kept: Kept, problem: Problem, out: str | Path, checkpoint: Path, solve: Callable[[], Result]) -> Outcome:
+def _finish(
+    kept: Kept, problem: Problem, out: str | Path, checkpoint: Path, solve: Callable[[], Result], solver: str
+) -> Outcome:
+    """Solve, and write what came of it; on many ranks the first one writes for all."""
+    if solver != "petsc":
+        return _written(kept, problem, out, checkpoint, solve)
+    from umform.distributed.mpi_ranks import world
+    from umform.distributed.together import together
+
+    ranks = world()
+    with together(ranks):
+        if ranks.rank == 0:
+            return _written(kept, problem, out, checkpoint, solve)
+        result, ended_by = _solved(solve)
+        return Outcome(result, [], ended_by)
+
+
+def _written(kept: Kept, problem: Problem, out: str | Path, checkpoint: Path, solve: Callable[[], Result]) -> Outcome:
     """Solve, write what came of it, and take the checkpoint away if nobody has asked for it or needs it."""
-    ended_by: BaseException | None = None
     with staging(out, _FILES) as stage:
-        try:
-            result = solve()
-        except BaseException as error:
-            reached: Result | None = getattr(error, "result", None)
-            if reached is None or not reached.frames:
-                raise
-            result, ended_by = reached, error
+        result, ended_by = _solved(solve)
         with result.timing.files:
             files = write(kept.deck, problem, result, stage)
         stopped = isinstance(ended_by, KeyboardInterrupt)
         if not stopped and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():
             checkpoint.unlink(missing_ok=True)
     return Outcome(result, files, ended_by, checkpoint if stopped and checkpoint.exists() else None)
+
+
+def _solved(solve: Callable[[], Result]) -> tuple[Result, BaseException | None]:
+    """What was reached, and what ended it early."""
+    try:
+        return solve(), None
+    except BaseException as error:
+        reached: Result | None = getattr(error, "result", None)
+        if reached is None or not reached.rows:
+            raise
+        return reached, error
 
 
 def write(deck: Deck, problem: Problem, result: Result, stage: Staging) -> list[Path]:

@@ -11,6 +11,9 @@ from umform.errors import FoldedElement, InvertedElement, WrongNodeOrder
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int32]
 
+#: Cells that are looked at in one go: their matrices take ten times the memory of the mesh.
+_AT_ONCE = 1 << 16
+
 
 def jacobians(points: Floats, cells: Ids) -> Floats:
     """Determinants of the Jacobian at the Gauss points and corners of all cells, shape (cells, points)."""
@@ -20,8 +23,10 @@ def jacobians(points: Floats, cells: Ids) -> Floats:
         for a in (gauss, np.array([-1.0, 1.0]))
     ]
     _, dN = _core.shell_functions(cells.shape[1], np.concatenate(samples))
-    J: Floats = np.linalg.det(np.einsum("qia,eak->eqik", dN, points[cells]))
-    return J
+    parts = range(0, max(len(cells), 1), _AT_ONCE)
+    return np.concatenate(
+        [np.linalg.det(np.einsum("qia,eak->eqik", dN, points[cells[k : k + _AT_ONCE]])) for k in parts]
+    )
 
 
 def _other_orders(nodes: int) -> dict[str, Ids]:

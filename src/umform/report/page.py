@@ -99,7 +99,7 @@ def settings(model: Model) -> dict[str, object]:
         "element": f"{model.element.name} ({options})" if options else model.element.name,
         "thickness points": f"{model.thickness_points} {model.thickness_rule}",
         "material": model.material,
-        "degrees of freedom": f"{model.pattern.n} unknown of {model.u.size}",
+        "degrees of freedom": f"{model.unknown_count} unknown of {model.u.size}",
     }
     for contact in model.contacts:
         rule = "nodes" if contact.points == "nodes" else f"{contact.points} x {contact.points} Gauss points a facet"

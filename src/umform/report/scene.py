@@ -173,8 +173,7 @@ def _put_back(contact: Contact) -> Iterator[None]:
     finally:
         for control, value in zip(contact.translations, values, strict=True):
             control.value = value
-        contact.pose = pose
-        contact.block.set_pose(*pose)
+        contact.put(pose)
 
 
 def _surface(contact: Contact, poses: Poses, box: tuple[Floats, Floats]) -> Triangles:

@@ -1,0 +1,252 @@
+"""One Newton iteration on 1 and 2 ranks: time, memory a rank, fill of the factors; growth to 10 million elements.
+
+    python benchmarks/ranks.py                    # measures (minutes, and 6 GB at 102 400 elements); writes the figure
+    python benchmarks/ranks.py results/ranks.json # tables and figure once more, from what was measured
+    mpiexec -n 2 python benchmarks/ranks.py 160   # one measurement: a sheet of 160 x 160 elements, as one line of JSON
+    mpiexec -n 2 python benchmarks/ranks.py 1000 describe   # no more than the description of the sheet, and its parts
+
+Needs the solver petsc (docs/parallel.md). A sheet of J2 over a cylinder, element ANS3DEAS with 5 points through the
+thickness, is bent to where it is plastic; the displacement is given, so that every run does the same work.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+import umform as uf
+
+SIZES, RANKS, DESCRIBED = (80, 160, 320), (1, 2), 1000
+MEASURED = Path("results/ranks.json")
+FIGURE = Path("docs/images/ranks.png")
+GB = 1e9
+
+
+def sheet(cells: int) -> uf.Model:
+    """A square sheet of 1 mm over a cylinder; the elements are squares of 1 mm."""
+    mesh = uf.mesh.strip(float(cells), float(cells), 1.0, (cells, cells))
+    model = uf.Model(mesh, "ANS3DEAS", material=uf.J2(kappa=175e3, mu=80.77e3, hardening=uf.Linear(160.0, 500.0)))
+    model.symmetry("x0", normal="x")
+    model.symmetry("y0", normal="y")
+    model.prescribe("x0_lower", "z", "punch")
+    model.contact("lower", uf.Cylinder((0.6 * cells, 0.0, -20.5), "y", 20.0), penalty=100.0, name="tool")
+    return model
+
+
+def bent(points: np.ndarray, radius: float = 40.0) -> np.ndarray:
+    """Displacement of a sheet that is bent to a radius: strains of 1.25 per cent at its faces."""
+    x, z = points[:, 0], points[:, 2]
+    arm = radius + z
+    position = np.stack([arm * np.sin(x / radius), points[:, 1], arm * np.cos(x / radius) - radius], axis=1)
+    return (position - points).ravel()
+
+
+def memory(peak: bool = False) -> float:
+    """Memory of this process in GB, now or at most so far."""
+    if peak:
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / GB
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE") / GB
+
+
+def measure(cells: int) -> dict[str, object]:
+    """Seconds (wall and CPU) of the parts of an iteration and memory after them, the largest of all ranks."""
+    from umform.distributed.mpi_ranks import world
+    from umform.distributed.partition import partition
+    from umform.distributed.share import Share
+    from umform.distributed.solver import Petsc
+
+    ranks, wall, cpu, held = world(), {}, {}, {"start": memory()}
+
+    def timed(name, work):
+        ranks.comm.Barrier()
+        start, used = time.perf_counter(), time.process_time()
+        answer = work()
+        wall[name], cpu[name] = time.perf_counter() - start, time.process_time() - used
+        held[name] = memory()
+        return answer
+
+    model = timed("describe", lambda: sheet(cells))
+    share = timed("share", lambda: Share(model, partition(model.mesh, ranks), ranks))
+    u, solver = bent(share.mesh.points), Petsc()
+    timed("first evaluation", lambda: share.evaluate(u))
+    found = timed("evaluation", lambda: share.evaluate(u))
+    timed("matrix", lambda: solver.analyse(share.pattern))
+    timed("first factorisation", lambda: solver.factor(found.values))
+    factors = timed("factorisation", lambda: solver.factor(found.values))
+    timed("solution", lambda: solver.solve(share.restrict(found.residual)))
+    held["peak"] = memory(peak=True)
+    flops = solver._ksp.pc.getFactorMatrix().getMumpsRinfog(3)
+    largest = {name: {key: ranks.max(value) for key, value in one.items()} for name, one in
+               (("wall", wall), ("cpu", cpu), ("memory", held))}  # fmt: skip
+    return {
+        "elements": len(model.mesh.connectivity),
+        "unknowns": share.pattern.n,
+        "ranks": ranks.size,
+        "fill": factors.fill,
+        "flops": flops,
+        **largest,
+    }
+
+
+def describe(cells: int) -> dict[str, object]:
+    """Memory in bytes an element that each rank takes for the description of the whole sheet, and to part it."""
+    from umform.distributed.mpi_ranks import world
+    from umform.distributed.numbering import Owners
+    from umform.distributed.partition import partition
+
+    world()
+    before, start = memory(), time.process_time()
+    model = sheet(cells)
+    elements = len(model.mesh.connectivity)
+    kept = memory() - before
+    Owners.of(model, partition(model.mesh, world()), world().size)
+    sizes = {"kept": kept, "peak": memory(peak=True) - before}
+    bytes_each = {name: world().max(size) * GB / elements for name, size in sizes.items()}
+    return {"elements": elements, "seconds": time.process_time() - start, **bytes_each}
+
+
+def launch(ranks: int, *words: object) -> dict:
+    """The same in processes of its own."""
+    root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1"}
+    command = ["mpiexec", "--oversubscribe", "-n", str(ranks), sys.executable, __file__, *map(str, words)]
+    done = subprocess.run(command, env={**os.environ, **root}, capture_output=True, text=True, check=True)
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+class Growth:
+    """How fill and operations of nested dissection on a sheet grow with its elements m, fitted to what was measured.
+
+    Of a square grid the factors have a m log2(m) + b m entries and take c m^1.5 + d m log2(m) operations
+    (George 1973): the leading terms are of separators as long as the sheet is wide.
+    """
+
+    def __init__(self, runs: list[dict]) -> None:
+        m = np.array([run["elements"] for run in runs], dtype=float)
+        self.fill_terms = self._fit(np.stack([m * np.log2(m), m], axis=1), [run["fill"] for run in runs])
+        self.flop_terms = self._fit(np.stack([m**1.5, m * np.log2(m)], axis=1), [run["flops"] for run in runs])
+
+    @staticmethod
+    def _fit(terms: np.ndarray, values: list[float]) -> np.ndarray:
+        """Least squares of the relative errors."""
+        return np.linalg.lstsq(terms / np.array(values)[:, None], np.ones(len(values)), rcond=None)[0]
+
+    def fill(self, m: float) -> float:
+        """Entries of the factors."""
+        return float(self.fill_terms @ [m * np.log2(m), m])
+
+    def flops(self, m: float) -> float:
+        """Operations of a factorisation."""
+        return float(self.flop_terms @ [m**1.5, m * np.log2(m)])
+
+
+class Costs:
+    """What an element, an entry of the factors and an operation cost, by the largest run on one rank."""
+
+    def __init__(self, run: dict, described: dict) -> None:
+        m, held, cpu = run["elements"], run["memory"], run["cpu"]
+        self.start = held["start"]
+        self.described, self.parting = described["kept"] / GB, described["peak"] / GB
+        self.own = (held["matrix"] - held["describe"]) / m
+        self.entry = (held["peak"] - held["matrix"]) / run["fill"]
+        self.evaluation = cpu["evaluation"] / m
+        self.rate = run["flops"] / cpu["factorisation"]
+        self.solution = cpu["solution"] / run["fill"]
+
+    def memory(self, m: float, ranks: int, growth: Growth) -> float:
+        """GB of a rank: the description of the whole, its elements and matrix, its part of the factors."""
+        solving = self.start + self.described * m + (self.own * m + self.entry * growth.fill(m)) / ranks
+        return max(solving, self.start + self.parting * m)
+
+    def seconds(self, m: float, growth: Growth) -> float:
+        """CPU seconds of an iteration, over all ranks."""
+        return self.evaluation * m + growth.flops(m) / self.rate + self.solution * growth.fill(m)
+
+
+def table(runs: list[dict]) -> None:
+    """What was measured."""
+    print("| elements | unknowns | ranks | evaluation s | first factorisation s | factorisation s | solution s "
+          "| peak GB a rank | entries of the factors | operations |")  # fmt: skip
+    print("|" + "---|" * 10)
+    for run in runs:
+        wall, cpu = run["wall"], run["cpu"]
+        parts = ("evaluation", "first factorisation", "factorisation", "solution")
+        seconds = " | ".join(f"{cpu[part]:.2f} ({wall[part]:.2f})" for part in parts)
+        print(f"| {run['elements']} | {run['unknowns']} | {run['ranks']} | {seconds} "
+              f"| {run['memory']['peak']:.2f} | {run['fill']:.3g} | {run['flops']:.3g} |")  # fmt: skip
+
+
+def forecast(runs: list[dict], described: dict) -> None:
+    """The model with all points, how well it foretells the largest run from the others, and what it says."""
+    alone = [run for run in runs if run["ranks"] == 1]
+    *smaller, last = alone
+    before, growth, costs = Growth(smaller), Growth(alone), Costs(last, described)
+    m = last["elements"]
+    print(f"\nfill of {m} elements, foretold by the smaller runs: {before.fill(m) / last['fill'] - 1:+.1%}, "
+          f"operations {before.flops(m) / last['flops'] - 1:+.1%}")  # fmt: skip
+    print(f"a = {growth.fill_terms[0]:.3g}, b = {growth.fill_terms[1]:.3g}, c = {growth.flop_terms[0]:.3g}, "
+          f"d = {growth.flop_terms[1]:.3g}; {costs.rate:.3g} operations a second")  # fmt: skip
+    print(f"bytes an element: description {costs.described * GB:.0f} a rank, {costs.parting * GB:.0f} until it is "
+          f"parted ({described['seconds'] / described['elements'] * 1e6:.1f} s a million), own {costs.own * GB:.0f}; "
+          f"{costs.entry * GB:.1f} an entry of the factors\n")  # fmt: skip
+    print("| elements | entries of the factors | core hours an iteration | GB a rank, 1 rank | 16 | 64 | 256 |")
+    print("|" + "---|" * 7)
+    for m in (102_400, 1_000_000, 10_000_000):
+        gb = " | ".join(f"{costs.memory(m, ranks, growth):.3g}" for ranks in (1, 16, 64, 256))
+        print(f"| {m} | {growth.fill(m):.3g} | {costs.seconds(m, growth) / 3600:.3g} | {gb} |")
+    draw(alone, growth, costs)
+
+
+def draw(alone: list[dict], growth: Growth, costs: Costs) -> None:
+    """Seconds and memory against elements, the measured points on the curves."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9.0, 3.6), layout="constrained")
+    m = np.geomspace(5e3, 1e7, 60)
+    left.loglog(m, [costs.seconds(x, growth) for x in m], "k-", label="one iteration")
+    left.loglog(m, costs.evaluation * m, "k:", label="its evaluation")
+    measured = [sum(run["cpu"][part] for part in ("evaluation", "factorisation", "solution")) for run in alone]
+    left.loglog([run["elements"] for run in alone], measured, "ro", label="measured, 1 rank")
+    left.set(xlabel="elements", ylabel="CPU seconds")
+    for ranks, style in ((1, "k-"), (16, "k--"), (256, "k:")):
+        right.loglog(m, [costs.memory(x, ranks, growth) for x in m], style, label=f"{ranks} ranks")
+    right.loglog([run["elements"] for run in alone], [run["memory"]["peak"] for run in alone], "ro", label="measured")
+    right.set(xlabel="elements", ylabel="GB a rank")
+    for axes in (left, right):
+        axes.legend(frameon=False, fontsize=8)
+        axes.grid(True, which="major", alpha=0.3)
+    figure.savefig(FIGURE, dpi=150)
+
+
+def main(words: list[str]) -> None:
+    """Measure here, or start the measurements and draw conclusions."""
+    if words and words[0].isdecimal():
+        outcome = describe(int(words[0])) if "describe" in words else measure(int(words[0]))
+        from umform.distributed.mpi_ranks import world
+
+        if world().rank == 0:
+            print(json.dumps(outcome))
+        return
+    if words:
+        found = json.loads(Path(words[0]).read_text())
+    else:
+        runs = [launch(ranks, cells) for cells in SIZES for ranks in RANKS]
+        found = {"runs": runs, "described": launch(RANKS[-1], DESCRIBED, "describe")}
+        MEASURED.parent.mkdir(exist_ok=True)
+        MEASURED.write_text(json.dumps(found, indent=1))
+    table(found["runs"])
+    forecast(found["runs"], found["described"])
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,95 @@
+"""A command under mpiexec: one rank talks, options of PETSc are PETSc's, and no rank is left waiting."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import typer
+from typer.core import TyperCommand
+
+from umform.errors import InvalidValue
+
+_OPTION = "-umform_"
+_KEY = "options of PETSc"
+
+
+class WithPetscOptions(TyperCommand):
+    """A command that hands words such as ``-umform_ksp_type cg`` to PETSc."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Take the options of PETSc out, with their values, before the others are looked at."""
+        own, petsc = split(args)
+        ctx.meta[_KEY] = petsc
+        return super().parse_args(ctx, own)
+
+
+def split(words: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Words for the command, and those for PETSc: options of its prefix, each with a value if one follows."""
+    own: list[str] = []
+    petsc: list[str] = []
+    value_may_follow = False
+    for word in words:
+        option = word.startswith(_OPTION)
+        (petsc if option or (value_may_follow and not _is_option(word)) else own).append(word)
+        value_may_follow = option
+    return own, petsc
+
+
+def _is_option(word: str) -> bool:
+    return word.startswith("-") and not re.match(r"-[\d.]", word)
+
+
+def petsc_options(ctx: typer.Context) -> list[str]:
+    """Options of PETSc that the command was given."""
+    found: list[str] = ctx.meta.get(_KEY, [])
+    return found
+
+
+def let_the_first_talk() -> None:
+    """Print nothing from now on, but on the first of the ranks that mpiexec has started."""
+    if launched()[0] > 0:
+        sys.stdout = sys.stderr = Path(os.devnull).open("w")  # noqa: SIM115  (to the end)
+
+
+@contextmanager
+def on_all_ranks(solver: str, options: Sequence[str]) -> Iterator[None]:
+    """Do what follows on all ranks that mpiexec has started, or in this process.
+
+    Raises
+    ------
+    InvalidValue
+        If there are several processes, or options of PETSc, without the solver petsc.
+    """
+    _, size = launched()
+    if solver != "petsc":
+        if size > 1 or options:
+            raise InvalidValue(
+                "this solver runs in one process and knows no options of PETSc",
+                where=f"solver {solver}",
+                value=" ".join(options) or f"{size} processes",
+                cause="each process would do the whole run" if size > 1 else "",
+                remedy="--solver petsc",
+            )
+        yield
+        return
+    from umform.distributed.mpi_ranks import world
+    from umform.distributed.petsc import set_options
+    from umform.distributed.together import together
+
+    set_options(options)
+    with together(world()):
+        yield
+
+
+def launched() -> tuple[int, int]:
+    """Number of this process and of all that mpiexec has started, by their environment; (0, 1) without mpiexec."""
+    for rank, size in (("OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"), ("PMI_RANK", "PMI_SIZE")):
+        if rank in os.environ and size in os.environ:
+            return int(os.environ[rank]), int(os.environ[size])
+    return 0, 1

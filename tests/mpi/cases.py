@@ -1,0 +1,167 @@
+"""Runs that must be the same on any number of ranks; ``mpiexec -n 2 python cases.py solve petsc FOLDER`` runs all.
+
+Each case brings in something that the ranks must agree on: contact, two tools, ties across the thickness, a follower
+pressure, multipliers, automatic penalties and points, tools of the user, cuts, release and lift-off.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import umform as uf
+from umform.deck import load
+from umform.deck.templates import template_file
+from umform.mesh import strip
+from umform.newton import NewtonOptions
+
+STEEL = {"kappa": 175e3, "mu": 80.77e3}
+#: Of the command line: the trouble that the functions of the cases make, and the solver that decks are built for.
+TROUBLE, SOLVER = "", "superlu"
+
+
+def free_bending():
+    """Contact with a cylinder, J2, release to lift-off: the deck of the template."""
+    changes = {"mesh.cells": [12, 2], "steps.0.increments": 8, "steps.0.to.punch": -8.0}
+    problem = load(template_file("free-bending"), changes).build(SOLVER)
+    return problem.model, problem.steps, problem.options
+
+
+def air_bending():
+    """A driven punch against a die, cells of high thickness order, increments that grow."""
+    changes = {"mesh.cells": [16, 2], "steps.0.increments": 12, "steps.0.to.stroke": 1.5}
+    problem = load(template_file("air-bending"), changes).build(SOLVER)
+    return problem.model, problem.steps, problem.options
+
+
+def hinged_strip():
+    """18-node cells in two layers, a hinge and a prescribed mid-line, all dead loads."""
+    mesh = strip(20.0, 4.0, 1.0, (6, 2), cell="hex18", layers=2)
+    model = uf.Model(mesh, "MI9K3DEAS", material=uf.J2(**STEEL, hardening=uf.Voce(160.0, 260.0, 20.0)))
+    model.hinge("x0", "xyz")
+    middle = model.prescribe_midline("x1", "z", "middle")
+    model.fix(lambda x, y, z: (x > 20 - 1e-9) & (y < 1e-9), "y")
+    loads = [
+        model.force(lambda x, y, z: (abs(x - 10) < 1e-9) & (z > 0.49), (0.0, 0.0, -2.0), "nodes"),
+        model.traction("x1", (1.0, 0.0, 0.0), "pull"),
+        model.line_load("y1", "upper", (0.0, 0.0, -0.5), "line"),
+        model.body_force((0.0, 0.0, -0.01), "weight"),
+    ]
+    steps = [uf.Move(loads, [1.0, 5.0, 1.0, 1.0], steps=3), uf.Move(middle, 0.5, steps=3)]
+    return model, steps, None
+
+
+def blown_strip():
+    """A follower pressure, whose tangent is not symmetric, with line search."""
+    mesh = strip(20.0, 6.0, 0.5, (10, 3))
+    model = uf.Model(mesh, "ANS3DEAS", material=uf.NeoHooke(E=1000.0, nu=0.3))
+    model.fix("x0")
+    model.fix("x1")
+    pressure = model.pressure("lower", "pressure")
+    return model, [uf.Move(pressure, 1.0, steps=4)], NewtonOptions(line_search=True)
+
+
+def roller(x):
+    """A cylinder of radius 10 as a function of the user: distance, normal, Hessian."""
+    arm = (x - (15.0, 0.0, -10.5)) * (1.0, 0.0, 1.0)
+    length = np.linalg.norm(arm, axis=1)
+    n = arm / length[:, None]
+    H = (np.diag((1.0, 0.0, 1.0)) - np.einsum("na,nb->nab", n, n)) / length[:, None, None]
+    return length - 10.0, n, H
+
+
+def held_by_multipliers():
+    """Multipliers, automatic penalty and points, a tool of the user that moves in time, and one that is driven."""
+    model = uf.Model(strip(20.0, 5.0, 1.0, (14, 2)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
+    model.symmetry("x0", normal="x")
+    model.symmetry("y0", normal="y")
+    bed = model.contact("lower", uf.UserSurface(roller), penetration=0.02, points=3, name="bed")
+    model.set_motion(bed, lambda time: np.array([0.0, 0.0, 0.01 * time]))
+    tool = uf.Cylinder(centre=(0.0, 0.0, 5.49), axis="y", radius=5.0)
+    ram = model.contact("upper", tool, points="auto", augmented=True, name="ram")
+    drive = model.drive(ram, "-z", "ram_way")
+    return model, [uf.Move(drive, inwards, steps=4), uf.Release(drive)], None
+
+
+def cut():
+    """Increments that fail and are cut, along a function of time."""
+    model = uf.Model(strip(60.0, 10.0, 1.0, (12, 2)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
+    model.symmetry("x0", normal="x")
+    model.fix(lambda x, y, z: (x < 1e-9) & (y < 1e-9) & (z < 0), "y")
+    punch = model.prescribe("x0_lower", "z", "punch")
+    tool = uf.Cylinder(centre=(25.0, 0.0, -20.5), axis="y", radius=20.0)
+    model.contact("lower", tool, penalty=100.0, points="nodes", name="tool")
+    steps = [uf.Move(punch, downwards, steps=3, grow=2.0), uf.Release(punch)]
+    return model, steps, NewtonOptions(max_iterations=7)
+
+
+class Stop(Exception):
+    """The end of a run in its middle."""
+
+
+def inwards(fraction):
+    """Way of the ram."""
+    trouble_at(fraction)
+    return 0.8 * fraction
+
+
+def downwards(fraction):
+    """Way of the punch."""
+    trouble_at(fraction)
+    return -4.0 * fraction**1.5
+
+
+def trouble_at(fraction):
+    """What ends a run in its middle, if that is asked for."""
+    if fraction > 0.6 and TROUBLE == "stop":
+        raise Stop
+    if fraction > 0.6 and TROUBLE == "fail" and rank() == 1:
+        raise ZeroDivisionError("a function of the user on one rank")
+
+
+CASES = [free_bending, air_bending, hinged_strip, blown_strip, held_by_multipliers, cut]
+
+
+def rank():
+    from petsc4py import PETSc
+
+    return PETSc.COMM_WORLD.rank
+
+
+def save(result, path):
+    """History, iterations of each increment, and the last fields."""
+    last = result.frames[-1]
+    columns = {f"history {name}": result[name] for name in result.columns()}
+    fields = {f"point {name}": values for name, values in last.points.items()}
+    fields |= {f"cell {name}": values for name, values in last.cells.items()}
+    fields |= {f"{name} {key}": values for name, at in last.contacts.items() for key, values in vars(at).items()}
+    imbalance = result.balance().force_imbalance
+    counts = [len(records) for records in result.iterations]
+    np.savez(path, iterations=counts, imbalance=imbalance, events=result.events, **columns, **fields)
+
+
+def main(task, solver, folder, *names):
+    """Solve, resume, or begin and ("stop", "fail") end in the middle."""
+    global TROUBLE, SOLVER
+    TROUBLE, SOLVER = task, solver
+    for case in CASES:
+        if names and case.__name__ not in names:
+            continue
+        model, steps, options = case()
+        how = {"solver": solver, "options": options, "frames": 2}
+        checkpoint = Path(folder) / f"{case.__name__}.chk.h5"
+        try:
+            if task == "resume":
+                result = uf.resume(checkpoint, model, steps, **how)
+            else:
+                result = uf.solve(model, steps, checkpoint=None if task == "solve" else checkpoint, every=0.0, **how)
+        except Stop as stop:
+            result = stop.result
+        if solver != "petsc" or rank() == 0:
+            save(result, Path(folder) / f"{case.__name__}.npz")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,72 @@
+"""The same results on 1, 2 and 3 ranks as in one process: displacements to 1e-8, iterations to the last one."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+NAMES = ["free_bending", "air_bending", "hinged_strip", "blown_strip", "held_by_multipliers", "cut"]
+#: The last states are released: what is left of pressures and balances there is round-off.
+RESIDUES = ("imbalance", "point contact_pressure", "pressure")
+
+
+def compare(one, other, tolerance=1e-8):
+    assert sorted(one.files) == sorted(other.files)
+    np.testing.assert_array_equal(one["iterations"], other["iterations"])
+    for name in one.files:
+        if name == "events":
+            assert [event.rpartition("=")[0] for event in one[name]] == [
+                event.rpartition("=")[0] for event in other[name]
+            ]
+        elif not name.endswith(RESIDUES):
+            a, b = one[name], other[name]
+            np.testing.assert_array_equal(np.isnan(a), np.isnan(b), err_msg=name)
+            largest = np.nanmax(np.abs(a))
+            np.testing.assert_allclose(b, a, rtol=0, atol=tolerance * max(largest, 1e-300), err_msg=name)
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 3])
+@pytest.mark.parametrize("case", NAMES)
+def test_ranks_give_what_one_process_gives(case, ranks, found):
+    compare(found(0, case), found(ranks, case))
+
+
+def test_the_cases_are_not_easy(found):
+    """Cuts, lift-off, contact at the end of the loading, multipliers, a pressure that bends the strip."""
+    assert len(found(0, "cut")["iterations"]) > 2 * 3 + 5
+    assert found(0, "held_by_multipliers")["history ram_active"].max() > 5
+    assert found(0, "air_bending")["history die_active"].max() > 5
+    assert np.abs(found(0, "blown_strip")["point displacement"]).max() > 0.5
+    for case in NAMES:
+        assert found(0, case)["imbalance"][1:].max() < 1e-9
+        assert found(3, case)["imbalance"][1:].max() < 1e-9
+
+
+@pytest.mark.parametrize("case", ["cut", "held_by_multipliers"])
+@pytest.mark.parametrize(("first", "second"), [(2, 3), (2, 0), (0, 2)])
+def test_a_run_stopped_on_some_ranks_goes_on_on_others(case, first, second, found, tmp_path, mpi):
+    solver = {True: "petsc", False: "superlu"}
+    mpi.run(first, mpi.cases, "stop", solver[first > 0], tmp_path, case)
+    stopped = np.load(tmp_path / f"{case}.npz")["iterations"]
+    assert 2 < len(stopped) < len(found(0, case)["iterations"])
+    mpi.run(second, mpi.cases, "resume", solver[second > 0], tmp_path, case)
+    compare(found(0, case), np.load(tmp_path / f"{case}.npz"))
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_what_one_rank_meets_all_ranks_know(ranks, mpi):
+    """Inertia and singular matrices as SuperLU tells them; failed cells, tools that are not finite, wrong runs."""
+    answer = json.loads(mpi.run(ranks, mpi.cases.with_name("algebra.py")).stdout)
+    assert answer["negative"] == answer["serial"]
+    assert answer["negative"][0] == 0 < answer["negative"][1] < answer["negative"][2]
+    np.testing.assert_allclose(answer["largest"], 0.0, atol=1e-13)
+    assert max(answer["error"]) < 1e-8
+    assert answer["nan"] == "NotFinite"  # on one rank only, and refused on all
+    assert answer["failed"] == [5, 5]
+    assert answer["tool"] == "g of a surface function is not finite"
+    twice, fields, other = answer["runs"]
+    assert twice == fields == "the history of the elements is not here"
+    assert other == ("done" if ranks == 1 else "the ranks have built different models")
+    assert answer["loose"] == "SingularMatrix"
