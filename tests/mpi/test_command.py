@@ -10,7 +10,7 @@ import pytest
 
 from umform.deck.templates import template_file
 
-UMFORM = ("-m", "umform.cli")
+UMFORM = ("-m", "umform")
 SHORT = ("--set", "mesh.cells=[12, 2]", "--set", "steps.0.increments=4", "--set", "steps.0.to.punch=-3.0")
 
 
