@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from umform import _core
 from umform.boundary import Load, Pressure
@@ -139,6 +138,8 @@ class _Tool:
         """Work that moves the tool against the sheet, from a state before. eq. (5.32)"""
         work = -0.5 * float((before.force + self.force) @ (self.point - before.point))
         if not np.array_equal(self.rotation, before.rotation):
+            from scipy.spatial.transform import Rotation  # slow to import
+
             turn = Rotation.from_matrix(self.rotation @ before.rotation.T).as_rotvec()
             work -= 0.5 * float((before.moment + self.moment) @ turn)
         return work

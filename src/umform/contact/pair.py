@@ -10,7 +10,6 @@ from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from umform import _core
 from umform.boundary import Control, vector3
@@ -148,6 +147,8 @@ class Contact:
             translation, turn = answer if isinstance(answer, tuple) and len(answer) == 2 else (answer, np.zeros(3))
             where = f"motion of contact {self.name} at time {time:g}"
             shift += vector3(translation, where)
+            from scipy.spatial.transform import Rotation  # slow to import
+
             rotation = Rotation.from_rotvec(vector3(turn, where)).as_matrix()
         centre = self.reference_point
         return np.ascontiguousarray(rotation), centre + shift - rotation @ centre

@@ -8,7 +8,6 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
-from scipy.spatial.transform import Rotation
 
 from umform import surfaces
 from umform.deck.parts import NotNegative, Part, Positive, Vector, Way
@@ -286,4 +285,6 @@ def along(tool: ToolPart) -> np.ndarray[Any, np.dtype[np.float64]] | None:
         axis = np.cross(surfaces.unit_vector(tool.x, "x"), surfaces.unit_vector(tool.y, "y"))
     else:
         return None
+    from scipy.spatial.transform import Rotation  # slow to import
+
     return np.asarray(Rotation.from_rotvec(tool.rotation, degrees=True).apply(axis))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from umform import _core
 from umform.errors import InvalidValue
@@ -61,6 +60,8 @@ class Placed(Tool):
 
 def moved(tool: Surface, translation: Point, rotation: Point) -> Placed:
     """A tool that is turned by a rotation vector about the origin and then shifted."""
+    from scipy.spatial.transform import Rotation  # slow to import
+
     turn = Rotation.from_rotvec(point(rotation, "rotation")).as_matrix()
     return _after(tool, turn, np.array(point(translation, "translation")))
 
