@@ -101,7 +101,8 @@ def test_springback_is_elastic_unbending():
     springback = brake.unload().springback
     assert springback == pytest.approx(2.0 * math.degrees(turned), rel=0.02)
     # closed form: the moment grows linearly from the shoulder to the middle
-    assert springback == pytest.approx(math.degrees(force * arm.max() ** 2 / stiffness), rel=0.05)
+    lever = (support[[0, 2]] - mid[0]) @ across
+    assert springback == pytest.approx(math.degrees(force * lever**2 / stiffness), rel=0.02)
 
 
 def test_a_finer_mesh_changes_little():
@@ -175,7 +176,7 @@ def test_tools_penetrate_as_far_as_is_allowed(bend):
     allowed = bend.case.thickness / 200.0
     for contact in bend.result.model.contacts:
         assert contact.allowed == pytest.approx(allowed)
-        assert bend.result[f"{contact.name}_penetration"].max() < 1.25 * allowed
+        assert bend.result[f"{contact.name}_penetration"].max() < allowed
     by_depth = air_bending(replace(COARSE, stroke=6.0, penetration=0.002), progress=False, frames=1)
     assert by_depth.result["die_penetration"].max() < 0.005
     assert by_depth.measures.angle == pytest.approx(bend.measures.angle, abs=0.2)

@@ -55,8 +55,8 @@ def test_automatic_contact_is_refined_from_what_it_comes_to():
     points = max(contact.points for contact in build(few)[0].contacts)
     assert points < MOST_POINTS - 1
     assert refinements(few)["c-pts+2"].contact_points == points + 2
-    assert refinements(TINY)["penetration/2"].penetration == pytest.approx(0.0025 * TINY.thickness)
-    assert refinements(replace(TINY, penetration=0.02))["penetration/2"].penetration == 0.01
+    assert refinements(TINY)["depth/2"].penetration == pytest.approx(0.0025 * TINY.thickness)
+    assert refinements(replace(TINY, penetration=0.02))["depth/2"].penetration == 0.01
 
 
 def test_what_is_given_is_refined_from_there():

@@ -39,8 +39,8 @@ class Budget:
 def refinements(case: AirBending) -> dict[str, AirBending]:
     """The case refined in one way at a time; t-pts are those through the thickness, c-pts of contact.
 
-    What is automatic is refined from what it comes to. Where a facet has the most contact points already, two are
-    taken away: the change tells as much.
+    What is automatic is refined from what it comes to. Where all facets have the most contact points already, two are
+    taken away: the change tells as much. depth is the penetration that is allowed.
     """
     return {
         "mesh/2": replace(case, elements_per_thickness=2.0 * case.elements_per_thickness),
@@ -63,7 +63,7 @@ def _contacts(case: AirBending) -> dict[str, AirBending]:
         return cases | {"penalty*2": replace(case, penalty=2.0 * case.penalty)}
     allowed = contacts[0].allowed
     assert allowed is not None  # where there is no penalty
-    return cases | {"penetration/2": replace(case, penetration=0.5 * allowed)}
+    return cases | {"depth/2": replace(case, penetration=0.5 * allowed)}
 
 
 def error_budget(
