@@ -51,9 +51,11 @@ def bend(
     thickness_points: Annotated[int, _option("Points through the thickness of a layer.", _SOLUTION)] = 6,
     elements_per_thickness: Annotated[float, _option("Elements on a length of one thickness.", _SOLUTION)] = 3.0,
     width_elements: Annotated[int, _option("Elements over half of the width.", _SOLUTION)] = 3,
-    contact_points: Annotated[str, _option("Contact points per direction and facet, or auto.", _SOLUTION)] = "5",
+    contact_points: Annotated[str, _option("Contact points per direction and facet, or auto.", _SOLUTION)] = "auto",
     penalty: Annotated[float | None, _option("Contact pressure per penetration.", _SOLUTION)] = None,
-    penetration: Annotated[float | None, _option("Penetration allowed, in place of a penalty.", _SOLUTION)] = None,
+    penetration: Annotated[
+        float | None, _option("Penetration allowed, in place of a penalty; default thickness / 200.", _SOLUTION)
+    ] = None,
     increment: Annotated[float, _option("Way of the punch in an increment, over the opening.", _SOLUTION)] = 0.00625,
     tolerance: Annotated[float, _option("Of the angle that is looked for, in degrees.", _SOLUTION)] = 0.02,
     processes: Annotated[int | None, _option("Runs of the budget at a time.", _SOLUTION)] = None,

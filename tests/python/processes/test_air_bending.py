@@ -11,7 +11,7 @@ import pytest
 
 from umform.errors import InvalidValue, NotFinite
 from umform.processes.air_bending import AirBending, Measures, air_bending, bending_table, find_stroke
-from umform.processes.air_bending.brake import Brake
+from umform.processes.air_bending.brake import Brake, build
 from umform.processes.air_bending.formulas import shop_forces, tensile_strength
 from umform.processes.air_bending.measures import QUANTITIES
 from umform.processes.air_bending.sheet import lines_along
@@ -101,7 +101,8 @@ def test_springback_is_elastic_unbending():
     springback = brake.unload().springback
     assert springback == pytest.approx(2.0 * math.degrees(turned), rel=0.02)
     # closed form: the moment grows linearly from the shoulder to the middle
-    assert springback == pytest.approx(math.degrees(force * arm.max() ** 2 / stiffness), rel=0.05)
+    lever = (support[[0, 2]] - mid[0]) @ across
+    assert springback == pytest.approx(math.degrees(force * lever**2 / stiffness), rel=0.02)
 
 
 def test_a_finer_mesh_changes_little():
@@ -170,12 +171,20 @@ def test_penalty_and_penetration_exclude_each_other():
         AirBending(penalty=1e5, penetration=0.01)
 
 
-def test_a_bend_may_say_how_far_tools_penetrate(bend):
-    case = replace(COARSE, stroke=6.0, penetration=0.002, contact_points="auto")
-    assert case.contact_penalty is None
-    by_depth = air_bending(case, progress=False, frames=1)
+def test_tools_penetrate_as_far_as_is_allowed(bend):
+    """By default thickness / 200; each contact takes the points that it needs."""
+    allowed = bend.case.thickness / 200.0
+    for contact in bend.result.model.contacts:
+        assert contact.allowed == pytest.approx(allowed)
+        assert bend.result[f"{contact.name}_penetration"].max() < allowed
+    by_depth = air_bending(replace(COARSE, stroke=6.0, penetration=0.002), progress=False, frames=1)
     assert by_depth.result["die_penetration"].max() < 0.005
     assert by_depth.measures.angle == pytest.approx(bend.measures.angle, abs=0.2)
+
+
+def test_penalty_and_points_may_be_given():
+    case = replace(COARSE, penalty=1e5, contact_points=5)
+    assert {(contact.penalty, contact.points) for contact in build(case)[0].contacts} == {(1e5, 5)}
 
 
 def test_a_bend_needs_a_stroke():

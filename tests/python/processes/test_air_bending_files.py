@@ -17,7 +17,9 @@ from umform.errors import InvalidValue
 from umform.materials import J2, Perfect
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending import budget as budget_module
+from umform.processes.air_bending.brake import build
 from umform.processes.air_bending.budget import Budget, error_budget, refinements
+from umform.processes.air_bending.checks import MOST_POINTS
 from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.files import parameters, write_files
 from umform.processes.air_bending.measures import QUANTITIES
@@ -39,8 +41,7 @@ def errors(bend):
 
 def test_each_refinement_changes_one_parameter():
     for refined in refinements(TINY).values():
-        before = TINY.record() | {"penalty": TINY.contact_penalty}
-        after = refined.record() | {"penalty": refined.contact_penalty}
+        before, after = TINY.record(), refined.record()
         assert sum(before[name] != after[name] for name in before) == 1
 
 
@@ -49,10 +50,20 @@ def test_an_element_of_ones_own_is_recorded_by_its_name():
     assert parameters(case)["element"] == "MI9K3DEAS"
 
 
-def test_automatic_contact_is_refined_too():
-    cases = refinements(replace(TINY, penetration=0.01, contact_points="auto"))
-    assert cases["penalty*2"].penetration == 0.005
-    assert cases["c-pts+2"].contact_points == 10
+def test_automatic_contact_is_refined_from_what_it_comes_to():
+    few = replace(TINY, elements_per_thickness=6.0)
+    points = max(contact.points for contact in build(few)[0].contacts)
+    assert points < MOST_POINTS - 1
+    assert refinements(few)["c-pts+2"].contact_points == points + 2
+    assert refinements(TINY)["depth/2"].penetration == pytest.approx(0.0025 * TINY.thickness)
+    assert refinements(replace(TINY, penetration=0.02))["depth/2"].penetration == 0.01
+
+
+def test_what_is_given_is_refined_from_there():
+    cases = refinements(replace(TINY, penalty=1e5, contact_points=9))
+    assert cases["penalty*2"].penalty == 2e5
+    assert cases["c-pts+2"].contact_points == MOST_POINTS
+    assert refinements(replace(TINY, contact_points=MOST_POINTS))["c-pts-2"].contact_points == MOST_POINTS - 2
 
 
 def test_a_budget_is_the_change_by_each_refinement(bend, errors):
@@ -133,7 +144,7 @@ def test_a_curve_of_the_user_leaves_out_the_deck(tmp_path, bend):
     [
         (2.0 / 2.0, ["--stroke", "1", *TYPED]),
         (2.0 / 5.0, ["--angle", "170", "--tolerance", "0.5", "--width", "10", "--width-elements", "2",
-         "--penetration", "0.02", "--contact-points", "auto", "--yield-stress", "200",
+         "--penetration", "0.02", "--contact-points", "5", "--yield-stress", "200",
          "--hardening-modulus", "500", *TYPED]),
     ],
     ids=["plane strain", "finite width"],

@@ -64,7 +64,7 @@ def build(case: AirBending) -> tuple[Model, Control]:
         model.fix(np.arange(len(mesh.points)), "y")
     else:
         model.symmetry("y0", normal="y")
-    penalty, depth, points = case.contact_penalty, case.penetration, case.contact_points
+    penalty, depth, points = case.penalty, case.penetration, case.contact_points
     model.contact("lower", case.die, penalty=penalty, penetration=depth, points=points, name="die")
     punch = model.contact("upper", case.punch, penalty=penalty, penetration=depth, points=points, name="punch")
     return model, model.drive(punch, "-z", name="stroke")

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, fields, replace
 
 from umform.pool import run_all
-from umform.processes.air_bending.brake import Brake
-from umform.processes.air_bending.checks import needed_stroke
+from umform.processes.air_bending.brake import Brake, build
+from umform.processes.air_bending.checks import MOST_POINTS, needed_stroke
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
 from umform.progress import progress_bar
@@ -37,24 +37,33 @@ class Budget:
 
 
 def refinements(case: AirBending) -> dict[str, AirBending]:
-    """The case refined in one way at a time; t-pts are those through the thickness, c-pts of contact."""
-    points = case.contact_points
+    """The case refined in one way at a time; t-pts are those through the thickness, c-pts of contact.
+
+    What is automatic is refined from what it comes to. Where all facets have the most contact points already, two are
+    taken away: the change tells as much. depth is the penetration that is allowed.
+    """
     return {
         "mesh/2": replace(case, elements_per_thickness=2.0 * case.elements_per_thickness),
         "layers+1": replace(case, layers=case.layers + 1),
         "t-pts+2": replace(case, thickness_points=min(15, case.thickness_points + 2)),
-        "c-pts+2": replace(case, contact_points=10 if isinstance(points, str) else min(10, points + 2)),
-        "penalty*2": _harder(case),
+        **_contacts(case),
         "step/2": replace(case, increment=0.5 * case.increment),
     }
 
 
-def _harder(case: AirBending) -> AirBending:
-    """The case with half of the penetration."""
-    penalty = case.contact_penalty
-    if penalty is not None:
-        return replace(case, penalty=2.0 * penalty)
-    return replace(case, penetration=0.5 * (case.penetration or 0.0))
+def _contacts(case: AirBending) -> dict[str, AirBending]:
+    """The case with other contact points, and with a harder contact."""
+    contacts = build(case)[0].contacts
+    points = [int(contact.points) for contact in contacts]
+    if min(points) < MOST_POINTS:
+        cases = {"c-pts+2": replace(case, contact_points=min(MOST_POINTS, max(points) + 2))}
+    else:
+        cases = {"c-pts-2": replace(case, contact_points=MOST_POINTS - 2)}
+    if case.penalty is not None:
+        return cases | {"penalty*2": replace(case, penalty=2.0 * case.penalty)}
+    allowed = contacts[0].allowed
+    assert allowed is not None  # where there is no penalty
+    return cases | {"depth/2": replace(case, penetration=0.5 * allowed)}
 
 
 def error_budget(

@@ -13,6 +13,8 @@ from umform.processes.rules import Rule, check_rules, length, number, positive, 
 if TYPE_CHECKING:
     from umform.processes.air_bending.parameters import AirBending
 
+#: The most contact points per direction.
+MOST_POINTS = 10
 #: A larger increment jumps over the first contact.
 _LARGEST_INCREMENT = 0.05
 
@@ -56,13 +58,15 @@ RULES: dict[str, Rule] = {
     "elements_per_thickness": length("the number of elements on a thickness", "such as 3"),
     "width_elements": _count("the number of elements over half of the width", 1, 1000, "3"),
     "contact_points": Rule(
-        lambda value: value == "auto" if isinstance(value, str) else whole(value, 1, 10),
-        "contact points per direction must be a whole number from 1 to 10, or auto",
+        lambda value: value == "auto" if isinstance(value, str) else whole(value, 1, MOST_POINTS),
+        f"contact points per direction must be a whole number from 1 to {MOST_POINTS}, or auto",
         "more points than there are rules for, or all points of a facet instead of those of one direction",
-        "such as 5, or auto",
+        "auto, or such as 5",
     ),
-    "penalty": length("the penalty", "pressure per penetration; leave it out for E / thickness").optional(),
-    "penetration": length("the penetration", "such as thickness / 500; leave it out, or the penalty").optional(),
+    "penalty": length(
+        "the penalty", "pressure per penetration; leave it out: it follows from the penetration"
+    ).optional(),
+    "penetration": length("the penetration", "such as thickness / 500; leave it out for thickness / 200").optional(),
     "increment": Rule(
         lambda value: positive(value) and value <= _LARGEST_INCREMENT,
         f"an increment is positive and at most {_LARGEST_INCREMENT} of the opening",

@@ -50,7 +50,7 @@ def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
     tip = {"tip_radius": case.punch_radius, "angle": case.punch_angle}
     yield "[tools.punch]", {"shape": "Punch", **tip, "origin": case.punch.origin}
     for tool, faces in (("die", "lower"), ("punch", "upper")):
-        how = {"penalty": case.contact_penalty, "penetration": case.penetration, "points": case.contact_points}
+        how = {"penalty": case.penalty, "penetration": case.penetration, "points": case.contact_points}
         yield f"[contacts.{tool}]", {"tool": tool, "faces": faces, **how}
     yield "[[supports]]", {"kind": "symmetry", "nodes": "x0", "normal": "x"}
     yield "[[supports]]", _across(case)

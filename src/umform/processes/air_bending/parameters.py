@@ -56,11 +56,11 @@ class AirBending:
     width_elements : int
         Elements over half of the width; without a width there is one.
     contact_points : int or "auto"
-        Contact points per direction and facet.
+        Contact points per direction and facet; "auto": as many as the contact of each tool needs, eq. (4.31).
     penalty : float, optional
-        Contact pressure per penetration; default E / thickness.
+        Contact pressure per penetration; default: it follows from the penetration that is allowed, eq. (4.29).
     penetration : float, optional
-        Penetration that is allowed, in place of a penalty.
+        Penetration that is allowed, in place of a penalty; default thickness / 200.
     increment : float
         Way of the punch in one increment, over the opening.
     """
@@ -79,7 +79,7 @@ class AirBending:
     thickness_points: int = 6
     elements_per_thickness: float = 3.0
     width_elements: int = 3
-    contact_points: int | str = 5
+    contact_points: int | str = "auto"
     penalty: float | None = None
     penetration: float | None = None
     increment: float = 0.00625
@@ -101,13 +101,6 @@ class AirBending:
     def punch(self) -> Punch:
         """The punch, touching the sheet at z = thickness."""
         return Punch(self.punch_radius, self.punch_angle, origin=(0.0, 0.0, self.thickness))
-
-    @property
-    def contact_penalty(self) -> float | None:
-        """Contact pressure per penetration; None if it follows from the penetration that is allowed."""
-        if self.penalty is None and self.penetration is None:
-            return self.material.E / self.thickness
-        return self.penalty
 
     @property
     def way(self) -> float:
