@@ -16,13 +16,24 @@ pytest.importorskip("petsc4py", reason="the tests of many ranks need PETSc: make
 CASES = Path(__file__).parent / "cases.py"
 
 
-def start(ranks, *words, timeout=120):
-    """Run Python with some words on some ranks, 0 for one process without mpiexec; at the end of the time, fail."""
+def command(ranks, *words):
+    """Python with some words on some ranks, 0 for one process without mpiexec; and its environment."""
     mpiexec = ["mpiexec", "--oversubscribe", "-n", str(ranks)] if ranks else []
     root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_mpi_yield_when_idle": "1"}
-    command = [*mpiexec, sys.executable, *[str(word) for word in words]]
     env = {**os.environ, **root, "OMP_NUM_THREADS": "1", "MPLBACKEND": "Agg"}
-    return subprocess.run(command, env=env, capture_output=True, text=True, timeout=timeout)
+    return [*mpiexec, sys.executable, *[str(word) for word in words]], env
+
+
+def start(ranks, *words, timeout=240):
+    """Run to the end; when the time is up, fail."""
+    words, env = command(ranks, *words)
+    return subprocess.run(words, env=env, capture_output=True, text=True, timeout=timeout)
+
+
+def begin(ranks, *words):
+    """Start, and leave it running."""
+    words, env = command(ranks, *words)
+    return subprocess.Popen(words, env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def run(ranks, *words):
@@ -34,7 +45,7 @@ def run(ranks, *words):
 
 @pytest.fixture(scope="session")
 def mpi():
-    return SimpleNamespace(start=start, run=run, cases=CASES)
+    return SimpleNamespace(start=start, begin=begin, run=run, cases=CASES)
 
 
 @pytest.fixture(scope="session")

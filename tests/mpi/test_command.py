@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import csv
+import time
 
 import h5py
 import numpy as np
 import pytest
 
+from umform.checkpoint import read_checkpoint
 from umform.deck.templates import template_file
+from umform.errors import FileProblem
 
 UMFORM = ("-m", "umform")
 SHORT = ("--set", "mesh.cells=[12, 2]", "--set", "steps.0.increments=4", "--set", "steps.0.to.punch=-3.0")
@@ -41,6 +44,36 @@ def test_a_deck_on_two_ranks_writes_the_files_of_one_process(deck, tmp_path, mpi
         u, v = (file["VTKHDF/PointData/displacement"][()] for file in (a, b))
         np.testing.assert_allclose(v, u, rtol=0, atol=1e-8 * np.abs(u).max())
     assert "degrees of freedom" in (ranks / "report.html").read_text()
+
+
+def rows(path):
+    """Rows of the history in a checkpoint."""
+    try:
+        return len(read_checkpoint(path)["result"]["history"][0])
+    except FileProblem:
+        return 0
+
+
+def test_a_run_that_was_killed_goes_on_from_its_checkpoint_on_another_number_of_ranks(deck, tmp_path, mpi):
+    whole, out = tmp_path / "whole", tmp_path / "out"
+    words = ("run", deck, "--solver", "petsc", *SHORT, "--set", "steps.0.increments=10")
+    mpi.run(2, *UMFORM, *words, "--out", whole)
+    running = mpi.begin(2, *UMFORM, *words, "--out", out, "--every", "0")
+    kept = out / "checkpoint.h5"
+    for _ in range(6000):
+        if rows(kept) > 2 or running.poll() is not None:
+            break
+        time.sleep(0.01)
+    running.terminate()
+    running.wait(30)
+    assert 2 < rows(kept) < 11
+    assert not (out / "history.csv").exists()
+    done = mpi.run(3, *UMFORM, "resume", kept)
+    assert done.stdout.count("Written to") == 1
+    one, two = history(whole), history(out)
+    np.testing.assert_array_equal(one["iterations"], two["iterations"])
+    largest = np.abs(one["punch_force"]).max()
+    np.testing.assert_allclose(two["punch_force"], one["punch_force"], rtol=0, atol=1e-8 * largest)
 
 
 @pytest.mark.parametrize("ranks", [0, 2])
