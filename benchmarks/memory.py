@@ -1,6 +1,6 @@
 """Peak memory of a sheet of many elements, from the start of Python to the first solution, and what takes it.
 
-Everything happens in a process of its own, so that the peak is that of the run; ``--elements 100000`` needs some 6 GB.
+Everything happens in a process of its own, so that the peak is that of the run; ``--elements 100000`` needs some 3 GB.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """One Newton iteration on 1 and 2 ranks: time, memory a rank, fill of the factors; growth to 10 million elements.
 
     python benchmarks/ranks.py                    # measures (minutes, and 6 GB at 102 400 elements); writes the figure
-    python benchmarks/ranks.py results/ranks.json # tables and figure once more, from what was measured
+    python benchmarks/ranks.py benchmarks/ranks.json # tables and figure once more, from what was measured
     mpiexec -n 2 python benchmarks/ranks.py 160   # one measurement: a sheet of 160 x 160 elements, as one line of JSON
     mpiexec -n 2 python benchmarks/ranks.py 1000 describe   # no more than the description of the sheet, and its parts
 
@@ -26,7 +26,7 @@ import umform as uf
 SIZES, RANKS, DESCRIBED, REPEATS = (80, 160, 320), (1, 2), 1000, 2
 GAINS = (("wall", "{:.2f}"), ("cpu", "({:.2f})"))
 ITERATION = ("evaluation", "factorisation", "solution")
-MEASURED = Path("results/ranks.json")
+MEASURED = Path("benchmarks/ranks.json")
 FIGURE = Path("docs/images/ranks.png")
 GB = 1e9
 

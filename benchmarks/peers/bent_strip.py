@@ -100,7 +100,7 @@ def deviations(found: Found, width: float, references: Mapping[str, Any]) -> dic
 def measures(found: Found) -> dict[str, dict[str, float]]:
     """Deviations from the finest stack of umform and from the finest mesh of CalculiX that is stored.
 
-    The two part by up to 3 % (see the page), so the error of a run is that from the finest mesh of its own code.
+    The two part by up to 1 %, so the error of a run is that from the finest mesh of its own code.
     """
     fine = stored(STORED)
     references = {"CalculiX": np.interp(MARKS, fine["u"], fine["force"])}

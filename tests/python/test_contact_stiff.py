@@ -14,6 +14,8 @@ from umform.model import Model
 from umform.newton import Failed, Newton, NewtonOptions
 from umform.steps import Move, Release, solve
 from umform.surfaces import Cylinder, Plane
+from umform.verification.contact.strip_on_cylinder import flat_strip
+from umform.verification.variants import Variant
 
 ELASTIC = mt.SVK(E=1e5, nu=0.0)
 
@@ -215,3 +217,13 @@ def test_a_tool_that_moves_in_time_goes_back_without_losing_the_sheet(build):
     np.testing.assert_allclose(by_time["tool_fz"], driven["tool_fz"], rtol=1e-5, atol=1e-6)
     assert abs(int(by_time["iterations"].sum()) - int(driven["iterations"].sum())) <= 2
     assert math.isclose(by_time["time"][-1], 2.0)
+
+
+def test_a_sheet_does_not_go_through_a_tool_while_the_penalty_is_soft():
+    """A weight over a sharp edge: with a thousandth of the penalty a coarse strip finds the far side of the edge."""
+    model, _, load = flat_strip(Variant("ANS3DEAS"), 30, (-15.0, 45.0), 500.0, 2, radius=4.0)
+    model.fix("x0", "z")
+    model.prescribe("x0", "x", "pull")
+    result = solve(model, Move(load, lambda fraction: 6.0 * fraction**2, steps=40), progress=False)
+    assert (result["tool_fz"][1:] < 0.0).all()
+    assert result["tool_fz"][-1] < -1.0

@@ -43,14 +43,25 @@ def softened(model: Model, newton: Newton, start: NDArray[np.float64] | None) ->
     Raises
     ------
     Failed
-        If no softer penalty leads to the equilibrium; the model is reverted, with its penalties.
+        If no softer penalty leads to the equilibrium, or the sheet went through a tool on the way; the model is
+        reverted, with its penalties.
     """
     soft, softest = _SOFTER
+    before = [contact.block.normals.copy() for contact in model.contacts]
     try:
-        return _stiffened(model, newton, start, soft)
+        return _same_side(model, before, _stiffened(model, newton, start, soft))
     except Failed:
         model.evaluate(model.u)  # the enhanced parameters of the next try are recovered with the blocks of this state
-    return _stiffened(model, newton, start, softest)
+    return _same_side(model, before, _stiffened(model, newton, start, softest))
+
+
+def _same_side(model: Model, before: list[NDArray[np.float64]], converged: Converged) -> Converged:
+    """Refuse an equilibrium for which the sheet went through a tool while that was soft: normals have turned round."""
+    pairs = zip(before, model.contacts, strict=True)
+    if model.ranks.any(any((np.einsum("qk,qk->q", old, contact.block.normals) < 0.0).any() for old, contact in pairs)):
+        model.revert()
+        raise Failed("with a softer penalty the sheet goes through a tool", converged.iterations)
+    return converged
 
 
 def _stiffened(model: Model, newton: Newton, start: NDArray[np.float64] | None, powers: int) -> Converged:

@@ -19,7 +19,10 @@ from umform.verification.checks import Verdict
 from umform.verification.errata import errata_text
 from umform.verification.page import Page
 from umform.verification.which_element import which_element_text
-from umform.verification.writing import Outcome, page_text, summary_text, write_text
+from umform.verification.writing import Outcome, failed_text, page_text, summary_text, write_text
+
+#: Resultant of the external forces over the sum of their sizes that Newton's tolerance leaves at most.
+BALANCED = 1e-6
 
 #: Folders of the chapters, in the order of the book.
 _FOLDERS = ("quality", "linear", "nonlinear", "plastic", "contact", "free_bending", "sharp_bends", "air_bending")
@@ -72,6 +75,9 @@ def run_case(order: Order, tick: Callable[[str, float], None] = lambda what, don
     page = Page(case, order.folder / "images", order.short, tick)
     start = clock.perf_counter()
     case.run(page)
+    if page.balances:
+        largest = max(row.force for row in page.balances)
+        page.at_most("resultant of the external forces over their sizes, all runs", largest, BALANCED)
     write_text(order.folder / f"{case.name}.md", page_text(page))
     seconds = clock.perf_counter() - start
     return Outcome(case.name, page.verdict, tuple(page.checks), tuple(page.balances), tuple(page.studies), seconds)
@@ -129,5 +135,7 @@ def run_cases(
 
 
 def _failed(order: Order, error: Exception) -> Outcome:
+    """A red case; its page says why, in the place of one of before."""
     said = str(error) if isinstance(error, UmformError) else f"{type(error).__name__}: {error}"
+    write_text(order.folder / f"{order.name}.md", failed_text(cases()[order.name], said))
     return Outcome(order.name, Verdict.RED, failure=said)

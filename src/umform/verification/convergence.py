@@ -33,13 +33,14 @@ def study(
     divisions : sequence of int
         Meshes: intervals between nodes along an edge; 18-node elements have half as many elements.
     compute : callable
-        variant, divisions -> number.
+        variant, divisions -> number; NaN where no answer is found, None where none was looked for.
     """
     pairs = [(variant, number) for variant in variants for number in divisions]
     found: Study = {variant: {} for variant in variants}
     for variant, number in page.each(pairs, lambda pair: f"{pair[0].label}, {pair[1]}"):
         value = compute(variant, number)
-        found[variant][number] = float("nan") if value is None else float(value)
+        if value is not None:
+            found[variant][number] = float(value)
     return found
 
 

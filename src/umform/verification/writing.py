@@ -71,21 +71,30 @@ def page_text(page: Page) -> str:
         ),
     ]
     if page.balances:
-        parts += ["## Balance", _BALANCE, balancemarkdown_table(page.balances)]
+        parts += ["## Balance", _BALANCE, balance_table(page.balances)]
     return "\n\n".join(parts) + "\n\n[All cases](README.md)\n"
 
 
+def failed_text(case: Case, said: str) -> str:
+    """Markdown of the page of a case that could not be run to its end."""
+    mark = Verdict.RED.mark
+    return (
+        f"# {case.title}\n\nVerdict: **{mark}** · the run of `umform verify {case.name}` failed:\n\n```\n{said}\n```\n"
+    )
+
+
 _BALANCE = (
-    "External work against stored, dissipated and contact energy (largest drift over the largest energy); resultant "
+    "External work against stored, dissipated and contact energy (largest drift over the largest energy; where a sheet "
+    "begins inside of a tool, from the first equilibrium on, since it springs off the tool before); resultant "
     "of all external forces and moments over the sum of their sizes; order of Newton's method: median of the order of "
     "the last steps, over so many increments as have enough iterations to tell one (in brackets). The last column says "
-    f"how many increments have an order below {LOW:g}, by what was recorded in their last two steps: "
-    + "; ".join(f"*{word}*: {meaning}" for word, meaning in REASONS.items())
-    + "."
+    f"how many increments have an order below {LOW:g}, by what was recorded in their last two steps. Orders far above "
+    "2 belong to problems that are linear but for contact: once the active set is right, one step lands on the answer. "
+    "Reasons: " + "; ".join(f"*{word}*: {meaning}" for word, meaning in REASONS.items()) + "."
 )
 
 
-def balancemarkdown_table(rows: Sequence[BalanceRow], with_case: bool = False) -> str:
+def balance_table(rows: Sequence[BalanceRow], with_case: bool = False) -> str:
     """Balances as a table."""
     columns = ("run", "increments", "iterations", "drift", "force", "moment", "order of Newton", "low, and why")
     cells = [
@@ -112,7 +121,8 @@ def summary_text(chapters: Sequence[Chapter], outcomes: Mapping[str, Outcome]) -
         "# Verification book",
         _INTRODUCTION,
         f"**{len(outcomes)} cases: " + ", ".join(f"{number} {v.mark}" for v, number in count.items()) + f"**; "
-        f"{sum(len(outcome.checks) for outcome in found)} checks.",
+        f"{sum(len(outcome.checks) for outcome in found)} checks. "
+        f"They took {sum(outcome.seconds for outcome in found) / 60:.0f} minutes, one after the other.",
     ]
     for chapter in chapters:
         rows = [_summary_row(case, outcomes[case.name]) for case in chapter.cases if case.name in outcomes]
@@ -124,7 +134,7 @@ def summary_text(chapters: Sequence[Chapter], outcomes: Mapping[str, Outcome]) -
             ]
     balances = [row for outcome in found for row in outcome.balances]
     if balances:
-        parts += ["## Balance of all nonlinear runs", _BALANCE, balancemarkdown_table(balances, with_case=True)]
+        parts += ["## Balance of all nonlinear runs", _BALANCE, balance_table(balances, with_case=True)]
     made_with = {name: version for name, version in versions().items() if name != "platform"}
     parts += ["Made with " + ", ".join(f"{name} {version}" for name, version in made_with.items()) + "."]
     return "\n\n".join(parts) + "\n"

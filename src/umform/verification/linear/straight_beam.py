@@ -123,7 +123,7 @@ def _expected(shape: str, load: str, variant: Variant, divisions: int) -> tuple[
     if load == "twist":
         return 0.02, 0.2 if divisions < 24 else 0.12, _TWIST
     if load == "in-plane shear" and shape != "regular" and variant.name == "EAS3DEAS" and divisions < 24:
-        return 0.05, {"trapezoids": 0.96, "parallelograms": 0.4}[shape], _TRAPEZOIDS
+        return 0.05, {"trapezoids": 0.9, "parallelograms": 0.3}[shape], _TRAPEZOIDS
     if load == "extension":
         return 0.01, 0.0, ""
     return (0.05 if coarse else 0.02), 0.0, ""

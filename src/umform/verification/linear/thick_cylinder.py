@@ -22,6 +22,9 @@ Floats = NDArray[np.float64]
 
 INNER, OUTER, E = 3.0, 9.0, 1000.0
 POISSON = (0.49, 0.499, 0.4999)
+#: Known errors where constraints of volume lock: ANS3DEAS on the finest mesh, MI9K3DEAS on the coarsest.
+LOCKED = {0.49: 0.03, 0.499: 0.2, 0.4999: 0.7}
+COARSE = {0.49: 0.0, 0.499: 0.08, 0.4999: 0.42}
 _LOCKS = "volumetric locking: plane strain holds E_33, and dilatation linear in r and s has no enhanced in-plane strain"
 
 _NINE_POINTS = (
@@ -82,12 +85,14 @@ def run(page: Page) -> None:
         for variant in (with_tying("EAS3DEAS"), with_tying("MI9K3DEAS")):
             for n, within in ((4, 0.05), (fine, 0.01 if fine > 8 else 0.02)):
                 what = f"nu = {nu:g}: {variant.label}, {n} intervals"
-                known = 0.5 if variant.name == "MI9K3DEAS" and n < 16 else 0.0
+                known = COARSE[nu] if variant.name == "MI9K3DEAS" and n < 16 else 0.0
                 cause = _NINE_POINTS if known else ""
                 page.check(what, found[variant][n], reference, within=within, known=known, cause=cause)
         locking = with_tying("ANS3DEAS")
         what = f"nu = {nu:g}: {locking.label}, {fine} intervals"
-        page.check(what, found[locking][fine], reference, within=0.02, known=0.99, cause=_LOCKS)
+        page.check(
+            what, found[locking][fine], reference, within=0.02, known=LOCKED[nu] if fine > 8 else 0.95, cause=_LOCKS
+        )
     mesh, u = quarter(with_tying("EAS3DEAS"), 8, POISSON[-1])
     page.shape("shape", Shape.displaced(mesh, 100 * u), "Quarter, displacements 100 times enlarged", view=(-90.0, 60.0))
 

@@ -86,7 +86,7 @@ def run(page: Page) -> None:
             bent[variant, divisions] = found = bend(page, variant, divisions)
         except NoConvergence as error:
             page.text(f"{variant.label} with {divisions} intervals does not converge: {error.cause}, {error.where}.")
-            return None
+            return float("nan")
         return float(found.displacement[-1])
 
     variants = page.pick(ELEMENTS, (Variant("ANS3DEAS"), *SOUND[:2]))

@@ -189,10 +189,10 @@ def _judge(
         enhanced = variant.name == "EAS3DEAS"
         cause = CAUSE if enhanced else ""
         run = runs[variant, finest]
-        limit = 100 if enhanced else 0
+        limit = 25 if enhanced else 0
         page.at_most(f"negative pivots at the end, {what}", run.negative_pivots, 0.5, known=limit, cause=cause)
         reached = 1.0 - float(run.elongation[-1]) / strip.elongation
-        page.at_most(f"part of the way not gone, {what}", reached, 1e-9, known=0.5 if enhanced else 0.0, cause=cause)
+        page.at_most(f"part of the way not gone, {what}", reached, 1e-9, known=0.35 if enhanced else 0.0, cause=cause)
         known = 1.0 if enhanced else 0.0
         page.at_most(f"alternation of the cells, {what}", run.alternation, 0.15, known=known, cause=cause)
 

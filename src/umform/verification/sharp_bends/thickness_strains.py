@@ -73,10 +73,10 @@ def _logarithm(page: Page, less: Floats) -> None:
     """Eq. (2.39): the moment that is lost with the logarithm."""
     columns = ("", *(f"{x:g}" for x in STRAINS))
     leading = [2.0 / 3.0 * x**2 for x in STRAINS]
-    rows: list[tuple[str | float, ...]] = [("measured", *less.tolist()), ("leading term (2/3) x²", *leading)]
+    rows: list[tuple[str | float, ...]] = [("measured", *less.tolist()), ("estimate (2/3) x²", *leading)]
     page.table("Moment of free E_33 less that of the logarithm, order 3, over Hill's", columns, rows)
     at = STRAINS.index(0.2)
-    page.check("logarithm: moment lost at 0.2 against the leading term (2.39)", float(less[at]), leading[at], 0.3)
+    page.check("logarithm: moment lost at 0.2 against the estimate (2.39)", float(less[at]), leading[at], 0.3)
 
 
 def _hardening(page: Page) -> Ratios:
