@@ -50,9 +50,9 @@ def test_old_factors_that_disappoint_are_not_used_on():
 
 
 def test_sheets_beyond_some_thousand_elements_have_dear_factors():
-    """Entries of sheets of 3600 and 19881 elements, as PARDISO counts them; a strip in a band; no factors at all."""
-    assert cost_of_factors(3_800_000, 21_960, 1.0) < 1.0
-    assert cost_of_factors(27_100_000, 120_132, 1.0) > 1.2
+    """Entries of sheets of 625 and 3600 elements, as PARDISO counts them; a strip in a band; no factors at all."""
+    assert cost_of_factors(418_241, 3_650, 1.0) < 1.0
+    assert cost_of_factors(3_667_377, 21_360, 1.0) > 1.5
     assert cost_of_factors(300 * 24, 300, 1.0) < 0.05
     assert cost_of_factors(0, 300, 1.0) == 0.0
 
