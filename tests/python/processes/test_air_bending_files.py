@@ -66,6 +66,14 @@ def test_what_is_given_is_refined_from_there():
     assert refinements(replace(TINY, contact_points=MOST_POINTS))["c-pts-2"].contact_points == MOST_POINTS - 2
 
 
+def test_what_is_as_fine_as_it_may_be_is_made_coarser():
+    cases = refinements(replace(TINY, layers=8, thickness_points=15, elements_per_thickness=80.0, increment=1e-5))
+    assert cases["layers-1"].layers == 7
+    assert cases["t-pts-2"].thickness_points == 13
+    assert cases["mesh*2"].elements_per_thickness == 40.0
+    assert cases["step*2"].increment == 2e-5
+
+
 def test_a_budget_is_the_change_by_each_refinement(bend, errors):
     assert errors.failures == {}
     finer = air_bending(replace(TINY, elements_per_thickness=2.0), progress=False).measures
