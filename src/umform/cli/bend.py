@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -22,6 +23,8 @@ def _option(help_text: str, panel: str, *names: str) -> Any:
 
 
 _GOAL, _TOOLS, _SHEET, _SOLUTION = "What to do", "Tools (mm, degrees)", "Sheet (mm, MPa)", "Solution"
+#: Each row of a table is an unloading.
+_MOST_ROWS = 1000
 
 
 @app.command()
@@ -72,7 +75,7 @@ def bend(
     """
     from umform.processes.air_bending.budget import error_budget
     from umform.processes.air_bending.case import air_bending
-    from umform.processes.air_bending.files import write_files
+    from umform.processes.air_bending.files import check_folder, write_files
     from umform.processes.air_bending.parameters import AirBending
     from umform.processes.air_bending.search import bending_table, find_stroke
     from umform.timing import Timing, timings
@@ -93,13 +96,17 @@ def bend(
         thickness_points=thickness_points,
         elements_per_thickness=elements_per_thickness,
         width_elements=width_elements,
-        contact_points=int(contact_points) if contact_points.isdigit() else contact_points,
+        contact_points=int(contact_points) if contact_points.isdecimal() else contact_points,
         penalty=penalty,
         penetration=penetration,
         increment=increment,
         stroke=stroke,
     )
     strokes = _strokes(table) if table else []
+    if strokes:
+        replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
+    if not print_deck:
+        check_folder(out)
     with timings() as spent:
         if angle is not None:
             case = find_stroke(case, angle, tolerance=tolerance).case
@@ -183,6 +190,14 @@ def _strokes(text: str) -> list[float]:
     first, last, step = _numbers(text, ":", 3, "--table", "first:last:step as 4:6:0.5")
     if not 0.0 < first <= last or not step > 0.0:
         raise InvalidValue("a table goes from a positive stroke up to a larger one", where="--table", value=text)
+    if not last - first < _MOST_ROWS * step:
+        raise InvalidValue(
+            f"a table has at most {_MOST_ROWS} strokes",
+            where="--table",
+            value=text,
+            cause="the number of strokes in place of the step between them, or a step of another unit",
+            remedy="first:last:step as 4:6:0.5",
+        )
     return [first + number * step for number in range(int((last - first) / step + 1e-9) + 1)]
 
 

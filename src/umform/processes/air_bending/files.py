@@ -25,6 +25,20 @@ _DATA = ("curve.csv", "table.csv", "bend.json", "bend.vtkhdf", "bend.toml")
 _PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "drawing.png", "drawing.svg", "report.html")
 
 
+def check_folder(out: str | Path) -> None:
+    """Refuse a folder that cannot take the files of a bend, before time is spent on it.
+
+    Raises
+    ------
+    InvalidValue
+        Its name is empty.
+    FileProblem
+        It cannot be made, or nothing can be written there.
+    """
+    with staging(out, [*_DATA, *_PAGE]):
+        pass
+
+
 def write_files(
     out: str | Path, bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None = None
 ) -> list[Path]:
