@@ -117,6 +117,7 @@ def test_all_files_are_written(tmp_path, bend, errors):
     assert float(rows[-1]["stroke"]) == bend.stroke[-1]
     page = (tmp_path / "out" / "report.html").read_text()
     assert all(quantity.label in page for quantity in QUANTITIES.values())
+    assert all(f'id="{part}"' in page for part in ("shape-canvas", "curves", "scene", "history-csv"))
     deck = (tmp_path / "out" / "bend.toml").read_text()
     assert deck == deck_of(bend.case)
     assert escape(deck) in page
