@@ -215,6 +215,7 @@ def _numbers(text: str, separator: str, count: int, where: str, remedy: str) -> 
 
 def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str) -> None:
     """Print measures, bending table, and what is to be said of them."""
+    from umform.contact.augmentation import penetrations
     from umform.processes.air_bending.formulas import shop_forces
     from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
     from umform.report.repeats import counted
@@ -225,6 +226,8 @@ def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str)
     screen.print(f"rule of the shop for the largest force: {low:.1f} to {high:.1f} N/mm (1.33 to 1.42 Rm t²/V)")
     if rows:
         _print_table("Bending table", table_header(), table_rows(rows))
+    for name, said in penetrations(done.result.model, done.result).items():
+        screen.print(f"contact {name}: {said}", soft_wrap=True)
     if note:
         screen.print(note, soft_wrap=True)
     for warning in counted(done.warnings):

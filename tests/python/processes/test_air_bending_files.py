@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from dataclasses import dataclass, replace
 from html import escape
 
@@ -196,6 +197,9 @@ def test_the_command_takes_a_metal_of_the_library(tmp_path):
     assert done.exit_code == 0, done.output
     assert "DC04: " in done.output
     record = json.loads((tmp_path / "bend.json").read_text())
+    reached = re.findall(r"contact (\w+): penetration up to (\S+), 0.01 allowed; penalty", done.output)
+    assert [name for name, _ in reached] == ["die", "punch"]
+    assert max(float(depth) for _, depth in reached) == pytest.approx(record["penetration"], rel=1e-2)
     assert 270.0 <= record["tensile_strength"] <= 350.0
 
 

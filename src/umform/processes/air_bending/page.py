@@ -98,7 +98,7 @@ def _parts(
         }
     )
     yield parts.heading("Model")
-    yield parts.pairs(settings(bend.result.model))
+    yield parts.pairs(settings(bend.result))
     if deck:
         yield parts.heading("Deck")
         yield parts.folded("The input of this bend, for umform run", deck)
