@@ -49,6 +49,9 @@ def bend(
     yield_stress: Annotated[float | None, _option("Yield stress, for linear hardening.", _SHEET)] = None,
     hardening_modulus: Annotated[float | None, _option("Hardening modulus; default 0.", _SHEET)] = None,
     swift: Annotated[str | None, _option("Swift hardening K,e0,n, as 520,0.004,0.22.", _SHEET)] = None,
+    flow_curve: Annotated[
+        Path | None, _option("Measured hardening: a CSV file of plastic strain and true stress.", _SHEET)
+    ] = None,
     element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "BEND18",
     layers: Annotated[int, _option("Elements through the thickness.", _SOLUTION)] = 2,
     thickness_points: Annotated[int, _option("Points through the thickness of a layer.", _SOLUTION)] = 6,
@@ -81,7 +84,7 @@ def bend(
     from umform.timing import Timing, timings
 
     _check_goal(angle, stroke)
-    law, note = _law(material, young, poisson, yield_stress, hardening_modulus, swift)
+    law, note = _law(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
     case = AirBending(
         thickness=thickness,
         opening=opening,
@@ -147,12 +150,13 @@ def _law(
     yield_stress: float | None,
     modulus: float | None,
     swift: str | None,
+    flow_curve: Path | None,
 ) -> tuple[J2, str]:
     """Law of the sheet, and what is to be said of it."""
     from umform.errors import InvalidValue
     from umform.processes.air_bending.parameters import DC04_LIKE
 
-    own = [value for value in (young, poisson, yield_stress, modulus, swift) if value is not None]
+    own = [value for value in (young, poisson, yield_stress, modulus, swift, flow_curve) if value is not None]
     if name is not None:
         if own:
             raise InvalidValue("give a material by name or by numbers", where="--material", value=name)
@@ -162,24 +166,34 @@ def _law(
         return metal.law, f"{name}: {metal.source}; {metal.caveat}"
     if not own:
         return DC04_LIKE, "material: a curve like that of DC04; give your own for numbers that count"
-    return _own_law(young, poisson, yield_stress, modulus, swift), ""
+    return _own_law(young, poisson, yield_stress, modulus, swift, flow_curve), ""
 
 
 def _own_law(
-    young: float | None, poisson: float | None, yield_stress: float | None, modulus: float | None, swift: str | None
+    young: float | None,
+    poisson: float | None,
+    yield_stress: float | None,
+    modulus: float | None,
+    swift: str | None,
+    flow_curve: Path | None,
 ) -> J2:
     from umform.errors import InvalidValue
     from umform.materials import J2, Linear, Perfect, Swift
+    from umform.sheet_metals import read_flow_curve
 
     elastic = {"E": 210e3 if young is None else young, "nu": 0.3 if poisson is None else poisson}
-    if swift is not None and yield_stress is None and modulus is None:
-        return J2(**elastic, hardening=Swift(*_numbers(swift, ",", 3, "--swift", "K,e0,n as 520,0.004,0.22")))
-    if yield_stress is None or swift is not None:
+    linear = yield_stress is not None or modulus is not None
+    if [linear, swift is not None, flow_curve is not None].count(True) != 1 or (linear and yield_stress is None):
         raise InvalidValue(
-            "a hardening curve is given by --yield-stress with --hardening-modulus, or by --swift",
+            "a hardening curve is given by --yield-stress with --hardening-modulus, by --swift, or by --flow-curve",
             where="--yield-stress",
-            remedy="--yield-stress 160 --hardening-modulus 500, or --swift 520,0.004,0.22",
+            remedy="--yield-stress 160 --hardening-modulus 500, --swift 520,0.004,0.22, or --flow-curve coil.csv",
         )
+    if swift is not None:
+        return J2(**elastic, hardening=Swift(*_numbers(swift, ",", 3, "--swift", "K,e0,n as 520,0.004,0.22")))
+    if flow_curve is not None:
+        return J2(**elastic, hardening=read_flow_curve(flow_curve))
+    assert yield_stress is not None
     return J2(**elastic, hardening=Linear(yield_stress, modulus) if modulus else Perfect(yield_stress))
 
 

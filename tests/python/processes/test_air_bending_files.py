@@ -218,6 +218,8 @@ def test_the_command_finds_an_angle(tmp_path):
         ([], "give the stroke or the angle"),
         (["--stroke", "6", "--angle", "90"], "give the stroke or the angle"),
         (["--stroke", "6", "--swift", "520"], "3 numbers are needed"),
+        (["--stroke", "6", "--swift", "520,0.004,0.22", "--flow-curve", "a.csv"], "a hardening curve is given by"),
+        (["--stroke", "6", "--flow-curve", "no.csv"], "the flow curve cannot be read"),
         (["--stroke", "6", "--young", "200000"], "a hardening curve is given by"),
         (["--stroke", "6", "--material", "DC04", "--young", "2e5"], "by name or by numbers"),
         (["--stroke", "6", "--material", "cheese"], "cheese"),
