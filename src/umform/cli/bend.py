@@ -125,7 +125,7 @@ def bend(
         _show(done, rows, errors, note)
     finally:  # also if nobody reads the table
         with done.result.timing.files:
-            files = write_files(out, done, rows, errors)
+            files = write_files(out, done, rows, errors, note=note)
     console().print(f"Written to {out}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")

@@ -195,7 +195,8 @@ def test_the_command_bends_to_a_stroke(tmp_path):
 def test_the_command_takes_a_metal_of_the_library(tmp_path):
     done = CliRunner().invoke(app, ["bend", "--stroke", "1", "--material", "DC04", *TYPED, "--out", str(tmp_path)])
     assert done.exit_code == 0, done.output
-    assert "DC04: " in done.output
+    assert "DC04: EN 10130" in done.output
+    assert "DC04: EN 10130" in (tmp_path / "report.html").read_text()
     record = json.loads((tmp_path / "bend.json").read_text())
     reached = re.findall(r"contact (\w+): penetration up to (\S+), 0.01 allowed; penalty", done.output)
     assert [name for name, _ in reached] == ["die", "punch"]

@@ -40,7 +40,12 @@ def check_folder(out: str | Path) -> None:
 
 
 def write_files(
-    out: str | Path, bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None = None
+    out: str | Path,
+    bend: AirBend,
+    table: Sequence[Measures] = (),
+    budget: Budget | None = None,
+    *,
+    note: str = "",
 ) -> list[Path]:
     """Write all that is known of a bend.
 
@@ -56,6 +61,8 @@ def write_files(
         Bending table.
     budget : Budget, optional
         Error budget.
+    note : str, optional
+        Where the material comes from, for the report.
 
     Returns
     -------
@@ -83,7 +90,7 @@ def write_files(
         for name, figure in figures.items():
             for ending in (".png", ".svg"):
                 save(figure, here / (name + ending))
-        write_page(here / "report.html", bend, figures, table, budget, deck)
+        write_page(here / "report.html", bend, figures, table, budget, deck, note)
         return [*files, *stage.commit(_PAGE)]
 
 

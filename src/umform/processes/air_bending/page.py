@@ -31,6 +31,7 @@ def write_page(
     table: Sequence[Measures],
     budget: Budget | None,
     deck: str = "",
+    note: str = "",
 ) -> Path:
     """Write the report of a bend.
 
@@ -48,13 +49,15 @@ def write_page(
         Error budget.
     deck : str
         The bend as a deck; may be empty.
+    note : str
+        Where the material comes from; may be empty.
     """
     case = bend.case
     kind = "plane strain" if case.width is None else f"{case.width:g} mm wide"
     title = f"Air bending: {case.thickness:g} mm sheet, {case.opening:g} mm opening, {bend.measures.angle:.2f} degrees"
     lead = f"{kind}; {bend.iterations} Newton iterations in {bend.result.seconds:.1f} s"
     scene = scene_of(bend.result)
-    content = _parts(bend, scene, figures, table, budget, deck)
+    content = _parts(bend, scene, figures, table, budget, deck, note)
     return parts.write_html(path, title, lead, content, style=live.style(), scripts=live.scripts(scene))
 
 
@@ -65,6 +68,7 @@ def _parts(
     table: Sequence[Measures],
     budget: Budget | None,
     deck: str,
+    note: str,
 ) -> Iterator[str]:
     for message in counted(bend.warnings):
         yield parts.note(message, bad=True)
@@ -91,6 +95,8 @@ def _parts(
     yield parts.paragraph("The forces of the history are those of the part of the sheet that is modelled.")
     yield live.table(bend.result)
     yield parts.heading("Parameters")
+    if note:
+        yield parts.paragraph(note)
     yield parts.pairs(
         {
             name: "plane strain" if value is None and name == "width" else value
