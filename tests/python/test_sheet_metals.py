@@ -10,8 +10,16 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.errors import InvalidValue
-from umform.sheet_metals import get, names, swift_from_tensile_test, tensile_test, voce_from_tensile_test
+from umform.errors import FileProblem, InvalidValue, UmformError
+from umform.materials import Table
+from umform.sheet_metals import (
+    get,
+    names,
+    read_flow_curve,
+    swift_from_tensile_test,
+    tensile_test,
+    voce_from_tensile_test,
+)
 
 ROOT = Path(__file__).parents[2]
 
@@ -196,3 +204,31 @@ def test_the_picture_of_the_flow_curves():
     flow, nominal = figure.axes
     assert [text.get_text() for text in flow.get_legend().get_texts()] == list(names())
     assert len(nominal.lines) == 2 * len(names())
+
+
+def test_a_flow_curve_is_read(tmp_path):
+    path = tmp_path / "coil.csv"
+    path.write_text("strain,stress\n0,186  # proof stress\n\n0.05, 275\n0.5,442\n")
+    assert read_flow_curve(path) == Table((0.0, 0.05, 0.5), (186.0, 275.0, 442.0))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("0;186\n0.1;200\n", "line 1"),
+        ("0,186\n0,1,200\n", "line 2"),
+        ("", "two or more pairs"),
+        ("0,186\n0.1,nan\n", "finite"),
+        ("0,186\n0.1,150\n", "must rise"),
+    ],
+)
+def test_what_is_no_flow_curve_is_refused(text, said, tmp_path):
+    path = tmp_path / "coil.csv"
+    path.write_text(text)
+    with pytest.raises(UmformError, match=said):
+        read_flow_curve(path)
+
+
+def test_a_flow_curve_that_is_not_there_is_refused(tmp_path):
+    with pytest.raises(FileProblem, match="cannot be read"):
+        read_flow_curve(tmp_path / "no.csv")

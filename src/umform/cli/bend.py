@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -22,6 +23,8 @@ def _option(help_text: str, panel: str, *names: str) -> Any:
 
 
 _GOAL, _TOOLS, _SHEET, _SOLUTION = "What to do", "Tools (mm, degrees)", "Sheet (mm, MPa)", "Solution"
+#: Each row of a table is an unloading.
+_MOST_ROWS = 1000
 
 
 @app.command()
@@ -46,6 +49,9 @@ def bend(
     yield_stress: Annotated[float | None, _option("Yield stress, for linear hardening.", _SHEET)] = None,
     hardening_modulus: Annotated[float | None, _option("Hardening modulus; default 0.", _SHEET)] = None,
     swift: Annotated[str | None, _option("Swift hardening K,e0,n, as 520,0.004,0.22.", _SHEET)] = None,
+    flow_curve: Annotated[
+        Path | None, _option("Measured hardening: a CSV file of plastic strain and true stress.", _SHEET)
+    ] = None,
     element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "BEND18",
     layers: Annotated[int, _option("Elements through the thickness.", _SOLUTION)] = 2,
     thickness_points: Annotated[int, _option("Points through the thickness of a layer.", _SOLUTION)] = 6,
@@ -72,13 +78,13 @@ def bend(
     """
     from umform.processes.air_bending.budget import error_budget
     from umform.processes.air_bending.case import air_bending
-    from umform.processes.air_bending.files import write_files
+    from umform.processes.air_bending.files import check_folder, write_files
     from umform.processes.air_bending.parameters import AirBending
     from umform.processes.air_bending.search import bending_table, find_stroke
     from umform.timing import Timing, timings
 
     _check_goal(angle, stroke)
-    law, note = _law(material, young, poisson, yield_stress, hardening_modulus, swift)
+    law, note = _law(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
     case = AirBending(
         thickness=thickness,
         opening=opening,
@@ -93,13 +99,17 @@ def bend(
         thickness_points=thickness_points,
         elements_per_thickness=elements_per_thickness,
         width_elements=width_elements,
-        contact_points=int(contact_points) if contact_points.isdigit() else contact_points,
+        contact_points=int(contact_points) if contact_points.isdecimal() else contact_points,
         penalty=penalty,
         penetration=penetration,
         increment=increment,
         stroke=stroke,
     )
     strokes = _strokes(table) if table else []
+    if strokes:
+        replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
+    if not print_deck:
+        check_folder(out)
     with timings() as spent:
         if angle is not None:
             case = find_stroke(case, angle, tolerance=tolerance).case
@@ -115,7 +125,7 @@ def bend(
         _show(done, rows, errors, note)
     finally:  # also if nobody reads the table
         with done.result.timing.files:
-            files = write_files(out, done, rows, errors)
+            files = write_files(out, done, rows, errors, note=note)
     console().print(f"Written to {out}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
@@ -140,12 +150,13 @@ def _law(
     yield_stress: float | None,
     modulus: float | None,
     swift: str | None,
+    flow_curve: Path | None,
 ) -> tuple[J2, str]:
     """Law of the sheet, and what is to be said of it."""
     from umform.errors import InvalidValue
     from umform.processes.air_bending.parameters import DC04_LIKE
 
-    own = [value for value in (young, poisson, yield_stress, modulus, swift) if value is not None]
+    own = [value for value in (young, poisson, yield_stress, modulus, swift, flow_curve) if value is not None]
     if name is not None:
         if own:
             raise InvalidValue("give a material by name or by numbers", where="--material", value=name)
@@ -155,24 +166,34 @@ def _law(
         return metal.law, f"{name}: {metal.source}; {metal.caveat}"
     if not own:
         return DC04_LIKE, "material: a curve like that of DC04; give your own for numbers that count"
-    return _own_law(young, poisson, yield_stress, modulus, swift), ""
+    return _own_law(young, poisson, yield_stress, modulus, swift, flow_curve), ""
 
 
 def _own_law(
-    young: float | None, poisson: float | None, yield_stress: float | None, modulus: float | None, swift: str | None
+    young: float | None,
+    poisson: float | None,
+    yield_stress: float | None,
+    modulus: float | None,
+    swift: str | None,
+    flow_curve: Path | None,
 ) -> J2:
     from umform.errors import InvalidValue
     from umform.materials import J2, Linear, Perfect, Swift
+    from umform.sheet_metals import read_flow_curve
 
     elastic = {"E": 210e3 if young is None else young, "nu": 0.3 if poisson is None else poisson}
-    if swift is not None and yield_stress is None and modulus is None:
-        return J2(**elastic, hardening=Swift(*_numbers(swift, ",", 3, "--swift", "K,e0,n as 520,0.004,0.22")))
-    if yield_stress is None or swift is not None:
+    linear = yield_stress is not None or modulus is not None
+    if [linear, swift is not None, flow_curve is not None].count(True) != 1 or (linear and yield_stress is None):
         raise InvalidValue(
-            "a hardening curve is given by --yield-stress with --hardening-modulus, or by --swift",
+            "a hardening curve is given by --yield-stress with --hardening-modulus, by --swift, or by --flow-curve",
             where="--yield-stress",
-            remedy="--yield-stress 160 --hardening-modulus 500, or --swift 520,0.004,0.22",
+            remedy="--yield-stress 160 --hardening-modulus 500, --swift 520,0.004,0.22, or --flow-curve coil.csv",
         )
+    if swift is not None:
+        return J2(**elastic, hardening=Swift(*_numbers(swift, ",", 3, "--swift", "K,e0,n as 520,0.004,0.22")))
+    if flow_curve is not None:
+        return J2(**elastic, hardening=read_flow_curve(flow_curve))
+    assert yield_stress is not None
     return J2(**elastic, hardening=Linear(yield_stress, modulus) if modulus else Perfect(yield_stress))
 
 
@@ -183,6 +204,14 @@ def _strokes(text: str) -> list[float]:
     first, last, step = _numbers(text, ":", 3, "--table", "first:last:step as 4:6:0.5")
     if not 0.0 < first <= last or not step > 0.0:
         raise InvalidValue("a table goes from a positive stroke up to a larger one", where="--table", value=text)
+    if not last - first < _MOST_ROWS * step:
+        raise InvalidValue(
+            f"a table has at most {_MOST_ROWS} strokes",
+            where="--table",
+            value=text,
+            cause="the number of strokes in place of the step between them, or a step of another unit",
+            remedy="first:last:step as 4:6:0.5",
+        )
     return [first + number * step for number in range(int((last - first) / step + 1e-9) + 1)]
 
 
@@ -200,6 +229,7 @@ def _numbers(text: str, separator: str, count: int, where: str, remedy: str) -> 
 
 def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str) -> None:
     """Print measures, bending table, and what is to be said of them."""
+    from umform.contact.augmentation import penetrations
     from umform.processes.air_bending.formulas import shop_forces
     from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
     from umform.report.repeats import counted
@@ -210,6 +240,8 @@ def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str)
     screen.print(f"rule of the shop for the largest force: {low:.1f} to {high:.1f} N/mm (1.33 to 1.42 Rm t²/V)")
     if rows:
         _print_table("Bending table", table_header(), table_rows(rows))
+    for name, said in penetrations(done.result.model, done.result).items():
+        screen.print(f"contact {name}: {said}", soft_wrap=True)
     if note:
         screen.print(note, soft_wrap=True)
     for warning in counted(done.warnings):

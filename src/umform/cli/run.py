@@ -66,10 +66,13 @@ def run(
 
 def show(outcome: Outcome) -> None:
     """The table, what happened, and where the files are."""
+    from umform.contact.augmentation import penetrations
     from umform.report.repeats import counted
 
     screen = console()
     screen.print(_table(outcome.result))
+    for name, said in penetrations(outcome.result.model, outcome.result).items():
+        screen.print(f"contact {name}: {said}", soft_wrap=True, markup=False)
     for event in outcome.result.events:
         screen.print(event, soft_wrap=True, markup=False)
     if outcome.files:

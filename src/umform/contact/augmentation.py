@@ -12,6 +12,7 @@ from umform.errors import InvalidValue
 from umform.newton import Converged, Newton
 
 if TYPE_CHECKING:
+    from umform.contact.pair import Contact
     from umform.model import Model
     from umform.results import Result
 
@@ -76,10 +77,25 @@ def refuse_on_an_arc(model: Model, where: str) -> None:
             )
 
 
+def penetrations(model: Model, result: Result) -> dict[str, str]:
+    """Of each contact the largest penetration of a run, what was allowed, and the penalty and points that did it."""
+    return {contact.name: _said(contact, _deepest(result, contact)) for contact in model.contacts}
+
+
+def _deepest(result: Result, contact: Contact) -> float:
+    return float(np.max(result[f"{contact.name}_penetration"])) if len(result) else 0.0
+
+
+def _said(contact: Contact, deepest: float) -> str:
+    allowed = "" if contact.allowed is None else f", {contact.allowed:.3g} allowed"
+    rule = "at the nodes" if contact.points == "nodes" else f"{contact.points} x {contact.points} points a facet"
+    return f"penetration up to {deepest:.3g}{allowed}; penalty {contact.penalty:.3g}, {rule}"
+
+
 def warn_of_penetration(model: Model, result: Result) -> None:
     """Say once for each contact that the penetration has exceeded the allowed one, and what to do. eq. (4.30)"""
     for contact in model.contacts:
-        deepest = float(np.max(result[f"{contact.name}_penetration"])) if len(result) else 0.0
+        deepest = _deepest(result, contact)
         if contact.allowed is None or deepest <= 1.01 * contact.allowed:
             continue
         stiffer = (deepest / contact.allowed) ** 1.5

@@ -1,8 +1,8 @@
 """Whether mesh, element and hardening curve can follow the bends that the tools ask for.
 
 A sheet of thickness h on a radius R strains by h / (2 R + h) at its surfaces. Rules of thumb: an element should span
-some 10 degrees of the smallest radius, and the false moment of sharp-bend locking should stay below a few per cent of
-the plastic one (docs/theory, section 2.8).
+some 10 degrees of the smallest radius, twice as much if it is curved itself, and the false moment of sharp-bend locking
+should stay below a few per cent of the plastic one (docs/theory, section 2.8).
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from umform.deck.tools import ToolPart, along, smallest_radius
 from umform.materials import J2, Table
 from umform.model import Model
 
-#: Degrees of a tool radius that one element may span.
-_ARC = 12.0
+#: Degrees of a tool radius that one element may span: with 4 nodes a face, and with 9, which follow an arc.
+_ARC = {4: 12.0, 9: 24.0}
 #: False moment over the plastic one that is borne.
 _LOCKING = 0.05
 #: Points through the thickness that plastic bending needs, and sharp bends (strain above 0.1).
@@ -54,9 +54,10 @@ def element_size(contact: Contact, model: Model, tool: ToolPart, radius: float) 
         return warning(about, "the tool has a sharp edge", remedy)
     degrees = math.degrees(size / radius)
     text = f"an element is {size:.3g} long and spans {degrees:.3g} degrees of the radius {radius:.4g}"
-    if degrees <= _ARC:
+    most = _ARC[contact.facets.shape[1]]
+    if degrees <= most:
         return ok(about, text)
-    remedy = f"elements of {math.radians(10) * radius:.2g} or less where this radius bends the sheet"
+    remedy = f"elements of {math.radians(most / 1.2) * radius:.2g} or less where this radius bends the sheet"
     return warning(about, text, remedy)
 
 

@@ -249,10 +249,17 @@ def _check_types(mesh: Any, path: Path) -> None:
     solids = {block.type for block in mesh.cells if block.dim == 3}
     if solids and solids <= BY_MESHIO.keys():
         return
+    if not counts:
+        raise WrongCellType(
+            "the mesh file has no cells",
+            where=str(path),
+            cause="an empty file, another format than its ending says, or nodes without elements",
+            remedy="write the elements too where the mesh is made",
+        )
     raise WrongCellType(
         "umform needs hexahedra with 8 or 27 nodes and no other solids",
         where=str(path),
-        value=", ".join(f"{count} {name}" for name, count in sorted(counts.items())) or "no cells",
+        value=", ".join(f"{count} {name}" for name, count in sorted(counts.items())),
         cause="" if solids else "the file holds a surface, no solids",
         remedy="umform.mesh.read_shell(path, thickness) thickens a mesh of quadrilaterals"
         if not solids

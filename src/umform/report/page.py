@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from umform.contact.augmentation import penetrations
 from umform.report import live, parts
 from umform.report.repeats import counted
 from umform.report.scene import Scene, scene_of
 from umform.report.versions import versions
 
 if TYPE_CHECKING:
-    from umform.model import Model
     from umform.results import Result
 
 
@@ -64,7 +64,7 @@ def _parts(result: Result, scene: Scene, deck: str) -> Iterator[str]:
     yield _end_values(result)
     yield live.table(result)
     yield parts.heading("Settings")
-    yield parts.pairs(settings(result.model))
+    yield parts.pairs(settings(result))
     if deck:
         yield parts.heading("Deck")
         yield parts.folded("The input of this run", deck)
@@ -91,8 +91,9 @@ def _time(result: Result) -> str:
     return parts.table(["", "s", "%", "calls"], rows)
 
 
-def settings(model: Model) -> dict[str, object]:
-    """What a model is made of, in words."""
+def settings(result: Result) -> dict[str, object]:
+    """What the model of a run is made of, in words, with the penetrations that were reached."""
+    model = result.model
     options = ", ".join(f"{name}={value}" for name, value in model.element.options.items())
     rows: dict[str, object] = {
         "mesh": model.mesh,
@@ -101,7 +102,5 @@ def settings(model: Model) -> dict[str, object]:
         "material": model.material,
         "degrees of freedom": f"{model.unknown_count} unknown of {model.u.size}",
     }
-    for contact in model.contacts:
-        rule = "nodes" if contact.points == "nodes" else f"{contact.points} x {contact.points} Gauss points a facet"
-        rows[f"contact {contact.name}"] = f"{contact.tool}, penalty {contact.penalty:g}, {rule}"
-    return rows
+    reached = penetrations(model, result)
+    return rows | {f"contact {pair.name}": f"{pair.tool}, {reached[pair.name]}" for pair in model.contacts}

@@ -1,5 +1,6 @@
 """Sheet metals with sources, and flow curves from the certificate of a coil. Units N, mm, MPa."""
 
+from umform.sheet_metals.flow_curve import read_flow_curve
 from umform.sheet_metals.library import SheetMetal, get, names
 from umform.sheet_metals.tensile_test import (
     TensileTest,
@@ -13,6 +14,7 @@ __all__ = [
     "TensileTest",
     "get",
     "names",
+    "read_flow_curve",
     "swift_from_tensile_test",
     "tensile_test",
     "voce_from_tensile_test",

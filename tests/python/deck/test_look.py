@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from umform.contact.encounter import sheet_thickness
-from umform.deck import Deck
+from umform.deck import Deck, deck_of
 from umform.deck.bends import locking_moment
 from umform.deck.findings import Level
 from umform.deck.look import look
 from umform.mesh import strip as strip_mesh
+from umform.processes.air_bending import AirBending
 
 
 @pytest.fixture
@@ -62,8 +63,17 @@ def test_element_size_on_the_smallest_radius(texts, found):
     assert f"{math.degrees(0.35 / 3):.3g} degrees" in fine.text
     assert coarse.level is Level.WARNING
     assert "0.52 or less" in coarse.remedy
+    curved = found(text, "contact punch", mesh__cells=[15, 1], element__name="BEND18")[1]
+    assert curved.level is Level.OK
+    coarse = found(text, "contact punch", mesh__cells=[10, 1], element__name="BEND18")[1]
+    assert "1 or less" in coarse.remedy
     edge = found(text.replace("tip_radius = 3.0", "tip_radius = 0.0"), "contact punch")
     assert any("sharp edge" in finding.text and finding.level is Level.WARNING for finding in edge)
+
+
+def test_the_default_bend_passes():
+    deck = Deck.read(deck_of(AirBending(stroke=6.0)))
+    assert {finding.level for finding in look(deck, deck.build())} == {Level.OK}
 
 
 def test_element_size_is_measured_across_the_tool(texts, found):

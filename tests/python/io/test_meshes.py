@@ -260,6 +260,12 @@ def test_other_cells_are_refused(tmp_path, cells, found):
     assert str(path) in info.value.where
 
 
+def test_a_file_without_cells_is_refused(tmp_path):
+    (tmp_path / "a.inp").write_text("nonsense\n")
+    with pytest.raises(WrongCellType, match="has no cells"):
+        read_mesh_arrays(tmp_path / "a.inp")
+
+
 def test_other_cells_in_vtkhdf_are_refused(tmp_path):
     with VtkHdfSeries(tmp_path / "a.vtkhdf", X, "hex8", HEXES) as series:
         series.append(0.0)

@@ -151,6 +151,8 @@ def test_a_sheet_against_a_flank_is_told():
         ("thickness", 10.0, "does not find room"),
         ("stroke", 7.5, "beyond air bending"),
         ("increment", 0.5, "of the opening"),
+        ("increment", 1e-9, "of the opening"),
+        ("elements_per_thickness", 1e9, "at most 100"),
         ("layers", 0, "whole number"),
         ("contact_points", 2.5, "whole number"),
         ("contact_points", "some", "whole number"),

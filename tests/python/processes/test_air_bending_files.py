@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from dataclasses import dataclass, replace
 from html import escape
 
@@ -66,6 +67,14 @@ def test_what_is_given_is_refined_from_there():
     assert refinements(replace(TINY, contact_points=MOST_POINTS))["c-pts-2"].contact_points == MOST_POINTS - 2
 
 
+def test_what_is_as_fine_as_it_may_be_is_made_coarser():
+    cases = refinements(replace(TINY, layers=8, thickness_points=15, elements_per_thickness=80.0, increment=1e-5))
+    assert cases["layers-1"].layers == 7
+    assert cases["t-pts-2"].thickness_points == 13
+    assert cases["mesh*2"].elements_per_thickness == 40.0
+    assert cases["step*2"].increment == 2e-5
+
+
 def test_a_budget_is_the_change_by_each_refinement(bend, errors):
     assert errors.failures == {}
     finer = air_bending(replace(TINY, elements_per_thickness=2.0), progress=False).measures
@@ -109,6 +118,7 @@ def test_all_files_are_written(tmp_path, bend, errors):
     assert float(rows[-1]["stroke"]) == bend.stroke[-1]
     page = (tmp_path / "out" / "report.html").read_text()
     assert all(quantity.label in page for quantity in QUANTITIES.values())
+    assert all(f'id="{part}"' in page for part in ("shape-canvas", "curves", "scene", "history-csv"))
     deck = (tmp_path / "out" / "bend.toml").read_text()
     assert deck == deck_of(bend.case)
     assert escape(deck) in page
@@ -185,8 +195,12 @@ def test_the_command_bends_to_a_stroke(tmp_path):
 def test_the_command_takes_a_metal_of_the_library(tmp_path):
     done = CliRunner().invoke(app, ["bend", "--stroke", "1", "--material", "DC04", *TYPED, "--out", str(tmp_path)])
     assert done.exit_code == 0, done.output
-    assert "DC04: " in done.output
+    assert "DC04: EN 10130" in done.output
+    assert "DC04: EN 10130" in (tmp_path / "report.html").read_text()
     record = json.loads((tmp_path / "bend.json").read_text())
+    reached = re.findall(r"contact (\w+): penetration up to (\S+), 0.01 allowed; penalty", done.output)
+    assert [name for name, _ in reached] == ["die", "punch"]
+    assert max(float(depth) for _, depth in reached) == pytest.approx(record["penetration"], rel=1e-2)
     assert 270.0 <= record["tensile_strength"] <= 350.0
 
 
@@ -205,10 +219,15 @@ def test_the_command_finds_an_angle(tmp_path):
         ([], "give the stroke or the angle"),
         (["--stroke", "6", "--angle", "90"], "give the stroke or the angle"),
         (["--stroke", "6", "--swift", "520"], "3 numbers are needed"),
+        (["--stroke", "6", "--swift", "520,0.004,0.22", "--flow-curve", "a.csv"], "a hardening curve is given by"),
+        (["--stroke", "6", "--flow-curve", "no.csv"], "the flow curve cannot be read"),
         (["--stroke", "6", "--young", "200000"], "a hardening curve is given by"),
         (["--stroke", "6", "--material", "DC04", "--young", "2e5"], "by name or by numbers"),
         (["--stroke", "6", "--material", "cheese"], "cheese"),
         (["--stroke", "6", "--table", "6:4:1"], "a table goes"),
+        (["--stroke", "6", "--table", "1:5:1e-6"], "at most 1000 strokes"),
+        (["--stroke", "6", "--table", "1:9:1"], "beyond air bending"),
+        (["--stroke", "6", "--contact-points", "²"], "or auto"),
         (["--stroke", "9"], "beyond air bending"),
         (["--angle", "80"], "cannot be reached"),
     ],
@@ -218,3 +237,11 @@ def test_the_command_refuses(typed, message, tmp_path):
     assert done.exit_code == 1
     assert message in done.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_a_folder_that_takes_no_files_is_refused_before_the_run(tmp_path, monkeypatch):
+    monkeypatch.setattr("umform.processes.air_bending.case.air_bending", lambda case: pytest.fail("it runs"))
+    (tmp_path / "file").touch()
+    done = CliRunner().invoke(app, ["bend", "--stroke", "6", "--out", str(tmp_path / "file")])
+    assert done.exit_code == 1
+    assert "the folder cannot be made" in done.stderr

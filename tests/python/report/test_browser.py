@@ -10,6 +10,8 @@ import pytest
 from matplotlib.image import imread
 
 import umform as uf
+from umform.processes.air_bending import AirBending, air_bending
+from umform.processes.air_bending.files import write_files
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 pytestmark = pytest.mark.skipif(BROWSER is None, reason="no Chromium on this machine")
@@ -241,6 +243,20 @@ def test_all_controls_are_reached_by_keys_and_named(visit):
     assert [name for name in reached if name in ids][: len(ids)] == ids
     for selector in ("#shape-canvas", "#shape-frame", "#curves-plot", "#shape-play"):
         assert page.locator(selector).get_attribute("aria-label")
+
+
+def test_the_page_of_a_bend_turns_and_plays_as_well(browser, tmp_path):
+    bend = air_bending(AirBending(stroke=1.0, elements_per_thickness=1.0, layers=1, increment=0.025), progress=False)
+    write_files(tmp_path, bend)
+    visit = Visit(browser, tmp_path / "report.html")
+    visit.page.wait_for_selector(READY, state="attached")
+    last = visit.picture()
+    visit.slide(0)
+    assert differing(last, visit.picture()) > 0.005
+    assert visit.page.locator("#curves").is_visible()
+    assert visit.requests == [(tmp_path / "report.html").as_uri()]
+    assert visit.complaints == []
+    visit.context.close()
 
 
 def test_without_scripts_the_stills_are_shown(browser, path):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, replace
 
 from umform.pool import run_all
 from umform.processes.air_bending.brake import Brake, build
-from umform.processes.air_bending.checks import MOST_POINTS, needed_stroke
+from umform.processes.air_bending.checks import MOST_POINTS, RULES, needed_stroke
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
 from umform.progress import progress_bar
@@ -39,16 +39,23 @@ class Budget:
 def refinements(case: AirBending) -> dict[str, AirBending]:
     """The case refined in one way at a time; t-pts are those through the thickness, c-pts of contact.
 
-    What is automatic is refined from what it comes to. Where all facets have the most contact points already, two are
-    taken away: the change tells as much. depth is the penetration that is allowed.
+    What is automatic is refined from what it comes to. A parameter that is as fine as it may be is made coarser: the
+    change tells as much. depth is the penetration that is allowed.
     """
+    elements, points = case.elements_per_thickness, case.thickness_points
     return {
-        "mesh/2": replace(case, elements_per_thickness=2.0 * case.elements_per_thickness),
-        "layers+1": replace(case, layers=case.layers + 1),
-        "t-pts+2": replace(case, thickness_points=min(15, case.thickness_points + 2)),
+        **_refined(case, "elements_per_thickness", {"mesh/2": 2.0 * elements, "mesh*2": 0.5 * elements}),
+        **_refined(case, "layers", {"layers+1": case.layers + 1, "layers-1": case.layers - 1}),
+        **_refined(case, "thickness_points", {"t-pts+2": points + 2, "t-pts-2": points - 2}),
         **_contacts(case),
-        "step/2": replace(case, increment=0.5 * case.increment),
+        **_refined(case, "increment", {"step/2": 0.5 * case.increment, "step*2": 2.0 * case.increment}),
     }
+
+
+def _refined(case: AirBending, name: str, values: dict[str, float]) -> dict[str, AirBending]:
+    """The case with the first of some values that a parameter may have."""
+    label = next(label for label, value in values.items() if RULES[name].fits(value))
+    return {label: replace(case, **{name: values[label]})}
 
 
 def _contacts(case: AirBending) -> dict[str, AirBending]:

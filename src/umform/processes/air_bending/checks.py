@@ -15,8 +15,10 @@ if TYPE_CHECKING:
 
 #: The most contact points per direction.
 MOST_POINTS = 10
-#: A larger increment jumps over the first contact.
-_LARGEST_INCREMENT = 0.05
+#: A larger increment jumps over the first contact; a run of smaller ones does not end.
+_LARGEST_INCREMENT, _SMALLEST_INCREMENT = 0.05, 1e-5
+#: More elements on a thickness than any mesh study needs.
+_MOST_ELEMENTS = 100
 
 
 def _angle(what: str) -> Rule:
@@ -55,7 +57,12 @@ RULES: dict[str, Rule] = {
     ),
     "layers": _count("the number of layers", 1, 8, "2"),
     "thickness_points": _count("the number of thickness points", 2, 15, "6"),
-    "elements_per_thickness": length("the number of elements on a thickness", "such as 3"),
+    "elements_per_thickness": Rule(
+        lambda value: positive(value) and value <= _MOST_ELEMENTS,
+        f"the number of elements on a thickness must be positive and at most {_MOST_ELEMENTS}",
+        "the number of all elements in place of that on a thickness, or a sign",
+        "such as 3",
+    ),
     "width_elements": _count("the number of elements over half of the width", 1, 1000, "3"),
     "contact_points": Rule(
         lambda value: value == "auto" if isinstance(value, str) else whole(value, 1, MOST_POINTS),
@@ -68,8 +75,8 @@ RULES: dict[str, Rule] = {
     ).optional(),
     "penetration": length("the penetration", "such as thickness / 500; leave it out for thickness / 200").optional(),
     "increment": Rule(
-        lambda value: positive(value) and value <= _LARGEST_INCREMENT,
-        f"an increment is positive and at most {_LARGEST_INCREMENT} of the opening",
+        lambda value: number(value) and _SMALLEST_INCREMENT <= value <= _LARGEST_INCREMENT,
+        f"an increment is {_SMALLEST_INCREMENT:g} to {_LARGEST_INCREMENT:g} of the opening",
         "a length in mm instead of a part of the opening, or a sign",
         "0.00625 is usual",
     ),

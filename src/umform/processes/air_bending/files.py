@@ -25,8 +25,27 @@ _DATA = ("curve.csv", "table.csv", "bend.json", "bend.vtkhdf", "bend.toml")
 _PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "drawing.png", "drawing.svg", "report.html")
 
 
+def check_folder(out: str | Path) -> None:
+    """Refuse a folder that cannot take the files of a bend, before time is spent on it.
+
+    Raises
+    ------
+    InvalidValue
+        Its name is empty.
+    FileProblem
+        It cannot be made, or nothing can be written there.
+    """
+    with staging(out, [*_DATA, *_PAGE]):
+        pass
+
+
 def write_files(
-    out: str | Path, bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None = None
+    out: str | Path,
+    bend: AirBend,
+    table: Sequence[Measures] = (),
+    budget: Budget | None = None,
+    *,
+    note: str = "",
 ) -> list[Path]:
     """Write all that is known of a bend.
 
@@ -42,6 +61,8 @@ def write_files(
         Bending table.
     budget : Budget, optional
         Error budget.
+    note : str, optional
+        Where the material comes from, for the report.
 
     Returns
     -------
@@ -69,7 +90,7 @@ def write_files(
         for name, figure in figures.items():
             for ending in (".png", ".svg"):
                 save(figure, here / (name + ending))
-        write_page(here / "report.html", bend, figures, table, budget, deck)
+        write_page(here / "report.html", bend, figures, table, budget, deck, note)
         return [*files, *stage.commit(_PAGE)]
 
 

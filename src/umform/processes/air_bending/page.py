@@ -12,9 +12,10 @@ from umform.processes.air_bending.case import AirBend
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
-from umform.report import parts
+from umform.report import live, parts
 from umform.report.page import settings
 from umform.report.repeats import counted
+from umform.report.scene import Scene, scene_of
 from umform.report.versions import versions
 
 _BUDGET = (
@@ -30,6 +31,7 @@ def write_page(
     table: Sequence[Measures],
     budget: Budget | None,
     deck: str = "",
+    note: str = "",
 ) -> Path:
     """Write the report of a bend.
 
@@ -47,16 +49,26 @@ def write_page(
         Error budget.
     deck : str
         The bend as a deck; may be empty.
+    note : str
+        Where the material comes from; may be empty.
     """
     case = bend.case
     kind = "plane strain" if case.width is None else f"{case.width:g} mm wide"
     title = f"Air bending: {case.thickness:g} mm sheet, {case.opening:g} mm opening, {bend.measures.angle:.2f} degrees"
     lead = f"{kind}; {bend.iterations} Newton iterations in {bend.result.seconds:.1f} s"
-    return parts.write_html(path, title, lead, _parts(bend, figures, table, budget, deck))
+    scene = scene_of(bend.result)
+    content = _parts(bend, scene, figures, table, budget, deck, note)
+    return parts.write_html(path, title, lead, content, style=live.style(), scripts=live.scripts(scene))
 
 
 def _parts(
-    bend: AirBend, figures: Mapping[str, Figure], table: Sequence[Measures], budget: Budget | None, deck: str
+    bend: AirBend,
+    scene: Scene,
+    figures: Mapping[str, Figure],
+    table: Sequence[Measures],
+    budget: Budget | None,
+    deck: str,
+    note: str,
 ) -> Iterator[str]:
     for message in counted(bend.warnings):
         yield parts.note(message, bad=True)
@@ -71,12 +83,20 @@ def _parts(
     yield parts.figure(figures["drawing"], "What is measured.")
     yield parts.heading("Curves")
     yield parts.figure(figures["curve"], "Force and angle over the stroke.")
+    yield live.curves(bend.result)
     yield parts.heading("Shape")
     yield parts.figure(figures["shape"], "The sheet and its tools in true proportion.")
+    yield live.shape(bend.result, scene)
+    yield from map(parts.note, scene.notes)
     if table:
         yield parts.heading("Bending table")
         yield parts.table(table_header(), table_rows(table))
+    yield parts.heading("History")
+    yield parts.paragraph("The forces of the history are those of the part of the sheet that is modelled.")
+    yield live.table(bend.result)
     yield parts.heading("Parameters")
+    if note:
+        yield parts.paragraph(note)
     yield parts.pairs(
         {
             name: "plane strain" if value is None and name == "width" else value
@@ -84,7 +104,7 @@ def _parts(
         }
     )
     yield parts.heading("Model")
-    yield parts.pairs(settings(bend.result.model))
+    yield parts.pairs(settings(bend.result))
     if deck:
         yield parts.heading("Deck")
         yield parts.folded("The input of this bend, for umform run", deck)
