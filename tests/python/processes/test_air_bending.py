@@ -184,6 +184,14 @@ def test_tools_penetrate_as_far_as_is_allowed(bend):
     assert by_depth.measures.angle == pytest.approx(bend.measures.angle, abs=0.2)
 
 
+def test_a_penetration_that_takes_much_of_the_stroke_is_told(bend):
+    assert not any("penetrate" in warning for warning in bend.warnings)
+    soft = AirBending(stroke=1.0, elements_per_thickness=1.0, layers=1, increment=0.025, penetration=0.2)
+    deep = air_bending(soft, progress=False, frames=1)
+    assert deep.penetration > 0.04
+    assert any(f"penetrate by {deep.penetration:.3g}" in warning for warning in deep.warnings)
+
+
 def test_penalty_and_points_may_be_given():
     case = replace(COARSE, penalty=1e5, contact_points=5)
     assert {(contact.penalty, contact.points) for contact in build(case)[0].contacts} == {(1e5, 5)}

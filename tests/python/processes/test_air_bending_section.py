@@ -78,3 +78,4 @@ def test_a_flat_sheet_has_no_neutral_fibre():
     flat = circular(2.5, 0.4, 90.0, 1).reference
     with pytest.raises(InvalidValue, match="keeps its length"):
         _ = Section(flat, flat, 1).neutral_height
+    assert Section(flat, flat, 1).smallest_radius == math.inf

@@ -16,6 +16,8 @@ from umform.results import Result
 from umform.steps import Move, Release, solve
 
 Floats = NDArray[np.float64]
+#: Penetration, in thicknesses, that is worth a word.
+_DEEP = 0.02
 
 
 @dataclass(frozen=True)
@@ -71,10 +73,19 @@ class AirBend:
         return float(abs(punch + die) / abs(punch))
 
     @property
+    def penetration(self) -> float:
+        """Largest penetration of die and punch."""
+        return max(float(self.result[f"{tool}_penetration"].max()) for tool in ("die", "punch"))
+
+    @property
     def warnings(self) -> list[str]:
         """What to look at."""
         lying = f"the sheet lies against a flank of the {self.against}: this is no air bending any more"
-        return [*([lying] if self.against else []), *self.result.warnings]
+        deep = (
+            f"the tools penetrate by {self.penetration:.3g}: so much of the stroke is lost; take a smaller penetration"
+        )
+        found = [lying] * bool(self.against) + [deep] * (self.penetration > _DEEP * self.case.thickness)
+        return [*found, *self.result.warnings]
 
 
 def air_bending(case: AirBending, *, frames: int = 60, solver: str = "auto", progress: bool | None = None) -> AirBend:

@@ -103,7 +103,7 @@ def record(bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None 
         "shop_forces": shop_forces(bend.case),
         "tensile_strength": tensile_strength(bend.case.material),
         "force_balance": bend.force_balance,
-        "penetration": max(float(bend.result[f"{tool}_penetration"].max()) for tool in ("die", "punch")),
+        "penetration": bend.penetration,
         "increments": len(bend.result) - 1,
         "iterations": bend.iterations,
         "seconds": bend.result.seconds,

@@ -149,7 +149,8 @@ class Section:
         a, b = x[1:-1] - x[:-2], x[2:] - x[1:-1]
         twice_area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
         sides = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1) * np.linalg.norm(a + b, axis=1)
-        return float(1.0 / (2.0 * twice_area / sides).max())
+        curvature = float((2.0 * twice_area / sides).max())
+        return 1.0 / curvature if curvature > 0.0 else np.inf
 
     @cached_property
     def _inner_face(self) -> CubicSpline:
