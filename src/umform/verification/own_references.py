@@ -53,12 +53,12 @@ def csv_text(head: Sequence[str], columns: Mapping[str, Floats]) -> str:
 
 def _make_files(folder: Path) -> None:
     made = "Made by `python -m umform.verification.own_references FOLDER`."
-    head = (
+    head = [
         "Own computation: MI9K3DEAS with E_33 tied on an eighth with 96 x 96 intervals between nodes; for its",
         f"uncertainty, MI9K3DEAS and EAS3DEAS with E_33 tied on 64 x 64 intervals. {made}",
-    )
+    ]
     (folder / "pinched_cylinder_diaphragms.csv").write_text(csv_text(head, diaphragms()), encoding="utf-8")
-    head = (f"Own computation: MI9K3DEAS with E_33 tied, 48 x 48 intervals on an eighth, 60 increments. {made}",)
+    head = [f"Own computation: MI9K3DEAS with E_33 tied, 48 x 48 intervals on an eighth, 60 increments. {made}"]
     (folder / "pinched_cylinder_plastic.csv").write_text(csv_text(head, dented()), encoding="utf-8")
 
 

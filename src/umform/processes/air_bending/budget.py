@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
 from umform.pool import run_all
 from umform.processes.air_bending.brake import Brake, build
@@ -55,7 +56,8 @@ def refinements(case: AirBending) -> dict[str, AirBending]:
 def _refined(case: AirBending, name: str, values: dict[str, float]) -> dict[str, AirBending]:
     """The case with the first of some values that a parameter may have."""
     label = next(label for label, value in values.items() if RULES[name].fits(value))
-    return {label: replace(case, **{name: values[label]})}
+    changed: dict[str, Any] = {name: values[label]}
+    return {label: replace(case, **changed)}
 
 
 def _contacts(case: AirBending) -> dict[str, AirBending]:

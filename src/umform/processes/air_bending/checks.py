@@ -17,6 +17,10 @@ if TYPE_CHECKING:
 MOST_POINTS = 10
 #: A larger increment jumps over the first contact; a run of smaller ones does not end.
 _LARGEST_INCREMENT, _SMALLEST_INCREMENT = 0.05, 1e-5
+#: Openings over the thickness between which a sheet is bent in the air; press brakes take 5 to 16.
+_NARROWEST, _WIDEST = 2.0, 500.0
+#: Penalty over E / thickness beyond which Newton's method creeps.
+_STIFFEST = 1e3
 #: More elements on a thickness than any mesh study needs.
 _MOST_ELEMENTS = 100
 
@@ -116,6 +120,22 @@ def check_geometry(case: AirBending) -> None:
     InvalidValue
         ``where`` is the name of the parameter that is the likeliest to be wrong.
     """
+    if not _NARROWEST <= case.opening / case.thickness <= _WIDEST:
+        raise InvalidValue(
+            "the opening of the die does not go with the thickness of the sheet",
+            where="opening",
+            value=case.opening,
+            cause=f"it is {case.opening / case.thickness:.3g} thicknesses; another unit, or the two exchanged",
+            remedy=f"{_NARROWEST:g} to {_WIDEST:g} thicknesses; press brakes take 5 to 16",
+        )
+    if case.penalty is not None and case.penalty > _STIFFEST * case.material.E / case.thickness:
+        raise InvalidValue(
+            "the penalty is so stiff that the run would creep",
+            where="penalty",
+            value=case.penalty,
+            cause=f"it is {case.penalty * case.thickness / case.material.E:.3g} times E / thickness",
+            remedy="leave it out: it follows from the penetration that is allowed",
+        )
     tip = 2.0 * case.punch_radius * math.cos(math.radians(0.5 * case.punch_angle))
     if tip >= case.opening:
         raise InvalidValue(

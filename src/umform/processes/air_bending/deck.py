@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from umform.elements import element
 from umform.errors import InvalidValue
 from umform.processes.air_bending.brake import OPTIONS, increments, unloading_keys
 from umform.processes.air_bending.checks import needed_stroke
@@ -69,7 +70,7 @@ def _element_name(case: AirBending) -> str:
             cause="a deck names an element of the catalogue; this one is your own",
             remedy="take one of `umform elements`, or run the bend in Python",
         )
-    return case.element
+    return element(case.element).name
 
 
 def _across(case: AirBending) -> dict[str, Any]:
