@@ -18,7 +18,7 @@ MOST_POINTS = 10
 #: A larger increment jumps over the first contact; a run of smaller ones does not end.
 _LARGEST_INCREMENT, _SMALLEST_INCREMENT = 0.05, 1e-5
 #: Openings over the thickness between which a sheet is bent in the air; press brakes take 5 to 16.
-_NARROWEST, _WIDEST = 2.0, 500.0
+_NARROWEST, _WIDEST = 1.0, 500.0
 #: Penalty over E / thickness beyond which Newton's method creeps.
 _STIFFEST = 1e3
 #: More elements on a thickness than any mesh study needs.
