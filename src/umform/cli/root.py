@@ -14,6 +14,9 @@ import umform
 from umform.errors import UmformError
 
 INTERRUPTED = 130
+_GIVEN_UP = """
+umform: interrupted; the runs are given up, files of before stay as they were
+  remedy: for long runs print the deck with --print-deck; umform run keeps what was reached, umform resume goes on"""
 
 
 class Commands(TyperGroup):
@@ -30,7 +33,7 @@ class Commands(TyperGroup):
             typer.echo(f"umform: {message(error)}", err=True)
             raise typer.Exit(1) from error
         except KeyboardInterrupt as error:
-            typer.echo("\numform: interrupted; the runs are given up, files of before stay as they were", err=True)
+            typer.echo(_GIVEN_UP, err=True)
             raise typer.Exit(INTERRUPTED) from error
         except BrokenPipeError:
             raise  # nobody reads on: `main` ends without a word
