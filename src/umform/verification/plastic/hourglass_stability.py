@@ -152,6 +152,8 @@ over its width, in homogeneous tension or compression along the length; E = 2100
 500 (0.01 + e)^0.2. Measured: the smallest eigenvalue of the tangent in the space of all displacements that are equal on
 both faces and are not affine, with the condensed enhanced strains, every {LARGEST / STEPS:g} of logarithmic strain. All
 points flow; forces are dead.
+
+![What comes of it in a bar, from the page of necking](images/plastic-necking-shape-plane-strain-eas3deas.png)
 """,
     reference="""
 A solid under tension in plane strain cannot bifurcate before its largest force (Hill & Hutchinson, J. Mech. Phys.

@@ -160,6 +160,8 @@ The sheet of the [case of plastic bending](plastic-plate-bending.md), bent to th
 in the outer fibres) and back, with four elements of {ELEMENT.label} along it and 2 to 15 points through the
 thickness, of Gauss, of Lobatto, and of Gauss in each half (split). Perfect plasticity is the worst case, since the
 stress jumps at the neutral line.
+
+![The sheet, from the page of pure bending](images/plastic-plate-bending-shape-hardening.png)
 """,
     reference="""
 The same law integrated with 1000 fibres; and, to tell the element from its rule, integrated point by point with the

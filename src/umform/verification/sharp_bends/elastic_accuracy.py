@@ -124,6 +124,8 @@ tied: the [straight cantilever](straight-beam.md) with rectangles, trapezoids an
 [Scordelis-Lo roof](scordelis-lo.md), the [pinched cylinder](pinched-cylinder.md) and the
 [pinched hemisphere](linear-hemisphere.md); with large rotations the [cantilever](nonlinear-end-shear.md) and the
 [hemisphere](nonlinear-hemisphere.md).
+
+![One of the problems, from the page of the pinched hemisphere](images/linear-hemisphere-shape.png)
 """,
     reference="""
 Those of the pages of the problems; and the element that each is made of, which order 4 shall not change.

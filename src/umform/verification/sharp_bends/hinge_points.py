@@ -117,6 +117,8 @@ CASE = Case(
 0.3, with the points of each rule: Gauss, Lobatto, split (half of the Gauss points on each side of the mid-surface).
 (b) The strip folded over a [small cylinder](bend-small-cylinders.md) of radius h and 5 h, H = 500 MPa, with the same
 rules. Order p needs p + 1 points at least.
+
+![The hinge, from the page of the hinge](images/bend-hinge-shape.png)
 """,
     reference="""
 (a) The same section with 60 points. (b) The same mesh with 14 split points, the rule that errs least in (a), so that

@@ -135,6 +135,8 @@ The strip of the [paper](bending-reproduction.md) in plane strain, h = 1 mm, kap
 linear hardening H = 500 and 0; forces on a width of 10 mm. Half length 60 mm, over a cylinder of R = 20 mm at x = 25
 mm, lower edge of x = 0 pushed down by 15 mm; penalty 100 N/mm^3, 2 x 2 contact points (18 nodes: 3 x 3). Order 1 as in
 the literature, orders above it with E_33 tied; 12 points of the split rule.
+
+![The strip over its cylinder, from the page of the paper's example](images/bending-reproduction-shape.png)
 """,
     reference="""
 CalculiX 2.20 with C3D20R and contact of surfaces, six layers, 1/6 mm in the hinge, the same penalty; four layers are

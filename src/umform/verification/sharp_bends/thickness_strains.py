@@ -223,6 +223,8 @@ with Legendre polynomials up to an order in t (what the elements have); E_33 fre
 constant; the same polynomials in the logarithm of the thickness stretch; order 1 or 2 with the logarithm of the volume
 change projected on polynomials in t; order 4 with a stabilisation c mu of its parameters. J2, kappa = 175000, mu =
 80770, y0 = 160, perfect or with H = {HARDENING:g} MPa. Parameters: of E_33 + of the pressure.
+
+![A sheet in pure bending, from the page of the moment](images/bend-moment-shape.png)
 """,
     reference="""
 Perfect plasticity: Hill, The Mathematical Theory of Plasticity (1950), exact for a rigid-plastic sheet; an elastic one
