@@ -226,8 +226,9 @@ void bind_blocks(nb::module_& m) {
         .def_prop_ro(
             "areas", [](const ContactBlock& b) { return to_numpy(b.areas(), {b.areas().size()}); },
             nb::sig("def areas(self) -> NDArray[float64]"))
-        .def_prop_ro("round_off_squared", &ContactBlock::round_off_squared,
-                     "Square of what a relative error 1 of all positions makes of the residual, at the last evaluation.")
+        .def_prop_ro(
+            "round_off_squared", &ContactBlock::round_off_squared,
+            "Square of what a relative error 1 of all positions makes of the residual, at the last evaluation.")
         .def_prop_rw(
             "multipliers", [](const ContactBlock& b) { return to_numpy(b.multipliers(), {b.multipliers().size()}); },
             [](ContactBlock& b, const Input& values) {

@@ -56,7 +56,8 @@ class ShellBlock {
         const std::size_t size = state_size(), count = size > 0 ? state_.size() / size : 0;
         std::vector<std::uint8_t> flows(count);
         for (std::size_t q = 0; q < count; ++q)
-            flows[q] = !std::equal(state_.begin() + q * size, state_.begin() + (q + 1) * size, trial_.begin() + q * size);
+            flows[q] =
+                !std::equal(state_.begin() + q * size, state_.begin() + (q + 1) * size, trial_.begin() + q * size);
         return flows;
     }
     const std::vector<double>& alpha() const { return alpha_converged_; }

@@ -51,12 +51,10 @@ def _chosen(page: Page, radius: float) -> list[tuple[Candidate, float]]:
     eighteen = [(of_order("MI9K3DEAS", p), 1.0) for p in (1, 2, 3)] + [(BEND18, 1.0)]
     if page.short:
         return [stacks[0], eight[0], eight[-1], eighteen[-1]]
-    if radius == RADII[1]:
-        return [stacks[0], *eight, eighteen[-1]]
     if radius == RADII[0]:
         stacks.insert(1, (stack("EAS3DEAS", 8, 2, 3), length))
     if radius == RADII[2]:
-        return [*stacks, *eight, (BEND8, 1.0), (BEND8, 0.25), eighteen[-1]]
+        eight.append((BEND8, 0.25))
     return [*stacks, *eight, (BEND8, 1.0), *eighteen, (BEND18, 2.0)]
 
 
