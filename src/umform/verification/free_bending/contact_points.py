@@ -199,7 +199,7 @@ of lines of points in contact.
 Section 4.5 of the theory: jumps of the distance of the points over the lever arm, eq. (4.13), while the contact is
 shorter than this distance, and a length of the contact of 2 (3 R Q / (2 penalty))^(1/3), eq. (4.15). Both are
 estimates: the arm changes while the contact wanders (25 mm at first; 20 mm is taken), Gauss points are not
-equidistant, the strip is not straight.
+equidistant, the strip is not straight. Their uncertainty is what the checks allow: 35 % for jumps, 20 % for lengths.
 """,
     run=run,
     cost=170.0,

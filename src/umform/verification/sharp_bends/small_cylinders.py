@@ -151,7 +151,7 @@ orders above with E_33 tied; 12 points of the split rule, in stacks of two and f
     reference="""
 Own stack of four layers of EAS3DEAS of order 2 with elements of length h/4 (largest cylinder: h/2); eight layers stand
 beside it over the smallest. Over the largest also CalculiX: four layers of C3D20R of length h/2 with contact of
-surfaces and the same penalty.
+surfaces and the same penalty. Uncertainty: the difference of four and eight layers, which the checks show.
 """,
     run=run,
     cost=60.0,
