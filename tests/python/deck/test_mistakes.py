@@ -5,7 +5,6 @@ import time
 import warnings
 from pathlib import Path
 
-import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 
 from umform.deck import Deck, DeckError
@@ -82,8 +81,7 @@ def test_building(text):
     check(text)
 
 
-@pytest.mark.long
-@settings(max_examples=2000, deadline=None, suppress_health_check=_SLOW, phases=_PHASES)
+@settings(max_examples=2000, derandomize=True, deadline=None, suppress_health_check=_SLOW, phases=_PHASES)
 @given(mutations.decks)
 def test_two_thousand(text):
     check(text)
@@ -128,8 +126,7 @@ def test_running(tmp_path_factory, text):
     try_to_run(text, tmp_path_factory.mktemp("run"))
 
 
-@pytest.mark.long
-@settings(max_examples=200, deadline=None, suppress_health_check=_SLOW, phases=_PHASES)
+@settings(max_examples=200, derandomize=True, deadline=None, suppress_health_check=_SLOW, phases=_PHASES)
 @given(mutations.changed_data(most=1).map(short))
 def test_two_hundred_runs(tmp_path_factory, text):
     try_to_run(text, tmp_path_factory.mktemp("run"))
