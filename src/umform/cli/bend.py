@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
     from umform.processes.air_bending.budget import Budget
     from umform.processes.air_bending.case import AirBend
     from umform.processes.air_bending.measures import Measures
+    from umform.results import Result
 
 
 def _option(help_text: str, panel: str, *names: str) -> Any:
@@ -110,7 +113,7 @@ def bend(
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if not print_deck:
         check_folder(out)
-    with timings() as spent:
+    with timings() as spent, _what_was_reached(out):
         if angle is not None:
             case = find_stroke(case, angle, tolerance=tolerance).case
         if print_deck:
@@ -129,6 +132,20 @@ def bend(
     console().print(f"Written to {out}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
+
+
+@contextmanager
+def _what_was_reached(out: Path) -> Iterator[None]:
+    """Write history and states of the run that Ctrl-C ends; the increment under way is finished before."""
+    try:
+        yield
+    except KeyboardInterrupt as stop:
+        reached: Result | None = getattr(stop, "result", None)
+        if reached is not None and reached.frames:
+            out.mkdir(parents=True, exist_ok=True)
+            files = [reached.write(out / name) for name in ("history.csv", "bend.vtkhdf")]
+            typer.echo(f"what was reached is in {out}: {', '.join(file.name for file in files)}", err=True)
+        raise
 
 
 def _check_goal(angle: float | None, stroke: float | None) -> None:

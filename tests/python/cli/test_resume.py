@@ -210,3 +210,22 @@ def test_a_checkpoint_that_cannot_be_written_is_refused_before_the_run(stopped, 
     answer = umform("run", stopped.parents[1] / "deck.toml", "--every", "-1", "--out", tmp_path / "out")
     assert answer.exit_code == 1
     assert "where:  every" in answer.output
+
+
+def test_ctrl_c_ends_a_bend_after_the_increment_with_what_was_reached(tmp_path):
+    run = started("bend", "--stroke", 6, "--out", tmp_path, "-v")
+    try:
+        for line in run.stderr:
+            if "step 1  time 0.2" in line:  # well on its way
+                break
+        run.send_signal(signal.SIGINT)
+        said = run.stderr.read()
+    finally:
+        run.kill()
+        run.stderr.close()
+    assert run.wait() == 130
+    assert "what was reached is in" in said
+    assert "Traceback" not in said
+    assert len((tmp_path / "history.csv").read_text().splitlines()) > 5
+    with h5py.File(tmp_path / "bend.vtkhdf") as file:
+        assert file["VTKHDF/Steps"].attrs["NSteps"] >= 2
