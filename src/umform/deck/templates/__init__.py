@@ -65,7 +65,7 @@ def write_template(name: str, path: str | Path) -> list[Path]:
     FileProblem
         If a file cannot be written.
     """
-    from umform.io.atomic import PendingFile  # umform.io is slow to import
+    from umform.io.atomic import PendingFile
 
     path = Path(path)
     texts = {path: template(name)}
