@@ -1,7 +1,7 @@
 """What it saves to take the geometric stiffness from the stress that an increment foresaw: docs/theory, 5.13.
 
-Thin and thick sheets, in load steps of several sizes, with the consistent tangent and with the mixed one. Old factors do
-not serve, so that each iteration is one factorisation.
+Thin and thick sheets, in load steps of several sizes, with the consistent tangent and with the mixed one. Old factors
+do not serve, so that each iteration is one factorisation.
 """
 
 from __future__ import annotations
@@ -78,9 +78,8 @@ def main() -> None:
         for increments in sizes:
             (n, k, s), (n_mixed, k_mixed, s_mixed) = (run(build, increments, mixed) for mixed in (False, True))
             numbers[f"{name} in {increments}, evaluations over those of the consistent tangent"] = k_mixed / k
-            print(
-                f"{name:<24}{increments:>7}{n:>7}{n_mixed:>6}{k:>8}{k_mixed:>7}{s:>8.2f}{s_mixed:>7.2f}{s_mixed / s:>8.2f}"
-            )
+            seconds = f"{s:>8.2f}{s_mixed:>7.2f}{s_mixed / s:>8.2f}"
+            print(f"{name:<24}{increments:>7}{n:>7}{n_mixed:>6}{k:>8}{k_mixed:>7}{seconds}", flush=True)
     record.write(arguments.json, "mixed", numbers)
 
 

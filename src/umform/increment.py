@@ -118,9 +118,9 @@ def take_increment(
 def _converged(run: Run, before: Mapping[Control, float], time: float, extrapolation: float | None) -> Converged:
     """Equilibrium at the new values, from the first start that leads there. docs/theory, 4.13
 
-    The extrapolation, then the tangent, then the consistent tangent throughout, which may cross a sudden change of shape
-    where the mixed one of (5.39) does not; with contact a line search, for where one row of points holds the sheet a full
-    step may lose it; and softer penalties, for a stiff tool may come to where nothing touched before.
+    The extrapolation, then the tangent, then the consistent tangent throughout, which may cross a sudden change of
+    shape where the mixed one of (5.39) does not; with contact a line search, for where one row of points holds the
+    sheet a full step may lose it; and softer penalties, for a stiff tool may come to where nothing touched before.
     """
     newton = run.newton
     if extrapolation is not None and run.last_du is not None and newton.options.extrapolate:

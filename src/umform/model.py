@@ -231,8 +231,8 @@ class Model(Supported, Loaded, Touched, Whole):
     def recover(self, du: Floats, s: float, mixed: bool = False) -> None:
         """Update the enhanced parameters after ``u += s du``. eq. (2.19)
 
-        With ``mixed`` the tangent of the evaluation that follows has the geometric stiffness of the stress that ``s du``
-        foresaw instead of the present one. eq. (5.39)
+        With ``mixed`` the tangent of the evaluation that follows has the geometric stiffness of the stress that
+        ``s du`` foresaw instead of the present one. eq. (5.39)
         """
         with self.timing.recovery:
             self.block.recover(du, s, mixed)

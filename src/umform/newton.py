@@ -152,7 +152,7 @@ class Corrector(Protocol):
 
     @property
     def mixed(self) -> bool:
-        """Whether the tangents have the geometric stiffness of the stress that the last increment foresaw. eq. (5.39)"""
+        """Whether the geometric stiffness is that of the stress which the last increment foresaw. eq. (5.39)"""
 
     def evaluate(self, u: Floats) -> Evaluation:
         """Residual and tangent."""
