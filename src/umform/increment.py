@@ -122,15 +122,14 @@ def _converged(run: Run, before: Mapping[Control, float], time: float, extrapola
     shape where the mixed one of (5.39) does not; with contact a line search, for where one row of points holds the
     sheet a full step may lose it; and softer penalties, for a stiff tool may come to where nothing touched before.
     """
-    newton = run.newton
+    newton, touches = run.newton, bool(run.model.contacts)
     if extrapolation is not None and run.last_du is not None and newton.options.extrapolate:
         try:
             return newton.solve(extrapolation * run.last_du)
         except Failed:  # it may have gone too far
             pass
-    touches = bool(run.model.contacts)
-    ways = [(False, False)]
-    if newton.options.mixed:
+    ways = [(False, False)]  # whether the tangent is consistent, and whether a line is searched
+    if newton.mixed:
         ways.append((True, False))
     if touches and not newton.options.line_search:
         ways.append((True, True))

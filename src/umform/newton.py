@@ -16,6 +16,7 @@ import math
 import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Protocol, TypeVar
 
 import numpy as np
@@ -58,9 +59,10 @@ class NewtonOptions:
         What a factorisation costs over an evaluation with a solve; where it is dear, old factors serve for more than
         one iteration, see :mod:`umform.reuse`. Default: an estimate from the entries of the factors; 0 makes new ones
         always.
-    mixed : bool
+    mixed : bool, optional
         Take the geometric stiffness from the stress that the last increment foresaw, not from the present one: thin
-        sheets take larger steps and fewer iterations. eq. (5.39)
+        elastic sheets take larger steps and fewer iterations. eq. (5.39) Default: without contact, and for laws
+        without a history.
     """
 
     residual: float = 1e-9
@@ -69,7 +71,7 @@ class NewtonOptions:
     line_search: bool = False
     extrapolate: bool = True
     factor_cost: float | None = None
-    mixed: bool = True
+    mixed: bool | None = None
 
     def __post_init__(self) -> None:
         if not self.residual > 0 or not self.increment > 0 or self.max_iterations < 1:
@@ -200,6 +202,13 @@ class Newton:
         """Name of the sparse solver that the system gets."""
         return self.ready_solver().name
 
+    @cached_property
+    def mixed(self) -> bool:
+        """Whether tangents have the geometric stiffness of the stress that the last increment foresaw. eq. (5.39)"""
+        if self.options.mixed is not None:
+            return self.options.mixed
+        return not self.system.ranks.any(self.system.flowing().size + self.system.active_set().size > 0)
+
     def solve(
         self, extrapolation: Floats | None = None, *, line_search: bool = False, consistent: bool = False
     ) -> Converged:
@@ -221,7 +230,7 @@ class Newton:
             If it does not converge; the system is reverted.
         """
         options = self.options
-        loads = _FixedLoads(self.system, options.line_search or line_search, options.mixed and not consistent)
+        loads = _FixedLoads(self.system, options.line_search or line_search, self.mixed and not consistent)
         return self.guarded(lambda: self._solve(extrapolation, loads))
 
     def go_on(self, converged: Converged, change: Floats) -> Converged:
@@ -244,7 +253,7 @@ class Newton:
             solver = self.ready_solver()
             solver.factor(converged.evaluation.values)
             du = self.system.extend(solver.solve(-self.system.restrict(change)))
-            return self.correct(converged.u, du, _FixedLoads(self.system, self.options.line_search, self.options.mixed))
+            return self.correct(converged.u, du, _FixedLoads(self.system, self.options.line_search, self.mixed))
 
         return self.guarded(work)
 

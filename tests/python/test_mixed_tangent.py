@@ -13,6 +13,7 @@ from umform.mesh import strip
 from umform.model import Model
 from umform.newton import Newton, NewtonOptions
 from umform.steps import Move, solve
+from umform.surfaces import Plane
 from umform.user_law import UserLaw
 
 #: Without enhanced strains, with and without tying.
@@ -97,6 +98,11 @@ def test_what_is_taken_back_or_committed_leaves_the_consistent_tangent():
     np.testing.assert_array_equal(model.evaluate(u).values, committed)
 
 
+def steel():
+    """Yields where it is bent."""
+    return mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(yield_stress=300.0, modulus=1000.0))
+
+
 def rolled(mixed, element="ANS3DEAS", law=None):
     """A thin strip, a hundred times as long as thick, whose end goes up by three quarters of its length."""
     cell, cells = ("hex18", (10, 1)) if "9K" in element else ("hex8", (20, 1))
@@ -124,9 +130,16 @@ def test_its_convergence_is_quadratic():
     assert orders.max() > 1.8
 
 
-def test_plastic_answers_are_the_same(build):
+def test_plastic_answers_are_the_same():
     """Of a law with a history too: the residual that is solved is the same."""
-    law = mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(yield_stress=300.0, modulus=1000.0))
-    (plain, _), (mixed, _) = rolled(False, law=law), rolled(True, law=law)
-    assert plain.block.flowing.any() or (plain.block.state[..., 6] > 0).any()
+    (plain, _), (mixed, _) = rolled(False, law=steel()), rolled(True, law=steel())
+    assert (plain.block.state[..., 6] > 0).any()
     np.testing.assert_allclose(mixed.u, plain.u, atol=1e-6 * np.abs(plain.u).max())
+
+
+def test_by_default_elastic_sheets_without_contact_take_it():
+    elastic, plastic, touching = block("ANS3DEAS", mt.SVK(E=100.0, nu=0.3)), block("ANS3DEAS", steel()), rolled(True)[0]
+    touching.contact("lower", Plane(point=(0, 0, -5), normal=(0, 0, 1)), penalty=1.0)
+    assert [Newton(model).mixed for model in (elastic, plastic, touching)] == [True, False, False]
+    assert Newton(plastic, NewtonOptions(mixed=True)).mixed
+    assert not Newton(elastic, NewtonOptions(mixed=False)).mixed
