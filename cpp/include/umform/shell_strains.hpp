@@ -55,9 +55,11 @@ class ShellStrains {
     void quadratic_strains(const Nodal& correction, Workspace& w) const {
         for (std::size_t k = 0; k < tables_.places.size(); ++k)
             w.d[k] = base_of(tables_.places[k].shape, correction.data());
-        const auto quadratic = [&w](int component, int place, double t) {
-            const auto [i, j] = voigt_pair[component];
-            return quadratic_strain(i, j, w.d[place].at(t));
+        const auto quadratic = [&w](int place, double t) {
+            return [d = w.d[place].at(t)](int component) {
+                const auto [i, j] = voigt_pair[component];
+                return quadratic_strain(i, j, d);
+            };
         };
         sample_strains(tables_.mid_samples, 0.0, quadratic, w.mid_E.data());
         for (int layer = 0, q = 0; layer < tables_.layers; ++layer) {
@@ -93,27 +95,30 @@ class ShellStrains {
     static Mat<Real, 3, 3> columns(const Vectors& v) {
         return {{v[0][0], v[1][0], v[2][0], v[0][1], v[1][1], v[2][1], v[0][2], v[1][2], v[2][2]}};
     }
-    /// The covariant strain of a place as a function of component, place and t.
+    /// Covariant strains: of place and t a function of the component.
     static auto total(const Workspace& w) {
-        return [&w](int component, int place, double t) {
-            const auto [i, j] = voigt_pair[component];
-            return covariant_strain(i, j, w.G[place].at(t), w.h[place].at(t));
+        return [&w](int place, double t) {
+            return [G = w.G[place].at(t), h = w.h[place].at(t)](int component) {
+                const auto [i, j] = voigt_pair[component];
+                return covariant_strain(i, j, G, h);
+            };
         };
     }
 
     template <class Strain>
     static void sample_strains(const std::vector<typename ShellTables<Nodes>::Sample>& samples, double t,
                                const Strain& strain, Real* E) {
-        for (const auto& [component, place] : samples) *E++ = strain(component, place, t);
+        for (const auto& [component, place] : samples) *E++ = strain(place, t)(component);
     }
 
     /// Compatible components, and tied ones from their samples. eq. (2.2)
     template <class Strain>
     Voigt assumed_strain(int surface_point, double t, const Strain& strain, const Workspace& w) const {
+        const auto compatible = strain(surface_point, t);
         Voigt E{};
         for (int p = 0; p < 6; ++p) {
             if (tables_.row_of[p] < 0) {
-                E[p] = strain(p, surface_point, t);
+                E[p] = compatible(p);
                 continue;
             }
             const auto& row = tables_.rows[tables_.row_of[p]];
