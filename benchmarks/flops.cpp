@@ -102,7 +102,7 @@ void count(const Technology& technology) {
     else
         answer(J2{law[0], law[1], LinearVoce{law[2], law[3], law[2], 0.0}}, element, w);
     const long material = since();
-    element.integrate(w);
+    element.integrate(false, w);
     const long integration = since();
     element.condense(w);
     std::cout << strains << ' ' << material << ' ' << integration << ' ' << since() << '\n';

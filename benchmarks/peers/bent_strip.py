@@ -25,7 +25,7 @@ CELLS = {"BEND8": "hex8", "BEND18": "hex18", "EAS3DEAS": "hex8", "C3D8I": "hex8"
 STACK = {"model": {"thickness_order": 2, "tie_E33": True, "thickness_points": 4, "thickness_rule": "gauss"}}
 #: Code, element, cells along, layers.
 MESHES = (
-    *(("umform", "BEND8", n, 1) for n in (24, 48, 96)),
+    *(("umform", "BEND8", n, 1) for n in (16, 24, 32, 48, 96)),
     *(("umform", "BEND18", n, 1) for n in (12, 24, 48)),
     *(("CalculiX", "C3D8I", n, k) for n, k in ((24, 1), (48, 1), (96, 1), (48, 2))),
     *(("CalculiX", "C3D20R", n, k) for n, k in ((24, 1), (48, 1), (96, 1), (48, 2), (96, 4))),

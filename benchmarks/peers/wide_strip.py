@@ -10,6 +10,7 @@ TITLE = "(w) The same strip, 10 wide with free edges"
 #: Code, element, cells along, layers, cells across.
 MESHES = (
     ("umform", "BEND8", 48, 1, 4),
+    ("umform", "BEND8", 48, 1, 3),
     ("umform", "BEND18", 24, 1, 2),
     ("CalculiX", "C3D8I", 48, 1, 4),
     ("CalculiX", "C3D8I", 48, 2, 4),
@@ -23,7 +24,8 @@ def entries(short: bool) -> list[Entry]:
     """Runs of the comparison; none that are short."""
     if short:
         return []
-    return [entry(*MESHES[0], loose=True), *(entry(*mesh) for mesh in (*MESHES, FINEST))]
+    loose = [entry(*mesh, loose=True) for mesh in MESHES if mesh[1] == "BEND8"]
+    return [*loose, *(entry(*mesh) for mesh in (*MESHES, FINEST))]
 
 
 def measures(found: Found) -> dict[str, dict[str, float]]:

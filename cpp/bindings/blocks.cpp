@@ -130,9 +130,10 @@ void bind_blocks(nb::module_& m) {
         .def_prop_ro("modes", &ShellBlock::modes)
         .def_prop_ro("state_size", &ShellBlock::state_size)
         .def(
-            "recover", [](ShellBlock& b, const Input& du, double s) { b.recover(nodal(b, du), s); }, nb::arg("du"),
-            nb::arg("s"), nb::sig("def recover(self, du: NDArray[float64], s: float) -> None"),
-            "Update the enhanced parameters after u += s du.")
+            "recover", [](ShellBlock& b, const Input& du, double s, bool mixed) { b.recover(nodal(b, du), s, mixed); },
+            nb::arg("du"), nb::arg("s"), nb::arg("mixed") = false,
+            nb::sig("def recover(self, du: NDArray[float64], s: float, mixed: bool = False) -> None"),
+            "Update the enhanced parameters after u += s du; mixed: the geometric stiffness is of the foreseen stress.")
         .def("undo_recover", &ShellBlock::undo_recover, "Take the last recover back.")
         .def("commit", &ShellBlock::commit, "Make the trial history the converged one.")
         .def("revert", &ShellBlock::revert, "Go back to the converged history.")

@@ -182,8 +182,10 @@ class ShellBlock:
     @property
     def state_size(self) -> int: ...
 
-    def recover(self, du: NDArray[float64], s: float) -> None:
-        """Update the enhanced parameters after u += s du."""
+    def recover(self, du: NDArray[float64], s: float, mixed: bool = False) -> None:
+        """
+        Update the enhanced parameters after u += s du; mixed: the geometric stiffness is of the foreseen stress.
+        """
 
     def undo_recover(self) -> None:
         """Take the last recover back."""

@@ -118,23 +118,30 @@ def take_increment(
 def _converged(run: Run, before: Mapping[Control, float], time: float, extrapolation: float | None) -> Converged:
     """Equilibrium at the new values, from the first start that leads there. docs/theory, 4.13
 
-    The extrapolation, then the tangent; with contact the tangent and a line search, for where one row of points holds
-    the sheet a full step may lose it; and softer penalties, for a stiff tool may come to where nothing touched before.
+    The extrapolation, then the tangent, then the consistent tangent throughout, which may cross a sudden change of
+    shape where the mixed one of (5.39) does not; with contact a line search, for where one row of points holds the
+    sheet a full step may lose it; and softer penalties, for a stiff tool may come to where nothing touched before.
     """
-    newton = run.newton
+    newton, touches = run.newton, bool(run.model.contacts)
     if extrapolation is not None and run.last_du is not None and newton.options.extrapolate:
         try:
             return newton.solve(extrapolation * run.last_du)
         except Failed:  # it may have gone too far
             pass
-    if not run.model.contacts:
-        return newton.solve(None)
+    ways = [(False, False)]  # whether the tangent is consistent, and whether a line is searched
+    if newton.mixed:
+        ways.append((True, False))
+    if touches and not newton.options.line_search:
+        ways.append((True, True))
     failures = []
-    for search in (False,) if newton.options.line_search else (False, True):
+    for consistent, search in ways:
         try:
-            return newton.solve(_tangent(run, before, time), line_search=search)
+            start = _tangent(run, before, time) if touches else None
+            return newton.solve(start, line_search=search, consistent=consistent)
         except Failed as failure:
             failures.append(failure)
+    if not touches:
+        raise failures[-1]
     try:
         return softened(run.model, newton, _tangent(run, before, time))
     except Failed:

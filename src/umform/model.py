@@ -228,10 +228,14 @@ class Model(Supported, Loaded, Touched, Whole):
                 values = assembly.reduce(values)
         return Evaluation(f, values, Kdu, float(np.sqrt(scale)), failed, float(np.sqrt(round_off)))
 
-    def recover(self, du: Floats, s: float) -> None:
-        """Update the enhanced parameters after ``u += s du``. eq. (2.19)"""
+    def recover(self, du: Floats, s: float, mixed: bool = False) -> None:
+        """Update the enhanced parameters after ``u += s du``. eq. (2.19)
+
+        With ``mixed`` the tangent of the evaluation that follows has the geometric stiffness of the stress that
+        ``s du`` foresaw instead of the present one. eq. (5.39)
+        """
         with self.timing.recovery:
-            self.block.recover(du, s)
+            self.block.recover(du, s, mixed)
 
     def undo_recover(self) -> None:
         """Take the last :meth:`recover` back."""

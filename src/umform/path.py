@@ -73,6 +73,7 @@ class OnArc:
     def __init__(self, newton: Newton, model: Model, line: Line, load_weight: float, length: float | None) -> None:
         self.newton, self.model, self.line = newton, model, line
         self.load_weight, self.length, self.start = load_weight, length, line.fraction
+        self.mixed = newton.mixed
 
     def evaluate(self, u: Floats) -> Evaluation:
         """Residual, tangent and rate of the residual with the load parameter. eq. (5.21)"""

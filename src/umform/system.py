@@ -76,8 +76,8 @@ class System(Protocol):
     def evaluate(self, u: Floats, du: Floats | None = None) -> Evaluation:
         """Residual and tangent."""
 
-    def recover(self, du: Floats, s: float) -> None:
-        """Update condensed parameters."""
+    def recover(self, du: Floats, s: float, mixed: bool = False) -> None:
+        """Update condensed parameters; the next tangent may be mixed, of the stress that the increment foresaw."""
 
     def undo_recover(self) -> None:
         """Take the last update back."""

@@ -38,17 +38,30 @@ class ShellBlock {
     /// K, f of one element before its scatter, condensed; for tests and eigenvalues.
     virtual void element(int e, const double* u, double* K, double* f) = 0;
 
-    /// alpha -= Kaa^-1 (ra + s Kad du) with the blocks of the last `evaluate`. eq. (2.19)
-    virtual void recover(const double* du, double s) = 0;
+    /// alpha -= Kaa^-1 (ra + s Kad du) with the blocks of the last `evaluate`. eq. (2.19) If `mixed`, the evaluations that
+    /// follow take the geometric stiffness from the stress that the correction s du foresaw. eq. (5.39)
+    void recover(const double* du, double s, bool mixed) {
+        alpha_before_ = alpha_;
+        correction_.resize(mixed ? dofs() : 0);
+        for (std::size_t i = 0; i < correction_.size(); ++i) correction_[i] = s * du[i];
+        if (modes() > 0) recover_enhanced(du, s);
+    }
     /// Takes the last `recover` back.
-    void undo_recover() { alpha_ = alpha_before_; }
+    void undo_recover() {
+        alpha_ = alpha_before_;
+        correction_.clear();
+    }
 
     void commit() {
         state_.swap(trial_);
         trial_ = state_;
         alpha_converged_ = alpha_;
+        correction_.clear();
     }
-    void revert() { alpha_ = alpha_before_ = alpha_converged_; }
+    void revert() {
+        alpha_ = alpha_before_ = alpha_converged_;
+        correction_.clear();
+    }
 
     const std::vector<double>& state() const { return state_; }
     /// For each point, whether the last `evaluate` has changed its history: 1 where the material flows.
@@ -68,6 +81,9 @@ class ShellBlock {
     }
 
   protected:
+    virtual void recover_enhanced(const double* du, double s) = 0;
+
+    std::vector<double> correction_;                              // of all degrees of freedom, or empty
     std::vector<double> state_, trial_;                           // [element][point][state_size]
     std::vector<double> alpha_, alpha_before_, alpha_converged_;  // [element][mode]
 };
@@ -106,7 +122,7 @@ class ShellBlockOf final : public ShellBlock {
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         for_each_batch([&](int b, Workspace& w) {
             const Batch& batch = batches_.all[b];
-            const LaneMask good = compute(batch, u, trial_of(batch), w);
+            const LaneMask good = compute(batch, u, correction_, trial_of(batch), w);
             const std::size_t modes = element_.modes();
             std::copy(w.shell.ra.begin(), w.shell.ra.end(), y_.begin() + b * modes);
             std::copy(w.shell.Kad.begin(), w.shell.Kad.end(), Y_.begin() + b * modes * size);
@@ -127,10 +143,8 @@ class ShellBlockOf final : public ShellBlock {
         return outcome;
     }
 
-    void recover(const double* du, double s) override {
-        alpha_before_ = alpha_;
+    void recover_enhanced(const double* du, double s) override {
         const int modes = element_.modes();
-        if (modes == 0) return;
         for_each_batch([&](int b, Workspace& w) {
             const Batch& batch = batches_.all[b];
             gather<Nodes>(part_, batch, du, w.u);
@@ -150,7 +164,7 @@ class ShellBlockOf final : public ShellBlock {
         Workspace& w = workspaces_[0];
         const Batch batch = alone(e);
         std::vector<double> scratch(trial_size());
-        if (!compute(batch, u, filled(scratch.data()), w)[0])
+        if (!compute(batch, u, {}, filled(scratch.data()), w)[0])
             throw std::domain_error("the element is outside of the domain of its law, or Kaa is singular");
         for (int a = 0; a < Nodes; ++a)
             for (int k = 0; k < 3; ++k) {
@@ -277,11 +291,16 @@ class ShellBlockOf final : public ShellBlock {
         return element_.strains(w.X, w.u, w.alpha.data(), w.shell);
     }
 
-    LaneMask compute(const Batch& batch, const double* u, const LaneTrials& trial, Workspace& w) const {
+    LaneMask compute(const Batch& batch, const double* u, const std::vector<double>& correction,
+                     const LaneTrials& trial, Workspace& w) const {
         LaneMask good = strains(batch, u, alpha_, w);
         good = respond(batch, good, trial, w);
         if (!any(good)) return good;
-        element_.integrate(w.shell);
+        if (!correction.empty()) {
+            gather<Nodes>(part_, batch, correction.data(), w.u);
+            element_.quadratic_strains(w.u, w.shell);
+        }
+        element_.integrate(!correction.empty(), w.shell);
         good = good & element_.condense(w.shell);
         w.results.set(w.shell.Kmm.data(), w.shell.Kdm.data(), w.shell.Kdd.data(), w.shell.f.data());
         return good;

@@ -23,6 +23,12 @@ template <class Real>
     return i == j ? 0.5 * twice : twice;
 }
 
+/// What is quadratic in h of the covariant strain. eq. (1.7)
+template <class Real>
+[[gnu::always_inline]] inline Real quadratic_strain(int i, int j, const std::array<Vec<Real, 3>, 3>& h) {
+    return i == j ? 0.5 * dot(h[i], h[i]) : dot(h[i], h[j]);
+}
+
 /// Local orthonormal frame (columns e_1, e_2, e_3): e_3 normal to the layer, e_1 along G_1. eq. (1.13)
 template <class Real>
 std::array<Vec<Real, 3>, 3> local_frame(const std::array<Vec<Real, 3>, 3>& G) {

@@ -26,21 +26,21 @@ class ShellStrains {
             w.G[k] = base_of(tables_.places[k].shape, X.data());
             w.h[k] = base_of(tables_.places[k].shape, u.data());
         }
-        sample_strains(tables_.mid_samples, 0.0, w, w.mid_E.data());
+        sample_strains(tables_.mid_samples, 0.0, total(w), w.mid_E.data());
         const Vectors G0 = w.G[tables_.centre].at(0.0);
         const Mat<Real, 3, 3> centre_inverse = inverse(columns(G0));
         const Real centre_det = det(columns(G0));
         Mask<Real> valid = true;
         for (int layer = 0, q = 0; layer < tables_.layers; ++layer) {
             const double t = tables_.t[layer];
-            sample_strains(tables_.layer_samples, t, w, w.layer_E.data());
+            sample_strains(tables_.layer_samples, t, total(w), w.layer_E.data());
             for (int p = 0; p < tables_.surface; ++p, ++q) {
-                const Vectors G = w.G[p].at(t), h = w.h[p].at(t);
+                const Vectors G = w.G[p].at(t);
                 const Real detJ = det(columns(G));
                 valid = valid & (detJ > 0.0);
                 w.dV[q] = detJ * tables_.weight[q];
                 w.A[q] = local_inverse(G);
-                Voigt E = assumed_strain(p, G, h, w);
+                Voigt E = assumed_strain(p, t, total(w), w);
                 if (tables_.modes > 0) {
                     enhanced_directions(q, product(centre_inverse, columns(G)), centre_det / detJ, w);
                     add_enhanced_strain(q, alpha, w, E);
@@ -49,6 +49,24 @@ class ShellStrains {
             }
         }
         return valid;
+    }
+
+    /// What is quadratic in a correction of the assumed strains at the Gauss points, in convected components. eq. (5.37)
+    void quadratic_strains(const Nodal& correction, Workspace& w) const {
+        for (std::size_t k = 0; k < tables_.places.size(); ++k)
+            w.d[k] = base_of(tables_.places[k].shape, correction.data());
+        const auto quadratic = [&w](int place, double t) {
+            return [d = w.d[place].at(t)](int component) {
+                const auto [i, j] = voigt_pair[component];
+                return quadratic_strain(i, j, d);
+            };
+        };
+        sample_strains(tables_.mid_samples, 0.0, quadratic, w.mid_E.data());
+        for (int layer = 0, q = 0; layer < tables_.layers; ++layer) {
+            const double t = tables_.t[layer];
+            sample_strains(tables_.layer_samples, t, quadratic, w.layer_E.data());
+            for (int p = 0; p < tables_.surface; ++p, ++q) w.bent[q] = assumed_strain(p, t, quadratic, w);
+        }
     }
 
     /// Base vectors of one lane at a Gauss point, after `strains`.
@@ -77,21 +95,30 @@ class ShellStrains {
     static Mat<Real, 3, 3> columns(const Vectors& v) {
         return {{v[0][0], v[1][0], v[2][0], v[0][1], v[1][1], v[2][1], v[0][2], v[1][2], v[2][2]}};
     }
-    void sample_strains(const std::vector<typename ShellTables<Nodes>::Sample>& samples, double t, const Workspace& w,
-                        Real* E) const {
-        for (const auto& sample : samples) {
-            const auto [i, j] = voigt_pair[sample.component];
-            *E++ = covariant_strain(i, j, w.G[sample.place].at(t), w.h[sample.place].at(t));
-        }
+    /// Covariant strains: of place and t a function of the component.
+    static auto total(const Workspace& w) {
+        return [&w](int place, double t) {
+            return [G = w.G[place].at(t), h = w.h[place].at(t)](int component) {
+                const auto [i, j] = voigt_pair[component];
+                return covariant_strain(i, j, G, h);
+            };
+        };
+    }
+
+    template <class Strain>
+    static void sample_strains(const std::vector<typename ShellTables<Nodes>::Sample>& samples, double t,
+                               const Strain& strain, Real* E) {
+        for (const auto& [component, place] : samples) *E++ = strain(place, t)(component);
     }
 
     /// Compatible components, and tied ones from their samples. eq. (2.2)
-    Voigt assumed_strain(int surface_point, const Vectors& G, const Vectors& h, const Workspace& w) const {
+    template <class Strain>
+    Voigt assumed_strain(int surface_point, double t, const Strain& strain, const Workspace& w) const {
+        const auto compatible = strain(surface_point, t);
         Voigt E{};
         for (int p = 0; p < 6; ++p) {
-            const auto [i, j] = voigt_pair[p];
             if (tables_.row_of[p] < 0) {
-                E[p] = covariant_strain(i, j, G, h);
+                E[p] = compatible(p);
                 continue;
             }
             const auto& row = tables_.rows[tables_.row_of[p]];

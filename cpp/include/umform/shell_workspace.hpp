@@ -15,13 +15,14 @@ struct ShellWorkspace {
     using Nodal = std::array<Real, size>;
 
     explicit ShellWorkspace(const ShellTables<Nodes>& tables)
-        : G(tables.places.size()), h(tables.places.size()), E(tables.points()), S(tables.points()), CC(tables.points()),
-          A(tables.points()), dV(tables.points()), enhanced(tables.points() * tables.enhanced.size()),
-          mid_E(tables.mid_samples.size()), layer_E(tables.layer_samples.size()),
-          mid_rows(tables.mid_samples.size() * size), layer_rows(tables.layer_samples.size() * size),
-          tied_rows(tables.surface * 6 * size), B_mean(tables.surface * 6 * half), B_extra(B_mean), CB_mean(B_mean),
-          CB_extra(B_mean), moments(tables.places.size()), Kmm(half * half), Kdm(Kmm), Kdd(Kmm),
-          Kaa(tables.modes * tables.modes), Kad(tables.modes * size), Kad_raw(Kad), ra(tables.modes) {}
+        : G(tables.places.size()), h(tables.places.size()), d(tables.places.size()), E(tables.points()),
+          S(tables.points()), CC(tables.points()), A(tables.points()), dV(tables.points()), bent(tables.points()),
+          enhanced(tables.points() * tables.enhanced.size()), mid_E(tables.mid_samples.size()),
+          layer_E(tables.layer_samples.size()), mid_rows(tables.mid_samples.size() * size),
+          layer_rows(tables.layer_samples.size() * size), tied_rows(tables.surface * 6 * size),
+          B_mean(tables.surface * 6 * half), B_extra(B_mean), CB_mean(B_mean), CB_extra(B_mean),
+          moments(tables.places.size()), Kmm(half * half), Kdm(Kmm), Kdd(Kmm), Kaa(tables.modes * tables.modes),
+          Kad(tables.modes * size), Kad_raw(Kad), ra(tables.modes) {}
 
     /// Sets to zero what `SolidShell::integrate` adds to.
     void clear() {
@@ -33,11 +34,12 @@ struct ShellWorkspace {
     }
 
     // Strain and material.
-    std::vector<Base<Real>> G, h;        // [place] reference base vectors, displacement gradient
+    std::vector<Base<Real>> G, h, d;     // [place] reference base vectors, gradients of displacement and correction
     std::vector<Vec<Real, 6>> E, S;      // [q] in the local frame
     std::vector<Mat<Real, 6, 6>> CC;     // [q]
     std::vector<Mat<Real, 3, 3>> A;      // [q] J^-1 in the local frame
     std::vector<Real> dV;                // [q]
+    std::vector<Vec<Real, 6>> bent;      // [q] covariant strain that is quadratic in the correction
     std::vector<Vec<Real, 6>> enhanced;  // [q][component] covariant direction of an enhanced component
     std::vector<Real> mid_E, layer_E;    // [sample]
     // Rows; those of a layer are [surface point][row_order][half].

@@ -35,8 +35,9 @@ class SolidShell : public ShellStrains<Nodes, Real> {
             if (tied_at_middle(row_order[p])) first_extra_ = 0;
     }
 
-    /// Residual f, tangent and the blocks of the enhanced parameters from S and CC.
-    void integrate(Workspace& w) const {
+    /// Residual f, tangent and the blocks of the enhanced parameters from S and CC. With the strains that `corrected` finds
+    /// quadratic in the last correction, the geometric stiffness takes the stress that this correction foresaw. eq. (5.39)
+    void integrate(bool corrected, Workspace& w) const {
         w.clear();
         mid_surface_rows(w);
         for (int layer = 0; layer < tables_.layers; ++layer) {
@@ -46,9 +47,9 @@ class SolidShell : public ShellStrains<Nodes, Real> {
                 point_rows(p, t, w);
                 const int q = layer * tables_.surface + p;
                 if (first_extra_ == first_shear_row)
-                    integrate_point<first_shear_row>(q, p, t, w);
+                    integrate_point<first_shear_row>(q, p, t, corrected, w);
                 else
-                    integrate_point<0>(q, p, t, w);
+                    integrate_point<0>(q, p, t, corrected, w);
             }
             add_layer(t, w);
         }
@@ -155,12 +156,22 @@ class SolidShell : public ShellStrains<Nodes, Real> {
         for (int p = 0; p < 6; ++p) S[p] = row[row_order[p]] * dV;
     }
 
+    /// The stress that the last correction foresaw, from the linear part of its strains: S - C : quadratic part. eq. (5.38)
+    static Voigt foreseen(const Voigt& S, const Voigt66& C, const Voigt& quadratic) {
+        Voigt linear;
+        for (int p = 0; p < 6; ++p) {
+            linear[p] = S[p];
+            for (int c = 0; c < 6; ++c) linear[p] -= C[p][c] * quadratic[row_order[c]];
+        }
+        return linear;
+    }
+
     template <int FirstExtra>
-    void integrate_point(int q, int point, double t, Workspace& w) const {
+    void integrate_point(int q, int point, double t, bool corrected, Workspace& w) const {
         Voigt S;
         Voigt66 C;
         convected(q, w, S, C);
-        gather_stress(point, t, S, w);
+        gather_stress(point, t, corrected ? foreseen(S, C, w.bent[q]) : S, w);
 
         const int first = point * 6 * half;
         const Real *mean = w.B_mean.data() + first, *extra = w.B_extra.data() + first;

@@ -61,8 +61,6 @@ class Problem:
         Intervals between nodes along an edge, coarse to fine.
     short : int
         The only mesh of the short version.
-    locking : int
-        The mesh on which the elements that lock are run.
     expected : float
         Relative error that is expected on the finest mesh.
     follow : callable
@@ -77,7 +75,6 @@ class Problem:
     measures: Mapping[str, Measure]
     meshes: Sequence[int]
     short: int
-    locking: int
     expected: float = EXPECTED
     follow: Callable[[Setup, Floats, Solve], Curve] = trace
     known: float = 0.0
@@ -173,17 +170,16 @@ def needed_text(found: Found, enough: float = EXPECTED) -> str:
 def locking_text(found: Found) -> str:
     """How little the elements that lock move."""
     what, shares = found.first_measure()
-    row = {variant.name: numbers[found.problem.locking] for variant, numbers in shares.items() if variant in LOCKING}
+    row = {variant.name: numbers[found.finest] for variant, numbers in shares.items() if variant in LOCKING}
     parts = (f"{name} {100 * share:.0f} %" if share == share else f"{name} nothing" for name, share in row.items())
-    where = f"with {found.problem.locking} intervals"
+    where = f"with {found.finest} intervals"
     return f"{what} of the elements that lock, {where}, as a share of the reference: {', '.join(parts)}."
 
 
 def _follow_all(page: Page, problem: Problem) -> Found:
     found = Found(problem)
     meshes = page.pick(problem.meshes, (problem.short,))
-    pairs = [(variant, n) for variant in page.pick(GOOD, TIED[::2]) for n in meshes]
-    pairs += [(variant, problem.locking) for variant in page.pick(LOCKING, ())]
+    pairs = [(variant, n) for variant in page.pick((*GOOD, *LOCKING), TIED[::2]) for n in meshes]
     for variant, n in page.each(pairs, lambda pair: f"{pair[0].label}, {pair[1]}"):
         setup = problem.build(variant, n)
         try:

@@ -18,7 +18,6 @@ PROBLEM = Problem(
     measures=full_load({"minus_u_tip": "-u"}),
     meshes=(16, 32, 64),
     short=32,
-    locking=32,
 )
 #: The closed form neglects the square of the thickness times the curvature.
 _THIN = (THICKNESS * TURN / 10.0) ** 2

@@ -18,7 +18,6 @@ PROBLEM = Problem(
     measures=full_load(_NAMES),
     meshes=(8, 16, 32),
     short=16,
-    locking=16,
 )
 
 

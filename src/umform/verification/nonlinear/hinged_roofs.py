@@ -67,7 +67,6 @@ def _problem(thickness: float) -> Problem:
         measures={"Limit load, N": limit_load},
         meshes=(4, 8, 16),
         short=8,
-        locking=8,
         follow=trace_arc,
     )
 

@@ -42,7 +42,6 @@ PROBLEM = Problem(
     measures=full_load(_NAMES),
     meshes=(16, 24, 32),
     short=24,
-    locking=16,
     expected=0.05,
     known=0.08,
     cause="the mesh: while the dents grow (0.15 to 0.3 of the load) their steep edges, which uniform elements resolve "

@@ -54,7 +54,6 @@ PROBLEM = Problem(
     measures=full_load(_NAMES),
     meshes=(16, 32, 64),
     short=32,
-    locking=32,
 )
 
 

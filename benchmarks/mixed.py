@@ -1,0 +1,87 @@
+"""What it saves to take the geometric stiffness from the stress that an increment foresaw: docs/theory, 5.13.
+
+Thin and thick sheets, in load steps of several sizes, with the consistent tangent and with the mixed one. Old factors
+do not serve, so that each iteration is one factorisation.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Callable
+
+import record
+import umform as uf
+from umform.newton import NewtonOptions
+from umform.processes.bending import case as bending
+from umform.processes.bending.parameters import FreeBending
+from umform.verification.nonlinear import hemisphere, slit_annulus
+from umform.verification.nonlinear.course import TIED
+from umform.verification.nonlinear.tracing import Setup
+
+#: Builds a model and its steps, in so many increments.
+Build = Callable[[int], tuple[uf.Model, uf.Move]]
+
+
+def loaded(setup: Setup, increments: int) -> tuple[uf.Model, uf.Move]:
+    """All loads of a shell of the verification book at once."""
+    return setup.model, uf.Move(list(setup.loads), list(setup.loads.values()), steps=increments)
+
+
+def dome(increments: int) -> tuple[uf.Model, uf.Move]:
+    """A quarter of a clamped sheet of metal, 50 x 50 x 0.5, and a sphere of radius 20 that goes 8 deep."""
+    law = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
+    model = uf.Model(uf.mesh.strip(length=50.0, width=50.0, thickness=0.5, cells=(20, 20)), "ANS3DEAS", material=law)
+    model.symmetry("x0", normal="x")
+    model.symmetry("y0", normal="y")
+    model.fix("x1")
+    model.fix("y1")
+    contact = model.contact("upper", uf.Sphere(centre=(0, 0, 20.25), radius=20.0), penalty=200.0, points=2)
+    return model, uf.Move(model.drive(contact, "z", name="punch"), to=-8.0, steps=increments)
+
+
+def strip(increments: int) -> tuple[uf.Model, uf.Move]:
+    """The strip of the free bending, 1 thick, over its cylinder."""
+    model, punch = bending.build(FreeBending())
+    return model, uf.Move(punch, to=-15.0, steps=increments)
+
+
+def problems(cells: int) -> list[tuple[str, Build, tuple[int, ...]]]:
+    """Name, builder and numbers of increments."""
+    tied = TIED[0]
+    return [
+        ("hemisphere", lambda n: loaded(hemisphere.build(tied, cells), n), (2, 5, 20)),
+        ("slit annulus", lambda n: loaded(slit_annulus.build(tied, cells), n), (5, 20)),
+        ("sheet under a sphere", dome, (10,)),
+        ("strip over a cylinder", strip, (60,)),
+    ]
+
+
+def run(build: Build, increments: int, mixed: bool) -> tuple[int, int, float]:
+    """Increments, evaluations (those of increments that were cut too), CPU seconds."""
+    model, steps = build(increments)
+    start = time.process_time()
+    result = uf.solve(model, steps, options=NewtonOptions(mixed=mixed, factor_cost=0.0), frames=0, progress=False)
+    return len(result) - 1, result.timing.elements.calls, time.process_time() - start
+
+
+def main() -> None:
+    """Run the benchmark."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--cells", type=int, default=32, help="of the shells along a side")
+    record.add_option(parser)
+    arguments = parser.parse_args()
+    uf.set_threads(1)
+    print(f"{'':<24}{'wanted':>7}{'increments':>13}{'evaluations':>15}{'CPU s':>15}{'ratio':>8}")
+    numbers = {}
+    for name, build, sizes in problems(arguments.cells):
+        for increments in sizes:
+            (n, k, s), (n_mixed, k_mixed, s_mixed) = (run(build, increments, mixed) for mixed in (False, True))
+            numbers[f"{name} in {increments}, evaluations over those of the consistent tangent"] = k_mixed / k
+            seconds = f"{s:>8.2f}{s_mixed:>7.2f}{s_mixed / s:>8.2f}"
+            print(f"{name:<24}{increments:>7}{n:>7}{n_mixed:>6}{k:>8}{k_mixed:>7}{seconds}", flush=True)
+    record.write(arguments.json, "mixed", numbers)
+
+
+if __name__ == "__main__":
+    main()
