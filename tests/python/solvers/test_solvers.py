@@ -13,7 +13,7 @@ from scipy import sparse
 
 from umform import solvers
 from umform.errors import InvalidValue, NotFinite, SingularMatrix, SolveError
-from umform.solvers import Factorisation, Pattern, banded, make_solver, pardiso, superlu
+from umform.solvers import Factorisation, Pattern, banded, make_solver, mkl, pardiso, superlu
 
 MAPS = Path("/proc/self/maps")
 needs_mkl = pytest.mark.skipif(not pardiso.available(), reason="MKL is not installed")
@@ -258,7 +258,7 @@ def test_factors_do_not_follow_the_values(name):
     ("name", "module", "ordering"),
     [
         ("superlu", superlu, "_minimum_degree"),
-        ("banded", banded, "_orders"),
+        ("banded", banded, "orders"),
         pytest.param("pardiso", pardiso, "_Handle", marks=needs_mkl),
     ],
 )
@@ -399,8 +399,8 @@ def test_auto_leaves_wide_bands_to_superlu(monkeypatch):
 
 
 def test_pardiso_without_mkl(monkeypatch):
-    monkeypatch.setattr(pardiso, "_find", lambda: None)
+    monkeypatch.setattr(mkl, "find", lambda: None)
     assert not solvers.available()["pardiso"]
-    pardiso._library.cache_clear()
+    mkl.library.cache_clear()
     with pytest.raises(InvalidValue, match="pip install"):
         make_solver(stored(np.eye(2))[0], "pardiso")

@@ -10,7 +10,8 @@ import pytest
 import umform as uf
 from umform import solvers
 from umform.solvers import Pattern
-from umform.solvers.banded import Banded, wider_than
+from umform.solvers.band_order import wider_than
+from umform.solvers.banded import Banded
 
 
 def pattern_of(along, across, cell="hex8"):
