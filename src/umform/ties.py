@@ -104,7 +104,7 @@ class Reduction:
 
     def __call__(self, values: Floats) -> Floats:
         """Values of T^T K T from those of K."""
-        return np.bincount(self.target, weights=self.factor * values)
+        return np.asarray(np.bincount(self.target, weights=self.factor * values), dtype=np.float64)
 
 
 class Unknowns:
