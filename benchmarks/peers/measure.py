@@ -58,15 +58,18 @@ class Crashed(Exception):
 def measured(command: Sequence[str], folder: Path, cwd: Path | None = None) -> Cost:
     """Run a command on one thread; its output goes to ``log`` in the folder.
 
+    Python may leave the byte code of what it imports, which a package that pip has installed has anyway.
+
     Raises
     ------
     Crashed
         If it ends with an error, or takes more than :data:`LIMIT`.
     """
     told = folder / "cost.json"
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"} | ONE_THREAD
     with (folder / "log").open("w") as log:
         starter = [sys.executable, "-S", "-E", "-c", _STARTER, str(told), *command]
-        subprocess.run(starter, cwd=cwd, env=os.environ | ONE_THREAD, stdout=log, stderr=subprocess.STDOUT, check=True)
+        subprocess.run(starter, cwd=cwd, env=environment, stdout=log, stderr=subprocess.STDOUT, check=True)
     code, cpu, wall, kilobytes = json.loads(told.read_text())
     if code:
         tail = (folder / "log").read_text(errors="replace")[-600:]

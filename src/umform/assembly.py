@@ -89,4 +89,4 @@ class Assembly:
 
     def reduce(self, values: Floats) -> Floats:
         """Entries over the unknowns from those over free and tied degrees of freedom. eq. (5.19)"""
-        return values if self._reduction is None else self._reduction @ values
+        return values if self._reduction is None else self._reduction(values)

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from umform import fields
 from umform.balance import Balance, ExternalWork, drift
 from umform.errors import InvalidValue
-from umform.io.tables import write_csv
 from umform.newton import Iteration
 from umform.timing import Timing
 
@@ -217,6 +216,8 @@ class Result:
         if not self._writes:
             return path
         if path.suffix == ".csv":
+            from umform.io.tables import write_csv
+
             write_csv(path, self.table())
         elif path.suffix == ".vtkhdf":
             from umform.io.vtkhdf import BUFFER, VtkHdfSeries

@@ -5,13 +5,11 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from umform.arc import Arc, Following
-from umform.checkpoint import Checkpoints, take_up
 from umform.contact.augmentation import refuse_on_an_arc, warn_of_penetration
 from umform.errors import InvalidValue
-from umform.fingerprint import fingerprint
 from umform.increment import Run
 from umform.interrupt import Interrupt, gentle_interrupt
 from umform.model import Model
@@ -21,6 +19,9 @@ from umform.progress import progress_bar
 from umform.release import Release, Releasing
 from umform.results import Result
 from umform.timing import Timing, new_timing
+
+if TYPE_CHECKING:
+    from umform.checkpoint import Checkpoints
 
 __all__ = ["Arc", "Move", "Release", "Step", "resume", "solve"]
 
@@ -135,6 +136,7 @@ def resume(
     -----
     The bits are the same on the same machine with the same versions of Python's packages, see docs/long-runs.md.
     """
+    from umform.checkpoint import take_up  # few runs need it
 
     def work(model: Model, steps: Sequence[Step]) -> Result:
         timing = new_timing()
@@ -198,6 +200,9 @@ def _checkpoints(
 ) -> Checkpoints | None:
     if path is None:
         return None
+    from umform.checkpoint import Checkpoints  # few runs need it
+    from umform.fingerprint import fingerprint
+
     marks = fingerprint(run.model.described, steps, run.newton, run.frames)
     return Checkpoints(path, every, marks, note, run.model.ranks)
 

@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
 from umform.boundary import Control
 from umform.errors import InvalidValue
@@ -88,6 +87,26 @@ def node_pairs(mesh: Mesh, nodes: Selector) -> Ids:
     return np.stack([bottoms[touched], tops[touched]], axis=1).astype(np.int32)
 
 
+@dataclass(frozen=True)
+class Reduction:
+    """The entries of T^T K T as sums of entries of K. eq. (5.19)
+
+    Attributes
+    ----------
+    target : ndarray of int
+        Entry of T^T K T that each entry of K goes to; each of them occurs.
+    factor : ndarray
+        What the entry of K is multiplied by.
+    """
+
+    target: NDArray[np.intp]
+    factor: Floats
+
+    def __call__(self, values: Floats) -> Floats:
+        """Values of T^T K T from those of K."""
+        return np.asarray(np.bincount(self.target, weights=self.factor * values), dtype=np.float64)
+
+
 class Unknowns:
     """What the solver solves for: free degrees of freedom and half the differences of tied ones, u = T q + c.
 
@@ -122,7 +141,7 @@ class Unknowns:
             u[self.pairs[:, 0]], u[self.pairs[:, 1]] = -half, half
         return u
 
-    def reduction(self, rows: Ids, columns: Ids, symmetric: bool) -> tuple[Pattern, sparse.csr_matrix]:
+    def reduction(self, rows: Ids, columns: Ids, symmetric: bool) -> tuple[Pattern, Reduction]:
         """Pattern of T^T K T, and the map from the entries of K to its entries. eq. (5.19)
 
         Parameters
@@ -145,5 +164,4 @@ class Unknowns:
         places, target = np.unique(i.astype(np.int64) * n + j, return_inverse=True)
         indptr = np.searchsorted(places, np.arange(n + 1, dtype=np.int64) * n).astype(np.int32)
         pattern = Pattern(n, indptr, (places % n).astype(np.int32), symmetric)
-        entries = np.arange(len(target))
-        return pattern, sparse.csr_matrix((factor, (target, entries)), shape=(len(places), len(target)))
+        return pattern, Reduction(target, factor)

@@ -6,9 +6,11 @@ import math
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from umform.errors import InvalidValue, NotFinite
 from umform.surfaces import Cylinder, Plane, Sphere, UserSurface, check_surface, unit_vector
+from umform.surfaces.directions import rotation_matrix
 
 
 def torus(x, ring=5.0, radius=1.5):
@@ -208,3 +210,11 @@ def test_an_error_inside_the_function_arrives_as_it_is(points):
     with pytest.raises(Mine) as caught:
         UserSurface(function).kernel().gap(points)
     assert caught.value.args == ("from the inside", 42)
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-12, 1e-6, 0.3, np.pi, 5.0])
+def test_a_rotation_vector_has_the_matrix_that_scipy_gives_it(angle):
+    vector = angle * np.array(unit_vector(SKEW, "axis"))
+    Q = rotation_matrix(vector)
+    np.testing.assert_allclose(Q, Rotation.from_rotvec(vector).as_matrix(), rtol=0, atol=1e-15)
+    np.testing.assert_allclose(Q @ Q.T, np.eye(3), rtol=0, atol=1e-15)

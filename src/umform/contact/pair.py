@@ -16,6 +16,7 @@ from umform.boundary import Control, vector3
 from umform.contact.settings import ContactSettings
 from umform.mesh import FACE_NODES, Ids, Mesh, Selector
 from umform.surfaces import Surface
+from umform.surfaces.directions import rotation_matrix
 from umform.whole import not_here
 
 Floats = NDArray[np.float64]
@@ -147,9 +148,7 @@ class Contact:
             translation, turn = answer if isinstance(answer, tuple) and len(answer) == 2 else (answer, np.zeros(3))
             where = f"motion of contact {self.name} at time {time:g}"
             shift += vector3(translation, where)
-            from scipy.spatial.transform import Rotation  # slow to import
-
-            rotation = Rotation.from_rotvec(vector3(turn, where)).as_matrix()
+            rotation = rotation_matrix(vector3(turn, where))
         centre = self.reference_point
         return np.ascontiguousarray(rotation), centre + shift - rotation @ centre
 

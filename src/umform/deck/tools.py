@@ -13,6 +13,7 @@ from umform import surfaces
 from umform.deck.parts import NotNegative, Part, Positive, Vector, Way
 from umform.deck.profiles import ProfilePart
 from umform.surfaces import Tool
+from umform.surfaces.directions import rotation_matrix
 
 Angle = Annotated[float, Field(gt=0, lt=180)]
 ORIGIN = (0.0, 0.0, 0.0)
@@ -285,6 +286,4 @@ def along(tool: ToolPart) -> np.ndarray[Any, np.dtype[np.float64]] | None:
         axis = np.cross(surfaces.unit_vector(tool.x, "x"), surfaces.unit_vector(tool.y, "y"))
     else:
         return None
-    from scipy.spatial.transform import Rotation  # slow to import
-
-    return np.asarray(Rotation.from_rotvec(tool.rotation, degrees=True).apply(axis))
+    return np.asarray(rotation_matrix(np.radians(tool.rotation)) @ axis)

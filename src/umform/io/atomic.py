@@ -5,7 +5,6 @@ from __future__ import annotations
 import errno
 import io
 import os
-import secrets
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -45,7 +44,7 @@ class PendingFile:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path).resolve()
-        self.temporary = self.path.with_name(f".{self.path.stem}.{secrets.token_hex(4)}{self.path.suffix}")
+        self.temporary = self.path.with_name(f".{self.path.stem}.{os.urandom(4).hex()}{self.path.suffix}")
 
     def __enter__(self) -> Path:
         try:

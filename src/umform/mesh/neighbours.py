@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from umform.errors import MeshError
 from umform.mesh.mesh import Floats, Ids
@@ -58,6 +56,9 @@ def shared_sides(points: Floats, sides: Whole, kind: str) -> Whole:
 
 def connected(count: int, links: Whole) -> Whole:
     """Number of the connected part in which each of `count` things lies; links have shape (p, 2)."""
+    from scipy.sparse import coo_array  # slow to import
+    from scipy.sparse.csgraph import connected_components
+
     a, b = links.T
     _, labels = connected_components(coo_array((np.ones(len(a)), (a, b)), shape=(count, count)), directed=False)
     return np.asarray(labels)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import breadth_first_order
 
 from umform import _core
 from umform.errors import InvalidValue, MeshError
@@ -55,6 +53,9 @@ def alike(points: Floats, quads: Whole) -> Whole:
 
 def _signs(count: int, links: Whole, relation: Whole) -> Whole:
     """Walk over the neighbours: 1 as given, -1 turned over, so that in each part more are left than turned."""
+    from scipy.sparse import coo_array  # slow to import
+    from scipy.sparse.csgraph import breadth_first_order
+
     a, b = links.T
     graph = coo_array((np.ones(len(a)), (a, b)), shape=(count, count)).tocsr()
     between = {(int(i), int(j)): int(r) for i, j, r in zip(a, b, relation)}

@@ -13,9 +13,8 @@ certificate are three equations for the three constants of a curve. The steps ar
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
-
-from scipy.optimize import brentq
 
 from umform.errors import InvalidValue
 from umform.materials import J2, LinearVoce, Swift, Voce
@@ -108,7 +107,7 @@ def swift_from_tensile_test(
             "the yield stress is too high for the uniform elongation",
             "give a table: a long Lüders strain needs one",
         )
-    offset = brentq(excess, least, most, xtol=1e-15, rtol=1e-13)
+    offset = _root(excess, least, most, xtol=1e-15, rtol=1e-13)
     exponent = (offset + at.p_top) / stiff
     return Swift(at.y_top / (offset + at.p_top) ** exponent, offset, exponent)
 
@@ -141,7 +140,7 @@ def voce_from_tensile_test(
     most = 1.0 / span
     while excess(most) > 0:
         most *= 2.0
-    rate = brentq(excess, 1e-6 / span, most, xtol=1e-13, rtol=1e-13)
+    rate = _root(excess, 1e-6 / span, most, xtol=1e-13, rtol=1e-13)
     drop = at.slope_top / rate
     saturation = at.y_top + drop
     return Voce(saturation - drop * math.exp(rate * at.p_top), saturation, rate)
@@ -172,9 +171,16 @@ def tensile_test(law: J2) -> TensileTest:
 
     if considere(_LARGEST) > 0:
         raise InvalidValue("the force of a tensile test has no maximum", where="tensile_test", value=law.hardening)
-    top = 0.0 if considere(0.0) <= 0 else brentq(considere, 0.0, _LARGEST, xtol=1e-14)
+    top = 0.0 if considere(0.0) <= 0 else _root(considere, 0.0, _LARGEST, xtol=1e-14)
     strength, elongation = nominal(top)
-    return TensileTest(nominal(brentq(offset, 0.0, 0.01, xtol=1e-15))[0], strength, elongation - strength / law.E)
+    return TensileTest(nominal(_root(offset, 0.0, 0.01, xtol=1e-15))[0], strength, elongation - strength / law.E)
+
+
+def _root(of: Callable[[float], float], least: float, most: float, **tolerances: float) -> float:
+    """Zero of a function that changes its sign between two numbers, by Brent's method."""
+    from scipy.optimize import brentq  # slow to import
+
+    return float(brentq(of, least, most, **tolerances))
 
 
 def _anchors(yield_stress: float, tensile_strength: float, uniform_elongation: float, young: float) -> _Anchors:

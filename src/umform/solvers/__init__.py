@@ -12,10 +12,10 @@ from collections.abc import Callable
 
 from ..errors import InvalidValue
 from . import pardiso
-from .banded import Banded, wider_than
+from .band_order import wider_than
+from .banded import Banded
 from .pardiso import Pardiso
 from .protocol import Factorisation, Pattern, SparseSolver
-from .superlu import SuperLU
 
 __all__ = ["Factorisation", "Pattern", "SparseSolver", "available", "make_solver", "register"]
 
@@ -24,10 +24,17 @@ _log = logging.getLogger("umform.solvers")
 # Up to these bandwidths the banded solver is ahead of PARDISO and of SuperLU.
 _NARROW_FOR_PARDISO, _NARROW_FOR_SUPERLU = 32, 128
 
+
+def _superlu() -> SparseSolver:
+    from .superlu import SuperLU  # slow to import
+
+    return SuperLU()
+
+
 _factories: dict[str, Callable[[], SparseSolver]] = {
     "pardiso": Pardiso,
     "banded": Banded,
-    "superlu": SuperLU,
+    "superlu": _superlu,
 }
 
 

@@ -5,29 +5,23 @@ once a pivot is not positive the pattern stays with Bunch-Kaufman factors, which
 and know the inertia; LU for unsymmetric matrices costs twice as much. Matching and scaling would tie the
 analysis to the values and make the factors of a sheet 3 times dearer: they are off, and the residual is
 checked instead.
-
-MKL is told to use the GNU OpenMP runtime, the one of umform's kernels, so that there is one pool of threads;
-the environment variable ``MKL_THREADING_LAYER`` overrules this.
 """
 
 from __future__ import annotations
 
 import ctypes
-import os
-import sys
 import weakref
-from functools import cache
-from importlib import metadata
-from pathlib import Path
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
-from ..errors import InvalidValue, SolveError
+from ..errors import SolveError
+from . import mkl
 from .protocol import (
     Factorisation,
     FloatArray,
+    IntArray,
     Pattern,
     backward_error,
     check_accuracy,
@@ -39,7 +33,6 @@ from .protocol import (
 _CHOLESKY, _INDEFINITE, _UNSYMMETRIC = 2, -2, 11
 _ANALYSE, _FACTOR, _SOLVE, _RELEASE = 11, 22, 33, -1
 _PIVOT_NOT_POSITIVE = -4
-_LP64, _GNU_THREADS = 0, 3
 _CAUSES = {
     -1: "the pattern is not consistent",
     -2: "not enough memory",
@@ -57,13 +50,10 @@ class Pardiso:
     def analyse(self, pattern: Pattern) -> None:
         """Order the equations by nested dissection; Cholesky is expected of a symmetric matrix."""
         self._pattern = pattern
-        self._matrix = sparse.csr_matrix(
-            (
-                np.empty(pattern.nnz),  # never touched: PARDISO reads the values that `factor` is given
-                np.ascontiguousarray(pattern.indices, dtype=np.int32),
-                np.ascontiguousarray(pattern.indptr, dtype=np.int32),
-            ),
-            shape=(pattern.n, pattern.n),
+        self._matrix = _Matrix(
+            np.empty(pattern.nnz),  # never touched: PARDISO reads the values that `factor` is given
+            np.ascontiguousarray(pattern.indices, dtype=np.int32),
+            np.ascontiguousarray(pattern.indptr, dtype=np.int32),
         )
         self._start(_CHOLESKY if pattern.symmetric else _UNSYMMETRIC)
 
@@ -122,12 +112,24 @@ class Pardiso:
             )
 
     def _check_residual(self, x: FloatArray, b: FloatArray) -> None:
-        matrix = self._matrix
+        from scipy import sparse  # slow to import, and Cholesky does without it
+
+        shape = (self._pattern.n, self._pattern.n)
+        matrix = sparse.csr_matrix((self._matrix.data, self._matrix.indices, self._matrix.indptr), shape=shape)
         product = matrix @ x
         if self._pattern.symmetric:
             product += matrix.T @ x - (matrix.diagonal() * x.T).T
         size = max(float(matrix.data.max()), -float(matrix.data.min()))
         check_accuracy(self.name, backward_error(b - product, size, x, b))
+
+
+@dataclass(eq=False)
+class _Matrix:
+    """The stored entries in compressed rows, where PARDISO reads them."""
+
+    data: FloatArray
+    indices: IntArray
+    indptr: IntArray
 
 
 class _Handle:
@@ -137,24 +139,22 @@ class _Handle:
     ----------
     kind : int
         PARDISO's type of matrix.
-    matrix : sparse.csr_matrix
+    matrix : _Matrix
         The stored entries; its pattern stays the same from call to call.
     """
 
-    def __init__(self, kind: int, matrix: sparse.csr_matrix) -> None:
-        n = matrix.shape[0]
+    def __init__(self, kind: int, matrix: _Matrix) -> None:
+        n = len(matrix.indptr) - 1
         self.kind = kind
         self.order = np.zeros(n, dtype=np.int32)
-        self._library = _library()
+        self._library = mkl.library()
         self._memory = np.zeros(64, dtype=np.int64)
         self._parameters = np.zeros(64, dtype=np.int32)
         for place, value in _PARAMETERS.items():
             self._parameters[place] = value
         weakref.finalize(self, _call, self._library, self._memory, self._parameters, kind, _RELEASE, matrix, self.order)
 
-    def call(
-        self, phase: int, matrix: sparse.csr_matrix, b: FloatArray | None = None, x: FloatArray | None = None
-    ) -> int:
+    def call(self, phase: int, matrix: _Matrix, b: FloatArray | None = None, x: FloatArray | None = None) -> int:
         """Run a phase and return PARDISO's error code."""
         return _call(self._library, self._memory, self._parameters, self.kind, phase, matrix, self.order, b, x)
 
@@ -201,7 +201,7 @@ def _call(
     parameters: NDArray[np.int32],
     kind: int,
     phase: int,
-    matrix: sparse.csr_matrix,
+    matrix: _Matrix,
     order: NDArray[np.int32],
     b: FloatArray | None = None,
     x: FloatArray | None = None,
@@ -239,32 +239,4 @@ def _integer(value: int) -> object:
 
 def available() -> bool:
     """Return whether the library of MKL is installed here."""
-    return _find() is not None
-
-
-@cache
-def _find() -> Path | None:
-    """Return the library: among the files of the package `mkl`, or beside Python as conda puts it."""
-    try:
-        files = metadata.files("mkl") or []
-    except metadata.PackageNotFoundError:
-        files = []
-    candidates = [Path(str(file.locate())).resolve() for file in files if "mkl_rt" in file.name]
-    prefix = Path(sys.prefix)
-    candidates += [*prefix.glob("lib/libmkl_rt.so*"), *prefix.glob("Library/bin/mkl_rt*.dll")]
-    return next((path for path in candidates if path.suffix != ".lib" and path.is_file()), None)
-
-
-@cache
-def _library() -> ctypes.CDLL:
-    """Load MKL, once, with 32-bit integers and on the OpenMP runtime of the kernels."""
-    path = _find()
-    if path is None:
-        raise InvalidValue(
-            "The solver 'pardiso' needs MKL, which is not installed", remedy='pip install "umform[pardiso]"'
-        )
-    library = ctypes.CDLL(str(path))
-    library.MKL_Set_Interface_Layer(_LP64)
-    if sys.platform == "linux" and "MKL_THREADING_LAYER" not in os.environ:
-        library.MKL_Set_Threading_Layer(_GNU_THREADS)
-    return library
+    return mkl.find() is not None

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
 from ..errors import InvalidValue, NotFinite, SingularMatrix, SolveError
+
+if TYPE_CHECKING:
+    from scipy import sparse
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int32]
@@ -68,6 +70,8 @@ class Pattern:
 
     def positions(self) -> sparse.csr_matrix:
         """Return the full matrix whose entries say where the value is stored, counted from 1."""
+        from scipy import sparse  # slow to import
+
         counted = np.arange(1, self.nnz + 1, dtype=np.int64)
         stored = sparse.csr_matrix((counted, self.indices, self.indptr), shape=(self.n, self.n))
         if not self.symmetric:

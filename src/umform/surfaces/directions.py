@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import InvalidValue, NotFinite
 
@@ -65,6 +65,16 @@ def right_angle(x: Direction, y: Direction, where: str) -> tuple[Point, Point]:
             remedy="give y as the cross product of x and a third direction",
         )
     return first, second
+
+
+def rotation_matrix(vector: ArrayLike) -> NDArray[np.float64]:
+    """Matrix of a rotation vector v in radians: 1 + sin a K + 2 sin²(a/2) K², a = |v|, K x = v/a × x (Rodrigues)."""
+    v = np.asarray(vector, dtype=float)
+    angle = float(np.linalg.norm(v))
+    if angle == 0.0:
+        return np.eye(3)
+    K = np.cross(v / angle, np.eye(3), axisb=0, axisc=0)
+    return np.asarray(np.eye(3) + np.sin(angle) * K + 2.0 * np.sin(0.5 * angle) ** 2 * (K @ K))
 
 
 def point(values: ArrayLike, where: str, size: int = 3) -> list[float]:

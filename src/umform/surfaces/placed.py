@@ -8,7 +8,7 @@ import numpy as np
 
 from umform import _core
 from umform.errors import InvalidValue
-from umform.surfaces.directions import Direction, Point, point, unit_vector
+from umform.surfaces.directions import Direction, Point, point, rotation_matrix, unit_vector
 from umform.surfaces.tool import Surface, Tool
 from umform.surfaces.triangles import Floats, Triangles
 
@@ -60,10 +60,7 @@ class Placed(Tool):
 
 def moved(tool: Surface, translation: Point, rotation: Point) -> Placed:
     """A tool that is turned by a rotation vector about the origin and then shifted."""
-    from scipy.spatial.transform import Rotation  # slow to import
-
-    turn = Rotation.from_rotvec(point(rotation, "rotation")).as_matrix()
-    return _after(tool, turn, np.array(point(translation, "translation")))
+    return _after(tool, rotation_matrix(point(rotation, "rotation")), np.array(point(translation, "translation")))
 
 
 def mirrored(tool: Surface, normal: Direction, at: Point) -> Placed:

@@ -15,6 +15,7 @@ from umform.deck.templates import template_file
 from umform.errors import InvalidValue, NoConvergence
 from umform.processes.bending import case as case_module
 from umform.processes.bending import showcase
+from umform.solvers import pardiso
 
 BEND = ["--stroke", "0.4", "--increment", "0.0125", "--element", "BEND8", "--layers", "1"]
 RUN = ["--mesh", "24x1", "--contact", "2", "--steps", "30", "--stroke", "2", "--no-unload"]
@@ -51,7 +52,48 @@ def test_what_needs_no_numbers_loads_nothing_heavy(code):
 def test_a_public_name_loads_its_own_home_only():
     loaded = loaded_by("import umform as uf; uf.Model")
     assert "umform.model" in loaded
-    assert not loaded & {"matplotlib", "h5py", "meshio", "pydantic", "rich", "umform.report", "umform.deck"}
+    assert not loaded & {"scipy", "matplotlib", "h5py", "meshio", "pydantic", "rich", "umform.report", "umform.deck"}
+
+
+def test_all_public_names_together_load_numpy_and_the_kernels_only():
+    loaded = loaded_by("import umform as uf; [getattr(uf, name) for name in uf.__all__]")
+    assert {"numpy", "umform._core", "umform.steps", "umform.sheet_metals", "umform.processes"} <= loaded
+    assert not loaded & (HEAVY - {"numpy", "umform._core"})
+
+
+#: A strip of J2 in plane strain, or a sheet, on a cylinder: solved, and its history written.
+SMALL_RUN = """
+import sys
+from pathlib import Path
+import umform as uf
+from umform.solvers import mkl
+def run(cells, width, folder):
+    mesh = uf.mesh.strip(length=60, width=width, thickness=1, cells=cells)
+    model = uf.Model(mesh, material=uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(160.0, 500.0)))
+    model.symmetry("x0", normal="x")
+    model.fix(range(len(mesh.points)), "y")
+    punch = model.prescribe("x0_lower", "z", name="punch")
+    model.contact("lower", uf.Cylinder(centre=(25, 0, -20.5), axis="y", radius=20), penalty=100, points=2)
+    result = uf.solve(model, uf.Move(punch, to=-0.5, steps=5), frames=0)
+    assert result["punch_force"][-1] < 0
+    result.write(Path(folder) / "history.csv")
+    print(result.solver)
+"""
+
+
+@pytest.mark.parametrize(("cells", "solver"), [((24, 1), "banded"), ((24, 24), "pardiso")])
+@pytest.mark.skipif(not pardiso.available(), reason="without MKL the factors are SciPy's")
+def test_a_small_run_loads_no_scipy_where_mkl_is(cells, solver, tmp_path):
+    loaded = loaded_by(f"exec({SMALL_RUN!r}); run({cells}, {2.5 * cells[1]}, {str(tmp_path)!r})")
+    assert solver in loaded  # the line before the list
+    assert "umform.steps" in loaded
+    assert not loaded & {"scipy", "importlib.metadata", "matplotlib", "h5py", "meshio", "rich"}
+
+
+def test_a_small_run_without_mkl_loads_lapack_alone_of_scipy(tmp_path):
+    loaded = loaded_by(f"exec({SMALL_RUN!r}); mkl.find = lambda: None; run((24, 1), 2.5, {str(tmp_path)!r})")
+    assert {"banded", "scipy.linalg.lapack"} <= loaded
+    assert not loaded & {"scipy.sparse", "scipy.spatial", "scipy.optimize", "matplotlib", "h5py", "meshio", "rich"}
 
 
 @pytest.mark.parametrize("words", [["new", "cantilever"], ["new"]])
@@ -70,8 +112,8 @@ def test_a_template_is_printed_without_loading_what_computes(words):
 )
 def test_solving_and_looking_load_nothing_for_files_and_pictures(code):
     loaded = loaded_by(code)
-    assert {"umform.steps", "umform.io.tables"} <= loaded
-    assert not loaded & {"meshio", "h5py", "matplotlib"}
+    assert "umform.steps" in loaded
+    assert not loaded & {"meshio", "h5py", "matplotlib", "scipy.sparse", "scipy.optimize", "scipy.spatial"}
 
 
 def run_unread(*words, stderr):

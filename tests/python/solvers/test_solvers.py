@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import logging
 import os
+import sys
 import tracemalloc
+from importlib import metadata
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +15,7 @@ from scipy import sparse
 
 from umform import solvers
 from umform.errors import InvalidValue, NotFinite, SingularMatrix, SolveError
-from umform.solvers import Factorisation, Pattern, banded, make_solver, pardiso, superlu
+from umform.solvers import Factorisation, Pattern, banded, lapack, make_solver, mkl, pardiso, superlu
 
 MAPS = Path("/proc/self/maps")
 needs_mkl = pytest.mark.skipif(not pardiso.available(), reason="MKL is not installed")
@@ -258,7 +260,7 @@ def test_factors_do_not_follow_the_values(name):
     ("name", "module", "ordering"),
     [
         ("superlu", superlu, "_minimum_degree"),
-        ("banded", banded, "_orders"),
+        ("banded", banded, "orders"),
         pytest.param("pardiso", pardiso, "_Handle", marks=needs_mkl),
     ],
 )
@@ -316,6 +318,38 @@ def test_banded_finds_the_strip_in_shuffled_equations():
     shuffled = np.random.default_rng(0).permutation(50)
     solver, _ = factored("banded", matrix[np.ix_(shuffled, shuffled)])
     assert solver.bandwidth == 1
+
+
+@needs_mkl
+@pytest.mark.parametrize("columns", [(), (3,)])
+@pytest.mark.parametrize("shift", [0.0, 3.0])
+def test_the_bands_of_mkl_and_of_scipy_are_the_same(columns, shift, monkeypatch):
+    """Factors and solutions, and the number of the first pivot that is not positive."""
+    random = np.random.default_rng(4)
+    band = np.c_[np.full(60, 8.5 - 4.0 * shift), random.uniform(-1.0, 1.0, (60, 4))]
+    band[:30, 0] = 8.5
+    rhs = np.asfortranarray(random.normal(size=(60, *columns)))
+    found = []
+    for _ in range(2):
+        factors, first_bad = lapack.factorise(band.copy())
+        found.append((factors[: first_bad - 1 or None], first_bad))
+        if not first_bad:
+            found[-1] += (lapack.solve(factors, rhs.copy(order="F")),)
+        monkeypatch.setattr(mkl, "find", lambda: None)
+    assert (found[0][1] > 30) == (shift > 0)
+    for mine, theirs in zip(*found, strict=True):
+        np.testing.assert_allclose(mine, theirs, rtol=1e-12, atol=1e-14)
+
+
+@needs_mkl
+def test_mkl_is_found_by_its_package_too(monkeypatch, tmp_path):
+    """Not beside Python: in a folder of a user, say."""
+    try:
+        metadata.distribution("mkl")
+    except metadata.PackageNotFoundError:
+        pytest.skip("MKL was not installed by pip")
+    monkeypatch.setattr(sys, "prefix", str(tmp_path))
+    assert "mkl_rt" in mkl.find.__wrapped__().name
 
 
 def test_banded_refuses_unsymmetric_patterns():
@@ -399,8 +433,8 @@ def test_auto_leaves_wide_bands_to_superlu(monkeypatch):
 
 
 def test_pardiso_without_mkl(monkeypatch):
-    monkeypatch.setattr(pardiso, "_find", lambda: None)
+    monkeypatch.setattr(mkl, "find", lambda: None)
     assert not solvers.available()["pardiso"]
-    pardiso._library.cache_clear()
+    mkl.library.cache_clear()
     with pytest.raises(InvalidValue, match="pip install"):
         make_solver(stored(np.eye(2))[0], "pardiso")

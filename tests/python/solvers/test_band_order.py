@@ -1,4 +1,4 @@
-"""The walk that spares wide matrices the search for a narrow band."""
+"""The walk that spares wide matrices the search for a narrow band, and the one that finds it."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ import logging
 
 import numpy as np
 import pytest
+from scipy.sparse import csgraph
 
 import umform as uf
 from umform import solvers
 from umform.solvers import Pattern
-from umform.solvers.banded import Banded, wider_than
+from umform.solvers.band_order import bandwidth, cuthill_mckee, orders, wider_than
+from umform.solvers.banded import Banded
 
 
 def pattern_of(along, across, cell="hex8"):
@@ -52,3 +54,33 @@ def test_a_wide_matrix_is_not_searched_for_a_band(monkeypatch, caplog):
     with caplog.at_level(logging.INFO, logger="umform.solvers"):
         solver = solvers.make_solver(pattern)
     assert solver.name in ("pardiso", "superlu")
+
+
+@pytest.mark.parametrize("cells", [(24, 1), (48, 2), (10, 4), (9, 9), (8, 1, "hex18")])
+def test_the_walk_is_that_of_scipy(cells):
+    """In the order of the mesh both begin at the same equation, and then go the same way."""
+    graph = pattern_of(*cells).positions()
+    theirs = csgraph.reverse_cuthill_mckee(graph, symmetric_mode=True)
+    np.testing.assert_array_equal(cuthill_mckee(graph.indptr, graph.indices)[::-1], theirs)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_band_of_a_shuffled_strip_is_as_narrow(seed):
+    strip = pattern_of(40, 1)
+    mixed = shuffled(strip, seed)
+    widths = [min(bandwidth(p, of.rows, of.indices) for p in orders(of)) for of in (strip, mixed)]
+    assert widths[0] == widths[1] == 23  # two columns of 4 nodes
+
+
+def test_parts_that_nothing_connects_are_walked_over_one_after_the_other():
+    """Three chains, of 5, 1 and 4 equations, shuffled: every equation has a place, and the band of a chain."""
+    ends = np.array([[0, 1], [1, 2], [2, 3], [3, 4], [6, 7], [7, 8], [8, 9]])
+    places = np.random.default_rng(1).permutation(10)
+    present = np.eye(10, dtype=bool)
+    present[tuple(np.sort(places[ends], axis=1).T)] = True
+    rows, columns = np.nonzero(present)
+    indptr = np.searchsorted(rows, np.arange(11)).astype(np.int32)
+    pattern = Pattern(10, indptr, columns.astype(np.int32), True)
+    for order in orders(pattern):
+        np.testing.assert_array_equal(np.sort(order), np.arange(10))
+    assert bandwidth(next(orders(pattern)), pattern.rows, pattern.indices) == 1

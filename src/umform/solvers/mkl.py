@@ -1,0 +1,53 @@
+"""MKL, the library of the PyPI package `mkl`: where it lies, and how it is loaded.
+
+MKL is told to use the GNU OpenMP runtime, the one of umform's kernels, so that there is one pool of threads;
+the environment variable ``MKL_THREADING_LAYER`` overrules this.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+from ..errors import InvalidValue
+
+_LP64, _GNU_THREADS = 0, 3
+
+
+@cache
+def find() -> Path | None:
+    """Return the file of the library, or None where MKL is not installed."""
+    return next((path for path in _candidates() if path.suffix != ".lib" and path.is_file()), None)
+
+
+@cache
+def library() -> ctypes.CDLL:
+    """Load MKL, once, with 32-bit integers and on the OpenMP runtime of the kernels."""
+    path = find()
+    if path is None:
+        raise InvalidValue(
+            "The solver 'pardiso' needs MKL, which is not installed", remedy='pip install "umform[pardiso]"'
+        )
+    loaded = ctypes.CDLL(str(path))
+    loaded.MKL_Set_Interface_Layer(_LP64)
+    if sys.platform == "linux" and "MKL_THREADING_LAYER" not in os.environ:
+        loaded.MKL_Set_Threading_Layer(_GNU_THREADS)
+    return loaded
+
+
+def _candidates() -> Iterator[Path]:
+    """Yield files that may be it: beside Python as pip and conda put it, then among the files of the package `mkl`."""
+    prefix = Path(sys.prefix)
+    yield from prefix.glob("lib/libmkl_rt.so*")
+    yield from prefix.glob("Library/bin/mkl_rt*.dll")
+    from importlib import metadata  # slow to import
+
+    try:
+        files = metadata.files("mkl") or []
+    except metadata.PackageNotFoundError:
+        return
+    yield from (Path(str(file.locate())).resolve() for file in files if "mkl_rt" in file.name)
