@@ -146,6 +146,11 @@ class Model(Supported, Loaded, Touched, Whole):
         size = nodes / 8
         return float(self.block.points / 20 * size * size / fibres)
 
+    @cached_property
+    def extent(self) -> float:
+        """Largest extent of the undeformed body along an axis."""
+        return self.ranks.max(float(np.ptp(self.mesh.points, axis=0).max()))
+
     @property
     def free(self) -> NDArray[np.int64]:
         """Degrees of freedom (3 * node + direction) without a reaction: neither held nor prescribed nor tied."""

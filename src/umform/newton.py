@@ -322,6 +322,7 @@ class Newton:
             floor = self._floor(evaluation.values, u)
             floor = math.hypot(floor, self._floor_of_gaps(evaluation))
             small = norm <= max(options.residual * scale, floor) and increment <= options.increment
+            small = small or self._nothing_left(norm, evaluation.values, increment, u)
             settled = small and (not (entered or left) or extra >= 2)
             at_floor = at_floor + 1 if norm <= floor else 0
             if settled or at_floor >= 2:
@@ -378,10 +379,19 @@ class Newton:
             self._pattern = pattern
         return self._solver
 
+    def _nothing_left(self, norm: float, values: Floats, increment: float, u: Floats) -> bool:
+        """Whether displacement, last increment and residual are below the round-off of positions. eq. (5.40)"""
+        extent = self.system.extent
+        moved = self.system.ranks.max(_largest(u)) * max(1.0, increment)
+        return moved <= _EPS * extent and norm <= self._round_off(values, extent)
+
     def _floor(self, values: Floats, u: Floats) -> float:
         """Residual that round-off of the displacements leaves behind. eq. (5.10)"""
-        largest, furthest = self.system.largest_entry(values), self.system.ranks.max(_largest(u))
-        return _EPS * largest * furthest * math.sqrt(self.system.pattern.n)
+        return self._round_off(values, self.system.ranks.max(_largest(u)))
+
+    def _round_off(self, values: Floats, length: float) -> float:
+        """Residual that a relative error of such lengths leaves behind. eqs. (5.10), (5.40)"""
+        return _EPS * self.system.largest_entry(values) * length * math.sqrt(self.system.pattern.n)
 
     def _record(
         self,

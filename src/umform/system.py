@@ -58,6 +58,10 @@ class System(Protocol):
     def effort(self) -> float:
         """What an evaluation costs for each equation; 1 for 8-node elements with 20 points."""
 
+    @property
+    def extent(self) -> float:
+        """Largest extent of the undeformed body along an axis."""
+
     def restrict(self, r: Floats) -> Floats:
         """Unknowns' share of forces at all degrees of freedom, summed over the ranks. eq. (5.18)"""
 

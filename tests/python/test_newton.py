@@ -168,6 +168,14 @@ def test_the_same_run_twice_gives_the_same_bits(build):
     assert_same(run(), run())
 
 
+@pytest.mark.parametrize("element", ["ANS3DEAS", "MI9K3DEAS"])
+def test_a_load_that_is_taken_away_leaves_nothing_to_iterate_on(build, element):
+    model, tip = build.cantilever(element=element)
+    result = solve(model, [Move(tip, 1.0, steps=2), Move(tip, 0.0, steps=2)], frames=0)
+    assert np.abs(model.u).max() <= np.finfo(float).eps * model.extent
+    assert result["iterations"][-1] <= 10
+
+
 # Line search ------------------------------------------------------------------------------------------------
 
 
@@ -208,7 +216,7 @@ def test_line_search_of_a_thin_strip_does_not_creep():
 class Scalar:
     """A system of one unknown: residual and slope are functions of x, the active set a function of x."""
 
-    effort = 1.0
+    effort = extent = 1.0
 
     def __init__(self, residual, slope, start=0.0, active=lambda x: [], scale=1.0):
         self.u = np.array([start])
