@@ -13,8 +13,8 @@ from umform.processes.rules import Rule, check_rules, length, number, positive, 
 if TYPE_CHECKING:
     from umform.processes.air_bending.parameters import AirBending
 
-#: The most contact points per direction.
-MOST_POINTS = 10
+#: The most contact points per direction, and the most layers.
+MOST_POINTS, MOST_LAYERS = 10, 8
 #: A larger increment jumps over the first contact; a run of smaller ones does not end.
 _LARGEST_INCREMENT, _SMALLEST_INCREMENT = 0.05, 1e-5
 #: Openings over the thickness between which a sheet is bent in the air; press brakes take 5 to 16.
@@ -59,7 +59,7 @@ RULES: dict[str, Rule] = {
         "an elastic law, or the name of a metal",
         "a J2; umform.sheet_metals.get('DC04').law for one",
     ),
-    "layers": _count("the number of layers", 1, 8, "2"),
+    "layers": _count("the number of layers", 1, MOST_LAYERS, "2"),
     "thickness_points": _count("the number of thickness points", 2, 15, "6"),
     "elements_per_thickness": Rule(
         lambda value: positive(value) and value <= _MOST_ELEMENTS,

@@ -20,7 +20,8 @@ from umform.report.versions import versions
 
 _BUDGET = (
     "± is the root of the sum of squares of the changes by the refinements beside it: the uncertainty from mesh, "
-    "points, penalty and increments. Material data, friction and tools have uncertainties of their own."
+    "layers, points, penalty and increments. In the column stack, the sheet is eight layers of 8-node elements. "
+    "Material data, friction and tools have uncertainties of their own."
 )
 
 
