@@ -249,37 +249,3 @@ def test_the_command_finds_an_angle(tmp_path):
     record = json.loads((tmp_path / "bend.json").read_text())
     assert record["measures"]["angle"] == pytest.approx(160.0, abs=0.2)
     assert "500" in record["parameters"]["material"]
-
-
-@pytest.mark.parametrize(
-    ("typed", "message"),
-    [
-        ([], "give the stroke or the angle"),
-        (["--stroke", "6", "--angle", "90"], "give the stroke or the angle"),
-        (["--stroke", "6", "--swift", "520"], "3 numbers are needed"),
-        (["--stroke", "6", "--swift", "520,0.004,0.22", "--flow-curve", "a.csv"], "a hardening curve is given by"),
-        (["--stroke", "6", "--flow-curve", "no.csv"], "the flow curve cannot be read"),
-        (["--stroke", "6", "--young", "200000"], "a hardening curve is given by"),
-        (["--stroke", "6", "--material", "DC04", "--young", "2e5"], "by name or by numbers"),
-        (["--stroke", "6", "--material", "cheese"], "cheese"),
-        (["--stroke", "6", "--table", "6:4:1"], "a table goes"),
-        (["--stroke", "6", "--table", "1:5:1e-6"], "at most 1000 strokes"),
-        (["--stroke", "6", "--table", "1:9:1"], "beyond air bending"),
-        (["--stroke", "6", "--contact-points", "²"], "or auto"),
-        (["--stroke", "9"], "beyond air bending"),
-        (["--angle", "80"], "cannot be reached"),
-    ],
-)
-def test_the_command_refuses(typed, message, tmp_path):
-    done = CliRunner().invoke(app, ["bend", *typed, "--out", str(tmp_path / "out")])
-    assert done.exit_code == 1
-    assert message in done.stderr
-    assert not (tmp_path / "out").exists()
-
-
-def test_a_folder_that_takes_no_files_is_refused_before_the_run(tmp_path, monkeypatch):
-    monkeypatch.setattr("umform.processes.air_bending.case.air_bending", lambda case: pytest.fail("it runs"))
-    (tmp_path / "file").touch()
-    done = CliRunner().invoke(app, ["bend", "--stroke", "6", "--out", str(tmp_path / "file")])
-    assert done.exit_code == 1
-    assert "the folder cannot be made" in done.stderr

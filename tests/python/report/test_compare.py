@@ -79,7 +79,7 @@ def test_an_unknown_column_is_refused_with_the_nearest(runs, tmp_path):
     run = plot(*runs[:2], "--x", "punsh", "--y", "punch_force", "--out", tmp_path / "c.png")
     assert run.exit_code == 1
     assert "perhaps punch is meant" in run.stderr
-    assert "where:  coarse" in run.stderr
+    assert "where:  run coarse" in run.stderr
     assert not (tmp_path / "c.png").exists()
 
 

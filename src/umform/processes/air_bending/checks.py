@@ -85,6 +85,14 @@ RULES: dict[str, Rule] = {
         "0.00625 is usual",
     ),
 }
+#: Finer than the smallest one, the force that counts as zero at the end of unloading tells (docs/air-bending.md).
+_FINEST, _COARSEST = 0.001, 10.0
+_TOLERANCE = Rule(
+    lambda value: number(value) and _FINEST <= value <= _COARSEST,
+    f"the tolerance of an angle is {_FINEST:g} to {_COARSEST:g} degrees",
+    "a sign, radians, or a part of the angle",
+    "0.02 is usual",
+)
 _WANTED = Rule(
     lambda value: number(value) and 0.0 < value < 180.0,
     "a bend has an angle between 0 and 180 degrees",
@@ -188,6 +196,16 @@ def needed_stroke(case: AirBending) -> float:
             remedy="AirBending(stroke=6.0), or find_stroke(case, angle).case",
         )
     return case.stroke
+
+
+def check_tolerance(tolerance: float) -> None:
+    """Refuse a tolerance of the angle that cannot be met, or that says nothing.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    _TOLERANCE.check("tolerance", tolerance)
 
 
 def check_angle(case: AirBending, angle: float) -> None:
