@@ -155,15 +155,18 @@ def demo(
 
 
 def _run(task: tuple[FreeBending, Path | None], progress: bool | None) -> Bending:
-    """One case, as far as it goes; with its fields in a file if there is a path for them."""
+    """One case, as far as it goes; with its fields in a file if there is a path for them, and what its page moves."""
     case, fields = task
     try:
         run = free_bending(case, frames=_FRAMES_WRITTEN if fields else _FRAMES_KEPT, progress=progress)
     except Exception as error:
         run = _given_up(task, error)
     if fields and run.result:
+        from umform.report.live import Live  # matplotlib takes time to load; the other runs do without
+
         try:
             run.result.write(fields)
+            run = replace(run, live=Live.of(run.result))
         except Exception as error:
             run = replace(run, failure="\n".join(filter(None, (run.failure, failure_text(error)))))
     return run.detached()
