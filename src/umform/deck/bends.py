@@ -137,4 +137,4 @@ def locking_moment(order: int, strain: float, stiffness: float, layers: int = 1)
     """
     m = order + 1
     beta = (m + 1) / 2 * 2.0**m * math.factorial(m) ** 2 / math.factorial(2 * m)
-    return math.sqrt(3.0) * m * beta**2 / (2 * m + 1) * stiffness * strain ** (2 * m - 1) / layers ** (2 * m)
+    return math.sqrt(3.0) * m * beta**2 / (2 * m + 1) * stiffness * strain ** (2 * m - 1) / float(layers) ** (2 * m)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import math
 import os
@@ -12,7 +11,6 @@ import subprocess
 import sys
 from argparse import Namespace
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
@@ -23,30 +21,14 @@ FOLDER = Path(__file__).parents[3] / "benchmarks"
 
 
 @pytest.fixture
-def load(monkeypatch):
-    """Import a script of the folder, which finds its neighbours as if it had been started there."""
-    monkeypatch.syspath_prepend(str(FOLDER))
-    threads = uf.threads()
-
-    def loaded(name: str) -> ModuleType:
-        specification = importlib.util.spec_from_file_location(f"benchmark_{name}", FOLDER / f"{name}.py")
-        module = importlib.util.module_from_spec(specification)
-        specification.loader.exec_module(module)
-        return module
-
-    yield loaded
-    uf.set_threads(threads)
-
-
-@pytest.fixture
-def run(load, monkeypatch, capsys, tmp_path):
+def run(script, monkeypatch, capsys, tmp_path):
     """Lines that a script prints, and the numbers that it records."""
 
     def ran(name: str, *words: str, benchmark: str = "") -> tuple[list[str], dict[str, float]]:
         file = tmp_path / "bench.json"
         record = ["--json", str(file)] if benchmark else []
         monkeypatch.setattr(sys, "argv", [str(FOLDER / f"{name}.py"), *words, *record])
-        load(name).main()
+        script(name).main()
         numbers = json.loads(file.read_text())["benchmarks"][benchmark]["numbers"] if benchmark else {}
         return capsys.readouterr().out.splitlines(), numbers
 
@@ -78,9 +60,9 @@ def test_threads(run):
 
 
 @pytest.mark.skipif(not shutil.which("c++"), reason="no C++ compiler")
-def test_operations_of_an_element_are_counted(load, tmp_path):
+def test_operations_of_an_element_are_counted(script, tmp_path):
     """More operations where the material flows than where it does not, and as many in each element of a kind."""
-    native, sheet = load("kernels").Native(tmp_path), load("sheets").sheet
+    native, sheet = script("kernels").Native(tmp_path), script("sheets").sheet
     elastic, plastic = (native.operations(*sheet("DISP3D", law, (1, 1))) for law in ("J2 elastic", "J2 plastic"))
     assert len(elastic) == len(plastic) == 4
     assert min(elastic) >= 0.0
@@ -89,8 +71,8 @@ def test_operations_of_an_element_are_counted(load, tmp_path):
     assert native.operations(*sheet("DISP3D", "NeoHooke", (1, 1))) is None
 
 
-def test_the_sheet_flows_where_its_law_can(load):
-    sheets = load("sheets")
+def test_the_sheet_flows_where_its_law_can(script):
+    sheets = script("sheets")
     for law in sheets.LAWS:
         model, u = sheets.sheet("ANS3DEAS", law, (2, 2), side=10.0)
         before = model.block.state.copy()
@@ -133,17 +115,17 @@ def test_sparse(run):
     assert min(numbers.values()) > 0.0
 
 
-def test_workloads(run, load):
+def test_workloads(run, script):
     names = ["python -c pass, 5 times", "free bending 24x1"]
     lines, _ = run("workloads", *(word for name in names for word in ("--only", name)))
     seconds = json.loads("\n".join(lines))
     assert list(seconds) == names
     assert all(0.0 < number < 60.0 for number in seconds.values())
-    assert load("workloads").evaluations("MI9K3DEAS", (1, 1))()
+    assert script("workloads").evaluations("MI9K3DEAS", (1, 1))()
 
 
-def test_compare_takes_turns_and_prints_the_median_of_ratios(load, monkeypatch, capsys, tmp_path):
-    compare, asked = load("compare"), []
+def test_compare_takes_turns_and_prints_the_median_of_ratios(script, monkeypatch, capsys, tmp_path):
+    compare, asked = script("compare"), []
 
     def measure(source):
         asked.append(source.name)
@@ -161,8 +143,8 @@ def test_compare_takes_turns_and_prints_the_median_of_ratios(load, monkeypatch, 
     )
 
 
-def test_compare_sees_other_kernels_by_their_sources(load, tmp_path):
-    compare = load("compare")
+def test_compare_sees_other_kernels_by_their_sources(script, tmp_path):
+    compare = script("compare")
     folders = [tmp_path / name for name in "ab"]
     for folder in folders:
         folder.mkdir()
@@ -177,9 +159,9 @@ def test_compare_sees_other_kernels_by_their_sources(load, tmp_path):
     assert compare.fingerprint(folders[0]) != compare.fingerprint(folders[1])
 
 
-def test_compare_ends_with_what_a_command_says(load):
+def test_compare_ends_with_what_a_command_says(script):
     with pytest.raises(SystemExit, match="no such luck"):
-        load("compare").run(sys.executable, "-c", "import sys; sys.exit('no such luck')")
+        script("compare").run(sys.executable, "-c", "import sys; sys.exit('no such luck')")
 
 
 def test_two_equal_builds_answer_alike():
@@ -191,8 +173,8 @@ def test_two_equal_builds_answer_alike():
     assert {"residual", "tangent", "history"} <= {line.split()[0] for line in done.stdout.splitlines()}
 
 
-def test_growth_of_the_factors_is_found_again(load):
-    ranks = load("ranks")
+def test_growth_of_the_factors_is_found_again(script):
+    ranks = script("ranks")
     sizes = np.array([6400.0, 25600.0, 102400.0])
     fill, flops = 31.0 * sizes * np.log2(sizes) - 90.0 * sizes, 250.0 * sizes**1.5 + 40.0 * sizes * np.log2(sizes)
     growth = ranks.Growth([{"elements": m, "fill": f, "flops": w} for m, f, w in zip(sizes, fill, flops)])
@@ -201,8 +183,8 @@ def test_growth_of_the_factors_is_found_again(load):
     assert growth.fill(1e6) == pytest.approx(31e6 * math.log2(1e6) - 90e6)
 
 
-def test_the_stored_measurements_make_table_forecast_and_figure(load, monkeypatch, capsys, tmp_path):
-    ranks = load("ranks")
+def test_the_stored_measurements_make_table_forecast_and_figure(script, monkeypatch, capsys, tmp_path):
+    ranks = script("ranks")
     monkeypatch.setattr(ranks, "FIGURE", tmp_path / "ranks.png")
     stored = FOLDER / "ranks.json"
     ranks.main([str(stored)])
@@ -218,8 +200,8 @@ def test_the_stored_measurements_make_table_forecast_and_figure(load, monkeypatc
     assert all("|".join(row.split("|")[:9]) in page for row in rows)
 
 
-def test_the_bent_sheet_of_the_ranks_is_a_cylinder(load):
-    ranks = load("ranks")
+def test_the_bent_sheet_of_the_ranks_is_a_cylinder(script):
+    ranks = script("ranks")
     model = ranks.sheet(4)
     X = model.mesh.points
     x = X + ranks.bent(X, radius=40.0).reshape(-1, 3)
@@ -227,8 +209,8 @@ def test_the_bent_sheet_of_the_ranks_is_a_cylinder(load):
     assert {contact.name for contact in model.contacts} == {"tool"}
 
 
-def test_every_kernel_of_the_instruction_counts_is_driven(load, monkeypatch):
-    instructions, driven = load("instructions"), []
+def test_every_kernel_of_the_instruction_counts_is_driven(script, monkeypatch):
+    instructions, driven = script("instructions"), []
     sheet = instructions.sheet
 
     def recorded(name, law, cells, side):
