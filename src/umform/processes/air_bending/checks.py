@@ -89,7 +89,7 @@ RULES: dict[str, Rule] = {
         "0.00625 is usual",
     ),
 }
-#: Finer than the smallest one, the force that counts as zero at the end of unloading tells (docs/air-bending.md).
+#: The force that counts as zero after unloading leaves about the smallest of these open; see `brake`.
 _FINEST, _COARSEST = 0.001, 10.0
 _TOLERANCE = Rule(
     lambda value: number(value) and _FINEST <= value <= _COARSEST,

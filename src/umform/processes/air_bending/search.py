@@ -54,7 +54,7 @@ def find_stroke(
     angle : float
         Wanted angle between the legs in degrees.
     tolerance : float
-        Largest deviation of the angle in degrees.
+        Largest deviation of the angle in degrees, 0.001 to 10.
     solver : str
         Sparse solver.
     progress : bool, optional
