@@ -33,9 +33,9 @@ _MOST_ROWS = 1000
 
 @app.command()
 def bend(
-    out: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")] = Path(
-        "results/bend"
-    ),
+    out: Annotated[
+        str, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")
+    ] = "results/bend",
     angle: Annotated[float | None, _option("Find the stroke that leaves this angle in degrees.", _GOAL)] = None,
     stroke: Annotated[float | None, _option("Bend to this stroke in mm.", _GOAL)] = None,
     table: Annotated[str | None, _option("Strokes of a bending table: first:last:step, as 4:6:0.5.", _GOAL)] = None,
@@ -118,7 +118,7 @@ def bend(
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if not print_deck:
         check_folder(out)
-    with timings() as spent, _what_was_reached(out):
+    with timings() as spent, _what_was_reached(Path(out)):
         if angle is not None:
             case = find_stroke(case, angle, tolerance=tolerance).case
         if print_deck:

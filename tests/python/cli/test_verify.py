@@ -37,7 +37,7 @@ def test_an_unknown_case(tmp_path):
     assert not (tmp_path / "book").exists()
 
 
-@pytest.mark.parametrize("cases", [[ONE], [ONE, "linear-cook"], ["--all"]])
+@pytest.mark.parametrize("cases", [[ONE], [ONE, "plastic-cook"], ["--all"]])
 def test_a_number_of_processes_that_is_none(cases, tmp_path):
     run = umform_cli("verify", *cases, "--short", "--out", tmp_path / "book", "--processes", 0)
     assert run.exit_code == 1
