@@ -22,11 +22,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-import numpy as np
-
 import umform as uf
-from umform import _core, elements
-from umform.model import Model
+from sheets import sheet
+from umform import _core
 
 STORED = Path(__file__).with_suffix(".json")
 #: The same kernels may not need more, and should not need less without being stored anew.
@@ -38,33 +36,15 @@ EVALUATE = "::evaluate(double const*, umform::Scatter const&, umform::Target con
 BLOCKS = ("umform::ShellBlockOf<8>", "umform::ShellBlockOf<18>")
 CELLS = 4
 
-STEEL = {"E": 210e3, "nu": 0.3}
-LAWS = {
-    "SVK": uf.SVK(**STEEL),
-    "NeoHooke": uf.NeoHooke(**STEEL),
-    "J2 elastic": uf.J2(**STEEL, hardening=uf.Linear(yield_stress=1e6, modulus=500.0)),
-    "J2 plastic": uf.J2(**STEEL, hardening=uf.Linear(yield_stress=160.0, modulus=500.0)),
-    "J2 Voce": uf.J2(**STEEL, hardening=uf.Voce(160.0, 320.0, 15.0)),
-}
 KERNELS = [(name, law) for name in ("ANS3DEAS", "MI9K3DEAS") for law in ("SVK", "J2 elastic", "J2 plastic")]
 KERNELS += [("DISP3D", "NeoHooke"), ("EAS3DEAS", "SVK"), ("BEND8", "J2 Voce")]
-
-
-def model_of(name: str, law: str) -> tuple[Model, np.ndarray]:
-    """A small sheet, and displacements that stretch and shear it beyond a yield stress of 160."""
-    mesh = uf.mesh.strip(length=10.0, width=10.0, thickness=1.0, cells=(CELLS, CELLS), cell=elements.element(name).cell)
-    x, y, z = mesh.points.T
-    u = np.stack([4e-3 * x + 1e-3 * y, -1e-3 * y, -2e-3 * z + 1e-4 * x * y], axis=1)
-    model = Model(mesh, name, material=LAWS[law])
-    model.fix("x0")
-    return model, u.ravel()
 
 
 def drive() -> None:
     """Evaluate every kernel twice: the first time pays for the workspaces. Runs inside of valgrind."""
     uf.set_threads(1)
     for name, law in KERNELS:
-        model, u = model_of(name, law)
+        model, u = sheet(name, law, (CELLS, CELLS), side=10.0)
         for _ in range(2):
             model.evaluate(u)
 

@@ -21,29 +21,14 @@ import numpy as np
 
 import record
 import umform as uf
+from sheets import sheet
 from umform import elements
 from umform.model import Model
 from umform.technology import COMPONENTS, Element
 
 HERE = Path(__file__).parent
-STEEL = {"E": 210e3, "nu": 0.3}
-LAWS = {
-    "SVK": uf.SVK(**STEEL),
-    "NeoHooke": uf.NeoHooke(**STEEL),
-    "NeoHookePower": uf.NeoHookePower(**STEEL),
-    "J2 elastic": uf.J2(**STEEL, hardening=uf.Linear(yield_stress=1e6, modulus=500.0)),
-    "J2 plastic": uf.J2(**STEEL, hardening=uf.Linear(yield_stress=160.0, modulus=500.0)),
-}
-
-
-def sheet(name: str, law: str, cells: tuple[int, int]) -> tuple[Model, np.ndarray]:
-    """A sheet, and displacements that stretch and shear it beyond a yield stress of 160."""
-    mesh = uf.mesh.strip(length=100.0, width=100.0, thickness=1.0, cells=cells, cell=elements.element(name).cell)
-    x, y, z = mesh.points.T
-    u = np.stack([4e-3 * x + 1e-3 * y, -1e-3 * y, -2e-3 * z + 1e-5 * x * y], axis=1)
-    model = Model(mesh, name, material=LAWS[law])
-    model.fix("x0")
-    return model, u.ravel()
+#: Laws of the table; `sheets` has one more for the instructions.
+TIMED = ("SVK", "NeoHooke", "NeoHookePower", "J2 elastic", "J2 plastic")
 
 
 def best(call: Callable[[], object], repeat: int, clock: Callable[[], float]) -> float:
@@ -133,7 +118,7 @@ def table(names: list[str], cells: int, repeat: int, native: Native) -> list[dic
     rows: list[dict[str, object]] = []
     for name in names:
         side = cells if elements.element(name).cell == "hex8" else cells // 2
-        for law in LAWS:
+        for law in TIMED:
             model, u = sheet(name, law, (side, side))
             model.evaluate(u)
             seconds = best(partial(model.evaluate, u), repeat, time.process_time) / len(model.mesh.connectivity)

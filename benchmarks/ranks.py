@@ -211,6 +211,9 @@ def forecast(runs: list[dict], described: dict) -> None:
     print(f"bytes an element: description {costs.described * GB:.0f} a rank, {costs.parting * GB:.0f} until it is "
           f"parted ({described['seconds'] / described['elements'] * 1e6:.1f} s a million), own {costs.own * GB:.0f}; "
           f"{costs.entry * GB:.1f} an entry of the factors\n")  # fmt: skip
+    for run in (run for run in runs if run["elements"] == m and run["ranks"] > 1):
+        held = costs.memory(m, run["ranks"], growth)
+        print(f"on {run['ranks']} ranks the fullest one took {run['memory']['peak'] / held - 1:+.0%} of that\n")
     print("| elements | entries of the factors | core hours an iteration | GB a rank, 1 rank | 16 | 64 | 256 |")
     print("|" + "---|" * 7)
     for m in (102_400, 1_000_000, 10_000_000):

@@ -15,6 +15,7 @@ def main() -> None:
     """Run the benchmark."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--solver", default="auto")
+    parser.add_argument("--increments", type=int, default=300, help="of 0.05 mm downwards, before the unloading")
     record.add_option(parser)
     arguments = parser.parse_args()
     uf.set_threads(1)
@@ -26,7 +27,8 @@ def main() -> None:
     model.fix(lambda x, y, z: (x < 1e-9) & (y < 1e-9) & (z < 0), "y")
     punch = model.prescribe("x0_lower", "z", name="punch")
     model.contact("lower", uf.Cylinder(centre=(25, 0, -20.5), axis="y", radius=20), penalty=100, points=2)
-    steps = [uf.Move(punch, to=-15.0, steps=300), uf.Release(punch)]
+    count = arguments.increments
+    steps = [uf.Move(punch, to=-0.05 * count, steps=count), uf.Release(punch)]
     result = uf.solve(model, steps, solver=arguments.solver, frames=0, progress=False)
 
     iterations = result.timing.elements.calls  # those of increments that were cut or taken back too

@@ -36,6 +36,7 @@ def tangent(cells: tuple[int, int], cell: str) -> tuple[uf.Model, np.ndarray]:
 def main() -> None:
     """Run the benchmark."""
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--case", choices=[case[0] for case in CASES], action="append", help="default: all")
     record.add_option(parser)
     arguments = parser.parse_args()
     numbers: dict[str, float] = {}
@@ -43,6 +44,8 @@ def main() -> None:
     columns = "".join(f"{name:>10}" for name in names)
     print(f"{'fastest factorisation = 1':<24}{'n':>7}{columns}   {'auto':>10}{columns}   (analysis)")
     for label, cells, cell, repeat in CASES:
+        if arguments.case and label not in arguments.case:
+            continue
         model, values = tangent(cells, cell)
         best = dict.fromkeys(names, np.inf)
         analysis, solvers = {}, {}

@@ -5,21 +5,19 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import resource
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import numpy as np
-
 import umform as uf
-
-STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
+from sheets import LAWS, sheet
 
 
 #: A run of 24 elements in plane strain, with contact and plasticity, from the import on.
@@ -59,12 +57,7 @@ def start_up(*words: str) -> float:
 
 def evaluations(element: str, cells: tuple[int, int]) -> Callable[[], object]:
     """Residuals and tangents of a sheet that flows everywhere."""
-    cell = "hex8" if element.startswith("ANS") else "hex18"
-    mesh = uf.mesh.strip(length=100.0, width=100.0, thickness=1.0, cells=cells, cell=cell)
-    model = uf.Model(mesh, element, material=STEEL)
-    model.fix("x0")
-    x, y, z = mesh.points.T
-    u = np.stack([4e-3 * x + 1e-3 * y, -1e-3 * y, -2e-3 * z + 1e-5 * x * y], axis=1).ravel()
+    model, u = sheet(element, "J2 plastic", cells)
     model.evaluate(u)
     return lambda: [model.evaluate(u) for _ in range(10)]
 
@@ -72,7 +65,7 @@ def evaluations(element: str, cells: tuple[int, int]) -> Callable[[], object]:
 def free_bending(frames: int = 0) -> uf.Result:
     """Half of the stroke of the demo on its coarsest mesh: contact, plasticity, a narrow band, much Python."""
     mesh = uf.mesh.strip(length=60, width=10, thickness=1, cells=(24, 1))
-    model = uf.Model(mesh, "ANS3DEAS", material=STEEL)
+    model = uf.Model(mesh, "ANS3DEAS", material=LAWS["J2 plastic"])
     model.symmetry("x0", normal="x")
     model.fix(lambda x, y, z: (x < 1e-9) & (y < 1e-9) & (z < 0), "y")
     punch = model.prescribe("x0_lower", "z", name="punch")
@@ -98,21 +91,35 @@ def bent_plate() -> object:
     return uf.solve(model, uf.Move(edge, to=8.0, steps=2), frames=0, progress=False)
 
 
-def workloads() -> Iterator[tuple[str, float]]:
-    """Names and CPU seconds, one after the other."""
-    uf.set_threads(1)
-    yield "python -c pass, 5 times", start_up("-c", "pass")
-    yield "import numpy, 5 times", start_up("-c", "import numpy")
-    yield "umform --version, 5 times", start_up("-c", "from umform.cli import main; main()", "--version")
-    yield "import umform; umform.Model, 5 times", start_up("-c", "import umform; umform.Model")
-    yield "a run of 24 elements with its start, 5 times", start_up("-c", SMALL_RUN)
-    yield "evaluate ANS3DEAS, J2", cpu_seconds(evaluations("ANS3DEAS", (50, 50)))
-    yield "evaluate MI9K3DEAS, J2", cpu_seconds(evaluations("MI9K3DEAS", (16, 16)))
-    yield "free bending 24x1", cpu_seconds(free_bending)
+def files_seconds() -> float:
+    """CPU seconds that the files of the run take."""
     result = free_bending(frames=60)
-    yield "files of free bending 24x1", cpu_seconds(lambda: files(result))
-    yield "bent plate 50x50", cpu_seconds(bent_plate)
+    return cpu_seconds(lambda: files(result))
+
+
+#: Each workload, as CPU seconds of it.
+WORKLOADS: dict[str, Callable[[], float]] = {
+    "python -c pass, 5 times": lambda: start_up("-c", "pass"),
+    "import numpy, 5 times": lambda: start_up("-c", "import numpy"),
+    "umform --version, 5 times": lambda: start_up("-c", "from umform.cli import main; main()", "--version"),
+    "import umform; umform.Model, 5 times": lambda: start_up("-c", "import umform; umform.Model"),
+    "a run of 24 elements with its start, 5 times": lambda: start_up("-c", SMALL_RUN),
+    "evaluate ANS3DEAS, J2": lambda: cpu_seconds(evaluations("ANS3DEAS", (50, 50))),
+    "evaluate MI9K3DEAS, J2": lambda: cpu_seconds(evaluations("MI9K3DEAS", (16, 16))),
+    "free bending 24x1": lambda: cpu_seconds(free_bending),
+    "files of free bending 24x1": files_seconds,
+    "bent plate 50x50": lambda: cpu_seconds(bent_plate),
+}
+
+
+def main() -> None:
+    """Run them one after the other."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--only", choices=list(WORKLOADS), action="append", metavar="NAME", help="default: all")
+    arguments = parser.parse_args()
+    uf.set_threads(1)
+    print(json.dumps({name: WORKLOADS[name]() for name in arguments.only or WORKLOADS}, indent=1))
 
 
 if __name__ == "__main__":
-    print(json.dumps(dict(workloads()), indent=1))
+    main()

@@ -205,7 +205,7 @@ def _check_column(name: str, columns: Mapping[str, Floats], run: str) -> None:
     near = get_close_matches(name, columns, n=1, cutoff=0.4)
     raise InvalidValue(
         "the history has no such column",
-        where=run,
+        where=f"run {run}",
         value=name,
         cause=f"perhaps {near[0]} is meant" if near else "",
         remedy="one of " + ", ".join(columns),

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from typing import TypeVar
 
 from umform import _core
-from umform.errors import SolveError
+from umform.errors import InvalidValue, SolveError
 from umform.log import log_to_stderr
 
 Task = TypeVar("Task")
@@ -48,7 +48,13 @@ def run_all(
         everything happens here.
     tick : callable
         Is told the part of the costs that is done.
+
+    Raises
+    ------
+    InvalidValue
+        If the number of processes is less than 1.
     """
+    check_processes(processes)
     count = min(processes or _processors(), len(tasks))
     order = sorted(range(len(tasks)), key=lambda number: -costs[number])
     answers: dict[int, Answer] = {}
@@ -82,6 +88,23 @@ def run_all(
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
     return [answers[number] for number in range(len(tasks))]
+
+
+def check_processes(processes: int | None) -> None:
+    """Refuse a number of processes that is less than 1, for callers that do something else first.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    if processes is not None and processes < 1:
+        raise InvalidValue(
+            "the number of processes must be 1 or more",
+            where="processes",
+            value=processes,
+            cause="zero or a sign",
+            remedy="leave it out: then there are as many as processors",
+        )
 
 
 def _died() -> SolveError:

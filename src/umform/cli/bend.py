@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -10,11 +11,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.metal import law_of, numbers
 from umform.cli.root import Debug, Verbose, app, console
 from umform.cli.timing import Timed, show_timing
 
 if TYPE_CHECKING:
-    from umform.materials import J2
     from umform.processes.air_bending.budget import Budget
     from umform.processes.air_bending.case import AirBend
     from umform.processes.air_bending.measures import Measures
@@ -32,9 +33,9 @@ _MOST_ROWS = 1000
 
 @app.command()
 def bend(
-    out: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")] = Path(
-        "results/bend"
-    ),
+    out: Annotated[
+        str, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")
+    ] = "results/bend",
     angle: Annotated[float | None, _option("Find the stroke that leaves this angle in degrees.", _GOAL)] = None,
     stroke: Annotated[float | None, _option("Bend to this stroke in mm.", _GOAL)] = None,
     table: Annotated[str | None, _option("Strokes of a bending table: first:last:step, as 4:6:0.5.", _GOAL)] = None,
@@ -79,15 +80,19 @@ def bend(
 
     Give the stroke, or the angle that is wanted after springback. Each number is defined in docs/air-bending.md.
     """
+    from umform.pool import check_processes
     from umform.processes.air_bending.budget import error_budget
     from umform.processes.air_bending.case import air_bending
+    from umform.processes.air_bending.checks import check_tolerance
     from umform.processes.air_bending.files import check_folder, write_files
     from umform.processes.air_bending.parameters import AirBending
     from umform.processes.air_bending.search import bending_table, find_stroke
     from umform.timing import Timing, timings
 
     _check_goal(angle, stroke)
-    law, note = _law(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    check_tolerance(tolerance)
+    check_processes(processes)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
     case = AirBending(
         thickness=thickness,
         opening=opening,
@@ -108,12 +113,12 @@ def bend(
         increment=increment,
         stroke=stroke,
     )
-    strokes = _strokes(table) if table else []
+    strokes = [] if table is None else _strokes(table)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if not print_deck:
         check_folder(out)
-    with timings() as spent, _what_was_reached(out):
+    with timings() as spent, _what_was_reached(Path(out)):
         if angle is not None:
             case = find_stroke(case, angle, tolerance=tolerance).case
         if print_deck:
@@ -160,67 +165,19 @@ def _check_goal(angle: float | None, stroke: float | None) -> None:
         )
 
 
-def _law(
-    name: str | None,
-    young: float | None,
-    poisson: float | None,
-    yield_stress: float | None,
-    modulus: float | None,
-    swift: str | None,
-    flow_curve: Path | None,
-) -> tuple[J2, str]:
-    """Law of the sheet, and what is to be said of it."""
-    from umform.errors import InvalidValue
-    from umform.processes.air_bending.parameters import DC04_LIKE
-
-    own = [value for value in (young, poisson, yield_stress, modulus, swift, flow_curve) if value is not None]
-    if name is not None:
-        if own:
-            raise InvalidValue("give a material by name or by numbers", where="--material", value=name)
-        from umform.sheet_metals import get
-
-        metal = get(name)
-        return metal.law, f"{name}: {metal.source}; {metal.caveat}"
-    if not own:
-        return DC04_LIKE, "material: a curve like that of DC04; give your own for numbers that count"
-    return _own_law(young, poisson, yield_stress, modulus, swift, flow_curve), ""
-
-
-def _own_law(
-    young: float | None,
-    poisson: float | None,
-    yield_stress: float | None,
-    modulus: float | None,
-    swift: str | None,
-    flow_curve: Path | None,
-) -> J2:
-    from umform.errors import InvalidValue
-    from umform.materials import J2, Linear, Perfect, Swift
-    from umform.sheet_metals import read_flow_curve
-
-    elastic = {"E": 210e3 if young is None else young, "nu": 0.3 if poisson is None else poisson}
-    linear = yield_stress is not None or modulus is not None
-    if [linear, swift is not None, flow_curve is not None].count(True) != 1 or (linear and yield_stress is None):
-        raise InvalidValue(
-            "a hardening curve is given by --yield-stress with --hardening-modulus, by --swift, or by --flow-curve",
-            where="--yield-stress",
-            remedy="--yield-stress 160 --hardening-modulus 500, --swift 520,0.004,0.22, or --flow-curve coil.csv",
-        )
-    if swift is not None:
-        return J2(**elastic, hardening=Swift(*_numbers(swift, ",", 3, "--swift", "K,e0,n as 520,0.004,0.22")))
-    if flow_curve is not None:
-        return J2(**elastic, hardening=read_flow_curve(flow_curve))
-    assert yield_stress is not None
-    return J2(**elastic, hardening=Linear(yield_stress, modulus) if modulus else Perfect(yield_stress))
-
-
 def _strokes(text: str) -> list[float]:
     """Strokes of first:last:step, the last one included."""
     from umform.errors import InvalidValue
 
-    first, last, step = _numbers(text, ":", 3, "--table", "first:last:step as 4:6:0.5")
-    if not 0.0 < first <= last or not step > 0.0:
-        raise InvalidValue("a table goes from a positive stroke up to a larger one", where="--table", value=text)
+    first, last, step = numbers(text, ":", 3, "--table", "first:last:step as 4:6:0.5")
+    if not 0.0 < first <= last < math.inf or not 0.0 < step < math.inf:
+        raise InvalidValue(
+            "a table goes from a positive stroke up to a larger one, in positive steps",
+            where="--table",
+            value=text,
+            cause="a sign, the two exchanged, or a number that is not finite",
+            remedy="first:last:step as 4:6:0.5",
+        )
     if not last - first < _MOST_ROWS * step:
         raise InvalidValue(
             f"a table has at most {_MOST_ROWS} strokes",
@@ -230,18 +187,6 @@ def _strokes(text: str) -> list[float]:
             remedy="first:last:step as 4:6:0.5",
         )
     return [first + number * step for number in range(int((last - first) / step + 1e-9) + 1)]
-
-
-def _numbers(text: str, separator: str, count: int, where: str, remedy: str) -> list[float]:
-    from umform.errors import InvalidValue
-
-    try:
-        values = [float(part) for part in text.split(separator)]
-    except ValueError:
-        values = []
-    if len(values) != count:
-        raise InvalidValue(f"{count} numbers are needed here", where=where, value=text, remedy=remedy)
-    return values
 
 
 def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str) -> None:

@@ -18,7 +18,7 @@ def resume(
     ctx: typer.Context,
     checkpoint: Annotated[Path, typer.Argument(metavar="CHECKPOINT", help="The file that `umform run` has left.")],
     out: Annotated[
-        Path | None, typer.Option(metavar="FOLDER", help="Folder for what comes out; default: that of the run.")
+        str | None, typer.Option(metavar="FOLDER", help="Folder for what comes out; default: that of the run.")
     ] = None,
     every: Every = 60.0,
     verbose: Verbose = 0,

@@ -30,7 +30,7 @@ class Commands(TyperGroup):
             _show_traceback(ctx)
             from umform.processes.bending.options import message
 
-            typer.echo(f"umform: {message(error)}", err=True)
+            typer.echo(f"umform: {message(error, _options(self, ctx.invoked_subcommand))}", err=True)
             raise typer.Exit(1) from error
         except KeyboardInterrupt as error:
             typer.echo(_GIVEN_UP, err=True)
@@ -44,6 +44,13 @@ class Commands(TyperGroup):
             typer.echo(f"umform: an error that nobody expected: {type(error).__name__}: {error}", err=True)
             typer.echo("  remedy: report it, with the command and what it prints with --debug", err=True)
             raise typer.Exit(1) from error
+
+
+def _options(group: TyperGroup, command: str | None) -> dict[str, str]:
+    """Options of a command and of those below it, by the names that Python has for them."""
+    chosen: Any = group.commands[command or ""]
+    below = chosen.commands.values() if isinstance(chosen, TyperGroup) else [chosen]
+    return {parameter.name: parameter.opts[0] for each in below for parameter in each.params}
 
 
 def _show_traceback(ctx: Any) -> None:

@@ -28,7 +28,7 @@ def run(
     ctx: typer.Context,
     deck: DeckFile,
     out: Annotated[
-        Path | None, typer.Option(metavar="FOLDER", help="Folder for what comes out; default: that of the deck.")
+        str | None, typer.Option(metavar="FOLDER", help="Folder for what comes out; default: that of the deck.")
     ] = None,
     solver: Annotated[str | None, typer.Option(help="Another sparse solver than that of the deck.")] = None,
     changes: Changes = None,

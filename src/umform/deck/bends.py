@@ -20,11 +20,14 @@ from umform.deck.problem import Problem
 from umform.deck.tools import ToolPart, along, smallest_radius
 from umform.materials import J2, Table
 from umform.model import Model
+from umform.technology import Element
 
 #: Degrees of a tool radius that one element may span: with 4 nodes a face, and with 9, which follow an arc.
 _ARC = {4: 12.0, 9: 24.0}
 #: False moment over the plastic one that is borne.
 _LOCKING = 0.05
+#: Highest order of the thickness strain, and the elements that have it, with E_33 tied.
+_HIGHEST, _FOR_BENDS = 4, {"hex8": "BEND8", "hex18": "BEND18"}
 #: Points through the thickness that plastic bending needs, and sharp bends (strain above 0.1).
 _POINTS, _SHARP_POINTS, _SHARP = 5, 7, 0.1
 
@@ -76,17 +79,15 @@ def _size_near(contact: Contact, model: Model, axis: np.ndarray[tuple[int, ...],
 
 def through_thickness(model: Model, material: J2, h: float, radius: float, tool: str) -> Iterator[Finding]:
     """Thickness points and thickness order against the strain that the smallest radius asks for."""
-    strain = h / (2.0 * radius + h)
-    order = max(model.element.thickness_order, 1)
-    locking = locking_moment(order, strain, material.kappa / first_yield(material))
+    strain, layers = h / (2.0 * radius + h), layers_of(model, h)
+    order, stiffness = max(model.element.thickness_order, 1), material.kappa / first_yield(material)
     text = f"the radius {radius:.4g} of {tool} strains a sheet of {h:.4g} by {100 * strain:.3g} %"
-    if locking > _LOCKING:
-        remedy = "name = 'BEND8' or 'BEND18', or thickness_order = 3 and tie_E33 = true"
+    if locking_moment(order, strain, stiffness, layers) > _LOCKING:
+        remedy = against_locking(model.element, strain, stiffness, layers)
         yield warning("element", f"{text}: at thickness order {order} it locks", remedy)
     else:
         yield ok("element", f"{text}: thickness order {order} can follow")
     least = _SHARP_POINTS if strain > _SHARP else _POINTS
-    layers = layers_of(model, h)
     points = layers * model.thickness_points
     if points < least and strain > first_yield(material) / material.E:
         remedy = f"take {math.ceil(least / layers)}" + (" in each layer" if layers > 1 else "")
@@ -95,6 +96,18 @@ def through_thickness(model: Model, material: J2, h: float, radius: float, tool:
     if isinstance(curve, Table) and curve.eqps[-1] < strain:
         text = f"the hardening curve ends at a plastic strain of {curve.eqps[-1]:.3g}, the bend asks for {strain:.3g}"
         yield warning("material", text, "go on with the curve: behind its end the yield stress stays as it is")
+
+
+def against_locking(element: Element, strain: float, stiffness: float, layers: int) -> str:
+    """What helps: a higher order of the thickness strain if one can follow, else layers."""
+    for order in range(max(element.thickness_order, 1) + 1, _HIGHEST + 1):
+        if locking_moment(order, strain, stiffness, layers) <= _LOCKING:
+            tied = any(row.component == "33" for row in element.tying)
+            tie = "" if tied else " and tie_E33 = true"
+            return f"name = '{_FOR_BENDS[element.cell]}', or thickness_order = {order}{tie}"
+    while locking_moment(_HIGHEST, strain, stiffness, layers) > _LOCKING:
+        layers += 1
+    return f"{layers} layers of BEND18: no order follows so sharp a bend in fewer"
 
 
 def layers_of(model: Model, h: float) -> int:
@@ -108,8 +121,8 @@ def first_yield(material: J2) -> float:
     return material.hardening.curve()(0.0)[0]
 
 
-def locking_moment(order: int, strain: float, stiffness: float) -> float:
-    """False moment of sharp-bend locking over the plastic moment, see docs/theory, section 2.8.
+def locking_moment(order: int, strain: float, stiffness: float, layers: int = 1) -> float:
+    """False moment of sharp-bend locking over the plastic moment, eq. (2.29).
 
     Parameters
     ----------
@@ -119,7 +132,9 @@ def locking_moment(order: int, strain: float, stiffness: float) -> float:
         x_s, the strain at the surface.
     stiffness : float
         Bulk modulus over yield stress.
+    layers : int
+        Elements on each other: each bends about its own middle, so that x_s of (2.27) is that of a layer.
     """
     m = order + 1
     beta = (m + 1) / 2 * 2.0**m * math.factorial(m) ** 2 / math.factorial(2 * m)
-    return math.sqrt(3.0) * m * beta**2 / (2 * m + 1) * stiffness * strain ** (2 * m - 1)
+    return math.sqrt(3.0) * m * beta**2 / (2 * m + 1) * stiffness * strain ** (2 * m - 1) / float(layers) ** (2 * m)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -12,6 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from umform import mesh
 from umform.deck.parts import Pair, Part, Positive, Vector, told_by, word_or_array
+from umform.errors import InvertedElement, MeshError, WrongNodeOrder
 from umform.mesh import Floats, Mesh
 
 Divisions = Annotated[int, Field(ge=1, le=100_000)]
@@ -120,7 +122,19 @@ class File(Part):
     def build(self, cell: str, folder: Path) -> Mesh:
         """The mesh; whether it fits the element is up to the model."""
         del cell
-        return mesh.read(folder / self.file, self.through)
+        try:
+            return mesh.read(folder / self.file, self.through)
+        except MeshError as error:
+            error.remedy = self._remedy(error)
+            raise
+
+    def _remedy(self, error: MeshError) -> str:
+        """The remedy by keys of the deck."""
+        if self.through is None and isinstance(error, WrongNodeOrder | InvertedElement):
+            return "through = 'thinnest', or the axis through the thickness: then the cells are turned"
+        return re.sub(
+            r"umform\.mesh\.(read_shell\(path, thickness\)|thicken)", "the key thickness in [mesh]", error.remedy
+        )
 
 
 class Shell(Part):

@@ -12,20 +12,10 @@ from pydantic_core import PydanticCustomError
 
 from umform.deck.parts import Part, Vector
 from umform.errors import EmptySet
-from umform.mesh import Ids, Mesh
+from umform.mesh import FACES, Ids, Mesh
 
 #: Planes of a box are that much thicker than none, as a fraction of the size of the mesh.
 _HAIR = 1e-7
-
-#: Corners of the faces lower, upper, r0, r1, s0, s1 of a cell: number on the lower face, and whether on the upper one.
-_CORNERS = (
-    ((0, 0), (1, 0), (2, 0), (3, 0)),
-    ((0, 1), (1, 1), (2, 1), (3, 1)),
-    ((0, 0), (3, 0), (3, 1), (0, 1)),
-    ((1, 0), (2, 0), (2, 1), (1, 1)),
-    ((0, 0), (1, 0), (1, 1), (0, 1)),
-    ((2, 0), (3, 0), (3, 1), (2, 1)),
-)
 
 Bound = Annotated[float, Field(allow_inf_nan=True)]
 Corner = tuple[float, float, float]
@@ -100,10 +90,8 @@ class Nearest(Part):
 
     def faces(self, mesh: Mesh) -> Ids:
         """Row of the face."""
-        cells, upper = mesh.connectivity, mesh.connectivity.shape[1] // 2
-        corners = np.stack([cells[:, [a + upper * side for a, side in face]] for face in _CORNERS], axis=1)
-        nearest = _nearest(mesh.points[corners].mean(axis=2).reshape(-1, 3), self.nearest)
-        return np.array([divmod(nearest, len(_CORNERS))], dtype=np.int32)
+        nearest = _nearest(mesh.face_centres().reshape(-1, 3), self.nearest)
+        return np.array([divmod(nearest, len(FACES))], dtype=np.int32)
 
 
 class ById(Part):

@@ -18,6 +18,7 @@ History = dict[str, Floats]
 
 #: Name of the history in the folder of a run.
 HISTORY = "history.csv"
+_REMEDY = "give the history.csv of a run"
 
 
 def read_history(path: str | os.PathLike[str]) -> History:
@@ -40,24 +41,34 @@ def read_history(path: str | os.PathLike[str]) -> History:
     """
     file = _file(Path(path))
     try:
-        with file.open(newline="", encoding="utf-8") as text:
+        with file.open(newline="", encoding="utf-8-sig") as text:
             header, *rows = list(csv.reader(text)) or [[]]
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileProblem("the history cannot be read", where=str(file), cause=str(error)) from error
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        cause = getattr(error, "strerror", None) or "another kind of file, or text that is not UTF-8"
+        raise FileProblem("the history cannot be read", where=str(file), cause=cause, remedy=_REMEDY) from error
     if not rows:
-        raise FileProblem("this history has no rows", where=str(file), remedy="give the history.csv of a run")
+        raise FileProblem("this history has no rows", where=str(file), remedy=_REMEDY)
     for number, row in enumerate(rows, start=2):
         if len(row) != len(header):
-            raise FileProblem(
-                f"a row has {len(row)} cells and not {len(header)}", where=f"{file}, line {number}", cause="a cut file"
-            )
-    try:
-        values = np.array(rows, dtype=float)
-    except ValueError as error:
-        raise FileProblem(
-            "a history is a table of numbers", where=str(file), cause=str(error), remedy="give the history.csv of a run"
-        ) from error
+            cause = "a cut file, or another table"
+            what = f"a row has {len(row)} cells and not {len(header)}"
+            raise FileProblem(what, where=f"{file}, line {number}", cause=cause, remedy=_REMEDY)
+    values = np.array(
+        [
+            [_number(cell, f"{file}, line {number}, column {name}") for name, cell in zip(header, row, strict=True)]
+            for number, row in enumerate(rows, start=2)
+        ]
+    )
     return dict(zip(header, values.T, strict=True))
+
+
+def _number(cell: str, where: str) -> float:
+    try:
+        return float(cell)
+    except ValueError:
+        cause = "an empty cell, a decimal comma, or another table"
+        what = "a history is a table of numbers"
+        raise FileProblem(what, where=where, value=repr(cell), cause=cause, remedy=_REMEDY) from None
 
 
 def read_histories(paths: Sequence[str | os.PathLike[str]]) -> dict[str, History]:

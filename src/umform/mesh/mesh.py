@@ -237,6 +237,13 @@ class Mesh:
         upper = self.connectivity[:, half:]
         return np.ascontiguousarray(np.where(rows[:, 1:] == 0, lower[rows[:, 0]], upper[rows[:, 0]]))
 
+    def face_centres(self) -> Floats:
+        """Mean of the corners of each face, in the order of :data:`FACES`; shape (m, 6, 3)."""
+        corners, half = np.array(_nodes_of_faces("hex8")), self.connectivity.shape[1] // 2
+        local = corners % 4 + half * (corners // 4)
+        centres: Floats = self.points[self.connectivity[:, local]].mean(axis=2)
+        return centres
+
     def transformed(self, function: Callable[[Floats], Floats]) -> Mesh:
         """The same mesh with its points (n, 3) mapped by ``function``."""
         return Mesh(function(self.points), self.cells, self.sets, self.faces)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from base64 import b64encode
+from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
 from pathlib import Path
@@ -14,7 +15,7 @@ from typing import TYPE_CHECKING
 from umform.plotting import COLOURS, plot_history, plot_shape
 from umform.report import parts
 from umform.report.packing import compressed
-from umform.report.scene import Scene
+from umform.report.scene import Scene, scene_of
 
 if TYPE_CHECKING:
     from umform.results import Result
@@ -22,13 +23,40 @@ if TYPE_CHECKING:
 _SCRIPTS = ("unpack.js", "space.js", "shape.js", "curves.js", "start.js")
 
 
+@dataclass(frozen=True)
+class Live:
+    """The parts for one result, as text: a page may be written where the result is not.
+
+    Attributes
+    ----------
+    shape, curves, table : str
+        The parts; the programs ask for all of them.
+    notes : tuple of str
+        What could not be drawn in space.
+    scripts : str
+        Data and programs, to be put at the end of the page.
+    """
+
+    shape: str
+    curves: str
+    table: str
+    notes: tuple[str, ...]
+    scripts: str
+
+    @classmethod
+    def of(cls, result: Result) -> Live:
+        """The parts for a result with a history; without kept frames, its last state only is drawn in space."""
+        scene = scene_of(result)
+        return cls(_shape(result, scene), _curves(result), _table(result), tuple(scene.notes), _scripts(scene))
+
+
 def style() -> str:
     """What the parts need beside the style of all pages."""
     return _asset("run.css")
 
 
-def scripts(scene: Scene) -> str:
-    """Data and programs, to be put at the end of the page."""
+def _scripts(scene: Scene) -> str:
+    """Data and programs."""
     library = compressed(_asset("three/three.min.js").encode())
     program = "\n".join(_asset(name) for name in _SCRIPTS)
     return (
@@ -38,7 +66,7 @@ def scripts(scene: Scene) -> str:
     )
 
 
-def shape(result: Result, scene: Scene) -> str:
+def _shape(result: Result, scene: Scene) -> str:
     """The picture in space, or a still of the last state where it cannot be drawn."""
     options = "".join(f"<option>{escape(name)}</option>" for name in scene.fields)
     still = parts.figure(plot_shape(result), "The sheet in its last state, in true proportion.")
@@ -46,7 +74,7 @@ def shape(result: Result, scene: Scene) -> str:
     return _filled("shape.html", still=still, fields=options, last=str(scene.frames - 1), without_tools=without_tools)
 
 
-def curves(result: Result) -> str:
+def _curves(result: Result) -> str:
     """Curves of the history, or a still for each control."""
     pairs = [(control.name, f"{control.name}_force") for control in result.model.controls]
     stills = [parts.figure(plot_history(result, x, [y]), f"{y} over {x}, all converged increments.") for x, y in pairs]
@@ -55,7 +83,7 @@ def curves(result: Result) -> str:
     return _filled("curves.html", still="\n".join(stills), x=escape(x), y=escape(y), colours=colours)
 
 
-def table(result: Result) -> str:
+def _table(result: Result) -> str:
     """The history as a file to download, and all of its rows."""
     with TemporaryDirectory() as folder:
         csv = result.write(Path(folder) / "history.csv").read_bytes()

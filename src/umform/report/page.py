@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from umform.contact.augmentation import penetrations
-from umform.report import live, parts
+from umform.report import parts
+from umform.report.live import Live, style
 from umform.report.repeats import counted
-from umform.report.scene import Scene, scene_of
 from umform.report.versions import versions
 
 if TYPE_CHECKING:
@@ -44,25 +44,25 @@ def write_report(result: Result, path: str | Path, *, deck: str = "") -> Path:
     lead = (
         f"{result.summary()['iterations']} Newton iterations in {result.seconds:.1f} s, sparse solver {result.solver}"
     )
-    scene = scene_of(result)
-    content = _parts(result, scene, deck)
-    return parts.write_html(path, title, lead, content, style=live.style(), scripts=live.scripts(scene))
+    live = Live.of(result)
+    content = _parts(result, live, deck)
+    return parts.write_html(path, title, lead, content, style=style(), scripts=live.scripts)
 
 
-def _parts(result: Result, scene: Scene, deck: str) -> Iterator[str]:
+def _parts(result: Result, live: Live, deck: str) -> Iterator[str]:
     for message in counted(result.warnings):
         yield parts.note(message, bad=True)
     yield parts.heading("Shape")
-    yield live.shape(result, scene)
-    yield from map(parts.note, scene.notes)
+    yield live.shape
+    yield from map(parts.note, live.notes)
     yield parts.heading("Curves")
-    yield live.curves(result)
+    yield live.curves
     if result.events:
         yield parts.heading("Events")
         yield parts.items(counted(result.events))
     yield parts.heading("History")
     yield _end_values(result)
-    yield live.table(result)
+    yield live.table
     yield parts.heading("Settings")
     yield parts.pairs(settings(result))
     if deck:

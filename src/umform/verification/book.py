@@ -13,7 +13,7 @@ from pathlib import Path
 
 from umform.errors import InvalidValue, UmformError
 from umform.io.atomic import write_problem
-from umform.pool import run_all
+from umform.pool import check_processes, run_all
 from umform.verification.case import Case, Chapter
 from umform.verification.checks import Verdict
 from umform.verification.errata import errata_text
@@ -110,7 +110,15 @@ def run_cases(
     -------
     dict of str to Outcome
         A case that fails has an outcome that says why; the others go on.
+
+    Raises
+    ------
+    InvalidValue
+        If there is no such case, or the number of processes is less than 1.
+    FileProblem
+        If the folder cannot be made.
     """
+    check_processes(processes)
     selected = chosen(names)
     try:
         (folder / "images").mkdir(parents=True, exist_ok=True)

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 import umform
 from umform import cli
-from umform.deck.templates import template_file
+from umform.deck.templates import template_file, write_template
 from umform.errors import InvalidValue, NoConvergence
 from umform.processes.bending import case as case_module
 from umform.processes.bending import showcase
@@ -264,6 +264,16 @@ def test_a_folder_that_cannot_be_is_refused(out, cause, tmp_path, monkeypatch):
     assert run.exit_code == 1
     assert cause in run.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+@pytest.mark.parametrize("words", [["bend", *BEND], ["run", "deck.toml"]])
+def test_a_folder_without_a_name_is_not_the_present_one(words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_template("cantilever", tmp_path / "deck.toml")
+    run = umform_cli(*words, "--out", "")
+    assert run.exit_code == 1
+    assert "the folder for the results has no name" in run.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["deck.toml"]
 
 
 def test_failed_runs_and_repeated_warnings_are_shown(monkeypatch, tmp_path):

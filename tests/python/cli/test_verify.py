@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from typer.testing import CliRunner
 
 from umform import cli
@@ -34,6 +35,15 @@ def test_an_unknown_case(tmp_path):
     assert f"did you mean {ONE}?" in run.stderr
     assert "Traceback" not in run.stderr
     assert not (tmp_path / "book").exists()
+
+
+@pytest.mark.parametrize("cases", [[ONE], [ONE, "plastic-cook"], ["--all"]])
+def test_a_number_of_processes_that_is_none(cases, tmp_path):
+    run = umform_cli("verify", *cases, "--short", "--out", tmp_path / "book", "--processes", 0)
+    assert run.exit_code == 1
+    assert "where:  --processes" in run.stderr
+    assert "remedy:" in run.stderr
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_folder_that_cannot_be_made(tmp_path):

@@ -91,6 +91,29 @@ def test_thickness_order_and_points(texts, found):
     assert levels(few) == [Level.OK, Level.WARNING]
 
 
+@pytest.mark.parametrize(
+    ("element", "remedy"),
+    [
+        ({"name": "ANS3DEAS"}, "name = 'BEND8', or thickness_order = 4 and tie_E33 = true"),
+        ({"name": "ANS3DEAS", "tie_E33": True}, "name = 'BEND8', or thickness_order = 4"),
+        ({"name": "MI9K3DEAS"}, "name = 'BEND18', or thickness_order = 4 and tie_E33 = true"),
+    ],
+)
+def test_an_element_that_locks_is_told_what_it_lacks(element, remedy, texts, found):
+    locks = found(texts("air-bending"), "element", element=element)[0]
+    assert locks.remedy == remedy
+
+
+@pytest.mark.parametrize("name", ["BEND8", "BEND18", "ANS3DEAS"])
+def test_where_no_order_follows_layers_are_advised_that_help(name, texts, found):
+    text = texts("air-bending").replace("tip_radius = 3.0", "tip_radius = 0.5")
+    locks = found(text, "element", element__name=name)[0]
+    assert locks.level is Level.WARNING
+    assert locks.remedy.startswith("2 layers of BEND18")
+    assert found(text, "element", element__name="BEND18", mesh__layers=2)[0].level is Level.OK
+    assert found(text, "element", element__name="EAS3DEAS", mesh__layers=16)[0].level is Level.OK
+
+
 def test_layers_share_the_thickness_points(texts, found):
     text = texts("air-bending")
     many = found(text, "element", element__thickness_points=5, mesh__layers=2)
@@ -149,6 +172,9 @@ def test_distorted_cells(strip, found, tmp_path):
 def test_locking_moment_is_that_of_the_theory():
     """The false moment (2.28), differentiated from its energy, over the plastic moment of plane strain."""
     kappa_over_y, h = 600.0, 2.0
+    for layers in (2, 3):  # n false moments of (h / n)² each, at the strain of a layer
+        of_a_layer = locking_moment(2, 0.2 / layers, kappa_over_y) / layers
+        assert locking_moment(2, 0.2, kappa_over_y, layers) == pytest.approx(of_a_layer)
 
     def energy(k, order):
         z = np.linspace(-h / 2, h / 2, 4001)

@@ -42,6 +42,52 @@ def test_hexahedra_without_a_direction_lie_as_they_are(hexahedra, strip):
     assert np.allclose(mesh.points[mesh.nodes("upper")][:, 0], 10.0)
 
 
+def other_mesh(folder, kind, columns):
+    """The same file with other columns of its cells, or other cells of them."""
+    read = meshio.read(folder / "sheet.vtu")
+    meshio.write(folder / "sheet.vtu", meshio.Mesh(read.points, [(kind, read.cells[0].data[:, columns])]))
+
+
+@pytest.mark.parametrize(
+    ("kind", "columns", "what", "remedy"),
+    [
+        ("quad", [0, 1, 2, 3], "hexahedra", "the key thickness in [mesh] thickens"),
+        ("tetra", [0, 1, 2, 4], "hexahedra", "thicken them: the key thickness in [mesh]"),
+        ("hexahedron", [0, 1, 3, 2, 4, 5, 7, 6], "in another order", "through = 'thinnest'"),
+        ("hexahedron", [4, 5, 6, 7, 0, 1, 2, 3], "another order", "through = 'thinnest'"),
+    ],
+)
+def test_remedies_are_keys_of_the_deck(kind, columns, what, remedy, hexahedra, strip, errors):
+    other_mesh(hexahedra, kind, columns)
+    told = errors(with_mesh(strip, {}), folder=hexahedra)[0]
+    assert what in told.what
+    assert remedy in told.remedy
+    assert "umform" not in told.remedy
+    with pytest.raises(uf.UmformError) as python:
+        uf.mesh.read(hexahedra / "sheet.vtu")
+    assert ("read_shell" in python.value.remedy) == ("[mesh]" in remedy)
+
+
+def test_the_proposed_key_helps(hexahedra, strip):
+    other_mesh(hexahedra, "hexahedron", [4, 5, 6, 7, 0, 1, 2, 3])
+    Deck.read(with_mesh(strip, {"through": '"thinnest"'}), folder=hexahedra).build()
+
+
+def test_a_body_that_is_no_sheet_is_told_with_the_key(tmp_path, strip, errors):
+    """A bar that is bent to a ring and turned by half: its thickness has one side only."""
+    a = np.arange(24)[:, None] * np.pi / 12
+    e1 = np.column_stack([np.cos(a / 2) * np.cos(a), np.cos(a / 2) * np.sin(a), np.sin(a / 2)])
+    e2 = np.column_stack([-np.sin(a / 2) * np.cos(a), -np.sin(a / 2) * np.sin(a), np.cos(a / 2)])
+    centre = 5.0 * np.column_stack([np.cos(a), np.sin(a), 0.0 * a])
+    points = np.stack([centre + s * e1 + t * e2 for s, t in ((-1, -0.1), (1, -0.1), (1, 0.1), (-1, 0.1))], axis=1)
+    node = np.arange(96).reshape(24, 4)
+    cells = np.hstack([node, np.vstack([node[1:], node[:1, [2, 3, 0, 1]]])])
+    meshio.write(tmp_path / "sheet.vtu", meshio.Mesh(points.reshape(-1, 3), [("hexahedron", cells)]))
+    told = errors(with_mesh(strip, {"through": '"thinnest"'}), folder=tmp_path)[0]
+    assert "Moebius" in told.cause
+    assert told.remedy.endswith("thicken a surface (the key thickness in [mesh])")
+
+
 @pytest.mark.parametrize(
     ("keys", "low"), [({}, -0.3), ({"surface": '"lower"'}, 0.0), ({"surface": '"upper"', "kink": 30.0}, -0.6)]
 )

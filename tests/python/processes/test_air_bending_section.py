@@ -76,6 +76,9 @@ def test_quadratic_elements_measure_arcs_better_than_chords():
 
 def test_a_flat_sheet_has_no_neutral_fibre():
     flat = circular(2.5, 0.4, 90.0, 1).reference
+    assert not Section(flat, flat, 1).is_bent
+    assert not Section(flat, flat + 1e-15 * np.sin(np.arange(len(flat)))[:, None, None], 1).is_bent
+    assert circular(2.5, 0.4, 179.9, 1).is_bent
     with pytest.raises(InvalidValue, match="keeps its length"):
         _ = Section(flat, flat, 1).neutral_height
     assert Section(flat, flat, 1).smallest_radius == math.inf

@@ -1,6 +1,8 @@
 import csv
 import json
 import os
+import re
+from base64 import b64decode
 from dataclasses import replace
 from pathlib import Path
 
@@ -102,6 +104,17 @@ def test_fields(outcome):
         points, cells = file["VTKHDF/PointData"], file["VTKHDF/CellData"]
         assert {"displacement", "thickness_change", "contact_pressure"} <= set(points)
         assert {"stress_cauchy", "plastic_strain_max"} <= set(cells)
+
+
+def test_the_page_moves_the_run_of_the_fields_and_no_other(outcome):
+    text = next(path for path in outcome.files if path.suffix == ".html").read_text()
+    last, other = outcome.runs[-1], outcome.runs[0]
+    assert f"{last.case.name}, from increment to increment" in text
+    assert all(f'id="{part}"' in text for part in ("shape-canvas", "curves-plot", "history-csv", "scene"))
+    history = b64decode(re.search(r'id="history-csv"[^>]*base64,([^"]*)', text)[1]).decode().splitlines()
+    assert len(history) == 1 + len(last.u)
+    assert last.live is not None
+    assert other.live is None
 
 
 def test_parallel_and_serial_runs_agree_bit_by_bit(outcome, tmp_path):

@@ -10,6 +10,7 @@ import pytest
 from matplotlib.image import imread
 
 import umform as uf
+from umform.processes import FreeBending, demo
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending.files import write_files
 
@@ -245,9 +246,18 @@ def test_all_controls_are_reached_by_keys_and_named(visit):
         assert page.locator(selector).get_attribute("aria-label")
 
 
-def test_the_page_of_a_bend_turns_and_plays_as_well(browser, tmp_path):
-    bend = air_bending(AirBending(stroke=1.0, elements_per_thickness=1.0, layers=1, increment=0.025), progress=False)
-    write_files(tmp_path, bend)
+def bend(folder):
+    case = AirBending(stroke=1.0, elements_per_thickness=1.0, layers=1, increment=0.025)
+    write_files(folder, air_bending(case, progress=False))
+
+
+def example(folder):
+    demo(folder, [FreeBending(steps=20, mesh=(12, 1))], processes=1, progress=False)
+
+
+@pytest.mark.parametrize("write", [bend, example])
+def test_the_pages_of_ready_processes_turn_and_play_as_well(write, browser, tmp_path):
+    write(tmp_path)
     visit = Visit(browser, tmp_path / "report.html")
     visit.page.wait_for_selector(READY, state="attached")
     last = visit.picture()

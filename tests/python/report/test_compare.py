@@ -49,6 +49,9 @@ def test_runs_have_names_that_tell_them_apart(runs):
         ("a,b\n1,2\n3\n", "1 cells"),
         ("a,b\n1,x\n", "numbers"),
         (b"\xff\xfe\x00", "cannot be read"),
+        (b"\x89PNG\r\n\x1a\n\x00", "cannot be read"),
+        (b"a,b\n1,\xb5\n", "cannot be read"),
+        (b"a,b\n" + 200000 * b"1", "cannot be read"),
     ],
 )
 def test_what_is_no_history_is_refused(text, message, tmp_path):
@@ -56,8 +59,24 @@ def test_what_is_no_history_is_refused(text, message, tmp_path):
     if text is not None:
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
     for place in (path, tmp_path):
-        with pytest.raises(FileProblem, match=message):
+        with pytest.raises(FileProblem, match=message) as refused:
             read_history(place)
+        assert refused.value.remedy
+        assert "codec" not in str(refused.value)
+        assert "convert" not in str(refused.value)
+
+
+def test_a_cell_that_is_no_number_is_named(tmp_path):
+    (tmp_path / "history.csv").write_text("step,force\n1,2\n2,x\n")
+    with pytest.raises(FileProblem, match="numbers") as refused:
+        read_history(tmp_path)
+    assert refused.value.where.endswith("line 3, column force")
+    assert refused.value.value == "'x'"
+
+
+def test_a_mark_of_the_byte_order_is_no_part_of_a_name(tmp_path):
+    (tmp_path / "history.csv").write_bytes(b"\xef\xbb\xbfstep,force\n1,2\n")
+    assert list(read_history(tmp_path)) == ["step", "force"]
 
 
 def test_runs_have_colours_and_columns_kinds_of_lines(runs):
@@ -79,7 +98,7 @@ def test_an_unknown_column_is_refused_with_the_nearest(runs, tmp_path):
     run = plot(*runs[:2], "--x", "punsh", "--y", "punch_force", "--out", tmp_path / "c.png")
     assert run.exit_code == 1
     assert "perhaps punch is meant" in run.stderr
-    assert "where:  coarse" in run.stderr
+    assert "where:  run coarse" in run.stderr
     assert not (tmp_path / "c.png").exists()
 
 

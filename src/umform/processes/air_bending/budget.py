@@ -6,12 +6,16 @@ import math
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
+from umform.elements import element
 from umform.pool import run_all
 from umform.processes.air_bending.brake import Brake, build
-from umform.processes.air_bending.checks import MOST_POINTS, RULES, needed_stroke
+from umform.processes.air_bending.checks import MOST_LAYERS, MOST_POINTS, RULES, needed_stroke
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
 from umform.progress import progress_bar
+
+#: Element of the stack that the layers are judged by, and its points through the thickness of each of them.
+_STACK, _STACK_POINTS = element("EAS3DEAS", thickness_order=2, tie_E33=True), 4
 
 
 @dataclass(frozen=True)
@@ -41,12 +45,13 @@ def refinements(case: AirBending) -> dict[str, AirBending]:
     """The case refined in one way at a time; t-pts are those through the thickness, c-pts of contact.
 
     What is automatic is refined from what it comes to. A parameter that is as fine as it may be is made coarser: the
-    change tells as much. depth is the penetration that is allowed.
+    change tells as much. depth is the penetration that is allowed. The layers are judged by a stack of eight: a layer
+    more tells little of the error of two, which falls neither fast nor steadily (docs/verification/air-bend-mesh.md).
     """
     elements, points = case.elements_per_thickness, case.thickness_points
     return {
         **_refined(case, "elements_per_thickness", {"mesh/2": 2.0 * elements, "mesh*2": 0.5 * elements}),
-        **_refined(case, "layers", {"layers+1": case.layers + 1, "layers-1": case.layers - 1}),
+        **_layers(case),
         **_refined(case, "thickness_points", {"t-pts+2": points + 2, "t-pts-2": points - 2}),
         **_contacts(case),
         **_refined(case, "increment", {"step/2": 0.5 * case.increment, "step*2": 2.0 * case.increment}),
@@ -58,6 +63,23 @@ def _refined(case: AirBending, name: str, values: dict[str, float]) -> dict[str,
     label = next(label for label, value in values.items() if RULES[name].fits(value))
     changed: dict[str, Any] = {name: values[label]}
     return {label: replace(case, **changed)}
+
+
+def _layers(case: AirBending) -> dict[str, AirBending]:
+    """The case as a stack of as many layers as may be, on the same lines of nodes along the sheet."""
+    if case.layers == MOST_LAYERS:
+        return {"layers-1": replace(case, layers=case.layers - 1)}
+    finer = 2.0 if element(case.element).cell == "hex18" else 1.0  # their nodes in the middle become borders
+    along = finer * case.elements_per_thickness
+    stack = replace(
+        case,
+        element=_STACK,
+        layers=MOST_LAYERS,
+        thickness_points=_STACK_POINTS,
+        elements_per_thickness=along if RULES["elements_per_thickness"].fits(along) else case.elements_per_thickness,
+        width_elements=max(2, case.width_elements),  # one over the width would collapse
+    )
+    return {"stack": stack}
 
 
 def _contacts(case: AirBending) -> dict[str, AirBending]:

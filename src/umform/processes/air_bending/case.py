@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -67,10 +68,10 @@ class AirBend:
 
     @property
     def force_balance(self) -> float:
-        """Force of the punch less that of the die over that of the punch, at the stroke."""
+        """Force of the punch less that of the die over that of the punch, at the stroke; NaN without a force."""
         at = int(np.flatnonzero(self.step == 1)[-1])
         punch, die = self.result["punch_fz"][at], self.result["die_fz"][at]
-        return float(abs(punch + die) / abs(punch))
+        return float(abs(punch + die) / abs(punch)) if punch else math.nan
 
     @property
     def penetration(self) -> float:
@@ -84,8 +85,15 @@ class AirBend:
         deep = (
             f"the tools penetrate by {self.penetration:.3g}: so much of the stroke is lost; take a smaller penetration"
         )
-        found = [lying] * bool(self.against) + [deep] * (self.penetration > _DEEP * self.case.thickness)
-        return [*found, *self.result.warnings]
+        flat = (
+            "the sheet springs back flat: radius, K-factor and all that rests on them cannot be told: a larger stroke"
+        )
+        found = {
+            lying: self.against,
+            deep: self.penetration > _DEEP * self.case.thickness,
+            flat: not self.released.is_bent,
+        }
+        return [*(text for text, holds in found.items() if holds), *self.result.warnings]
 
 
 def air_bending(case: AirBending, *, frames: int = 60, solver: str = "auto", progress: bool | None = None) -> AirBend:

@@ -13,8 +13,8 @@ from umform.processes.rules import Rule, check_rules, length, number, positive, 
 if TYPE_CHECKING:
     from umform.processes.air_bending.parameters import AirBending
 
-#: The most contact points per direction.
-MOST_POINTS = 10
+#: The most contact points per direction, and the most layers.
+MOST_POINTS, MOST_LAYERS = 10, 8
 #: A larger increment jumps over the first contact; a run of smaller ones does not end.
 _LARGEST_INCREMENT, _SMALLEST_INCREMENT = 0.05, 1e-5
 #: Openings over the thickness between which a sheet is bent in the air; press brakes take 5 to 16.
@@ -25,13 +25,17 @@ _STIFFEST = 1e3
 _MOST_ELEMENTS = 100
 
 
-def _angle(what: str) -> Rule:
+def _angle(what: str, mixed_up: str, usual: str) -> Rule:
     return Rule(
         lambda value: number(value) and 0.0 < value < 180.0,
         f"{what} lies between 0 and 180 degrees",
-        "radians, or the angle of bending in place of that between the flanks",
-        "in degrees, such as 85",
+        f"radians, a sign, or {mixed_up}",
+        f"in degrees, such as {usual}",
     )
+
+
+def _of_flanks(tool: str) -> Rule:
+    return _angle(f"the angle between the flanks of the {tool}", "the angle of bending in place of it", "85")
 
 
 def _count(what: str, least: int, most: int, usual: str) -> Rule:
@@ -47,9 +51,9 @@ def _count(what: str, least: int, most: int, usual: str) -> Rule:
 RULES: dict[str, Rule] = {
     "thickness": length("the thickness of the sheet", "in mm, such as 2"),
     "opening": length("the opening of the die", "in mm, such as 8 times the thickness"),
-    "die_angle": _angle("the angle between the flanks of the die"),
+    "die_angle": _of_flanks("die"),
     "die_radius": length("the radius of the shoulders", "in mm, such as 2"),
-    "punch_angle": _angle("the angle between the flanks of the punch"),
+    "punch_angle": _of_flanks("punch"),
     "punch_radius": length("the radius of the tip", "in mm, such as 1.5"),
     "width": length("the length of the bend", "in mm, such as 50; leave it out for plane strain").optional(),
     "stroke": length("the way of the punch", "in mm, downwards, such as 6").optional(),
@@ -59,7 +63,7 @@ RULES: dict[str, Rule] = {
         "an elastic law, or the name of a metal",
         "a J2; umform.sheet_metals.get('DC04').law for one",
     ),
-    "layers": _count("the number of layers", 1, 8, "2"),
+    "layers": _count("the number of layers", 1, MOST_LAYERS, "2"),
     "thickness_points": _count("the number of thickness points", 2, 15, "6"),
     "elements_per_thickness": Rule(
         lambda value: positive(value) and value <= _MOST_ELEMENTS,
@@ -85,12 +89,15 @@ RULES: dict[str, Rule] = {
         "0.00625 is usual",
     ),
 }
-_WANTED = Rule(
-    lambda value: number(value) and 0.0 < value < 180.0,
-    "a bend has an angle between 0 and 180 degrees",
-    "the angle by which the sheet is bent in place of that between the legs, or a sign",
-    "in degrees, such as 90",
+#: The force that counts as zero after unloading leaves about the smallest of these open; see `brake`.
+_FINEST, _COARSEST = 0.001, 10.0
+_TOLERANCE = Rule(
+    lambda value: number(value) and _FINEST <= value <= _COARSEST,
+    f"the tolerance of an angle is {_FINEST:g} to {_COARSEST:g} degrees",
+    "a sign, radians, or a part of the angle",
+    "0.02 is usual",
 )
+_WANTED = _angle("the angle of a bend", "the angle by which the sheet is bent in place of that between the legs", "90")
 
 
 def check_parameters(values: Mapping[str, Any]) -> None:
@@ -120,56 +127,71 @@ def check_geometry(case: AirBending) -> None:
     InvalidValue
         ``where`` is the name of the parameter that is the likeliest to be wrong.
     """
+    _check_proportions(case)
+    _check_room(case)
+    if case.stroke is not None and case.stroke > case.largest_stroke:
+        raise _unfit(
+            case,
+            "stroke",
+            "the stroke goes beyond air bending: the sheet would be pressed against a flank",
+            f"with these tools a leg lies against a flank at {case.largest_stroke:.4g} at the latest",
+            "a smaller stroke, or sharper angles of punch and die",
+        )
+
+
+def _unfit(case: AirBending, name: str, what: str, cause: str, remedy: str) -> InvalidValue:
+    """Error for a parameter that does not go with the others."""
+    return InvalidValue(what, where=name, value=getattr(case, name), cause=cause, remedy=remedy)
+
+
+def _check_proportions(case: AirBending) -> None:
+    """Refuse an opening and a penalty of another size than the sheet's."""
     if not _NARROWEST <= case.opening / case.thickness <= _WIDEST:
-        raise InvalidValue(
+        raise _unfit(
+            case,
+            "opening",
             "the opening of the die does not go with the thickness of the sheet",
-            where="opening",
-            value=case.opening,
-            cause=f"it is {case.opening / case.thickness:.3g} thicknesses; another unit, or the two exchanged",
-            remedy=f"{_NARROWEST:g} to {_WIDEST:g} thicknesses; press brakes take 5 to 16",
+            f"it is {case.opening / case.thickness:.3g} thicknesses; another unit, or the two exchanged",
+            f"{_NARROWEST:g} to {_WIDEST:g} thicknesses; press brakes take 5 to 16",
         )
     if case.penalty is not None and case.penalty > _STIFFEST * case.material.E / case.thickness:
-        raise InvalidValue(
+        raise _unfit(
+            case,
+            "penalty",
             "the penalty is so stiff that the run would creep",
-            where="penalty",
-            value=case.penalty,
-            cause=f"it is {case.penalty * case.thickness / case.material.E:.3g} times E / thickness",
-            remedy="leave it out: it follows from the penetration that is allowed",
+            f"it is {case.penalty * case.thickness / case.material.E:.3g} times E / thickness",
+            "leave it out: it follows from the penetration that is allowed",
         )
+
+
+def _check_room(case: AirBending) -> None:
+    """Refuse a tip that is wider than the die, shoulders without flanks, and a sheet that would be drawn."""
     tip = 2.0 * case.punch_radius * math.cos(math.radians(0.5 * case.punch_angle))
     if tip >= case.opening:
-        raise InvalidValue(
+        raise _unfit(
+            case,
+            "punch_radius",
             "the tip of the punch is wider than the opening of the die",
-            where="punch_radius",
-            value=case.punch_radius,
-            cause=f"the tip is round on a width of {tip:.4g}, the opening is {case.opening:.4g}",
-            remedy="a smaller punch_radius, or a wider opening",
+            f"the tip is round on a width of {tip:.4g}, the opening is {case.opening:.4g}",
+            "a smaller punch_radius, or a wider opening",
         )
     flank = 0.5 * case.opening / math.sin(math.radians(0.5 * case.die_angle))  # from the top to the point of the V
     setback = case.die_radius * math.tan(math.radians(0.25 * (180.0 - case.die_angle)))
     if setback >= flank:
-        raise InvalidValue(
+        raise _unfit(
+            case,
+            "die_radius",
             "the shoulders of the die are rounder than its flanks are long",
-            where="die_radius",
-            value=case.die_radius,
-            cause=f"each takes {setback:.4g} of a flank of {flank:.4g}",
-            remedy="a smaller die_radius, or a wider opening",
+            f"each takes {setback:.4g} of a flank of {flank:.4g}",
+            "a smaller die_radius, or a wider opening",
         )
     if case.free_length(case.steepest) <= 0.0:
-        raise InvalidValue(
+        raise _unfit(
+            case,
+            "opening",
             "the sheet does not find room between punch and shoulders: it would be drawn, not bent",
-            where="opening",
-            value=case.opening,
-            cause=f"bent to {180.0 - 2.0 * case.steepest:.4g} degrees around the tip, a leg is longer than the flank",
-            remedy="an opening of 6 to 12 thicknesses, or smaller radii",
-        )
-    if case.stroke is not None and case.stroke > case.largest_stroke:
-        raise InvalidValue(
-            "the stroke goes beyond air bending: the sheet would be pressed against a flank",
-            where="stroke",
-            value=case.stroke,
-            cause=f"with these tools a leg lies against a flank at {case.largest_stroke:.4g} at the latest",
-            remedy="a smaller stroke, or sharper angles of punch and die",
+            f"bent to {180.0 - 2.0 * case.steepest:.4g} degrees around the tip, a leg is longer than the flank",
+            "an opening of 6 to 12 thicknesses, or smaller radii",
         )
 
 
@@ -188,6 +210,16 @@ def needed_stroke(case: AirBending) -> float:
             remedy="AirBending(stroke=6.0), or find_stroke(case, angle).case",
         )
     return case.stroke
+
+
+def check_tolerance(tolerance: float) -> None:
+    """Refuse a tolerance of the angle that cannot be met, or that says nothing.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    _TOLERANCE.check("tolerance", tolerance)
 
 
 def check_angle(case: AirBending, angle: float) -> None:

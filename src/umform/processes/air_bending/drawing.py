@@ -22,18 +22,19 @@ _THIN: dict[str, Any] = {"color": "#777777", "linewidth": 0.7, "linestyle": (0, 
 
 
 def drawing(bend: AirBend) -> Figure:
-    """The released section with what is measured of it."""
+    """The released section with what is measured of it; of a flat one there is nothing to measure."""
     section = bend.released
     with house_style():
         figure = Picture(figsize=(7.2, 5.0), layout="constrained")
         axes = figure.add_subplot()
         _draw_outline(axes, section)
-        _draw_neutral_fibre(axes, section)
-        _draw_radius(axes, section)
-        _draw_legs(axes, section)
+        if section.is_bent:
+            _draw_neutral_fibre(axes, section)
+            _draw_radius(axes, section)
+            _draw_legs(axes, section)
+            axes.legend(loc="upper center")
         axes.set_aspect("equal")
         axes.axis("off")
-        axes.legend(loc="upper center")
     return figure
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
@@ -95,26 +96,31 @@ def write_files(
 
 
 def record(bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None = None) -> dict[str, Any]:
-    """Parameters, measures, table and budget in a form that JSON can hold."""
+    """Parameters, measures, table and budget in a form that JSON can hold; None for what cannot be told."""
     content: dict[str, Any] = {
         "parameters": parameters(bend.case),
-        "measures": asdict(bend.measures),
+        "measures": _told(asdict(bend.measures)),
         "total_force": bend.total_force,
         "shop_forces": shop_forces(bend.case),
         "tensile_strength": tensile_strength(bend.case.material),
-        "force_balance": bend.force_balance,
+        **_told({"force_balance": bend.force_balance}),
         "penetration": bend.penetration,
         "increments": len(bend.result) - 1,
         "iterations": bend.iterations,
         "seconds": bend.result.seconds,
         "warnings": bend.warnings,
         "versions": versions(),
-        "table": [asdict(row) for row in table],
+        "table": [_told(asdict(row)) for row in table],
     }
     if budget:
-        finished = {name: change for name, change in budget.changes.items() if name not in budget.failures}
+        finished = {name: _told(change) for name, change in budget.changes.items() if name not in budget.failures}
         content["budget"] = {"changes": finished, "failures": budget.failures}
     return content
+
+
+def _told(numbers: Mapping[str, float]) -> dict[str, float | None]:
+    """Numbers by name, None for one that cannot be told."""
+    return {name: None if math.isnan(number) else number for name, number in numbers.items()}
 
 
 def parameters(case: AirBending) -> dict[str, Any]:

@@ -45,7 +45,7 @@ QUANTITIES = {
 
 @dataclass(frozen=True)
 class Measures:
-    """Measures of one bend, under load and after unloading.
+    """Measures of one bend, under load and after unloading; NaN for what a sheet that springs back flat does not tell.
 
     Attributes
     ----------
@@ -93,6 +93,20 @@ class Measures:
     thinning: float
 
 
+#: What only a bent section tells, `Section.is_bent`: all that rests on its radius or its neutral fibre.
+_OF_BENDS = (
+    "radius",
+    "smallest_radius",
+    "neutral_fibre",
+    "k_factor",
+    "bend_allowance",
+    "bend_deduction",
+    "setback",
+    "leg",
+    "length_balance",
+)
+
+
 def measure(stroke: float, force: float, largest_force: float, loaded: Section, released: Model) -> Measures:
     """Measures of a bend.
 
@@ -113,14 +127,21 @@ def measure(stroke: float, force: float, largest_force: float, loaded: Section, 
         loaded_angle=loaded.angle,
         angle=section.angle,
         springback=section.angle - loaded.angle,
-        springback_ratio=section.slope / loaded.slope,
-        radius=section.radius,
-        smallest_radius=section.smallest_radius,
-        neutral_fibre=1.0 - section.neutral_height,
-        **developed(section),
+        springback_ratio=section.slope / loaded.slope if loaded.slope > 0.0 else math.nan,
+        **(_of_bend(section) if section.is_bent else dict.fromkeys(_OF_BENDS, math.nan)),
         outer_strain=float(np.log(section.element_lengths(0.0) / section.element_references).max()),
         thinning=float(section.thicknesses.min()),
     )
+
+
+def _of_bend(section: Section) -> dict[str, float]:
+    """What only a bent section tells."""
+    return {
+        "radius": section.radius,
+        "smallest_radius": section.smallest_radius,
+        "neutral_fibre": 1.0 - section.neutral_height,
+        **developed(section),
+    }
 
 
 def developed(section: Section) -> dict[str, float]:

@@ -12,15 +12,16 @@ from umform.processes.air_bending.case import AirBend
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
-from umform.report import live, parts
+from umform.report import parts
+from umform.report.live import Live, style
 from umform.report.page import settings
 from umform.report.repeats import counted
-from umform.report.scene import Scene, scene_of
 from umform.report.versions import versions
 
 _BUDGET = (
     "± is the root of the sum of squares of the changes by the refinements beside it: the uncertainty from mesh, "
-    "points, penalty and increments. Material data, friction and tools have uncertainties of their own."
+    "layers, points, penalty and increments. In the column stack, the sheet is eight layers of 8-node elements. "
+    "Material data, friction and tools have uncertainties of their own."
 )
 
 
@@ -56,14 +57,14 @@ def write_page(
     kind = "plane strain" if case.width is None else f"{case.width:g} mm wide"
     title = f"Air bending: {case.thickness:g} mm sheet, {case.opening:g} mm opening, {bend.measures.angle:.2f} degrees"
     lead = f"{kind}; {bend.iterations} Newton iterations in {bend.result.seconds:.1f} s"
-    scene = scene_of(bend.result)
-    content = _parts(bend, scene, figures, table, budget, deck, note)
-    return parts.write_html(path, title, lead, content, style=live.style(), scripts=live.scripts(scene))
+    live = Live.of(bend.result)
+    content = _parts(bend, live, figures, table, budget, deck, note)
+    return parts.write_html(path, title, lead, content, style=style(), scripts=live.scripts)
 
 
 def _parts(
     bend: AirBend,
-    scene: Scene,
+    live: Live,
     figures: Mapping[str, Figure],
     table: Sequence[Measures],
     budget: Budget | None,
@@ -83,17 +84,17 @@ def _parts(
     yield parts.figure(figures["drawing"], "What is measured.")
     yield parts.heading("Curves")
     yield parts.figure(figures["curve"], "Force and angle over the stroke.")
-    yield live.curves(bend.result)
+    yield live.curves
     yield parts.heading("Shape")
     yield parts.figure(figures["shape"], "The sheet and its tools in true proportion.")
-    yield live.shape(bend.result, scene)
-    yield from map(parts.note, scene.notes)
+    yield live.shape
+    yield from map(parts.note, live.notes)
     if table:
         yield parts.heading("Bending table")
         yield parts.table(table_header(), table_rows(table))
     yield parts.heading("History")
     yield parts.paragraph("The forces of the history are those of the part of the sheet that is modelled.")
-    yield live.table(bend.result)
+    yield live.table
     yield parts.heading("Parameters")
     if note:
         yield parts.paragraph(note)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from umform.errors import InvalidValue, SolveError
 from umform.processes.air_bending.brake import Brake, Loaded
-from umform.processes.air_bending.checks import check_angle, unreachable
+from umform.processes.air_bending.checks import check_angle, check_tolerance, unreachable
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
 from umform.progress import progress_bar
@@ -54,7 +54,7 @@ def find_stroke(
     angle : float
         Wanted angle between the legs in degrees.
     tolerance : float
-        Largest deviation of the angle in degrees.
+        Largest deviation of the angle in degrees, 0.001 to 10.
     solver : str
         Sparse solver.
     progress : bool, optional
@@ -63,11 +63,12 @@ def find_stroke(
     Raises
     ------
     InvalidValue
-        If the sheet lies against a flank before it has the angle.
+        If the sheet lies against a flank before it has the angle, or angle or tolerance are none of a bend.
     NoConvergence
         If the sheet cannot be bent so far.
     """
     check_angle(case, angle)
+    check_tolerance(tolerance)
     if not tolerance > 0:
         raise InvalidValue("the tolerance of the angle must be positive", where="tolerance", value=tolerance)
     with progress_bar(progress) as tick:

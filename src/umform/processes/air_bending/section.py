@@ -19,6 +19,8 @@ Floats = NDArray[np.float64]
 _BEND = 0.9
 #: Points along half of the inner face.
 _SAMPLES = 4001
+#: Change of the length of a face, over the length of the sheet, that is no rounding.
+_CHANGE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -81,20 +83,35 @@ class Section:
         """Length of the elements in the flat sheet; shape (elements,)."""
         return np.diff(self.reference[:: self.order, 0, 0])
 
+    def change(self, height: float) -> float:
+        """By how much a fibre is longer than the flat sheet."""
+        return float(self.element_lengths(height).sum()) - self.half_length
+
+    @cached_property
+    def is_bent(self) -> bool:
+        """Whether the outer face is longer and the inner one shorter than the flat sheet; else no fibre is neutral."""
+        least = _CHANGE * self.half_length
+        return self.change(0.0) > least and self.change(1.0) < -least
+
     @cached_property
     def neutral_height(self) -> float:
-        """Height in the flat sheet (0 outer, 1 inner face) of the fibre that is as long as the flat sheet."""
-        heights = np.linspace(0.0, 1.0, 41)
-        change = np.array([self.element_lengths(h).sum() for h in heights]) - self.half_length
-        if not change[0] > 0.0 > change[-1]:
+        """Height in the flat sheet (0 outer, 1 inner face) of the fibre that is as long as the flat sheet.
+
+        Raises
+        ------
+        InvalidValue
+            If the section is not bent.
+        """
+        if not self.is_bent:
             raise InvalidValue(
                 "no fibre of the section keeps its length",
                 where="neutral fibre",
-                value=f"outer {change[0]:+.3g}, inner {change[-1]:+.3g}",
+                value=f"outer {self.change(0.0):+.3g}, inner {self.change(1.0):+.3g}",
                 cause="the sheet is hardly bent",
                 remedy="a larger stroke",
             )
-        return float(np.interp(0.0, -change, heights))
+        heights = np.linspace(0.0, 1.0, 41)
+        return float(np.interp(0.0, [-self.change(height) for height in heights], heights))
 
     def leg(self, height: float) -> tuple[Floats, Floats]:
         """Point and direction (outwards) of the straight line through the outermost two thicknesses of a fibre.

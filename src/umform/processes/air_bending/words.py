@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import asdict
 
 from umform.processes.air_bending.budget import Budget
 from umform.processes.air_bending.measures import QUANTITIES, Measures
 
+#: What stands for a number that cannot be told.
+_UNTOLD = "–"
 #: Columns of a bending table.
 _TABLE = ("stroke", "loaded_angle", "angle", "springback", "force", "radius", "k_factor", "bend_deduction")
 
@@ -22,10 +25,10 @@ def summary(measures: Measures, width: float | None = None, budget: Budget | Non
     rows = []
     for name, quantity in QUANTITIES.items():
         digits = quantity.decimals
-        row = [quantity.label, f"{getattr(measures, name):.{digits}f}"]
+        row = [quantity.label, _told(getattr(measures, name), f".{digits}f")]
         if budget:
-            row.append(f"{budget.total(name):.{digits}f}")
-            row += [f"{change[name]:+.{digits}f}" for change in budget.changes.values()]
+            row.append(_told(budget.total(name), f".{digits}f"))
+            row += [_told(change[name], f"+.{digits}f") for change in budget.changes.values()]
         rows.append([*row, quantity.unit])
     if width is not None:
         blank = [""] * (1 + len(budget.changes)) if budget else []
@@ -40,7 +43,11 @@ def table_header() -> list[str]:
 
 def table_rows(table: Sequence[Measures]) -> list[list[str]]:
     """Rows of a bending table."""
-    return [[f"{getattr(row, name):.{QUANTITIES[name].decimals}f}" for name in _TABLE] for row in table]
+    return [[_told(getattr(row, name), f".{QUANTITIES[name].decimals}f") for name in _TABLE] for row in table]
+
+
+def _told(value: float, form: str) -> str:
+    return _UNTOLD if math.isnan(value) else f"{value:{form}}"
 
 
 def columns(table: Sequence[Measures]) -> dict[str, list[float]]:

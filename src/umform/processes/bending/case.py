@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,9 @@ from umform.shape import Shape
 from umform.steps import Move, Release, solve
 from umform.surfaces import Cylinder
 from umform.timing import Timing
+
+if TYPE_CHECKING:
+    from umform.report.live import Live
 
 Floats = NDArray[np.float64]
 
@@ -59,6 +62,8 @@ class Bending:
         Where the time went.
     result : Result or None
         Everything else; None for a case that ran in another process.
+    live : Live or None
+        What a page shows of it that moves, if that was asked for.
     """
 
     case: FreeBending
@@ -73,6 +78,7 @@ class Bending:
     failure: str = ""
     timing: Timing = field(default_factory=Timing)
     result: Result | None = None
+    live: Live | None = None
 
     @property
     def loading(self) -> tuple[Floats, Floats]:

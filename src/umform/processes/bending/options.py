@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import fields
 
 from umform.errors import InvalidValue, UmformError
@@ -27,11 +28,12 @@ def as_typed(text: str) -> str:
     return _SETTING.sub(written, text)
 
 
-def message(error: UmformError) -> str:
-    """The message of an error that names options in place of parameters."""
-    if error.where in _NAMES:
-        error.where = option(error.where)
-    return as_typed(str(error))
+def message(error: UmformError, options: Mapping[str, str]) -> str:
+    """The message of an error that names options in place of parameters, which are given by name."""
+    if isinstance(error, InvalidValue):  # a file may be called as a parameter is
+        error.where = options.get(error.where, error.where)
+    error.what, error.cause, error.remedy = map(as_typed, (error.what, error.cause, error.remedy))
+    return str(error)
 
 
 def read_mesh(text: str) -> tuple[int, int]:

@@ -12,6 +12,7 @@ from umform.processes.bending.deck import deck_of
 from umform.processes.bending.figure import curves, shapes
 from umform.processes.bending.parameters import RECONSTRUCTION
 from umform.report import parts
+from umform.report.live import style
 from umform.report.repeats import counted
 from umform.report.versions import versions
 
@@ -67,6 +68,7 @@ def write_page(folder: Path, runs: Sequence[Bending], pictured: Bending) -> list
         parts.table(table.header(runs), table.rows(runs)),
         parts.paragraph("Forces in N at displacements in mm."),
         *_deformed(_compared(runs, pictured)),
+        *_moving(pictured),
         parts.heading("Settings"),
         parts.paragraph("Lengths in mm, forces in N, stresses in MPa."),
         parts.pairs(_settings(runs)),
@@ -75,7 +77,8 @@ def write_page(folder: Path, runs: Sequence[Bending], pictured: Bending) -> list
         parts.heading("Versions"),
         parts.pairs(versions() | {"solver used": ", ".join(sorted({run.solver for run in runs} - {""}))}),
     ]
-    page = parts.write_html(folder / "report.html", "Free bending of a strip over a cylinder", _LEAD, content)
+    moved = {"style": style(), "scripts": pictured.live.scripts} if pictured.live else {}
+    page = parts.write_html(folder / "report.html", "Free bending of a strip over a cylinder", _LEAD, content, **moved)
     return [*files, page]
 
 
@@ -86,6 +89,17 @@ def _deformed(runs: Sequence[Bending]) -> Iterator[str]:
     yield parts.figure(
         shapes(runs), "The whole strip at the end of the stroke, in true proportion; the second half is a mirror image."
     )
+
+
+def _moving(run: Bending) -> Iterator[str]:
+    """The run in space, its curves with a cursor, and its history."""
+    if run.live is None:
+        return
+    yield parts.heading(f"{run.case.name}, from increment to increment")
+    yield run.live.shape
+    yield from map(parts.note, run.live.notes)
+    yield run.live.curves
+    yield run.live.table
 
 
 def _compared(runs: Sequence[Bending], pictured: Bending) -> list[Bending]:

@@ -13,7 +13,7 @@ import numpy as np
 
 from umform.errors import InvalidValue, UmformError
 from umform.io.tables import write_csv, write_json
-from umform.pool import run_all
+from umform.pool import check_processes, run_all
 from umform.processes.bending.case import Bending, cell_of, check, failed, failure_text, free_bending
 from umform.processes.bending.deck import deck_of
 from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
@@ -129,14 +129,7 @@ def demo(
     cases = list(runs) if runs is not None else Selection().runs(FreeBending())
     if not cases:
         raise InvalidValue("there is no case to run", value=runs)
-    if processes is not None and processes < 1:
-        raise InvalidValue(
-            "the number of processes must be 1 or more",
-            where="processes",
-            value=processes,
-            cause="zero or a sign",
-            remedy="leave it out: then there are as many as processors",
-        )
+    check_processes(processes)
     for case in cases:
         check(case)
     pictured = cases.index(_most_telling(cases))
@@ -162,15 +155,18 @@ def demo(
 
 
 def _run(task: tuple[FreeBending, Path | None], progress: bool | None) -> Bending:
-    """One case, as far as it goes; with its fields in a file if there is a path for them."""
+    """One case, as far as it goes; with its fields in a file if there is a path for them, and what its page moves."""
     case, fields = task
     try:
         run = free_bending(case, frames=_FRAMES_WRITTEN if fields else _FRAMES_KEPT, progress=progress)
     except Exception as error:
         run = _given_up(task, error)
     if fields and run.result:
+        from umform.report.live import Live  # matplotlib takes time to load; the other runs do without
+
         try:
             run.result.write(fields)
+            run = replace(run, live=Live.of(run.result))
         except Exception as error:
             run = replace(run, failure="\n".join(filter(None, (run.failure, failure_text(error)))))
     return run.detached()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 from pathlib import Path
 
@@ -10,15 +9,12 @@ import pytest
 
 from umform import _core
 
-SCRIPT = Path(__file__).parents[2] / "benchmarks" / "instructions.py"
+SCRIPT = Path(__file__).parents[3] / "benchmarks" / "instructions.py"
 
 
 @pytest.fixture
-def guard():
-    specification = importlib.util.spec_from_file_location("instructions", SCRIPT)
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module
+def guard(script):
+    return script("instructions")
 
 
 @pytest.mark.parametrize(("build", "tolerated", "seen"), [("same", 1.015, 1.03), ("other", 1.2, 1.5)])

@@ -1,0 +1,27 @@
+"""The sheet that the kernels are measured on: every element with every law, stretched and sheared so that it flows."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import umform as uf
+
+STEEL = {"E": 210e3, "nu": 0.3}
+LAWS = {
+    "SVK": uf.SVK(**STEEL),
+    "NeoHooke": uf.NeoHooke(**STEEL),
+    "NeoHookePower": uf.NeoHookePower(**STEEL),
+    "J2 elastic": uf.J2(**STEEL, hardening=uf.Linear(yield_stress=1e6, modulus=500.0)),
+    "J2 plastic": uf.J2(**STEEL, hardening=uf.Linear(yield_stress=160.0, modulus=500.0)),
+    "J2 Voce": uf.J2(**STEEL, hardening=uf.Voce(160.0, 320.0, 15.0)),
+}
+
+
+def sheet(name: str, law: str, cells: tuple[int, int], side: float = 100.0) -> tuple[uf.Model, np.ndarray]:
+    """A square sheet of 1 mm, and displacements that stretch and shear it beyond a yield stress of 160."""
+    mesh = uf.mesh.strip(length=side, width=side, thickness=1.0, cells=cells, cell=uf.elements.element(name).cell)
+    x, y, z = mesh.points.T
+    u = np.stack([4e-3 * x + 1e-3 * y, -1e-3 * y, -2e-3 * z + 1e-3 / side * x * y], axis=1)
+    model = uf.Model(mesh, name, material=LAWS[law])
+    model.fix("x0")
+    return model, u.ravel()

@@ -1,0 +1,92 @@
+"""The law of a sheet from options of the command line: a metal of the library, or numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from umform.errors import InvalidValue
+
+if TYPE_CHECKING:
+    from umform.materials import J2, Hardening
+
+
+def law_of(
+    name: str | None,
+    young: float | None,
+    poisson: float | None,
+    yield_stress: float | None,
+    modulus: float | None,
+    swift: str | None,
+    flow_curve: Path | None,
+) -> tuple[J2, str]:
+    """Law of the sheet, and what is to be said of it."""
+    from umform.processes.air_bending.parameters import DC04_LIKE
+
+    own = [value for value in (young, poisson, yield_stress, modulus, swift, flow_curve) if value is not None]
+    if name is not None:
+        if own:
+            raise InvalidValue("give a material by name or by numbers", where="--material", value=name)
+        from umform.sheet_metals import get
+
+        metal = get(name)
+        return metal.law, f"{name}: {metal.source}; {metal.caveat}"
+    if not own:
+        return DC04_LIKE, "material: a curve like that of DC04; give your own for numbers that count"
+    return _own_law(young, poisson, yield_stress, modulus, swift, flow_curve), ""
+
+
+def _own_law(
+    young: float | None,
+    poisson: float | None,
+    yield_stress: float | None,
+    modulus: float | None,
+    swift: str | None,
+    flow_curve: Path | None,
+) -> J2:
+    from umform.materials import J2, Linear, Perfect, Swift
+    from umform.sheet_metals import read_flow_curve
+
+    E, nu = 210e3 if young is None else young, 0.3 if poisson is None else poisson
+    linear = yield_stress is not None or modulus is not None
+    if [linear, swift is not None, flow_curve is not None].count(True) != 1 or (linear and yield_stress is None):
+        raise InvalidValue(
+            "a hardening curve is given by --yield-stress with --hardening-modulus, by --swift, or by --flow-curve",
+            where="--yield-stress",
+            remedy="--yield-stress 160 --hardening-modulus 500, --swift 520,0.004,0.22, or --flow-curve coil.csv",
+        )
+    hardening: Hardening
+    if swift is not None:
+        with _asked_by("--swift"):
+            hardening = Swift(*numbers(swift, ",", 3, "--swift", "K,e0,n as 520,0.004,0.22"))
+    elif flow_curve is not None:
+        hardening = read_flow_curve(flow_curve)
+    else:
+        assert yield_stress is not None
+        with _asked_by("--yield-stress, --hardening-modulus"):
+            hardening = Linear(yield_stress, modulus) if modulus else Perfect(yield_stress)
+    with _asked_by("--young, --poisson"):
+        return J2(E=E, nu=nu, hardening=hardening)
+
+
+@contextmanager
+def _asked_by(options: str) -> Iterator[None]:
+    """Name the options in place of the law that refuses what they say."""
+    try:
+        yield
+    except InvalidValue as error:
+        error.where = options
+        raise
+
+
+def numbers(text: str, separator: str, count: int, where: str, remedy: str) -> list[float]:
+    """Numbers that are written with a separator between them; what is not so many numbers is refused."""
+    try:
+        values = [float(part) for part in text.split(separator)]
+    except ValueError:
+        values = []
+    if len(values) != count:
+        raise InvalidValue(f"{count} numbers are needed here", where=where, value=text, remedy=remedy)
+    return values

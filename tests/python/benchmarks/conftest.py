@@ -1,0 +1,29 @@
+"""The scripts of benchmarks/, as modules."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import umform as uf
+
+FOLDER = Path(__file__).parents[3] / "benchmarks"
+
+
+@pytest.fixture
+def script(monkeypatch):
+    """Import a script of the folder, which finds its neighbours as if it had been started there."""
+    monkeypatch.syspath_prepend(str(FOLDER))
+    threads = uf.threads()
+
+    def loaded(name: str) -> ModuleType:
+        specification = importlib.util.spec_from_file_location(f"benchmark_{name}", FOLDER / f"{name}.py")
+        module = importlib.util.module_from_spec(specification)
+        specification.loader.exec_module(module)
+        return module
+
+    yield loaded
+    uf.set_threads(threads)

@@ -1,0 +1,102 @@
+"""What `umform bend` refuses, before anything runs."""
+
+from __future__ import annotations
+
+import pytest
+from typer.testing import CliRunner
+
+from umform.cli import app
+
+
+@pytest.mark.parametrize(
+    ("typed", "message"),
+    [
+        ([], "give the stroke or the angle"),
+        (["--stroke", "6", "--angle", "90"], "give the stroke or the angle"),
+        (["--stroke", "6", "--swift", "520"], "3 numbers are needed"),
+        (["--stroke", "6", "--swift", "520,0.004,0.22", "--flow-curve", "a.csv"], "a hardening curve is given by"),
+        (["--stroke", "6", "--flow-curve", "no.csv"], "the flow curve cannot be read"),
+        (["--stroke", "6", "--young", "200000"], "a hardening curve is given by"),
+        (["--stroke", "6", "--material", "DC04", "--young", "2e5"], "by name or by numbers"),
+        (["--stroke", "6", "--material", "cheese"], "cheese"),
+        (["--stroke", "6", "--table", "6:4:1"], "a table goes"),
+        (["--stroke", "6", "--table", "1:4:inf"], "in positive steps"),
+        (["--stroke", "6", "--table", ""], "3 numbers are needed"),
+        (["--stroke", "6", "--table", "1:5:1e-6"], "at most 1000 strokes"),
+        (["--stroke", "6", "--table", "1:9:1"], "beyond air bending"),
+        (["--stroke", "6", "--contact-points", "²"], "or auto"),
+        (["--stroke", "9"], "beyond air bending"),
+        (["--angle", "80"], "cannot be reached"),
+    ],
+)
+def test_the_command_refuses(typed, message, tmp_path):
+    done = CliRunner().invoke(app, ["bend", *typed, "--out", str(tmp_path / "out")])
+    assert done.exit_code == 1
+    assert message in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [
+        ("--opening", "0"),
+        ("--die-angle", "180"),
+        ("--die-radius", "-1"),
+        ("--punch-angle", "nan"),
+        ("--punch-radius", "inf"),
+        ("--thickness", "0"),
+        ("--width", "-1"),
+        ("--layers", "0"),
+        ("--thickness-points", "16"),
+        ("--elements-per-thickness", "0"),
+        ("--width-elements", "-1"),
+        ("--contact-points", "11"),
+        ("--penalty", "0"),
+        ("--penetration", "nan"),
+        ("--increment", "0"),
+        ("--tolerance", "-1"),
+        ("--tolerance", "0"),
+        ("--tolerance", "nan"),
+        ("--processes", "0"),
+        ("--processes", "-2"),
+        ("--swift", "nan,0.004,0.22"),
+        ("--yield-stress", "0"),
+        ("--stroke", "0"),
+    ],
+)
+def test_a_wrong_number_is_refused_with_its_option_before_the_run(option, value, tmp_path, monkeypatch):
+    for module, name in (("case", "air_bending"), ("search", "find_stroke")):
+        monkeypatch.setattr(f"umform.processes.air_bending.{module}.{name}", lambda *_, **__: pytest.fail("it runs"))
+    goal = [] if option == "--stroke" else ["--stroke", "6"]
+    done = CliRunner().invoke(app, ["bend", *goal, option, value, "--out", str(tmp_path / "out")])
+    assert done.exit_code == 1
+    assert f"where:  {option}" in done.stderr
+    assert value.partition(",")[0] in done.stderr.split("value:")[1].splitlines()[0]
+    assert "remedy:" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(("angle", "tolerance"), [("0", "0.1"), ("nan", "0.1"), ("90", "1e-9"), ("90", "20")])
+def test_an_angle_or_a_tolerance_that_is_none_is_refused(angle, tolerance, tmp_path):
+    typed = ["--angle", angle, "--tolerance", tolerance, "--out", str(tmp_path / "out")]
+    done = CliRunner().invoke(app, ["bend", *typed])
+    assert done.exit_code == 1
+    assert "where:  --angle" in done.stderr or "where:  --tolerance" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(("option", "value"), [("--young", "0"), ("--poisson", "0.5"), ("--hardening-modulus", "-1")])
+def test_a_law_that_is_none_names_its_options(option, value, tmp_path):
+    typed = ["bend", "--stroke", "6", "--yield-stress", "200", option, value, "--out", str(tmp_path / "out")]
+    done = CliRunner().invoke(app, typed)
+    assert done.exit_code == 1
+    assert option in done.stderr.split("where:")[1].splitlines()[0]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_takes_no_files_is_refused_before_the_run(tmp_path, monkeypatch):
+    monkeypatch.setattr("umform.processes.air_bending.case.air_bending", lambda case: pytest.fail("it runs"))
+    (tmp_path / "file").touch()
+    done = CliRunner().invoke(app, ["bend", "--stroke", "6", "--out", str(tmp_path / "file")])
+    assert done.exit_code == 1
+    assert "the folder cannot be made" in done.stderr
