@@ -19,7 +19,6 @@ from tempfile import TemporaryDirectory
 import umform as uf
 from sheets import LAWS, sheet
 
-
 #: A run of 24 elements in plane strain, with contact and plasticity, from the import on.
 SMALL_RUN = """
 import umform as uf

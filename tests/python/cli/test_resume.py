@@ -134,11 +134,11 @@ def stopped(tmp_path, monkeypatch):
     changes = ["--set", "steps.0.increments=6", "--set", "output.report=false", "--set", "output.pictures=false"]
     whole, calls = Newton.solve, []
 
-    def interrupted(self, *args):
+    def interrupted(self, *args, **how):
         calls.append(1)
         if len(calls) == 4:
             signal.raise_signal(signal.SIGINT)
-        return whole(self, *args)
+        return whole(self, *args, **how)
 
     with monkeypatch.context() as patch:
         patch.setattr(Newton, "solve", interrupted)

@@ -76,11 +76,11 @@ def test_loads_are_drawn_over_what_they_move(tmp_path):
 def test_no_convergence_writes_what_was_reached(deck, tmp_path, monkeypatch):
     solve, calls = Newton.solve, []
 
-    def tired(self, *args):
+    def tired(self, *args, **how):
         calls.append(1)
         if len(calls) > 2:
             self.options = type(self.options)(max_iterations=1)
-        return solve(self, *args)
+        return solve(self, *args, **how)
 
     monkeypatch.setattr(Newton, "solve", tired)
     changes = ["--set", "steps.0.increments=4", "--set", "steps.0.cuts=0"]
@@ -95,11 +95,11 @@ def test_no_convergence_writes_what_was_reached(deck, tmp_path, monkeypatch):
 def test_interrupt_writes_what_was_reached(deck, tmp_path, monkeypatch):
     solve, calls = Newton.solve, []
 
-    def interrupted(self, *args):
+    def interrupted(self, *args, **how):
         calls.append(1)
         if len(calls) > 3:
             raise KeyboardInterrupt
-        return solve(self, *args)
+        return solve(self, *args, **how)
 
     monkeypatch.setattr(Newton, "solve", interrupted)
     answer = umform("run", deck, "--out", tmp_path / "out", "--set", "steps.0.increments=9")
