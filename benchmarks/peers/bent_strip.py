@@ -60,12 +60,17 @@ def build(
     )
 
 
-def entry(peer: str, element: str, cells: int, layers: int, across: int = 0, loose: bool = False) -> Entry:
-    """A run on so many cells along, across and through the thickness."""
+def entry(
+    peer: str, element: str, cells: int, layers: int, across: int = 0, loose: bool = False, points: int = 0
+) -> Entry:
+    """A run on so many cells along, across and through the thickness; and points there, if not the default."""
     options: Mapping[str, Any] = (STACK if element == "EAS3DEAS" else {}) | (LOOSE if loose else {})
+    if points:
+        options = {**options, "model": {"thickness_points": points, "thickness_rule": "split"}}
     made = partial(build, cells, layers, CELLS[element], across)
     mesh = f"{cells} x {max(across, 1)} x {layers}"
-    return Entry(peer, element, mesh, made, options, "tolerance 1e-4" if loose else "")
+    notes = [f"{points} points"] * (points > 0) + ["tolerance 1e-4"] * loose
+    return Entry(peer, element, mesh, made, options, ", ".join(notes))
 
 
 def entries(short: bool) -> list[Entry]:
@@ -74,6 +79,8 @@ def entries(short: bool) -> list[Entry]:
         made = {n: partial(build, 24, n, "hex8", levels=4, stroke=1.0) for n in (1, 2)}
         return [Entry("umform", "BEND8", "24 x 1 x 1", made[1]), Entry("CalculiX", "C3D8I", "24 x 1 x 2", made[2])]
     loose = [entry(*mesh, loose=True) for mesh in MESHES if mesh[1] == "BEND8"]
+    # Two layers of C3D8I have four points through the thickness.
+    loose += [entry("umform", "BEND8", n, 1, loose=True, points=6) for n in (24, 32, 48)]
     return [*loose, *(entry(*mesh) for mesh in (*MESHES, FINEST))]
 
 

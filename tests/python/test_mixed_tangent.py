@@ -11,7 +11,7 @@ from umform import elements as el
 from umform import materials as mt
 from umform.mesh import strip
 from umform.model import Model
-from umform.newton import Newton, NewtonOptions
+from umform.newton import Failed, Newton, NewtonOptions
 from umform.steps import Move, solve
 from umform.surfaces import Plane
 from umform.user_law import UserLaw
@@ -143,3 +143,18 @@ def test_by_default_elastic_sheets_without_contact_take_it():
     assert [Newton(model).mixed for model in (elastic, plastic, touching)] == [True, False, False]
     assert Newton(plastic, NewtonOptions(mixed=True)).mixed
     assert not Newton(elastic, NewtonOptions(mixed=False)).mixed
+
+
+def test_an_increment_that_fails_with_it_is_tried_with_the_consistent_tangent(monkeypatch):
+    original, tried = Newton.solve, []
+
+    def solve_with(self, extrapolation=None, *, line_search=False, consistent=False):
+        tried.append((extrapolation is not None, consistent))
+        if not consistent:
+            raise Failed("not with this one", [])
+        return original(self, extrapolation, line_search=line_search, consistent=consistent)
+
+    monkeypatch.setattr(Newton, "solve", solve_with)
+    _, result = rolled(True)
+    assert len(result) == 6  # nothing is cut
+    assert tried == [(False, False), (False, True)] + 4 * [(True, False), (False, False), (False, True)]
