@@ -11,8 +11,8 @@ import numpy as np
 
 import umform as uf
 from umform.distributed.mpi_ranks import world
-from umform.distributed.partition import partition
-from umform.distributed.share import Share
+from umform.distributed.outline import Outline
+from umform.distributed.run import hand_out
 from umform.distributed.solver import Petsc
 from umform.errors import NotFinite, SingularMatrix
 from umform.mesh import strip
@@ -38,7 +38,7 @@ def pressed(points, strain):
 
 
 def shared(model):
-    return Share(model, partition(model.mesh, world()), world())
+    return hand_out(Outline.of(model), model, world())
 
 
 def flattened(model):
