@@ -2,6 +2,7 @@
 
     python benchmarks/ranks.py                    # measures (minutes, and 6 GB at 102 400 elements); writes the figure
     python benchmarks/ranks.py benchmarks/ranks.json # tables and figure once more, from what was measured
+    python benchmarks/ranks.py benchmarks/ranks.json memory # the same with memory measured anew; seconds stay
     mpiexec -n 2 python benchmarks/ranks.py 160   # one measurement: a sheet of 160 x 160 elements, as one line of JSON
     mpiexec -n 2 python benchmarks/ranks.py 1000 describe   # no more than the description of the sheet, and its parts
 
@@ -61,8 +62,8 @@ def memory(peak: bool = False) -> float:
 def measure(cells: int) -> dict[str, object]:
     """Seconds (wall and CPU) of the parts of an iteration and memory after them, the largest of all ranks."""
     from umform.distributed.mpi_ranks import world
-    from umform.distributed.partition import partition
-    from umform.distributed.share import Share
+    from umform.distributed.outline import Outline
+    from umform.distributed.run import hand_out
     from umform.distributed.solver import Petsc
 
     ranks, wall, cpu, held = world(), {}, {}, {"start": memory()}
@@ -75,8 +76,9 @@ def measure(cells: int) -> dict[str, object]:
         held[name] = memory()
         return answer
 
-    model = timed("describe", lambda: sheet(cells))
-    share = timed("share", lambda: Share(model, partition(model.mesh, ranks), ranks))
+    model = timed("describe", lambda: ranks.on_first(lambda: sheet(cells)))
+    outline = Outline.from_first(None if model is None else Outline.of(model), ranks)
+    share = timed("share", lambda: hand_out(outline, model, ranks))
     u, solver = bent(share.mesh.points), Petsc()
     timed("first evaluation", lambda: share.evaluate(u))
     found = timed("evaluation", lambda: share.evaluate(u))
@@ -86,10 +88,11 @@ def measure(cells: int) -> dict[str, object]:
     timed("solution", lambda: solver.solve(share.restrict(found.residual)))
     held["peak"] = memory(peak=True)
     flops = solver._ksp.pc.getFactorMatrix().getMumpsRinfog(3)
+    others = {key: value if ranks.rank > 0 else 0.0 for key, value in held.items()}
     largest = {name: {key: ranks.max(value) for key, value in one.items()} for name, one in
-               (("wall", wall), ("cpu", cpu), ("memory", held))}  # fmt: skip
+               (("wall", wall), ("cpu", cpu), ("memory", held), ("others", others))}  # fmt: skip
     return {
-        "elements": len(model.mesh.connectivity),
+        "elements": cells * cells,
         "unknowns": share.pattern.n,
         "ranks": ranks.size,
         "fill": factors.fill,
@@ -99,20 +102,30 @@ def measure(cells: int) -> dict[str, object]:
 
 
 def describe(cells: int) -> dict[str, object]:
-    """Memory in bytes an element that each rank takes for the description of the whole sheet, and to part it."""
+    """Bytes an element that the first rank takes to describe the whole sheet, and to cut it; of others, an own element."""
     from umform.distributed.mpi_ranks import world
-    from umform.distributed.numbering import Owners
-    from umform.distributed.partition import partition
+    from umform.distributed.outline import Outline
+    from umform.distributed.run import hand_out
 
-    world()
+    ranks = world()
     before, start = memory(), time.process_time()
-    model = sheet(cells)
-    elements = len(model.mesh.connectivity)
+    model = ranks.on_first(lambda: sheet(cells))
     kept = memory() - before
-    Owners.of(model, partition(model.mesh, world()), world().size)
-    sizes = {"kept": kept, "peak": memory(peak=True) - before}
-    bytes_each = {name: world().max(size) * GB / elements for name, size in sizes.items()}
-    return {"elements": elements, "seconds": time.process_time() - start, **bytes_each}
+    outline = Outline.from_first(None if model is None else Outline.of(model), ranks)
+    share = hand_out(outline, model, ranks)
+    of_each = ranks.comm.gather(
+        {
+            "kept": kept * GB / cells**2,
+            "peak": (memory(peak=True) - before) * GB / cells**2,
+            "own kept": (memory() - before) * GB / len(share.cells),
+            "own peak": (memory(peak=True) - before) * GB / len(share.cells),
+        }
+    )
+    if ranks.rank > 0:
+        return {}
+    own = {name: max(one[name] for one in of_each[1:]) for name in ("own kept", "own peak")}
+    first = {name: of_each[0][name] for name in ("kept", "peak")}
+    return {"elements": cells**2, "seconds": time.process_time() - start, **first, **own}
 
 
 def launch(ranks: int, *words: object) -> dict:
@@ -165,17 +178,17 @@ class Costs:
     def __init__(self, run: dict, described: dict) -> None:
         m, held, cpu = run["elements"], run["memory"], run["cpu"]
         self.start = held["start"]
-        self.described, self.parting = described["kept"] / GB, described["peak"] / GB
+        self.described, self.cutting = described["kept"] / GB, described["peak"] / GB
         self.own = (held["matrix"] - held["describe"]) / m
         self.entry = (held["peak"] - held["matrix"]) / run["fill"]
         self.evaluation = cpu["evaluation"] / m
         self.rate = run["flops"] / cpu["factorisation"]
         self.solution = cpu["solution"] / run["fill"]
 
-    def memory(self, m: float, ranks: int, growth: Growth) -> float:
-        """GB of a rank: the description of the whole, its elements and matrix, its part of the factors."""
-        solving = self.start + self.described * m + (self.own * m + self.entry * growth.fill(m)) / ranks
-        return max(solving, self.start + self.parting * m)
+    def memory(self, m: float, ranks: int, growth: Growth, first: bool = True) -> float:
+        """GB of a rank: its elements and matrix, its part of the factors; on the first one the description of the whole."""
+        solving = self.start + (self.own * m + self.entry * growth.fill(m)) / ranks
+        return max(solving + self.described * m, self.start + self.cutting * m) if first else solving
 
     def seconds(self, m: float, growth: Growth) -> float:
         """CPU seconds of an iteration, over all ranks."""
@@ -185,17 +198,18 @@ class Costs:
 def table(runs: list[dict]) -> None:
     """What was measured: wall seconds, and the CPU seconds of the slowest rank in brackets."""
     print("| elements | unknowns | ranks | evaluation | first factorisation | factorisation | solution | iteration "
-          "| faster by | peak GB a rank | entries of the factors | operations |")  # fmt: skip
-    print("|" + "---|" * 12)
+          "| faster by | peak GB, first rank | other | entries of the factors | operations |")  # fmt: skip
+    print("|" + "---|" * 13)
     for run in runs:
-        wall, cpu = run["wall"], run["cpu"]
+        wall, cpu, others = run["wall"], run["cpu"], run["others"]["peak"]
         parts = ("evaluation", "first factorisation", "factorisation", "solution")
         each = " | ".join(f"{wall[part]:.2f} ({cpu[part]:.2f})" for part in parts)
         alone = next(one for one in runs if one["ranks"] == 1 and one["elements"] == run["elements"])
         gain = " ".join(form.format(seconds(alone, clock) / seconds(run, clock)) for clock, form in GAINS)
         print(f"| {run['elements']} | {run['unknowns']} | {run['ranks']} | {each} "
               f"| {seconds(run, 'wall'):.2f} ({seconds(run, 'cpu'):.2f}) | {gain} "
-              f"| {run['memory']['peak']:.2f} | {run['fill']:.3g} | {run['flops']:.3g} |")  # fmt: skip
+              f"| {run['memory']['peak']:.2f} | {f'{others:.2f}' if others else ''} "
+              f"| {run['fill']:.3g} | {run['flops']:.3g} |")  # fmt: skip
 
 
 def forecast(runs: list[dict], described: dict) -> None:
@@ -208,14 +222,20 @@ def forecast(runs: list[dict], described: dict) -> None:
           f"operations {before.flops(m) / last['flops'] - 1:+.1%}")  # fmt: skip
     print(f"a = {growth.fill_terms[0]:.3g}, b = {growth.fill_terms[1]:.3g}, c = {growth.flop_terms[0]:.3g}, "
           f"d = {growth.flop_terms[1]:.3g}; {costs.rate:.3g} operations a second")  # fmt: skip
-    print(f"bytes an element: description {costs.described * GB:.0f} a rank, {costs.parting * GB:.0f} until it is "
-          f"parted ({described['seconds'] / described['elements'] * 1e6:.1f} s a million), own {costs.own * GB:.0f}; "
-          f"{costs.entry * GB:.1f} an entry of the factors\n")  # fmt: skip
-    print("| elements | entries of the factors | core hours an iteration | GB a rank, 1 rank | 16 | 64 | 256 |")
-    print("|" + "---|" * 7)
+    print(f"bytes an element of the whole on the first rank: {costs.described * GB:.0f} described, "
+          f"{costs.cutting * GB:.0f} until it is cut ({described['seconds'] / described['elements'] * 1e6:.1f} s a million);"
+          f"\nan own element of another rank: {described['own kept']:.0f} as it arrives, {costs.own * GB:.0f} with history "
+          f"and matrix; {costs.entry * GB:.1f} an entry of the factors\n")  # fmt: skip
+    counts = (16, 64, 256)
+    print("| elements | entries of the factors | core hours an iteration | GB, 1 rank "
+          + "".join(f"| {count} ranks: first, others, all " for count in counts) + "|")  # fmt: skip
+    print("|" + "---|" * (4 + len(counts)))
     for m in (102_400, 1_000_000, 10_000_000):
-        gb = " | ".join(f"{costs.memory(m, ranks, growth):.3g}" for ranks in (1, 16, 64, 256))
-        print(f"| {m} | {growth.fill(m):.3g} | {costs.seconds(m, growth) / 3600:.3g} | {gb} |")
+        cells = [f"{growth.fill(m):.3g}", f"{costs.seconds(m, growth) / 3600:.3g}", f"{costs.memory(m, 1, growth):.3g}"]
+        for count in counts:
+            first, other = costs.memory(m, count, growth), costs.memory(m, count, growth, first=False)
+            cells.append(f"{first:.3g}, {other:.3g}, {first + (count - 1) * other:.3g}")
+        print(f"| {m} | " + " | ".join(cells) + " |")
     draw(runs, growth, costs)
 
 
@@ -238,11 +258,14 @@ def draw(runs: list[dict], growth: Growth, costs: Costs) -> None:
     for ranks, style in ((1, "k-"), (2, "k-."), (16, "k--"), (256, "k:")):
         label = f"{ranks} rank{'s' if ranks > 1 else ''}"
         right.loglog(m, [costs.memory(x, ranks, growth) for x in m], style, label=label)
+        if ranks > 2:
+            others = [costs.memory(x, ranks, growth, first=False) for x in m]
+            right.loglog(m, others, style[1:], color="0.6", label="each of the others")
         measured = [run for run in runs if run["ranks"] == ranks]
         if measured:
             points = [run["elements"] for run in measured], [run["memory"]["peak"] for run in measured]
             right.loglog(*points, "ro" if ranks == 1 else "bs", label=f"measured, {label}")
-    right.set(xlabel="elements", ylabel="GB a rank")
+    right.set(xlabel="elements", ylabel="GB of the first rank, and of others")
     for axes in (left, right):
         axes.legend(frameon=False, fontsize=8)
         axes.grid(True, which="major", alpha=0.3)
@@ -261,9 +284,13 @@ def main(words: list[str]) -> None:
     if words:
         found = json.loads(Path(words[0]).read_text())
     else:
-        runs = [fastest(ranks, cells) for cells in SIZES for ranks in RANKS]
-        found = {"runs": runs, "described": launch(RANKS[-1], DESCRIBED, "describe")}
-        MEASURED.parent.mkdir(exist_ok=True)
+        found = {"runs": [fastest(ranks, cells) for cells in SIZES for ranks in RANKS]}
+    if "memory" in words:
+        for run in found["runs"]:
+            anew = launch(run["ranks"], round(run["elements"] ** 0.5))
+            run |= {name: anew[name] for name in ("memory", "others")}
+    if not words or "memory" in words:
+        found["described"] = launch(RANKS[-1], DESCRIBED, "describe")
         MEASURED.write_text(json.dumps(found, indent=1))
     table(found["runs"])
     forecast(found["runs"], found["described"])
