@@ -5,6 +5,7 @@
     python benchmarks/ranks.py benchmarks/ranks.json memory # the same with memory measured anew; seconds stay
     mpiexec -n 2 python benchmarks/ranks.py 160   # one measurement: a sheet of 160 x 160 elements, as one line of JSON
     mpiexec -n 2 python benchmarks/ranks.py 1000 describe   # no more than the description of the sheet, and its parts
+    mpiexec -n 8 python benchmarks/ranks.py 480000 tables   # what MUMPS keeps of each unknown on every rank
 
 Needs the solver petsc (docs/parallel.md). A sheet of J2 over a cylinder, element ANS3DEAS with 5 points through the
 thickness, is bent to where it is plastic; the displacement is given, so that every run does the same work.
@@ -25,6 +26,7 @@ import numpy as np
 import umform as uf
 
 SIZES, RANKS, DESCRIBED, REPEATS = (80, 160, 320), (1, 2), 1000, 2
+BLOCK, BLOCKED, BLOCKS_ON = 12, (480_000, 960_000), 8
 GAINS = (("wall", "{:.2f}"), ("cpu", "({:.2f})"))
 ITERATION = ("evaluation", "factorisation", "solution")
 MEASURED = Path("benchmarks/ranks.json")
@@ -102,7 +104,7 @@ def measure(cells: int) -> dict[str, object]:
 
 
 def describe(cells: int) -> dict[str, object]:
-    """Bytes an element that the first rank takes to describe the whole sheet, and to cut it; of others, an own element."""
+    """Bytes an element that the first rank takes to describe a sheet and to cut it; of the other, an own element."""
     from umform.distributed.mpi_ranks import world
     from umform.distributed.outline import Outline
     from umform.distributed.run import hand_out
@@ -126,6 +128,37 @@ def describe(cells: int) -> dict[str, object]:
     own = {name: max(one[name] for one in of_each[1:]) for name in ("own kept", "own peak")}
     first = {name: of_each[0][name] for name in ("kept", "peak")}
     return {"elements": cells**2, "seconds": time.process_time() - start, **first, **own}
+
+
+def tables(unknowns: int) -> dict[str, float]:
+    """Bytes that MUMPS takes on a rank with hardly a share of the matrix, and entries of the factors that it gets.
+
+    The matrix has dense blocks on its diagonal. All but one on each other rank are the first rank's.
+    """
+    from petsc4py import PETSc
+
+    from umform.distributed.mpi_ranks import world
+
+    ranks = world()
+    rows = BLOCK if ranks.rank else unknowns - BLOCK * (ranks.size - 1)
+    matrix = PETSc.Mat().createAIJ(((rows, None), (rows, None)), nnz=(BLOCK, 0), comm=ranks.petsc_comm)
+    first, last = matrix.getOwnershipRange()
+    for begin in range(first, last, BLOCK):
+        block = np.arange(begin, begin + BLOCK, dtype=PETSc.IntType)
+        matrix.setValues(block, block, np.eye(BLOCK) + 1.0)
+    matrix.assemble()
+    solver = PETSc.KSP().create(ranks.petsc_comm)
+    solver.setType("preonly")
+    solver.pc.setType("cholesky")
+    solver.pc.setFactorSolverType("mumps")
+    solver.setOperators(matrix)
+    before = memory()
+    solver.setUp()
+    taken = ranks.comm.gather(((memory() - before) * GB, solver.pc.getFactorMatrix().getMumpsInfo(27)))
+    if ranks.rank > 0:
+        return {}
+    taken, entries = np.mean(taken[1:], axis=0)
+    return {"unknowns": unknowns, "bytes": taken, "entries": entries}
 
 
 def launch(ranks: int, *words: object) -> dict:
@@ -175,19 +208,24 @@ class Growth:
 class Costs:
     """What an element, an entry of the factors and an operation cost, by the largest run on one rank."""
 
-    def __init__(self, run: dict, described: dict) -> None:
+    def __init__(self, run: dict, described: dict, tables: list[dict]) -> None:
         m, held, cpu = run["elements"], run["memory"], run["cpu"]
         self.start = held["start"]
         self.described, self.cutting = described["kept"] / GB, described["peak"] / GB
         self.own = (held["matrix"] - held["describe"]) / m
-        self.entry = (held["peak"] - held["matrix"]) / run["fill"]
+        # The factors and the tables of MUMPS are all that is taken after the matrix; so they are beside the blocks.
+        small, large = tables
+        each = {name: (large[name] - small[name]) / (large["unknowns"] - small["unknowns"]) for name in small}
+        unknowns, solving = run["unknowns"], held["peak"] - held["matrix"]
+        self.entry = (solving - each["bytes"] / GB * unknowns) / (run["fill"] - each["entries"] * unknowns)
+        self.tables = (each["bytes"] / GB - self.entry * each["entries"]) * unknowns / m
         self.evaluation = cpu["evaluation"] / m
         self.rate = run["flops"] / cpu["factorisation"]
         self.solution = cpu["solution"] / run["fill"]
 
     def memory(self, m: float, ranks: int, growth: Growth, first: bool = True) -> float:
-        """GB of a rank: its elements and matrix, its part of the factors; on the first one the description of the whole."""
-        solving = self.start + (self.own * m + self.entry * growth.fill(m)) / ranks
+        """GB of a rank: elements, matrix, factors, tables of MUMPS; on the first one the description of the whole."""
+        solving = self.start + self.tables * m + (self.own * m + self.entry * growth.fill(m)) / ranks
         return max(solving + self.described * m, self.start + self.cutting * m) if first else solving
 
     def seconds(self, m: float, growth: Growth) -> float:
@@ -212,20 +250,22 @@ def table(runs: list[dict]) -> None:
               f"| {run['fill']:.3g} | {run['flops']:.3g} |")  # fmt: skip
 
 
-def forecast(runs: list[dict], described: dict) -> None:
+def forecast(runs: list[dict], described: dict, tables: list[dict]) -> None:
     """The model with all points, how well it foretells the largest run from the others, and what it says."""
     alone = [run for run in runs if run["ranks"] == 1]
     *smaller, last = alone
-    before, growth, costs = Growth(smaller), Growth(alone), Costs(last, described)
+    before, growth, costs = Growth(smaller), Growth(alone), Costs(last, described, tables)
     m = last["elements"]
     print(f"\nfill of {m} elements, foretold by the smaller runs: {before.fill(m) / last['fill'] - 1:+.1%}, "
           f"operations {before.flops(m) / last['flops'] - 1:+.1%}")  # fmt: skip
     print(f"a = {growth.fill_terms[0]:.3g}, b = {growth.fill_terms[1]:.3g}, c = {growth.flop_terms[0]:.3g}, "
           f"d = {growth.flop_terms[1]:.3g}; {costs.rate:.3g} operations a second")  # fmt: skip
     print(f"bytes an element of the whole on the first rank: {costs.described * GB:.0f} described, "
-          f"{costs.cutting * GB:.0f} until it is cut ({described['seconds'] / described['elements'] * 1e6:.1f} s a million);"
-          f"\nan own element of another rank: {described['own kept']:.0f} as it arrives, {costs.own * GB:.0f} with history "
-          f"and matrix; {costs.entry * GB:.1f} an entry of the factors\n")  # fmt: skip
+          f"{costs.cutting * GB:.0f} until it is cut "
+          f"({described['seconds'] / described['elements'] * 1e6:.1f} s a million); on every rank of many: "
+          f"{costs.tables * GB:.0f} by MUMPS\nbytes an own element: {described['own kept']:.0f} as it arrives, "
+          f"{costs.own * GB:.0f} with history and matrix; "
+          f"an entry of the factors: {costs.entry * GB:.1f}\n")  # fmt: skip
     counts = (16, 64, 256)
     print("| elements | entries of the factors | core hours an iteration | GB, 1 rank "
           + "".join(f"| {count} ranks: first, others, all " for count in counts) + "|")  # fmt: skip
@@ -275,7 +315,8 @@ def draw(runs: list[dict], growth: Growth, costs: Costs) -> None:
 def main(words: list[str]) -> None:
     """Measure here, or start the measurements and draw conclusions."""
     if words and words[0].isdecimal():
-        outcome = describe(int(words[0])) if "describe" in words else measure(int(words[0]))
+        kind = {"describe": describe, "tables": tables}.get(words[-1], measure)
+        outcome = kind(int(words[0]))
         from umform.distributed.mpi_ranks import world
 
         if world().rank == 0:
@@ -291,9 +332,10 @@ def main(words: list[str]) -> None:
             run |= {name: anew[name] for name in ("memory", "others")}
     if not words or "memory" in words:
         found["described"] = launch(RANKS[-1], DESCRIBED, "describe")
+        found["tables"] = [launch(BLOCKS_ON, unknowns, "tables") for unknowns in BLOCKED]
         MEASURED.write_text(json.dumps(found, indent=1))
     table(found["runs"])
-    forecast(found["runs"], found["described"])
+    forecast(found["runs"], found["described"], found["tables"])
 
 
 if __name__ == "__main__":

@@ -47,8 +47,8 @@ def solve(
     Parameters
     ----------
     model : Model or None
-        The model; it is left at its last converged state, whatever happens. With the solver "petsc" it may be None, with
-        no steps, on all ranks but the first: they get their share from there.
+        The model; it is left at its last converged state, whatever happens. With the solver "petsc" all ranks but the
+        first may give None, and no steps: they get their shares from there.
     steps : Step or sequence of Step
         What happens, in a row.
     solver : str

@@ -71,7 +71,7 @@ def refused_tool():
 
 
 def refused_runs():
-    """A second run after the history of the first one has stayed with the ranks; models that differ, or cannot be sent."""
+    """A second run, whose history has stayed with the ranks; models that differ, or cannot be sent; wrong steps."""
     model = uf.Model(strip(20.0, 4.0, 1.0, (12, 3)), material=ELASTIC)
     model.fix("x0")
     pull = model.prescribe("x1", "x", "pull")

@@ -45,11 +45,13 @@ class Solving:
 
     def solve(self, *, solver: str | None = None, **options: Any) -> Result:
         """Solve the problem; ``progress``, ``checkpoint``, ``every`` and ``note`` as for :func:`umform.solve`."""
-        return solve(*self._given(), **self._settings(solver), **options)
+        model, steps = self._given()
+        return solve(model, steps, **self._settings(solver), **options)
 
     def resume(self, path: str | PathLike[str], *, solver: str | None = None, **options: Any) -> Result:
         """Take up a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
-        return resume(path, *self._given(), **self._settings(solver), **options)
+        model, steps = self._given()
+        return resume(path, model, steps, **self._settings(solver), **options)
 
     def _given(self) -> tuple[Model | None, list[Step]]:
         return None, []

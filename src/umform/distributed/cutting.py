@@ -1,4 +1,4 @@
-"""The first rank cuts its model into parcels, one for each rank: all that grows with the mesh, in numbers of the rank."""
+"""The first rank cuts its model into parcels, one for each rank: all that grows with the mesh, in own numbers."""
 
 from __future__ import annotations
 
@@ -130,10 +130,11 @@ class Cutting:
         return parcel
 
     def _known(self, rank: int) -> tuple[NDArray[np.bool_], Numbers]:
-        """Tied pairs of a rank, and its nodes: those of its cells, and the partner of a tied one, even without a cell."""
+        """Tied pairs of a rank, and its nodes: those of its cells, and partners of tied ones, even without a cell."""
         nodes = np.unique(self._whole.mesh.connectivity[self._cells[rank]])
         self._node[nodes] = 0
-        tied: NDArray[np.bool_] = (self._node[self._pairs // 3] >= 0).any(axis=1)
+        known = self._node[self._pairs // 3] >= 0
+        tied: NDArray[np.bool_] = np.logical_or(known[:, 0], known[:, 1])
         self._node[nodes] = -1
         return tied, np.union1d(nodes, self._pairs[tied] // 3).astype(np.int64)
 

@@ -82,7 +82,7 @@ class Outline:
         if ranks.rank == 0:
             assert outline is not None
             return outline
-        received: Outline = pickle.loads(text)  # noqa: S301  (from another process of this run)
+        received: Outline = pickle.loads(text)
         return received
 
 

@@ -66,9 +66,7 @@ def on_ranks(
     return result
 
 
-def _shared(
-    model: Model | None, steps: Callable[[], Sequence[Step]], ranks: MpiRanks
-) -> tuple[Share, Sequence[Step]]:
+def _shared(model: Model | None, steps: Callable[[], Sequence[Step]], ranks: MpiRanks) -> tuple[Share, Sequence[Step]]:
     """The share of this rank, and the steps with its controls."""
     if ranks.rank > 0:
         logging.getLogger("umform").setLevel(logging.CRITICAL + 1)  # the first rank talks
@@ -114,7 +112,7 @@ def _check_alike(model: Model, ranks: MpiRanks) -> None:
         raise InvalidValue(
             "the ranks have built different models",
             cause="random numbers, or files that are not the same on all machines",
-            remedy="build the same mesh, supports, loads and contacts on all ranks, or the model on the first one alone",
+            remedy="build the same mesh, supports, loads and contacts on all ranks, or all on the first one alone",
         )
 
 

@@ -96,4 +96,5 @@ def check_cells(points: Floats, cells: Ids) -> None:
 
 def _bad(J: Floats) -> NDArray[np.bool_]:
     """Where a cell has no positive volume."""
-    return ~(1e-10 * np.abs(J).max(axis=1, keepdims=True) < J)
+    bad: NDArray[np.bool_] = ~(1e-10 * np.abs(J).max(axis=1, keepdims=True) < J)
+    return bad

@@ -96,7 +96,9 @@ def test_controls_ties_and_contacts_are_parted_too():
                 total[one.nodes] += vector.reshape(-1, 3)
             np.testing.assert_array_equal(total.ravel(), control.vector)
         elif isinstance(control, Pressure):
-            whole = np.concatenate([np.c_[one.cells[rows[:, 0]], rows[:, 1]] for one, rows in zip(cut, mine, strict=True)])
+            whole = np.concatenate(
+                [np.c_[one.cells[rows[:, 0]], rows[:, 1]] for one, rows in zip(cut, mine, strict=True)]
+            )
             np.testing.assert_array_equal(np.unique(whole, axis=0), np.unique(control.faces, axis=0))
     for number, contact in enumerate(model.contacts):
         for one in cut:
