@@ -127,7 +127,20 @@ def describe(cells: int) -> dict[str, object]:
         return {}
     own = {name: max(one[name] for one in of_each[1:]) for name in ("own kept", "own peak")}
     first = {name: of_each[0][name] for name in ("kept", "peak")}
-    return {"elements": cells**2, "seconds": time.process_time() - start, **first, **own}
+    return {"elements": cells**2, "seconds": time.process_time() - start, **first, **own, "arrays": arrays_of(model)}
+
+
+def arrays_of(model: uf.Model) -> dict[str, float]:
+    """Bytes an element of the arrays of a model, by what they hold."""
+    mesh, contacts = model.mesh, model.contacts
+    arrays = {
+        "points": [mesh.points],
+        "cells": [mesh.connectivity],
+        "sets and faces": [*mesh.sets.values(), *mesh.faces.values()],
+        "displacement and supports": [model.u, model._fixed],
+        "contact facets": [array for contact in contacts for array in (contact.facets, contact.nodes)],
+    }
+    return {name: sum(array.nbytes for array in each) / len(mesh.connectivity) for name, each in arrays.items()}
 
 
 def tables(unknowns: int) -> dict[str, float]:
@@ -265,7 +278,8 @@ def forecast(runs: list[dict], described: dict, tables: list[dict]) -> None:
           f"({described['seconds'] / described['elements'] * 1e6:.1f} s a million); on every rank of many: "
           f"{costs.tables * GB:.0f} by MUMPS\nbytes an own element: {described['own kept']:.0f} as it arrives, "
           f"{costs.own * GB:.0f} with history and matrix; "
-          f"an entry of the factors: {costs.entry * GB:.1f}\n")  # fmt: skip
+          f"an entry of the factors: {costs.entry * GB:.1f}\narrays of the description, bytes an element: "
+          + ", ".join(f"{name} {size:.0f}" for name, size in described["arrays"].items()) + "\n")  # fmt: skip
     counts = (16, 64, 256)
     print("| elements | entries of the factors | core hours an iteration | GB, 1 rank "
           + "".join(f"| {count} ranks: first, others, all " for count in counts) + "|")  # fmt: skip

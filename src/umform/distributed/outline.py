@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from umform.arc import Arc
 from umform.boundary import Control, Load, Prescribed, Pressure
 from umform.contact import Contact
 from umform.distributed.mpi_ranks import MpiRanks
@@ -17,8 +18,11 @@ from umform.elements import Element
 from umform.errors import InvalidValue
 from umform.materials import Material
 from umform.model import Model
-from umform.steps import Step
+from umform.move import Move
+from umform.release import Release
 from umform.ties import MidLine
+
+Step = Move | Release | Arc
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from umform.arc import Arc
 from umform.boundary import Load
 from umform.distributed.cutting import Cutting
 from umform.distributed.mpi_ranks import MpiRanks, world
-from umform.distributed.outline import Outline
+from umform.distributed.outline import Outline, Step
 from umform.distributed.partition import partition
 from umform.distributed.share import Share
 from umform.distributed.solver import Petsc
@@ -20,13 +20,9 @@ from umform.errors import InvalidValue, UmformError
 from umform.fingerprint import digest
 from umform.model import Model
 from umform.model_checks import check_nodes
-from umform.move import Move
-from umform.release import Release
 from umform.results import Result
 from umform.solvers import register
 from umform.whole import not_here
-
-Step = Move | Release | Arc
 
 
 def on_ranks(
