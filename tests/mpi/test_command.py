@@ -150,7 +150,7 @@ def test_the_first_rank_alone_reads_the_mesh(tmp_path, mpi):
     alone = mpi.start(0, *other)
     assert alone.returncode == 1
     assert "sheet.inp" in alone.stderr
-    assert len(history(tmp_path / "out")["time"]) == 4
+    np.testing.assert_array_equal(history(tmp_path / "out")["time"][:4], [0.0, 0.5, 1.0, 2.0])
 
 
 def test_a_folder_that_cannot_be_written_ends_all(deck, tmp_path, mpi):
