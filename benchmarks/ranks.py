@@ -2,8 +2,10 @@
 
     python benchmarks/ranks.py                    # measures (minutes, and 6 GB at 102 400 elements); writes the figure
     python benchmarks/ranks.py benchmarks/ranks.json # tables and figure once more, from what was measured
+    python benchmarks/ranks.py benchmarks/ranks.json memory # the same with memory measured anew; seconds stay
     mpiexec -n 2 python benchmarks/ranks.py 160   # one measurement: a sheet of 160 x 160 elements, as one line of JSON
     mpiexec -n 2 python benchmarks/ranks.py 1000 describe   # no more than the description of the sheet, and its parts
+    mpiexec -n 8 python benchmarks/ranks.py 480000 tables   # what MUMPS keeps of each unknown on every rank
 
 Needs the solver petsc (docs/parallel.md). A sheet of J2 over a cylinder, element ANS3DEAS with 5 points through the
 thickness, is bent to where it is plastic; the displacement is given, so that every run does the same work.
@@ -22,13 +24,14 @@ from pathlib import Path
 import numpy as np
 
 import umform as uf
+from ranks_growth import GB, Costs, Growth
 
 SIZES, RANKS, DESCRIBED, REPEATS = (80, 160, 320), (1, 2), 1000, 2
+BLOCK, BLOCKED, BLOCKS_ON = 12, (480_000, 960_000), 8
 GAINS = (("wall", "{:.2f}"), ("cpu", "({:.2f})"))
 ITERATION = ("evaluation", "factorisation", "solution")
 MEASURED = Path("benchmarks/ranks.json")
 FIGURE = Path("docs/images/ranks.png")
-GB = 1e9
 
 
 def sheet(cells: int) -> uf.Model:
@@ -61,8 +64,8 @@ def memory(peak: bool = False) -> float:
 def measure(cells: int) -> dict[str, object]:
     """Seconds (wall and CPU) of the parts of an iteration and memory after them, the largest of all ranks."""
     from umform.distributed.mpi_ranks import world
-    from umform.distributed.partition import partition
-    from umform.distributed.share import Share
+    from umform.distributed.outline import Outline
+    from umform.distributed.run import hand_out
     from umform.distributed.solver import Petsc
 
     ranks, wall, cpu, held = world(), {}, {}, {"start": memory()}
@@ -75,8 +78,9 @@ def measure(cells: int) -> dict[str, object]:
         held[name] = memory()
         return answer
 
-    model = timed("describe", lambda: sheet(cells))
-    share = timed("share", lambda: Share(model, partition(model.mesh, ranks), ranks))
+    model = timed("describe", lambda: ranks.on_first(lambda: sheet(cells)))
+    outline = Outline.from_first(None if model is None else Outline.of(model), ranks)
+    share = timed("share", lambda: hand_out(outline, model, ranks))
     u, solver = bent(share.mesh.points), Petsc()
     timed("first evaluation", lambda: share.evaluate(u))
     found = timed("evaluation", lambda: share.evaluate(u))
@@ -86,10 +90,11 @@ def measure(cells: int) -> dict[str, object]:
     timed("solution", lambda: solver.solve(share.restrict(found.residual)))
     held["peak"] = memory(peak=True)
     flops = solver._ksp.pc.getFactorMatrix().getMumpsRinfog(3)
+    others = {key: value if ranks.rank > 0 else 0.0 for key, value in held.items()}
     largest = {name: {key: ranks.max(value) for key, value in one.items()} for name, one in
-               (("wall", wall), ("cpu", cpu), ("memory", held))}  # fmt: skip
+               (("wall", wall), ("cpu", cpu), ("memory", held), ("others", others))}  # fmt: skip
     return {
-        "elements": len(model.mesh.connectivity),
+        "elements": cells * cells,
         "unknowns": share.pattern.n,
         "ranks": ranks.size,
         "fill": factors.fill,
@@ -99,20 +104,74 @@ def measure(cells: int) -> dict[str, object]:
 
 
 def describe(cells: int) -> dict[str, object]:
-    """Memory in bytes an element that each rank takes for the description of the whole sheet, and to part it."""
+    """Bytes an element that the first rank takes to describe a sheet and to cut it; of the other, an own element."""
     from umform.distributed.mpi_ranks import world
-    from umform.distributed.numbering import Owners
-    from umform.distributed.partition import partition
+    from umform.distributed.outline import Outline
+    from umform.distributed.run import hand_out
 
-    world()
+    ranks = world()
     before, start = memory(), time.process_time()
-    model = sheet(cells)
-    elements = len(model.mesh.connectivity)
+    model = ranks.on_first(lambda: sheet(cells))
     kept = memory() - before
-    Owners.of(model, partition(model.mesh, world()), world().size)
-    sizes = {"kept": kept, "peak": memory(peak=True) - before}
-    bytes_each = {name: world().max(size) * GB / elements for name, size in sizes.items()}
-    return {"elements": elements, "seconds": time.process_time() - start, **bytes_each}
+    outline = Outline.from_first(None if model is None else Outline.of(model), ranks)
+    share = hand_out(outline, model, ranks)
+    of_each = ranks.comm.gather(
+        {
+            "kept": kept * GB / cells**2,
+            "peak": (memory(peak=True) - before) * GB / cells**2,
+            "own kept": (memory() - before) * GB / len(share.cells),
+            "own peak": (memory(peak=True) - before) * GB / len(share.cells),
+        }
+    )
+    if ranks.rank > 0:
+        return {}
+    own = {name: max(one[name] for one in of_each[1:]) for name in ("own kept", "own peak")}
+    first = {name: of_each[0][name] for name in ("kept", "peak")}
+    return {"elements": cells**2, "seconds": time.process_time() - start, **first, **own, "arrays": arrays_of(model)}
+
+
+def arrays_of(model: uf.Model) -> dict[str, float]:
+    """Bytes an element of the arrays of a model, by what they hold."""
+    mesh, contacts = model.mesh, model.contacts
+    arrays = {
+        "points": [mesh.points],
+        "cells": [mesh.connectivity],
+        "sets and faces": [*mesh.sets.values(), *mesh.faces.values()],
+        "displacement and supports": [model.u, model._fixed],
+        "contact facets": [array for contact in contacts for array in (contact.facets, contact.nodes)],
+    }
+    return {name: sum(array.nbytes for array in each) / len(mesh.connectivity) for name, each in arrays.items()}
+
+
+def tables(unknowns: int) -> dict[str, float]:
+    """Bytes that MUMPS takes on a rank with hardly a share of the matrix, and entries of the factors that it gets.
+
+    The matrix has dense blocks on its diagonal. All but one on each other rank are the first rank's.
+    """
+    from petsc4py import PETSc
+
+    from umform.distributed.mpi_ranks import world
+
+    ranks = world()
+    rows = BLOCK if ranks.rank else unknowns - BLOCK * (ranks.size - 1)
+    matrix = PETSc.Mat().createAIJ(((rows, None), (rows, None)), nnz=(BLOCK, 0), comm=ranks.petsc_comm)
+    first, last = matrix.getOwnershipRange()
+    for begin in range(first, last, BLOCK):
+        block = np.arange(begin, begin + BLOCK, dtype=PETSc.IntType)
+        matrix.setValues(block, block, np.eye(BLOCK) + 1.0)
+    matrix.assemble()
+    solver = PETSc.KSP().create(ranks.petsc_comm)
+    solver.setType("preonly")
+    solver.pc.setType("cholesky")
+    solver.pc.setFactorSolverType("mumps")
+    solver.setOperators(matrix)
+    before = memory()
+    solver.setUp()
+    taken = ranks.comm.gather(((memory() - before) * GB, solver.pc.getFactorMatrix().getMumpsInfo(27)))
+    if ranks.rank > 0:
+        return {}
+    taken, entries = np.mean(taken[1:], axis=0)
+    return {"unknowns": unknowns, "bytes": taken, "entries": entries}
 
 
 def launch(ranks: int, *words: object) -> dict:
@@ -133,92 +192,53 @@ def seconds(run: dict, clock: str) -> float:
     return sum(run[clock][part] for part in ITERATION)
 
 
-class Growth:
-    """How fill and operations of nested dissection on a sheet grow with its elements m, fitted to what was measured.
-
-    Of a square grid the factors have a m log2(m) + b m entries and take c m^1.5 + d m log2(m) operations
-    (George 1973): the leading terms are of separators as long as the sheet is wide.
-    """
-
-    def __init__(self, runs: list[dict]) -> None:
-        m = np.array([run["elements"] for run in runs], dtype=float)
-        self.fill_terms = self._fit(np.stack([m * np.log2(m), m], axis=1), [run["fill"] for run in runs])
-        self.flop_terms = self._fit(np.stack([m**1.5, m * np.log2(m)], axis=1), [run["flops"] for run in runs])
-
-    @staticmethod
-    def _fit(terms: np.ndarray, values: list[float]) -> np.ndarray:
-        """Least squares of the relative errors."""
-        return np.linalg.lstsq(terms / np.array(values)[:, None], np.ones(len(values)), rcond=None)[0]
-
-    def fill(self, m: float) -> float:
-        """Entries of the factors."""
-        return float(self.fill_terms @ [m * np.log2(m), m])
-
-    def flops(self, m: float) -> float:
-        """Operations of a factorisation."""
-        return float(self.flop_terms @ [m**1.5, m * np.log2(m)])
-
-
-class Costs:
-    """What an element, an entry of the factors and an operation cost, by the largest run on one rank."""
-
-    def __init__(self, run: dict, described: dict) -> None:
-        m, held, cpu = run["elements"], run["memory"], run["cpu"]
-        self.start = held["start"]
-        self.described, self.parting = described["kept"] / GB, described["peak"] / GB
-        self.own = (held["matrix"] - held["describe"]) / m
-        self.entry = (held["peak"] - held["matrix"]) / run["fill"]
-        self.evaluation = cpu["evaluation"] / m
-        self.rate = run["flops"] / cpu["factorisation"]
-        self.solution = cpu["solution"] / run["fill"]
-
-    def memory(self, m: float, ranks: int, growth: Growth) -> float:
-        """GB of a rank: the description of the whole, its elements and matrix, its part of the factors."""
-        solving = self.start + self.described * m + (self.own * m + self.entry * growth.fill(m)) / ranks
-        return max(solving, self.start + self.parting * m)
-
-    def seconds(self, m: float, growth: Growth) -> float:
-        """CPU seconds of an iteration, over all ranks."""
-        return self.evaluation * m + growth.flops(m) / self.rate + self.solution * growth.fill(m)
-
-
 def table(runs: list[dict]) -> None:
     """What was measured: wall seconds, and the CPU seconds of the slowest rank in brackets."""
     print("| elements | unknowns | ranks | evaluation | first factorisation | factorisation | solution | iteration "
-          "| faster by | peak GB a rank | entries of the factors | operations |")  # fmt: skip
-    print("|" + "---|" * 12)
+          "| faster by | peak GB, first rank | other | entries of the factors | operations |")  # fmt: skip
+    print("|" + "---|" * 13)
     for run in runs:
-        wall, cpu = run["wall"], run["cpu"]
+        wall, cpu, others = run["wall"], run["cpu"], run["others"]["peak"]
         parts = ("evaluation", "first factorisation", "factorisation", "solution")
         each = " | ".join(f"{wall[part]:.2f} ({cpu[part]:.2f})" for part in parts)
         alone = next(one for one in runs if one["ranks"] == 1 and one["elements"] == run["elements"])
         gain = " ".join(form.format(seconds(alone, clock) / seconds(run, clock)) for clock, form in GAINS)
         print(f"| {run['elements']} | {run['unknowns']} | {run['ranks']} | {each} "
               f"| {seconds(run, 'wall'):.2f} ({seconds(run, 'cpu'):.2f}) | {gain} "
-              f"| {run['memory']['peak']:.2f} | {run['fill']:.3g} | {run['flops']:.3g} |")  # fmt: skip
+              f"| {run['memory']['peak']:.2f} | {f'{others:.2f}' if others else ''} "
+              f"| {run['fill']:.3g} | {run['flops']:.3g} |")  # fmt: skip
 
 
-def forecast(runs: list[dict], described: dict) -> None:
+def forecast(runs: list[dict], described: dict, tables: list[dict]) -> None:
     """The model with all points, how well it foretells the largest run from the others, and what it says."""
     alone = [run for run in runs if run["ranks"] == 1]
     *smaller, last = alone
-    before, growth, costs = Growth(smaller), Growth(alone), Costs(last, described)
+    before, growth, costs = Growth(smaller), Growth(alone), Costs(last, described, tables)
     m = last["elements"]
     print(f"\nfill of {m} elements, foretold by the smaller runs: {before.fill(m) / last['fill'] - 1:+.1%}, "
           f"operations {before.flops(m) / last['flops'] - 1:+.1%}")  # fmt: skip
     print(f"a = {growth.fill_terms[0]:.3g}, b = {growth.fill_terms[1]:.3g}, c = {growth.flop_terms[0]:.3g}, "
           f"d = {growth.flop_terms[1]:.3g}; {costs.rate:.3g} operations a second")  # fmt: skip
-    print(f"bytes an element: description {costs.described * GB:.0f} a rank, {costs.parting * GB:.0f} until it is "
-          f"parted ({described['seconds'] / described['elements'] * 1e6:.1f} s a million), own {costs.own * GB:.0f}; "
-          f"{costs.entry * GB:.1f} an entry of the factors\n")  # fmt: skip
+    print(f"bytes an element of the whole on the first rank: {costs.described * GB:.0f} described, "
+          f"{costs.cutting * GB:.0f} until it is cut "
+          f"({described['seconds'] / described['elements'] * 1e6:.1f} s a million); on every rank of many: "
+          f"{costs.tables * GB:.0f} by MUMPS\nbytes an own element: {described['own kept']:.0f} as it arrives, "
+          f"{costs.own * GB:.0f} with history and matrix; "
+          f"an entry of the factors: {costs.entry * GB:.1f}\narrays of the description, bytes an element: "
+          + ", ".join(f"{name} {size:.0f}" for name, size in described["arrays"].items()) + "\n")  # fmt: skip
     for run in (run for run in runs if run["elements"] == m and run["ranks"] > 1):
         held = costs.memory(m, run["ranks"], growth)
         print(f"on {run['ranks']} ranks the fullest one took {run['memory']['peak'] / held - 1:+.0%} of that\n")
-    print("| elements | entries of the factors | core hours an iteration | GB a rank, 1 rank | 16 | 64 | 256 |")
-    print("|" + "---|" * 7)
+    counts = (16, 64, 256)
+    print("| elements | entries of the factors | core hours an iteration | GB, 1 rank "
+          + "".join(f"| {count} ranks: first, others, all " for count in counts) + "|")  # fmt: skip
+    print("|" + "---|" * (4 + len(counts)))
     for m in (102_400, 1_000_000, 10_000_000):
-        gb = " | ".join(f"{costs.memory(m, ranks, growth):.3g}" for ranks in (1, 16, 64, 256))
-        print(f"| {m} | {growth.fill(m):.3g} | {costs.seconds(m, growth) / 3600:.3g} | {gb} |")
+        cells = [f"{growth.fill(m):.3g}", f"{costs.seconds(m, growth) / 3600:.3g}", f"{costs.memory(m, 1, growth):.3g}"]
+        for count in counts:
+            first, other = costs.memory(m, count, growth), costs.memory(m, count, growth, first=False)
+            cells.append(f"{first:.3g}, {other:.3g}, {first + (count - 1) * other:.3g}")
+        print(f"| {m} | " + " | ".join(cells) + " |")
     draw(runs, growth, costs)
 
 
@@ -241,11 +261,14 @@ def draw(runs: list[dict], growth: Growth, costs: Costs) -> None:
     for ranks, style in ((1, "k-"), (2, "k-."), (16, "k--"), (256, "k:")):
         label = f"{ranks} rank{'s' if ranks > 1 else ''}"
         right.loglog(m, [costs.memory(x, ranks, growth) for x in m], style, label=label)
+        if ranks > 2:
+            others = [costs.memory(x, ranks, growth, first=False) for x in m]
+            right.loglog(m, others, style[1:], color="0.6", label="each of the others")
         measured = [run for run in runs if run["ranks"] == ranks]
         if measured:
             points = [run["elements"] for run in measured], [run["memory"]["peak"] for run in measured]
             right.loglog(*points, "ro" if ranks == 1 else "bs", label=f"measured, {label}")
-    right.set(xlabel="elements", ylabel="GB a rank")
+    right.set(xlabel="elements", ylabel="GB of the first rank, and of others")
     for axes in (left, right):
         axes.legend(frameon=False, fontsize=8)
         axes.grid(True, which="major", alpha=0.3)
@@ -255,7 +278,8 @@ def draw(runs: list[dict], growth: Growth, costs: Costs) -> None:
 def main(words: list[str]) -> None:
     """Measure here, or start the measurements and draw conclusions."""
     if words and words[0].isdecimal():
-        outcome = describe(int(words[0])) if "describe" in words else measure(int(words[0]))
+        kind = {"describe": describe, "tables": tables}.get(words[-1], measure)
+        outcome = kind(int(words[0]))
         from umform.distributed.mpi_ranks import world
 
         if world().rank == 0:
@@ -264,12 +288,17 @@ def main(words: list[str]) -> None:
     if words:
         found = json.loads(Path(words[0]).read_text())
     else:
-        runs = [fastest(ranks, cells) for cells in SIZES for ranks in RANKS]
-        found = {"runs": runs, "described": launch(RANKS[-1], DESCRIBED, "describe")}
-        MEASURED.parent.mkdir(exist_ok=True)
+        found = {"runs": [fastest(ranks, cells) for cells in SIZES for ranks in RANKS]}
+    if "memory" in words:
+        for run in found["runs"]:
+            anew = launch(run["ranks"], round(run["elements"] ** 0.5))
+            run |= {name: anew[name] for name in ("memory", "others")}
+    if not words or "memory" in words:
+        found["described"] = launch(RANKS[-1], DESCRIBED, "describe")
+        found["tables"] = [launch(BLOCKS_ON, unknowns, "tables") for unknowns in BLOCKED]
         MEASURED.write_text(json.dumps(found, indent=1))
     table(found["runs"])
-    forecast(found["runs"], found["described"])
+    forecast(found["runs"], found["described"], found["tables"])
 
 
 if __name__ == "__main__":

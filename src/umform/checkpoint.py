@@ -113,6 +113,18 @@ def read_checkpoint(path: str | PathLike[str]) -> dict[str, Any]:
     return read_tree(path, _KIND)
 
 
+def read_note(path: str | PathLike[str]) -> dict[str, Any]:
+    """What :func:`umform.solve` was told to keep in a checkpoint, without the state, which may be large.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read, or is no checkpoint.
+    """
+    note: dict[str, Any] = read_tree(path, _KIND, whole=False)["note"]
+    return note
+
+
 def _problem_of_writing(path: Path) -> FileProblem | None:
     trial = PendingFile(path)
     try:

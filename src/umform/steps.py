@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
@@ -31,7 +32,7 @@ _LOOPS: dict[type, Any] = {Move: Moving, Release: Releasing, Arc: Following}
 
 
 def solve(
-    model: Model,
+    model: Model | None,
     steps: Sequence[Step] | Step,
     *,
     solver: str = "auto",
@@ -46,8 +47,9 @@ def solve(
 
     Parameters
     ----------
-    model : Model
-        The model; it is left at its last converged state, whatever happens.
+    model : Model or None
+        The model; it is left at its last converged state, whatever happens. With the solver "petsc" all ranks but the
+        first may give None, and no steps: they get their shares from there.
     steps : Step or sequence of Step
         What happens, in a row.
     solver : str
@@ -95,12 +97,12 @@ def solve(
             run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
             return _go_on(run, steps, progress, checkpoints)
 
-    return _where(solver)(model, _checked(model, steps), work)
+    return _where(solver)(model, partial(_checked, model, steps), work)
 
 
 def resume(
     path: str | PathLike[str],
-    model: Model,
+    model: Model | None,
     steps: Sequence[Step] | Step,
     *,
     solver: str = "auto",
@@ -150,20 +152,32 @@ def resume(
                 run.loop = _LOOPS[type(step)].recall(run, step, memory)
             return _go_on(run, steps, progress, checkpoints)
 
-    return _where(solver)(model, _checked(model, steps), work)
+    return _where(solver)(model, partial(_checked, model, steps), work)
 
 
-def _where(solver: str) -> Callable[[Model, Sequence[Step], _Work], Result]:
+def _where(solver: str) -> Callable[[Model | None, Callable[[], Sequence[Step]], _Work], Result]:
     """Where a run goes: through this process, or on all ranks that mpiexec has started."""
     if solver == "petsc":
         from umform.distributed.run import on_ranks  # MPI starts only where it is asked for
 
         return on_ranks
-    return lambda model, steps, work: work(model, steps)
+    return _here
 
 
-def _checked(model: Model, steps: Sequence[Step] | Step) -> list[Step]:
+def _here(model: Model | None, steps: Callable[[], Sequence[Step]], work: _Work) -> Result:
+    if model is None:
+        raise InvalidValue(
+            "there is no model",
+            where="solve() or resume()",
+            cause="the first rank alone may have it only with the solver petsc",
+            remedy="solver='petsc', or a model",
+        )
+    return work(model, steps())
+
+
+def _checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
     """The steps, if the model can go them."""
+    assert model is not None
     sequence = [steps] if isinstance(steps, Step) else list(steps)
     for number, step in enumerate(sequence, start=1):
         if isinstance(step, Arc):
@@ -203,7 +217,8 @@ def _checkpoints(
     from umform.checkpoint import Checkpoints  # few runs need it
     from umform.fingerprint import fingerprint
 
-    marks = fingerprint(run.model.described, steps, run.newton, run.frames)
+    whole = run.model.described  # the first rank writes and compares
+    marks = {} if whole is None else fingerprint(whole, steps, run.newton, run.frames)
     return Checkpoints(path, every, marks, note, run.model.ranks)
 
 

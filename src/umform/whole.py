@@ -27,8 +27,8 @@ class Whole:
     owned: slice | NDArray[np.int64] = slice(None)
 
     @property
-    def described(self) -> Model:
-        """The model as it was described: this one."""
+    def described(self) -> Model | None:
+        """The model as it was described, if it is there: this one."""
         return self  # type: ignore[return-value]
 
     def node_number(self, node: int) -> int:

@@ -11,8 +11,8 @@ import numpy as np
 
 import umform as uf
 from umform.distributed.mpi_ranks import world
-from umform.distributed.partition import partition
-from umform.distributed.share import Share
+from umform.distributed.outline import Outline
+from umform.distributed.run import hand_out
 from umform.distributed.solver import Petsc
 from umform.errors import NotFinite, SingularMatrix
 from umform.mesh import strip
@@ -38,7 +38,7 @@ def pressed(points, strain):
 
 
 def shared(model):
-    return Share(model, partition(model.mesh, world()), world())
+    return hand_out(Outline.of(model), model, world())
 
 
 def flattened(model):
@@ -71,7 +71,7 @@ def refused_tool():
 
 
 def refused_runs():
-    """A second run after the history of the first one has stayed with the ranks; models that differ."""
+    """A second run, whose history has stayed with the ranks; models that differ, or cannot be sent; wrong steps."""
     model = uf.Model(strip(20.0, 4.0, 1.0, (12, 3)), material=ELASTIC)
     model.fix("x0")
     pull = model.prescribe("x1", "x", "pull")
@@ -83,6 +83,13 @@ def refused_runs():
     other.fix("x0")
     push = other.prescribe("x1", "x", "push")
     yield lambda: uf.solve(other, uf.Move(push, 0.2, steps=1), solver="petsc")
+    elsewhere = strut()
+    lift = elsewhere.prescribe("x1_upper", "x", "lift")
+    for first, way in ((0, lambda fraction: 1e-4 * fraction), (world().size - 1, 1e-4)):
+        given = (elsewhere, uf.Move(lift, way, steps=1)) if world().rank == first else (None, [])
+        yield lambda given=given: uf.solve(*given, solver="petsc")
+    wrong = uf.Move(push, 0.2) if world().rank == 0 else []  # of another model
+    yield lambda: uf.solve(strut() if world().rank == 0 else None, wrong, solver="petsc")
 
 
 def message(run):

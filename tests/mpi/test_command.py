@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import csv
 import os
+import shutil
 import signal
+import sys
 import time
 from pathlib import Path
 
@@ -132,6 +134,23 @@ def test_a_wrong_deck_is_told_once(deck, tmp_path, mpi):
     done = mpi.start(2, *UMFORM, "run", deck, "--solver", "petsc", "--out", tmp_path, "--set", "mesh.cells=[0, 1]")
     assert done.returncode == 1
     assert done.stderr.count("umform: it should be greater than or equal to 1") == 1
+
+
+def test_the_first_rank_alone_reads_the_mesh(tmp_path, mpi):
+    """The other rank has the deck, but not the file that it names."""
+    own = template_file("own-mesh")
+    for name in ("first", "other"):
+        (tmp_path / name).mkdir()
+        shutil.copy(own, tmp_path / name / "deck.toml")
+    shutil.copy(own.with_name("sheet.inp"), tmp_path / "first")
+    short = ("--set", "steps.0.increments=2", "--set", "steps.1.increments=1", "--set", "steps.0.to.down=-1.0")
+    words = ("--out", tmp_path / "out", "--solver", "petsc", *short)
+    first, other = ((*UMFORM, "run", tmp_path / name / "deck.toml", *words) for name in ("first", "other"))
+    mpi.run(1, *first, ":", "-n", 1, sys.executable, *other)
+    alone = mpi.start(0, *other)
+    assert alone.returncode == 1
+    assert "sheet.inp" in alone.stderr
+    np.testing.assert_array_equal(history(tmp_path / "out")["time"][:4], [0.0, 0.5, 1.0, 2.0])
 
 
 def test_a_folder_that_cannot_be_written_ends_all(deck, tmp_path, mpi):

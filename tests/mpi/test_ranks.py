@@ -66,7 +66,20 @@ def test_what_one_rank_meets_all_ranks_know(ranks, mpi):
     assert answer["nan"] == "NotFinite"  # on one rank only, and refused on all
     assert answer["failed"] == [5, 5]
     assert answer["tool"] == "g of a surface function is not finite"
-    twice, fields, other = answer["runs"]
+    twice, fields, other, nameless, last, step = answer["runs"]
     assert twice == fields == "the history of the elements is not here"
     assert other == ("done" if ranks == 1 else "the ranks have built different models")
+    assert nameless == ("done" if ranks == 1 else "the first rank has a model that cannot be sent to the others")
+    assert last == (twice if ranks == 1 else "the first rank has no model")
+    assert step == "a step moves a control that the model does not have"
     assert answer["loose"] == "SingularMatrix"
+
+
+def test_no_rank_but_the_first_knows_how_large_the_model_is(mpi):
+    """The same part in sheets of 300 and 3000 cells: what a rank allocates in a whole run stays the same."""
+    small, large = json.loads(mpi.run(3, mpi.cases.with_name("memory.py")).stdout)
+    assert small["cells"] == large["cells"]
+    assert small["whole"] * 10 == large["whole"]
+    for name in ("kept", "peak"):
+        np.testing.assert_allclose(large[name][1:], small[name][1:], rtol=0.02)
+        assert large[name][0] > 5 * small[name][0]

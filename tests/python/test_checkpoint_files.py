@@ -11,7 +11,7 @@ import pytest
 
 import umform
 from umform import materials as mt
-from umform.checkpoint import Checkpoints
+from umform.checkpoint import Checkpoints, read_note
 from umform.errors import FileProblem, InvalidValue
 from umform.fingerprint import text
 from umform.io.trees import read_tree, write_tree
@@ -76,6 +76,21 @@ def test_a_tree_comes_back_to_the_last_bit(tmp_path):
     for name, array in tree["arrays"].items():
         assert back["arrays"][name].dtype == array.dtype
         assert back["arrays"][name].tobytes() == array.tobytes()
+
+
+def test_a_note_is_read_without_the_state(tmp_path, build):
+    """An array that is damaged does not matter to it; the state is then refused, as above."""
+    path = tmp_path / "run.h5"
+    model, steps, options = bending(build)
+    solve(model, steps, **options, checkpoint=path, note={"deck": "text"})
+    content = bytearray(path.read_bytes())
+    content[content.index(read_tree(path, "checkpoint of umform")["model"]["u"].tobytes()) + 100] ^= 1
+    path.write_bytes(content)
+    assert read_note(path) == {"deck": "text"}
+    with pytest.raises(FileProblem, match="checksum"):
+        read_tree(path, "checkpoint of umform")
+    with pytest.raises(FileProblem, match="there is no checkpoint"):
+        read_note(tmp_path / "other.h5")
 
 
 def test_other_files_are_refused(tmp_path, build):

@@ -20,7 +20,7 @@ from umform.errors import (
     WrongCellType,
     WrongNodeOrder,
 )
-from umform.mesh import FACES, Mesh, graded, grid, plate, strip
+from umform.mesh import FACES, Mesh, graded, grid, plate, quality, strip
 from umform.mesh.quality import jacobians
 
 CELLS = ("hex8", "hex18")
@@ -255,7 +255,10 @@ def test_cells_must_name_existing_nodes(shift):
         Mesh(points, {"hex8": cells + shift})
 
 
-def test_one_inverted_cell_among_good_ones_is_found():
+@pytest.mark.parametrize("at_once", [1, 2, 1 << 14])
+def test_one_inverted_cell_among_good_ones_is_found(at_once, monkeypatch):
+    """However many cells are looked at in one go."""
+    monkeypatch.setattr(quality, "_AT_ONCE", at_once)
     points, cells = cells_of("hex8", count=3)
     cells[1] = cells[1][[4, 5, 6, 7, 0, 1, 2, 3]]
     with pytest.raises(InvertedElement) as caught:

@@ -56,7 +56,7 @@ def run(
         loaded = read(deck, changes or ())
         chosen = solver or loaded.contents.solution.solver
         with on_all_ranks(chosen, petsc_options(ctx)):
-            problem = loaded.build(chosen)
+            problem = running.prepared(loaded, chosen)
             outcome = running.run(loaded, problem, out, solver=solver, checkpoint=checkpoint, every=every)
     show(outcome)
     if timing:

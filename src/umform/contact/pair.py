@@ -81,17 +81,20 @@ class Contact:
         self.tool = tool
         self.penalty, self.points = settings.penalty, settings.points
         self.allowed, self.augmented = settings.allowed, settings.augmented
-        #: Rows (cell, number of the face), and the nodes of these facets.
-        self.faces: Ids = mesh.face_set(faces)
-        self.facets: Ids = mesh.facets(self.faces)
-        #: Nodes of all cells that bear a facet, those of the far face too.
-        self.nodes: Ids = np.unique(mesh.connectivity[self.faces[:, 0]])
-        self._kernel, self._mesh_points = tool.kernel(), mesh.points
+        self._meet(mesh, mesh.face_set(faces))
         self.pose: tuple[Floats, Floats] = (np.eye(3), np.zeros(3))
         self.translations: list[ToolMotion] = []
         self.motion: Motion | None = None
         self.reference_point = np.zeros(3)
         self.elsewhere = False
+
+    def _meet(self, mesh: Mesh, faces: Ids) -> None:
+        #: Rows (cell, number of the face), and the nodes of these facets.
+        self.faces: Ids = faces
+        self.facets: Ids = mesh.facets_of(faces)
+        #: Nodes of all cells that bear a facet, those of the far face too.
+        self.nodes: Ids = np.unique(mesh.connectivity[faces[:, 0]])
+        self._kernel, self._mesh_points = self.tool.kernel(), mesh.points
 
     @cached_property
     def block(self) -> _core.ContactBlock:
@@ -117,15 +120,17 @@ class Contact:
         """Multipliers of the converged state at the contact points; zero without augmentation."""
         return self.block.multipliers
 
+    def bare(self) -> Self:
+        """The same contact without its faces, which :meth:`part` gives it anew."""
+        bare = copy.copy(self)
+        for made in ("block", "multipliers", "faces", "facets", "nodes", "_mesh_points", "_kernel"):
+            bare.__dict__.pop(made, None)
+        return bare
+
     def part(self, mesh: Mesh, faces: Ids) -> Self:
-        """The same contact on some faces of a part of the mesh, rows (cell, face) there; its tool has no drive yet."""
-        part = copy.copy(self)
-        for made in ("block", "multipliers"):
-            part.__dict__.pop(made, None)
-        part.faces = faces
-        part.facets = mesh.facets(faces) if len(faces) else self.facets[:0]
-        part.nodes = np.unique(mesh.connectivity[faces[:, 0]])
-        part._mesh_points, part.translations = mesh.points, []
+        """The same contact on some faces of a part of the mesh, rows (cell, face) there, which may be none."""
+        part = self.bare()
+        part._meet(mesh, faces)
         return part
 
     def place(self, time: float) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
@@ -49,15 +50,19 @@ class MotionPart(Part):
         return self
 
     def build(self) -> Motion:
-        """Function of time."""
-        times = np.array(self.time)
+        """Function of time, which can be sent to other processes."""
+        return partial(_motion, self.time, self.translation, self.rotation)
 
-        def at(rows: list[tuple[float, float, float]] | None, time: float) -> Floats:
-            if rows is None:
-                return np.zeros(3)
-            return np.array([np.interp(time, times, column) for column in zip(*rows)])
 
-        return lambda time: (at(self.translation, time), np.radians(at(self.rotation, time)))
+def _motion(
+    times: list[float], translation: list[Vector] | None, rotation: list[Vector] | None, time: float
+) -> tuple[Floats, Floats]:
+    """Translation and rotation vector at a time, from tables of them."""
+
+    def at(rows: list[Vector] | None) -> Floats:
+        return np.zeros(3) if rows is None else np.array([np.interp(time, times, column) for column in zip(*rows)])
+
+    return at(translation), np.radians(at(rotation))
 
 
 def _points(value: Any) -> str:

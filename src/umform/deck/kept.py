@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from umform.checkpoint import read_checkpoint
+from umform.checkpoint import read_note
 from umform.deck.deck import Deck
 from umform.errors import FileProblem
 
@@ -59,7 +59,7 @@ class Kept:
         DeckError
             If the deck in it cannot be read any more.
         """
-        note = read_checkpoint(checkpoint)["note"]
+        note = read_note(checkpoint)
         if "deck" not in note:
             raise FileProblem(
                 "the checkpoint has no deck",

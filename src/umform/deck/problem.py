@@ -25,8 +25,43 @@ from umform.surfaces import Tool
 from umform.technology import Element
 
 
-@dataclass(frozen=True)
-class Problem:
+@dataclass(frozen=True, kw_only=True)
+class Solving:
+    """How a problem is solved; on one rank of many that is all, and the share of the model comes from the first one.
+
+    Attributes
+    ----------
+    options : NewtonOptions
+        How hard to iterate.
+    solver : str
+        Sparse solver.
+    frames : int
+        States that each step keeps.
+    """
+
+    options: NewtonOptions
+    solver: str
+    frames: int
+
+    def solve(self, *, solver: str | None = None, **options: Any) -> Result:
+        """Solve the problem; ``progress``, ``checkpoint``, ``every`` and ``note`` as for :func:`umform.solve`."""
+        model, steps = self._given()
+        return solve(model, steps, **self._settings(solver), **options)
+
+    def resume(self, path: str | PathLike[str], *, solver: str | None = None, **options: Any) -> Result:
+        """Take up a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
+        model, steps = self._given()
+        return resume(path, model, steps, **self._settings(solver), **options)
+
+    def _given(self) -> tuple[Model | None, list[Step]]:
+        return None, []
+
+    def _settings(self, solver: str | None) -> dict[str, Any]:
+        return {"solver": solver or self.solver, "options": self.options, "frames": self.frames}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Problem(Solving):
     """A model and what happens to it.
 
     Attributes
@@ -39,32 +74,15 @@ class Problem:
         Its controls by name.
     steps : list of Step
         What happens, in a row.
-    options : NewtonOptions
-        How hard to iterate.
-    solver : str
-        Sparse solver.
-    frames : int
-        States that each step keeps.
     """
 
     model: Model
     contacts: dict[str, Contact]
     controls: dict[str, Control]
     steps: list[Step]
-    options: NewtonOptions
-    solver: str
-    frames: int
 
-    def solve(self, *, solver: str | None = None, **options: Any) -> Result:
-        """Solve the problem; ``progress``, ``checkpoint``, ``every`` and ``note`` as for :func:`umform.solve`."""
-        return solve(self.model, self.steps, **self._settings(solver), **options)
-
-    def resume(self, path: str | PathLike[str], *, solver: str | None = None, **options: Any) -> Result:
-        """Take up a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
-        return resume(path, self.model, self.steps, **self._settings(solver), **options)
-
-    def _settings(self, solver: str | None) -> dict[str, Any]:
-        return {"solver": solver or self.solver, "options": self.options, "frames": self.frames}
+    def _given(self) -> tuple[Model | None, list[Step]]:
+        return self.model, self.steps
 
 
 def build(contents: Contents, source: Source, solver: str | None = None) -> Problem:
@@ -109,7 +127,15 @@ class _Builder:
         self._raise()
         steps = self._steps(controls)
         self._raise()
-        return Problem(model, contacts, controls, steps, options, self.solver, self.contents.output.frames)
+        return Problem(
+            model=model,
+            contacts=contacts,
+            controls=controls,
+            steps=steps,
+            options=options,
+            solver=self.solver,
+            frames=self.contents.output.frames,
+        )
 
     def _tools(self) -> dict[str, Tool]:
         tools: dict[str, Tool] = {}

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from umform.deck.deck import Deck
 from umform.deck.kept import Kept
-from umform.deck.problem import Problem
+from umform.deck.problem import Problem, Solving
 from umform.processes.bending.staging import Staging, staging
 from umform.results import Result
 
@@ -50,9 +50,39 @@ def folder_of(deck: Deck) -> Path:
     return Path(folder) if folder else Path("results") / Path(deck.source.name).stem
 
 
+def prepared(deck: Deck, solver: str) -> Solving:
+    """Build what a deck describes; on many ranks the first one does so, and the others get their shares from it.
+
+    Parameters
+    ----------
+    deck : Deck
+        The deck.
+    solver : str
+        The sparse solver that will be used.
+
+    Returns
+    -------
+    Solving
+        On the first rank, or in one process, the :class:`Problem`.
+
+    Raises
+    ------
+    UmformError
+        On all ranks, with all that does not fit.
+    """
+    if solver != "petsc":
+        return deck.build(solver)
+    from umform.distributed.mpi_ranks import world
+
+    problem = world().on_first(lambda: deck.build(solver))
+    if problem is not None:
+        return problem
+    return Solving(options=deck.contents.solution.build(), solver=solver, frames=deck.contents.output.frames)
+
+
 def run(
     deck: Deck,
-    problem: Problem,
+    problem: Solving,
     out: str | Path | None = None,
     *,
     solver: str | None = None,
@@ -66,8 +96,8 @@ def run(
     ----------
     deck : Deck
         The deck.
-    problem : Problem
-        What was built from it.
+    problem : Solving
+        What was :func:`prepared` from it.
     out : str or Path, optional
         Folder; default that of the deck.
     solver : str, optional
@@ -137,7 +167,7 @@ def resume(
         If nothing can be built from the deck any more, a mesh file that is gone for one.
     """
     path = Path(checkpoint)
-    problem = kept.deck.build(kept.chosen_solver)
+    problem = prepared(kept.deck, kept.chosen_solver)
 
     def solve() -> Result:
         return problem.resume(path, solver=kept.solver, progress=progress, every=every)
@@ -147,7 +177,7 @@ def resume(
 
 
 def _finish(
-    kept: Kept, problem: Problem, out: str | Path, checkpoint: Path, solve: Callable[[], Result], solver: str
+    kept: Kept, problem: Solving, out: str | Path, checkpoint: Path, solve: Callable[[], Result], solver: str
 ) -> Outcome:
     """Solve, and write what came of it; on many ranks the first one writes for all."""
     if solver != "petsc":
@@ -163,8 +193,9 @@ def _finish(
         return Outcome(result, [], ended_by)
 
 
-def _written(kept: Kept, problem: Problem, out: str | Path, checkpoint: Path, solve: Callable[[], Result]) -> Outcome:
+def _written(kept: Kept, problem: Solving, out: str | Path, checkpoint: Path, solve: Callable[[], Result]) -> Outcome:
     """Solve, write what came of it, and take the checkpoint away if nobody has asked for it or needs it."""
+    assert isinstance(problem, Problem)  # one process, or the first of many
     with staging(out, _FILES) as stage:
         result, ended_by = _solved(solve)
         with result.timing.files:

@@ -29,13 +29,12 @@ class Gathering:
     """
 
     def __init__(self, share: Share) -> None:
-        mesh, ranks = share.whole.mesh, share.ranks
+        ranks = share.ranks
         self.share, self.ranks = share, ranks
-        self.known_nodes = Places(share.nodes, len(mesh.points), ranks)
-        self.own_nodes = Places(share.nodes[share.owned], len(mesh.points), ranks)
-        self.cells = Places(share.cells, len(mesh.connectivity), ranks)
-        pairs = zip(share.whole.contacts, share.facets_here, strict=True)
-        self.facets = [Places(here, len(contact.facets), ranks) for contact, here in pairs]
+        self.known_nodes = Places(share.nodes, ranks)
+        self.own_nodes = Places(share.nodes[share.owned], ranks)
+        self.cells = Places(share.cells, ranks)
+        self.facets = [Places(here, ranks) for here in share.facets_here]
 
     # Whole arrays --------------------------------------------------------------------------------------------
 
@@ -94,13 +93,7 @@ class Gathering:
         FileProblem
             On all ranks, if the first one cannot read it.
         """
-        tree, problem = None, None
-        if self.ranks.rank == 0:
-            try:
-                tree = read()
-            except Exception as error:
-                problem = error
-        self.ranks.agree(problem)
+        tree = self.ranks.on_first(read)
         outline = self.ranks.comm.bcast(None if tree is None else _outline(tree))
         whole = tree or {"model": {}, "result": {"work": {}}}
         model, work = whole["model"], whole["result"]["work"]

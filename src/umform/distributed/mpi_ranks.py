@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import time as clock
+from collections.abc import Callable
 from functools import cache
 from typing import Any, TypeVar
 
@@ -14,6 +15,7 @@ from umform.distributed.petsc import petsc
 
 Floats = NDArray[np.float64]
 _Sum = TypeVar("_Sum", float, Floats)
+_Answer = TypeVar("_Answer")
 
 
 class MpiRanks:
@@ -24,13 +26,16 @@ class MpiRanks:
     petsc_comm : communicator of petsc4py
         For vectors and matrices.
     comm : communicator of mpi4py
-        A copy for sums and files, so that nothing gets mixed up.
+        A copy for sums, parcels and files, so that nothing gets mixed up; what it sends as objects may be of any size.
     """
 
     def __init__(self) -> None:
         self.petsc_comm: Any = petsc().COMM_WORLD
+        from mpi4py.util.pkl5 import Intracomm
+
         whole = self.petsc_comm.tompi4py()
-        self.comm, self._trouble = whole.Dup(), whole.Dup()
+        self.comm: Any = Intracomm(whole.Dup())
+        self._trouble = whole.Dup()
         self.rank: int = self.comm.rank
         self.size: int = self.comm.size
 
@@ -69,6 +74,17 @@ class MpiRanks:
         """Raise the error of the first rank that has one, on all of them."""
         if self.any(error is not None):
             raise next(one for one in self.comm.allgather(error) if one is not None)
+
+    def on_first(self, work: Callable[[], _Answer]) -> _Answer | None:
+        """Do something on the first rank alone; None on the others. Its error is raised on all of them."""
+        answer, problem = None, None
+        if self.rank == 0:
+            try:
+                answer = work()
+            except Exception as error:
+                problem = error
+        self.agree(problem)
+        return answer
 
     def arrive(self, seconds: float) -> bool:
         """Whether all ranks come here within a time: where one has failed alone, the others do not."""

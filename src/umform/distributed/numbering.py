@@ -1,7 +1,8 @@
-"""Global numbers of nodes and unknowns, so that those of one rank are consecutive; every rank works out all of them."""
+"""Global numbers of nodes and unknowns, so that those of one rank are consecutive; the first rank works them out."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -71,21 +72,19 @@ class Owners:
     own: Numbers
 
     @classmethod
-    def of(cls, model: Model, part: Ids, size: int) -> Owners:
+    def of(cls, model: Model, cells: Sequence[Numbers]) -> Owners:
         """Number the unknowns of a model whose cells have been given to ranks.
 
         Parameters
         ----------
         model : Model
             The whole model.
-        part : ndarray of int32, shape (cells,)
-            Rank of each cell.
-        size : int
-            Number of ranks.
+        cells : sequence of ndarray of int
+            Cells of each rank.
         """
         node = np.zeros(len(model.mesh.points), dtype=np.int32)
-        for rank in reversed(range(size)):
-            node[model.mesh.connectivity[part == rank]] = rank
+        for rank in reversed(range(len(cells))):
+            node[model.mesh.connectivity[cells[rank]]] = rank
         pairs = tied_pairs(model)
         constrained = model.constrained()
         constrained[pairs] = True
@@ -95,7 +94,7 @@ class Owners:
         number[np.argsort(owner, kind="stable")] = np.arange(len(owner))
         equation = np.full(constrained.size, -1, dtype=np.int64)
         equation[free] = number[: len(free)]
-        return cls(node, equation, number[len(free) :], np.bincount(owner, minlength=size))
+        return cls(node, equation, number[len(free) :], np.bincount(owner, minlength=len(cells)))
 
     def consecutive_nodes(self) -> Numbers:
         """Global number of each node, so that those of one rank are consecutive."""

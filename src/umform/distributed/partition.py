@@ -6,6 +6,8 @@ the graph is that of a surface.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -19,45 +21,55 @@ from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh
 
 
-def partition(mesh: Mesh, ranks: MpiRanks) -> Ids:
-    """Rank of each cell, the same array on all ranks.
+def partition(mesh: Mesh | None, ranks: MpiRanks) -> Ids | None:
+    """Rank of each cell, on the first rank, which has the mesh; each rank gets its rows of the graph to part.
 
     PETSc takes PT-Scotch or ParMETIS, whichever it was built with; ``-umform_mat_partitioning_type`` names another one.
 
     Parameters
     ----------
-    mesh : Mesh
-        All cells, on all ranks.
+    mesh : Mesh or None
+        All cells, on the first rank.
     ranks : MpiRanks
         Those that share them.
 
     Returns
     -------
-    ndarray of int32, shape (cells,)
+    ndarray of int32, shape (cells,), or None
+        None on the other ranks.
 
     Raises
     ------
     InvalidValue
         If a rank would get no cell.
     """
+    if mesh is None:
+        ranks.comm.gather(_parts(ranks.comm.recv(source=0), ranks))
+        ranks.agree(None)
+        return None
     if ranks.size == 1:
         return np.zeros(len(mesh.connectivity), dtype=np.int32)
     column = columns(mesh)
-    count = int(column.max()) + 1
-    ends = np.linspace(0, count, ranks.size + 1).astype(np.int64)
-    first, last = int(ends[ranks.rank]), int(ends[ranks.rank + 1])
-    mine = _parts(_neighbours(mesh, column, first, last), ranks)
-    part = np.concatenate(ranks.comm.allgather(mine))[column]
-    empty = np.setdiff1d(np.arange(ranks.size), part)
-    if len(empty):
-        raise InvalidValue(
-            "a rank has no cell",
-            where=f"rank {empty[0]} of {ranks.size}",
-            value=f"{count} columns of cells",
-            cause="there are too many ranks for so small a mesh",
-            remedy="start fewer ranks: one for some thousand cells, or more, pays",
-        )
-    return part.astype(np.int32)
+    mine, *others = _graphs(mesh, column, ranks.size)
+    for rank, graph in enumerate(others, start=1):
+        ranks.comm.send(graph, dest=rank)
+    part = np.concatenate(ranks.comm.gather(_parts(mine, ranks))).astype(np.int32)
+    ranks.agree(_empty(part, ranks.size))
+    return part[column]
+
+
+def _empty(part: Ids, size: int) -> InvalidValue | None:
+    """The error for a rank that no column is given to."""
+    empty = np.setdiff1d(np.arange(size), part)
+    if len(empty) == 0:
+        return None
+    return InvalidValue(
+        "a rank has no cell",
+        where=f"rank {empty[0]} of {size}",
+        value=f"{len(part)} columns of cells",
+        cause="there are too many ranks for so small a mesh",
+        remedy="start fewer ranks: one for some thousand cells, or more, pays",
+    )
 
 
 def columns(mesh: Mesh) -> Ids:
@@ -75,18 +87,21 @@ def columns(mesh: Mesh) -> Ids:
     return np.asarray(column, dtype=np.int32)
 
 
-def _neighbours(mesh: Mesh, column: Ids, first: int, last: int) -> sparse.csr_matrix:
-    """Columns that share a lateral edge with the columns first ... last - 1; a row for each of these."""
-    corners = mesh.connectivity[:, :4]
-    pairs = np.unique(np.stack([np.repeat(column, 4), corners.ravel()], axis=1), axis=0)
-    shape = (int(column.max()) + 1, len(mesh.points))
-    nodes = sparse.csr_matrix((np.ones(len(pairs), dtype=np.int32), (pairs[:, 0], pairs[:, 1])), shape=shape)
-    shared = (nodes[first:last] @ nodes.T).tocoo()
-    close = (shared.data >= 2) & (shared.row + first != shared.col)
-    entries = (shared.data[close], (shared.row[close], shared.col[close]))
-    graph = sparse.csr_matrix(entries, shape=shared.shape)
-    graph.sort_indices()
-    return graph
+def _graphs(mesh: Mesh, column: Ids, size: int) -> Iterator[sparse.csr_matrix]:
+    """Columns that share a lateral edge, a row for each column; for each rank about as many rows, and its entries."""
+    corners, count = mesh.connectivity[:, :4], int(column.max()) + 1
+    shape, entry = (count, len(mesh.points)), np.ones(corners.size, dtype=np.int32)
+    nodes = sparse.csr_matrix((entry, (np.repeat(column, 4), corners.ravel())), shape=shape)
+    nodes.data[:] = 1  # cells of one column may share nodes
+    others = nodes.T.tocsr()
+    ends = np.linspace(0, count, size + 1).astype(np.int64)
+    for first, last in pairwise(ends):
+        shared = (nodes[first:last] @ others).tocoo()
+        close = (shared.data >= 2) & (shared.row + first != shared.col)
+        entries = (shared.data[close], (shared.row[close], shared.col[close]))
+        graph = sparse.csr_matrix(entries, shape=shared.shape)
+        graph.sort_indices()
+        yield graph
 
 
 def _parts(graph: sparse.csr_matrix, ranks: MpiRanks) -> NDArray[np.int32]:

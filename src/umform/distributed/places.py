@@ -17,16 +17,19 @@ class Places:
     ----------
     rows : ndarray of int
         Numbers of the rows that are here.
-    count : int
-        Rows of the whole array.
     ranks : MpiRanks
         Those that share the model; the first rank remembers the rows of all.
+
+    Attributes
+    ----------
+    count : int
+        Rows of the whole array, on the first rank.
     """
 
-    def __init__(self, rows: NDArray[np.int64], count: int, ranks: MpiRanks) -> None:
-        self.count, self.ranks = count, ranks
-        self._here = len(rows)
+    def __init__(self, rows: NDArray[np.int64], ranks: MpiRanks) -> None:
+        self.ranks, self._here = ranks, len(rows)
         self._rows = ranks.comm.gather(rows)
+        self.count = 1 + max(int(part.max(initial=-1)) for part in self._rows or [rows])
 
     def collect(self, values: Floats) -> Floats | None:
         """The whole array on the first rank, from the rows (rows here, ...) of each; None on the others."""

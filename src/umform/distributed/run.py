@@ -4,40 +4,38 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
-from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from umform.arc import Arc
-from umform.boundary import Control, Load
+from umform.boundary import Load
+from umform.distributed.cutting import Cutting
 from umform.distributed.mpi_ranks import MpiRanks, world
+from umform.distributed.outline import Outline, Step
 from umform.distributed.partition import partition
 from umform.distributed.share import Share
 from umform.distributed.solver import Petsc
 from umform.distributed.together import together
-from umform.errors import InvalidValue
+from umform.errors import InvalidValue, UmformError
 from umform.fingerprint import digest
 from umform.model import Model
 from umform.model_checks import check_nodes
-from umform.move import Move
-from umform.release import Release
 from umform.results import Result
 from umform.solvers import register
 from umform.whole import not_here
 
-Step = Move | Release | Arc
 
-
-def on_ranks(model: Model, steps: Sequence[Step], work: Callable[[Model, Sequence[Step]], Result]) -> Result:
+def on_ranks(
+    model: Model | None, steps: Callable[[], Sequence[Step]], work: Callable[[Model, Sequence[Step]], Result]
+) -> Result:
     """Share a model among all ranks and run steps on it.
 
     Parameters
     ----------
-    model : Model
-        The whole model, which all ranks have built alike.
-    steps : sequence of Step
-        What happens to it.
+    model : Model or None
+        The whole model; None on all ranks but the first, or else all have built it alike.
+    steps : callable
+        Gives what happens to the model of this rank, or refuses it.
     work : callable
         Runs steps on a model: here on the share of each rank, with its controls.
 
@@ -49,7 +47,7 @@ def on_ranks(model: Model, steps: Sequence[Step], work: Callable[[Model, Sequenc
     Raises
     ------
     InvalidValue
-        If a step cannot be run on ranks.
+        If a step cannot be run on ranks, or the first one has no model.
     """
     ranks = world()
     with together(ranks):
@@ -64,8 +62,27 @@ def on_ranks(model: Model, steps: Sequence[Step], work: Callable[[Model, Sequenc
     return result
 
 
-def _shared(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> tuple[Share, list[Step]]:
+def _shared(model: Model | None, steps: Callable[[], Sequence[Step]], ranks: MpiRanks) -> tuple[Share, Sequence[Step]]:
     """The share of this rank, and the steps with its controls."""
+    if ranks.rank > 0:
+        logging.getLogger("umform").setLevel(logging.CRITICAL + 1)  # the first rank talks
+    outline = problem = None
+    try:
+        outline = None if model is None else _outline(model, steps(), ranks)
+    except UmformError as error:
+        problem = error
+    ranks.agree(problem)
+    if ranks.any(model is None):
+        outline = Outline.from_first(outline, ranks)
+    elif model is not None:
+        _check_alike(model, ranks)
+    assert outline is not None
+    register(Petsc.name, Petsc)
+    return hand_out(outline, model, ranks), outline.steps
+
+
+def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
+    """The outline of a model that can be shared."""
     for number, step in enumerate(steps, start=1):
         if isinstance(step, Arc):
             raise InvalidValue(
@@ -74,22 +91,11 @@ def _shared(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> tuple[Share
                 cause="the load is one more unknown, and critical points are looked for in the whole tangent",
                 remedy="another solver in one process, or Move and Release",
             )
-    if ranks.rank > 0:
-        logging.getLogger("umform").setLevel(logging.CRITICAL + 1)  # the first rank talks
     if model.elsewhere:
         raise not_here("the history of the elements")
-    check_nodes(model.mesh)
-    _check_alike(model, ranks)
-    register(Petsc.name, Petsc)
-    share = Share(model, partition(model.mesh, ranks), ranks)
-    return share, [_own_step(step, share) for step in steps]
-
-
-def _own_step(step: Step, share: Share) -> Step:
-    """The same step of the controls of a share."""
-    moved = step.control
-    own: Any = share.twin[moved] if isinstance(moved, Control) else [share.twin[control] for control in moved]
-    return replace(step, control=own)
+    if ranks.rank == 0:
+        check_nodes(model.mesh)
+    return Outline.of(model, steps)
 
 
 def _check_alike(model: Model, ranks: MpiRanks) -> None:
@@ -102,17 +108,32 @@ def _check_alike(model: Model, ranks: MpiRanks) -> None:
         raise InvalidValue(
             "the ranks have built different models",
             cause="random numbers, or files that are not the same on all machines",
-            remedy="build the same mesh, supports, loads and contacts on all ranks",
+            remedy="build the same mesh, supports, loads and contacts on all ranks, or all on the first one alone",
         )
+
+
+def hand_out(outline: Outline, model: Model | None, ranks: MpiRanks) -> Share:
+    """The share of this rank in the model that the first rank has."""
+    if ranks.rank > 0:
+        partition(None, ranks)
+        return Share(outline, ranks.comm.recv(source=0), ranks, model)
+    assert model is not None
+    part = partition(model.mesh, ranks)
+    assert part is not None
+    cutting = Cutting(model, part, ranks.size)
+    for rank in range(1, ranks.size):
+        ranks.comm.send(cutting.parcel(rank), dest=rank)
+    return Share(outline, cutting.parcel(0), ranks, model)
 
 
 def _give_back(share: Share, result: Result | None) -> None:
     """Leave the whole model at the last converged state: its displacement on the first rank, NaN on the others."""
-    whole = share.whole
-    u = share.gathering.displacement(share.u)
+    u, whole = share.gathering.displacement(share.u), share.whole
+    if whole is None:
+        return
     whole.u = np.broadcast_to(np.nan, whole.u.shape) if u is None else u
     whole.time = share.time
-    for control, own in share.twin.items():
+    for control, own in zip(whole.controls, share.controls, strict=True):
         control.value = own.value
     whole.elsewhere = True
     vars(whole).pop("block", None)

@@ -1,11 +1,12 @@
 """The share of a rank in a model: its own cells, supports, loads and contacts in numbers of its own.
 
+It is put together from an outline, which all ranks have, and a parcel, which the first rank has cut for this one.
+
 A share is a model like any other. Only where sums over all ranks are wanted it asks PETSc or the ranks.
 """
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cached_property
@@ -17,13 +18,14 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.assembly import Evaluation
 from umform.boundary import Control, Load, Prescribed, Pressure, rigid_body_modes
-from umform.contact import ToolMotion
+from umform.distributed.cutting import Parcel
 from umform.distributed.exchange import Exchange
 from umform.distributed.gathering import Gathering
 from umform.distributed.mpi_ranks import MpiRanks
-from umform.distributed.numbering import Owners, SharedPattern, tied_pairs
+from umform.distributed.numbering import SharedPattern
+from umform.distributed.outline import Outline
 from umform.errors import UmformError
-from umform.mesh import Ids, Mesh
+from umform.mesh import Mesh
 from umform.model import Model
 from umform.model_checks import check_held, middle
 from umform.solvers import Pattern
@@ -40,129 +42,79 @@ class Share(Model):
 
     Parameters
     ----------
-    whole : Model
-        The model, which all ranks have built alike.
-    part : ndarray of int32, shape (cells,)
-        Rank of each cell.
+    outline : Outline
+        What all ranks have of the model; the share takes its controls and contacts over.
+    parcel : Parcel
+        What this rank has of it.
     ranks : MpiRanks
         Those that share the model.
+    whole : Model, optional
+        The model, where it is there.
 
     Attributes
     ----------
-    whole : Model
+    whole : Model or None
         The model.
     cells, nodes : ndarray of int
         Numbers in the whole mesh of the cells and nodes that are here. A node may be on several ranks.
     facets_here : list of ndarray of int
         For each contact, which of its facets are here.
-    twin : dict of Control to Control
-        Controls of this share by those of the whole model.
     """
 
     ranks: MpiRanks
     owned: NDArray[np.int64]
 
-    def __init__(self, whole: Model, part: Ids, ranks: MpiRanks) -> None:
-        owners = Owners.of(whole, part, ranks.size)
-        self.whole, self.cells = whole, np.flatnonzero(part == ranks.rank)
-        corners, pairs = whole.mesh.connectivity[self.cells], tied_pairs(whole)
-        known = np.zeros(len(whole.mesh.points), dtype=bool)
-        known[corners] = True
-        tied: NDArray[np.bool_] = np.logical_or(*known[pairs // 3].T)
-        known[pairs[tied] // 3] = True  # the partner of a tied node is here too, even without a cell
-        self.nodes = np.flatnonzero(known)
-        self._place = np.where(known, np.cumsum(known) - 1, -1).astype(np.int32)
-        mesh = Mesh(whole.mesh.points[self.nodes], {whole.mesh.cell: self._place[corners]})
-        through = {"thickness_points": whole.thickness_points, "thickness_rule": whole.thickness_rule}
-        super().__init__(mesh, whole.element, material=whole.material, **through)  # type: ignore[arg-type]
-        self.ranks, self.owned = ranks, np.flatnonzero(owners.node[self.nodes] == ranks.rank)
-        self._cell_place = np.full(len(part), -1, dtype=np.int32)
-        self._cell_place[self.cells] = np.arange(len(self.cells))
-        self._share_contacts()
-        self.twin = {control: self._share_control(control) for control in whole.controls}
-        self.controls = list(self.twin.values())
-        self._fixed = whole._fixed.reshape(-1, 3)[self.nodes].ravel()
-        self._share_ties()
-        self._number(owners, tied)
-        self._stand_where(whole)
-        del self._place, self._cell_place  # as long as the whole mesh
+    def __init__(self, outline: Outline, parcel: Parcel, ranks: MpiRanks, whole: Model | None = None) -> None:
+        mesh = Mesh(parcel.points, {parcel.cell: parcel.connectivity})
+        through = {"thickness_points": outline.thickness_points, "thickness_rule": outline.thickness_rule}
+        super().__init__(mesh, outline.element, material=outline.material, **through)  # type: ignore[arg-type]
+        self.whole, self.ranks = whole, ranks
+        self.cells, self.nodes, self.owned = parcel.cells, parcel.nodes, parcel.owned
+        self.controls, self._fixed = outline.controls, parcel.fixed
+        for control, here in zip(self.controls, parcel.controls, strict=True):
+            self._fill(control, here)
+        self.facets_here = parcel.facets
+        pairs = zip(outline.contacts, parcel.faces, strict=True)
+        self.contacts = [contact.part(mesh, faces) for contact, faces in pairs]
+        self.ties = [Tie(dofs, control) for dofs, control in zip(parcel.ties, outline.tied, strict=True)]
+        self._number(parcel)
+        self._stand(outline.time, parcel)
 
-    # From the whole model ------------------------------------------------------------------------------------
+    def _fill(self, control: Control, here: NDArray[Any]) -> None:
+        """Give a control what it has here."""
+        if isinstance(control, Prescribed | MidLine):
+            control.dofs = here
+        elif isinstance(control, Load):
+            control.vector = here
+        elif isinstance(control, Pressure):
+            control.faces = here
+            control.block = _core.pressure_block(self.mesh.facets_of(here), self.mesh.points)
 
-    def _dofs(self, dofs: Ids) -> Ids:
-        """Degrees of freedom here of those of the whole model; others fall out."""
-        node = self._place[dofs // 3]
-        return (3 * node + dofs % 3)[node >= 0].astype(np.int32)
-
-    def _faces(self, faces: Ids) -> tuple[Ids, NDArray[np.int64]]:
-        """Faces here of rows (cell, face) of the whole mesh, and which rows these are."""
-        here = np.flatnonzero(self._cell_place[faces[:, 0]] >= 0)
-        return np.stack([self._cell_place[faces[here, 0]], faces[here, 1]], axis=1), here
-
-    def _share_contacts(self) -> None:
-        self.facets_here: list[NDArray[np.int64]] = []
-        for contact in self.whole.contacts:
-            faces, here = self._faces(contact.faces)
-            self.contacts.append(contact.part(self.mesh, faces))
-            self.facets_here.append(here)
-
-    def _share_control(self, control: Control) -> Control:
-        """The control with what is here; a load on a node that several ranks have counts for its owner."""
-        own = copy.copy(control)
-        if isinstance(own, Prescribed | MidLine):
-            own.dofs = self._dofs(own.dofs)
-        elif isinstance(own, Load):
-            vector = own.vector.reshape(-1, 3)[self.nodes]
-            own.vector = np.zeros(vector.size)
-            own.vector.reshape(-1, 3)[self.owned] = vector[self.owned]
-        elif isinstance(own, Pressure):
-            own.faces, _ = self._faces(own.faces)
-            facets = self.mesh.facets(own.faces) if len(own.faces) else self._no_facets()
-            own.block = _core.pressure_block(facets, self.mesh.points)
-        elif isinstance(own, ToolMotion):
-            number = next(k for k, contact in enumerate(self.whole.contacts) if control in contact.translations)
-            self.contacts[number].translations.append(own)
-        return own
-
-    def _no_facets(self) -> Ids:
-        return np.empty((0, self.mesh.connectivity.shape[1] // 2), dtype=np.int32)
-
-    def _share_ties(self) -> None:
-        for tie in self.whole.ties:
-            here = self._place[tie.dofs // 3]
-            dofs = (3 * here + tie.dofs % 3)[(here >= 0).all(axis=1)].astype(np.int32)
-            control = None if tie.control is None else self.twin[tie.control]
-            assert control is None or isinstance(control, MidLine)
-            self.ties.append(Tie(dofs, control))
-
-    def _number(self, owners: Owners, tied: NDArray[np.bool_]) -> None:
+    def _number(self, parcel: Parcel) -> None:
         """Global numbers of the unknowns and nodes that are here, and the ways to sum shares of them up."""
-        number = owners.equation.reshape(-1, 3)[self.nodes].ravel()
-        self._numbers = np.concatenate([number[number >= 0], owners.tie[tied]])
-        self._own = int(owners.own[self.ranks.rank])
-        self._unknowns = Exchange(self._numbers, self._own, self.ranks)
-        self._at_nodes = Exchange(owners.consecutive_nodes()[self.nodes], len(self.owned), self.ranks)
-        number = self._numbers - owners.own[: self.ranks.rank].sum()
-        self._owned_places = np.flatnonzero((number >= 0) & (number < self._own))
+        self._numbers, self._own, self._count = parcel.numbers, parcel.own, parcel.count
+        self._unknowns = Exchange(parcel.numbers, parcel.own, self.ranks)
+        self._at_nodes = Exchange(parcel.node_numbers, len(parcel.owned), self.ranks)
+        number = parcel.numbers - parcel.before
+        self._owned_places = np.flatnonzero((number >= 0) & (number < parcel.own))
         self._owned_numbers = number[self._owned_places]
-        self._count = int(owners.own.sum())
         self._shared: SharedPattern | None = None
 
-    def _stand_where(self, whole: Model) -> None:
+    def _stand(self, time: float, parcel: Parcel) -> None:
         """Begin in the state that the whole model is in."""
-        self.u, self.time = whole.u.reshape(-1, 3)[self.nodes].ravel(), whole.time
-        if "block" in vars(whole):  # else no element has a history yet
-            self.block.restore(whole.block.state[self.cells], whole.block.alpha[self.cells])
-        for contact, one, here in zip(self.contacts, whole.contacts, self.facets_here, strict=True):
-            if "multipliers" in vars(one):
-                contact.multipliers = one.multipliers.reshape(len(one.facets), -1)[here].ravel()
+        self.u, self.time = parcel.u, time
+        if parcel.history is not None:
+            self.block.restore(*parcel.history)
+        for contact, multipliers in zip(self.contacts, parcel.multipliers, strict=True):
+            if multipliers is not None:
+                contact.multipliers = multipliers
                 contact.revert()
 
     # What all ranks have together ----------------------------------------------------------------------------
 
     @property
-    def described(self) -> Model:
-        """The whole model."""
+    def described(self) -> Model | None:
+        """The whole model, where it is there."""
         return self.whole
 
     @cached_property

@@ -56,7 +56,7 @@ def write_tree(path: str | os.PathLike[str], tree: dict[str, Any], kind: str) ->
         temporary.write_bytes(image.getbuffer())
 
 
-def read_tree(path: str | os.PathLike[str], kind: str) -> dict[str, Any]:
+def read_tree(path: str | os.PathLike[str], kind: str, *, whole: bool = True) -> dict[str, Any]:
     """Read a tree back.
 
     Parameters
@@ -65,6 +65,8 @@ def read_tree(path: str | os.PathLike[str], kind: str) -> dict[str, Any]:
         The file.
     kind : str
         What it must hold.
+    whole : bool
+        Whether arrays are wanted. Without them the checksum is not looked at.
 
     Raises
     ------
@@ -79,7 +81,8 @@ def read_tree(path: str | os.PathLike[str], kind: str) -> dict[str, Any]:
             if found != kind:
                 raise _problem(path, f"this is not a {kind}", "it is an HDF5 file of something else")
             document = str(file["document"].asstr()[()])
-            arrays = [file[f"arrays/{number}"][()] for number in range(len(file.get("arrays", ())))]
+            count = len(file.get("arrays", ()))
+            arrays = [file[f"arrays/{number}"][()] if whole else np.empty(0) for number in range(count)]
     except FileProblem:
         raise
     except FileNotFoundError as error:
@@ -88,9 +91,12 @@ def read_tree(path: str | os.PathLike[str], kind: str) -> dict[str, Any]:
         raise _problem(path, f"the {kind} cannot be read", "no permission to read it") from error
     except (OSError, KeyError, RuntimeError, ValueError, TypeError) as error:
         raise _problem(path, f"the {kind} is damaged", f"it was cut short, or is no HDF5 file: {error}") from error
-    if checksum != _checksum(document, arrays):
+    if whole and checksum != _checksum(document, arrays):
         raise _problem(path, f"the {kind} is damaged", "its checksum does not fit")
-    tree = _filled(json.loads(document), arrays)
+    try:
+        tree = _filled(json.loads(document), arrays)
+    except ValueError as error:  # nothing but the checksum would have told
+        raise _problem(path, f"the {kind} is damaged", f"its text is cut: {error}") from error
     assert isinstance(tree, dict)
     return tree
 

@@ -225,7 +225,10 @@ class Mesh:
         InvalidValue
             If the set has lateral faces.
         """
-        rows = self.face_set(selector)
+        return self.facets_of(self.face_set(selector))
+
+    def facets_of(self, rows: Ids) -> Ids:
+        """The same of rows (cell, face), which may be none."""
         if (rows[:, 1] > 1).any():
             raise InvalidValue(
                 "contact and pressure act on lower and upper faces only",

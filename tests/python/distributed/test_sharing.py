@@ -10,6 +10,7 @@ import pytest
 
 import umform as uf
 from umform.cli.ranks import split
+from umform.distributed.cutting import by_rank
 from umform.distributed.numbering import Owners, tied_pairs
 from umform.distributed.partition import columns
 from umform.errors import InvalidValue, ModelError
@@ -37,7 +38,7 @@ def test_the_unknowns_of_a_rank_are_consecutive_and_each_is_numbered_once():
     model.hinge("x0", "xz")
     model.prescribe("x1_lower", "z", "end")
     part = (model.mesh.connectivity[:, 0] % 3).astype(np.int32)
-    owners = Owners.of(model, part, 3)
+    owners = Owners.of(model, by_rank(part, 3))
     numbers = np.concatenate([owners.equation[owners.equation >= 0], owners.tie])
     np.testing.assert_array_equal(np.sort(numbers), np.arange(model.unknown_count))
     assert model.unknown_count == model.pattern.n == owners.own.sum()
@@ -84,6 +85,11 @@ def test_without_petsc_one_error_says_what_to_install(monkeypatch):
     with pytest.raises(uf.UmformError, match="the solver petsc needs petsc4py and mpi4py") as caught:
         solve(model, uf.Move(pull, 0.1), solver="petsc")
     assert "docs/parallel.md" in caught.value.remedy
+
+
+def test_without_a_model_one_process_has_nothing_to_solve():
+    with pytest.raises(InvalidValue, match="there is no model"):
+        solve(None, [])
 
 
 def test_what_the_ranks_had_is_not_taken_for_a_fresh_state():
