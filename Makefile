@@ -127,7 +127,7 @@ mpi: env $(MPI)/.made  ## make .venv-mpi, which runs umform on many ranks
 
 test-mpi: mpi  ## tests on 1, 2 and 3 ranks with PETSc
 	$(SAY) 'Testing on 1, 2 and 3 ranks with PETSc'
-	@$(MPI)/bin/python -m pytest -q tests/mpi $(ARGS)
+	@$(MPI)/bin/python -m pytest -q tests/mpi --timeout 900 $(ARGS)
 
 verification: pardiso  ## run the whole verification book and write docs/verification (some 12 minutes on 2 cores)
 	$(SAY) 'Running all cases of the verification book'

@@ -24,7 +24,7 @@ def command(ranks, *words):
     return [*mpiexec, sys.executable, *[str(word) for word in words]], env
 
 
-def start(ranks, *words, timeout=240):
+def start(ranks, *words, timeout=800):
     """Run to the end; when the time is up, fail."""
     words, env = command(ranks, *words)
     return subprocess.run(words, env=env, capture_output=True, text=True, timeout=timeout)

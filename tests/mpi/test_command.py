@@ -121,7 +121,7 @@ def test_no_convergence_ends_all_with_one_message_and_whole_files(deck, tmp_path
 
 @pytest.mark.parametrize("ranks", [2, 3])
 def test_a_rank_that_fails_alone_ends_all_with_one_message(ranks, tmp_path, mpi):
-    done = mpi.start(ranks, mpi.cases, "fail", "petsc", tmp_path, "cut", timeout=60)
+    done = mpi.start(ranks, mpi.cases, "fail", "petsc", tmp_path, "cut")
     assert done.returncode != 0
     message = (
         f"umform: rank 1 of {ranks} has failed, and ends all: ZeroDivisionError: a function of the user on one rank"
@@ -155,9 +155,7 @@ def test_the_first_rank_alone_reads_the_mesh(tmp_path, mpi):
 
 def test_a_folder_that_cannot_be_written_ends_all(deck, tmp_path, mpi):
     (tmp_path / "file").write_text("in the way")
-    done = mpi.start(
-        2, *UMFORM, "run", deck, "--solver", "petsc", "--out", tmp_path / "file" / "out", *SHORT, timeout=60
-    )
+    done = mpi.start(2, *UMFORM, "run", deck, "--solver", "petsc", "--out", tmp_path / "file" / "out", *SHORT)
     assert done.returncode != 0
     assert done.stderr.count("umform: rank 0 of 2 has failed, and ends all") == 1
 
