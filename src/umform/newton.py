@@ -1,12 +1,7 @@
 """Newton's method on a system that can evaluate, recover, commit and revert; it knows no elements and no contact.
 
 Where an iteration goes is up to a corrector: `Newton.solve` corrects at fixed loads, `umform.arc` along a path.
-
-Convergence asks for a small residual AND a small increment, both without units: the residual against the root of the
-sum of squares of all element forces, the increment against the largest displacement. Neither can fall below round-off,
-so the floor that round-off sets is estimated in each iteration: a residual below it is small, and two in a row end the
-iteration even where the increment cannot become small (sheets so thin that round-off moves them).
-eqs. (5.8)-(5.11), (5.36)
+Whether it has arrived is for `umform.criteria`.
 """
 
 from __future__ import annotations
@@ -22,6 +17,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.criteria import Chatter, Criteria, largest
 from umform.errors import InvalidValue, NotFinite, SingularMatrix
 from umform.reuse import Reuse
 from umform.solvers import Pattern, SparseSolver, make_solver
@@ -32,8 +28,6 @@ log = logging.getLogger("umform.newton")
 
 Floats = NDArray[np.float64]
 _T = TypeVar("_T")
-
-_EPS = float(np.finfo(float).eps)
 
 #: Each trial is at least a quarter of the one before: thin sheets, whose energy is a narrow bent valley, creep else.
 _LINE_SEARCH_TRIALS = 3
@@ -301,14 +295,13 @@ class Newton:
         solver = self.ready_solver()
         start = clock.perf_counter() if start is None else start
         iterations: list[Iteration] = []
-        seen: list[bytes] = []
         system.recover(du, 1.0, corrector.mixed)
         u = u + du
-        increment, step_length, pivots = self._size(du, u), 1.0, None
+        increment, step_length, pivots = self._relative(du, u), 1.0, None
         evaluation = corrector.evaluate(u)
         active = system.active_set()
         previous_active = active
-        extra = at_floor = 0
+        criteria, chatter = Criteria(system, options.residual, options.increment), Chatter(system)
         reuse = Reuse(options, system.pattern.n, system.effort)
 
         for number in range(1, options.max_iterations + 1):
@@ -319,28 +312,23 @@ class Newton:
             if not math.isfinite(norm):
                 raise Failed("the residual is not finite", iterations)
             entered, left = self._count(active & ~previous_active), self._count(~active & previous_active)
-            floor = self._floor(evaluation.values, u)
-            floor = math.hypot(floor, self._floor_of_gaps(evaluation))
-            small = norm <= max(options.residual * scale, floor) and increment <= options.increment
-            small = small or self._nothing_left(norm, evaluation.values, increment, u)
-            settled = small and (not (entered or left) or extra >= 2)
-            at_floor = at_floor + 1 if norm <= floor else 0
-            if settled or at_floor >= 2:
+            moved = bool(entered or left)
+            if criteria.met(norm, increment, u, evaluation, moved=moved):
                 self._record(
                     iterations, number, norm / scale, increment, 0.0, entered, left, step_length, pivots, start
                 )
                 return Converged(u, evaluation, iterations)
-            extra += int(small)
-            self._detect_chatter(seen, active, iterations)
+            if states := chatter.states(active, [record.residual for record in iterations]):
+                reason = f"the active set of contact chatters between {states} states"
+                raise Failed(reason, iterations, chattering=True)
 
-            quiet = corrector.reuses and not (entered or left)
-            if not reuse.factors_will_do(norm / scale, increment, settled=quiet):
+            if not reuse.factors_will_do(norm / scale, increment, settled=corrector.reuses and not moved):
                 pivots = reuse.remember(solver.factor(evaluation.values))
             du = corrector.direction(solver, u, evaluation)
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
             self._record(iterations, number, norm / scale, increment, energy, entered, left, step_length, pivots, start)
             u, evaluation, step_length = self._advance(u, du, r, corrector)
-            increment = step_length * self._size(du, u)
+            increment = step_length * self._relative(du, u)
             previous_active, active = active, system.active_set()
         raise Failed(f"no convergence in {options.max_iterations} iterations", iterations)
 
@@ -379,20 +367,6 @@ class Newton:
             self._pattern = pattern
         return self._solver
 
-    def _nothing_left(self, norm: float, values: Floats, increment: float, u: Floats) -> bool:
-        """Whether displacement, last increment and residual are below the round-off of positions. eq. (5.40)"""
-        extent = self.system.extent
-        moved = self.system.ranks.max(_largest(u)) * max(1.0, increment)
-        return moved <= _EPS * extent and norm <= self._round_off(values, extent)
-
-    def _floor(self, values: Floats, u: Floats) -> float:
-        """Residual that round-off of the displacements leaves behind. eq. (5.10)"""
-        return self._round_off(values, self.system.ranks.max(_largest(u)))
-
-    def _round_off(self, values: Floats, length: float) -> float:
-        """Residual that a relative error of such lengths leaves behind. eqs. (5.10), (5.40)"""
-        return _EPS * self.system.largest_entry(values) * length * math.sqrt(self.system.pattern.n)
-
     def _record(
         self,
         iterations: list[Iteration],
@@ -426,11 +400,6 @@ class Newton:
             callback(record)
 
     @staticmethod
-    def _floor_of_gaps(evaluation: Evaluation) -> float:
-        """Residual that round-off of the gaps leaves behind. eqs. (5.35), (5.36)"""
-        return float(np.finfo(float).eps) * evaluation.round_off
-
-    @staticmethod
     def check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:
         """Fail where a cell is strained too far for its law."""
         if evaluation.failed >= 0:
@@ -443,25 +412,7 @@ class Newton:
     def _count(self, points: NDArray[np.bool_]) -> int:
         return int(self.system.ranks.sum(float(points.sum())))
 
-    def _size(self, du: Floats, u: Floats) -> float:
-        largest = self.system.ranks.max(_largest(u))
-        return self.system.ranks.max(_largest(du)) / largest if largest > 0 else 0.0
-
-    def _detect_chatter(self, seen: list[bytes], active: NDArray[np.bool_], iterations: list[Iteration]) -> None:
-        """Give up when contact points go in and out in a cycle and the residual does not fall any more."""
-        if not self.system.ranks.any(active.size > 0):
-            return
-        seen.append(self.system.ranks.join(np.packbits(active).tobytes()))
-        for period in (2, 3):
-            if len(seen) < 3 * period or len(iterations) < 2 * period:
-                continue
-            tail = seen[-period:]
-            cycle = tail == seen[-2 * period : -period] == seen[-3 * period : -2 * period] and len(set(tail)) > 1
-            if cycle and iterations[-1].residual > 0.5 * iterations[-1 - period].residual:
-                raise Failed(
-                    f"the active set of contact chatters between {len(set(tail))} states", iterations, chattering=True
-                )
-
-
-def _largest(u: Floats) -> float:
-    return float(np.abs(u).max())
+    def _relative(self, du: Floats, u: Floats) -> float:
+        """Size of an increment over that of the displacement."""
+        displacement = largest(self.system, u)
+        return largest(self.system, du) / displacement if displacement > 0 else 0.0

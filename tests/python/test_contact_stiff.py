@@ -9,6 +9,7 @@ import pytest
 
 from umform import materials as mt
 from umform.contact.softening import softened
+from umform.criteria import Criteria
 from umform.mesh import strip
 from umform.model import Model
 from umform.newton import Failed, Newton, NewtonOptions
@@ -49,7 +50,7 @@ def attained(model, iterations=6):
         u += du
     model.revert()
     evaluation = model.evaluate(model.u)
-    floor = math.hypot(newton._floor(evaluation.values, model.u), newton._floor_of_gaps(evaluation))
+    floor = Criteria(model, residual=1e-9, increment=1e-6).floor(np.abs(model.u).max(), evaluation)
     return max(norms[1:]), floor
 
 
