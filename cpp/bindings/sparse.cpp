@@ -1,6 +1,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
+#include "umform/dissection.hpp"
 
 using namespace umform;
 
@@ -34,4 +35,18 @@ void bind_sparse(nb::module_& m) {
                 return make_scatter(p, part);
             },
             nb::arg("part"), "The map for the elements of one kind.");
+    m.def(
+        "dissect",
+        [](const InputIds& indptr, const InputIds& indices) {
+            std::vector<std::int32_t> order;
+            {
+                nb::gil_scoped_release release;
+                order = dissect(indptr.data(), indices.data(), static_cast<int>(indptr.size()) - 1);
+            }
+            const std::size_t size = order.size();
+            return to_numpy(std::move(order), {size});
+        },
+        nb::arg("indptr"), nb::arg("indices"),
+        nb::sig("def dissect(indptr: NDArray[int32], indices: NDArray[int32]) -> NDArray[int32]"),
+        "Order of elimination of the equations of a sheet, from the upper triangle of their pattern; empty for others.");
 }

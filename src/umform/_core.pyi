@@ -145,6 +145,11 @@ class Pattern:
     def scatter(self, part: Connectivity) -> Scatter:
         """The map for the elements of one kind."""
 
+def dissect(indptr: NDArray[int32], indices: NDArray[int32]) -> NDArray[int32]:
+    """
+    Order of elimination of the equations of a sheet, from the upper triangle of their pattern; empty for others.
+    """
+
 class Tying:
     """One row of an assumed-strain rule."""
 
