@@ -1,14 +1,14 @@
 """MKL PARDISO, called directly in the library of the PyPI package `mkl`: the fastest but for narrow bands.
 
+The equations of a sheet are put in order here (`umform._core.dissect`): those of a fibre are one vertex, and the
+separators are minimal cuts. PARDISO's own METIS orders each equation by itself, which takes longer and leaves more to
+factorise; it has all other matrices.
+
 Against SuperLU it factorises strips 3 to 7 times faster and sheets 10 times and more. Cholesky comes first;
 once a pivot is not positive the pattern stays with Bunch-Kaufman factors, which cost 1.0 to 1.5 times as much
 and know the inertia; LU for unsymmetric matrices costs twice as much. Matching and scaling would tie the
 analysis to the values and make the factors of a sheet 3 times dearer: they are off, and the residual is
 checked instead.
-
-The equations of a sheet are put in order here (`umform._core.dissect`): those of a fibre are one vertex, and the
-separators are minimal cuts. PARDISO's own METIS, which sees each equation, takes longer and leaves more to factorise; it
-orders all other matrices.
 
 MKL is told to use the GNU OpenMP runtime, the one of umform's kernels, so that there is one pool of threads;
 the environment variable ``MKL_THREADING_LAYER`` overrules this.
@@ -28,8 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from umform import _core
-
+from .. import _core
 from ..errors import InvalidValue, SolveError
 from .protocol import (
     Factorisation,
@@ -45,8 +44,6 @@ from .protocol import (
 _CHOLESKY, _INDEFINITE, _UNSYMMETRIC = 2, -2, 11
 _ANALYSE, _FACTOR, _SOLVE, _RELEASE = 11, 22, 33, -1
 _PIVOT_NOT_POSITIVE = -4
-_ORDER, _ORDER_IS_GIVEN, _RETURN_ORDER = 4, 1, 2
-_NO_ORDER = np.empty(0, dtype=np.int32)
 _LP64, _GNU_THREADS = 0, 3
 _CAUSES = {
     -1: "the pattern is not consistent",
@@ -73,9 +70,8 @@ class Pardiso:
             ),
             shape=(pattern.n, pattern.n),
         )
-        self._order = _NO_ORDER
-        if pattern.symmetric:
-            self._order = _core.dissect(self._matrix.indptr, self._matrix.indices)
+        indptr, indices = self._matrix.indptr, self._matrix.indices
+        self._order = _core.dissect(indptr, indices) if pattern.symmetric else indices[:0]
         self._start(_CHOLESKY if pattern.symmetric else _UNSYMMETRIC)
 
     def factor(self, values: FloatArray) -> Factorisation:
@@ -117,7 +113,9 @@ class Pardiso:
 
     def _start(self, kind: int) -> None:
         self._factored = False
-        self._handle = _Handle(kind, self._matrix, self._order)
+        self._handle = _Handle(kind, self._matrix)
+        if len(self._order):
+            self._handle.eliminate_in(self._order)
         self._check(self._handle.call(_ANALYSE, self._matrix), "analyse")
 
     def _check(self, code: int, deed: str) -> None:
@@ -150,19 +148,17 @@ class _Handle:
         PARDISO's type of matrix.
     matrix : sparse.csr_matrix
         The stored entries; its pattern stays the same from call to call.
-    order : array of int32, shape (n,) or (0,)
-        Equations in their order of elimination; if empty, PARDISO finds an order in the analysis.
     """
 
-    def __init__(self, kind: int, matrix: sparse.csr_matrix, order: NDArray[np.int32]) -> None:
+    def __init__(self, kind: int, matrix: sparse.csr_matrix) -> None:
+        n = matrix.shape[0]
         self.kind = kind
-        self.order = order if len(order) else np.zeros(matrix.shape[0], dtype=np.int32)
+        self.order = np.zeros(n, dtype=np.int32)
         self._library = _library()
         self._memory = np.zeros(64, dtype=np.int64)
         self._parameters = np.zeros(64, dtype=np.int32)
         for place, value in _PARAMETERS.items():
             self._parameters[place] = value
-        self._parameters[_ORDER] = _ORDER_IS_GIVEN if len(order) else _RETURN_ORDER
         weakref.finalize(self, _call, self._library, self._memory, self._parameters, kind, _RELEASE, matrix, self.order)
 
     def call(
@@ -170,6 +166,11 @@ class _Handle:
     ) -> int:
         """Run a phase and return PARDISO's error code."""
         return _call(self._library, self._memory, self._parameters, self.kind, phase, matrix, self.order, b, x)
+
+    def eliminate_in(self, order: NDArray[np.int32]) -> None:
+        """Have the analysis take this order of the equations instead of looking for one."""
+        self.order[:] = order
+        self._parameters[4] = 1
 
     @property
     def fill(self) -> int:
@@ -199,6 +200,7 @@ class _Handle:
 _PARAMETERS = {
     0: 1,  # these values instead of the defaults
     1: 2,  # nested dissection (METIS)
+    4: 2,  # return the order of elimination; 1: take the one that is given
     9: 15,  # replace pivots below 1e-15 |K|
     17: -1,  # count the entries of the factors
     20: 1,  # Bunch-Kaufman pivots for symmetric indefinite matrices
