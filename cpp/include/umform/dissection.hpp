@@ -190,19 +190,4 @@ class Dissection {
     }
 };
 
-/// Order of elimination of the equations of a symmetric pattern, whose upper triangle is stored by rows; none where few
-/// equations are indistinguishable, or where the graph is not that of a sheet.
-inline std::vector<std::int32_t> dissect(const std::int32_t* indptr, const std::int32_t* indices, int n) {
-    const Quotient quotient = make_quotient(indptr, indices, n);
-    if (2 * quotient.graph.size() > n) return {};
-    const std::vector<std::int32_t> vertices = Dissection(quotient.graph).run();
-    if (vertices.empty()) return {};
-    std::vector<std::int32_t> next(quotient.graph.size(), 0), order(n);
-    for (const int v : quotient.group) ++next[v];
-    int begin = 0;
-    for (const int v : vertices) begin += std::exchange(next[v], begin);
-    for (int row = 0; row < n; ++row) order[next[quotient.group[row]]++] = row;
-    return order;
-}
-
 }  // namespace umform
