@@ -1,6 +1,7 @@
 // Equations with the same neighbours as one vertex: the graph that is ordered in place of the matrix.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -46,24 +47,50 @@ inline std::vector<std::uint64_t> row_keys(const std::int32_t* indptr, const std
     return key;
 }
 
+/// Number of the set of columns of each row, counted in the order in which they are met.
+inline std::vector<std::int32_t> equal_rows(const std::int32_t* indptr, const std::int32_t* indices, int n) {
+    const std::vector<std::uint64_t> key = row_keys(indptr, indices, n);
+    std::vector<std::int32_t> set(n);
+    std::unordered_map<std::uint64_t, std::int32_t> known;
+    for (int row = 0; row < n; ++row) {
+        if (row > 0 && key[row] == key[row - 1])
+            set[row] = set[row - 1];
+        else
+            set[row] = known.try_emplace(key[row], static_cast<std::int32_t>(known.size())).first->second;
+    }
+    return set;
+}
+
+/// Splits sets of equations that are larger than those that most equations are in, and returns the first equation of each
+/// group. At the edges of a mesh of quadratic cells the nodes of two fibres have the same neighbours, at its corners four.
+inline std::vector<std::int32_t> split(std::vector<std::int32_t>& group) {
+    const int sets = group.empty() ? 0 : 1 + *std::max_element(group.begin(), group.end());
+    std::vector<std::int32_t> members(sets, 0), filled(sets, 0), present(sets, -1), first;
+    for (const int set : group) ++members[set];
+    std::vector<std::int32_t> frequency(1, 0);
+    for (const int size : members) {
+        if (size >= static_cast<int>(frequency.size())) frequency.resize(size + 1, 0);
+        frequency[size] += size;
+    }
+    const auto usual = std::max_element(frequency.begin(), frequency.end()) - frequency.begin();
+    for (std::size_t row = 0; row < group.size(); ++row) {
+        const int set = group[row];
+        if (filled[set]++ % usual == 0) {
+            present[set] = static_cast<std::int32_t>(first.size());
+            first.push_back(static_cast<std::int32_t>(row));
+        }
+        group[row] = present[set];
+    }
+    return first;
+}
+
 }  // namespace detail
 
 /// Quotient graph of a symmetric pattern whose upper triangle with the diagonal is stored by rows.
 inline Quotient make_quotient(const std::int32_t* indptr, const std::int32_t* indices, int n) {
-    const std::vector<std::uint64_t> key = detail::row_keys(indptr, indices, n);
     Quotient quotient;
-    quotient.group.resize(n);
-    std::vector<std::int32_t> first;  // equation of each vertex
-    std::unordered_map<std::uint64_t, std::int32_t> known;
-    for (int row = 0; row < n; ++row) {
-        if (row > 0 && key[row] == key[row - 1]) {
-            quotient.group[row] = quotient.group[row - 1];
-            continue;
-        }
-        const auto [place, is_new] = known.try_emplace(key[row], static_cast<std::int32_t>(first.size()));
-        if (is_new) first.push_back(row);
-        quotient.group[row] = place->second;
-    }
+    quotient.group = detail::equal_rows(indptr, indices, n);
+    const std::vector<std::int32_t> first = detail::split(quotient.group);
     // Of two groups the first equations stand for all: their entry is stored in the row of the smaller one.
     const int size = static_cast<int>(first.size());
     std::vector<std::int32_t>& start = quotient.graph.start;

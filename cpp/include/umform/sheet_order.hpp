@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -69,7 +70,8 @@ class BlockPattern {
 
     std::size_t entries() const { return indices_.size() * size_ * size_; }
 
-    /// Entries of the blocks from those of the pattern. Blocks on the diagonal get both of their triangles.
+    /// Entries of the blocks from those of the pattern. Blocks on the diagonal get both of their triangles. Throws if an
+    /// entry lies in none of the blocks: the pattern is another one, or unequal rows were taken for equal ones.
     void fill(const std::int32_t* indptr, const std::int32_t* indices, const double* values, double* out) const {
         std::fill_n(out, entries(), 0.0);
         for (std::size_t v = 0; v + 1 < indptr_.size(); ++v)
@@ -83,8 +85,10 @@ class BlockPattern {
             present = v;
             for (int k = indptr[row]; k < indptr[row + 1]; ++k) {
                 const int w = group_[indices[k]], b = place_[indices[k]] - w * size_;
-                *(w < v ? entry(find(w, v), b, a, out) : entry(block[w], a, b, out)) = values[k];
-                if (w == v) *entry(block[w], b, a, out) = values[k];
+                const int here = w < v ? find(w, v) : block[w];
+                check(here, std::min(v, w), std::max(v, w));
+                *(w < v ? entry(here, b, a, out) : entry(here, a, b, out)) = values[k];
+                if (w == v) *entry(here, b, a, out) = values[k];
             }
         }
     }
@@ -95,6 +99,11 @@ class BlockPattern {
 
     double* entry(int block, int a, int b, double* out) const {
         return out + (static_cast<std::size_t>(block) * size_ + a) * size_ + b;
+    }
+
+    void check(int block, int row, int column) const {
+        if (block < indptr_[row] || block >= indptr_[row + 1] || indices_[block] != column)
+            throw std::invalid_argument("an entry of the matrix lies in none of the blocks");
     }
 
     int find(int row, int column) const {
