@@ -2,8 +2,8 @@
 
 The equations of a sheet are put in order here (`umform._core.SheetOrder`): those of a fibre are one vertex, and the
 separators are minimal cuts. PARDISO's own METIS orders each equation by itself, which takes longer and leaves more to
-factorise; it has all other matrices. Large sheets go in as blocks, one for two neighbouring fibres: their analysis is
-20 times faster. PARDISO does not give the pivots of Cholesky factors of blocks, so these are L D L^T without exchanges.
+factorise; it has all other matrices. Large sheets go in as blocks, one for two neighbouring fibres: the analysis takes a
+quarter of the time then. PARDISO does not give the pivots of Cholesky factors of blocks, so these are L D L^T without exchanges.
 
 Against SuperLU it factorises strips 3 to 7 times faster and sheets 10 times and more. Cholesky comes first;
 once a pivot is not positive the pattern stays with Bunch-Kaufman factors, which cost 1.0 to 1.5 times as much
@@ -64,6 +64,7 @@ class Pardiso:
 
     name = "pardiso"
     _factored = False
+    _handle: _Handle
 
     def analyse(self, pattern: Pattern) -> None:
         """Order the equations by nested dissection; Cholesky is expected of a symmetric matrix."""
@@ -76,7 +77,7 @@ class Pardiso:
             ),
             shape=(pattern.n, pattern.n),
         )
-        self._sheet = _core.SheetOrder(self._matrix.indptr, self._matrix.indices) if pattern.symmetric else None
+        self._sheet = self._order()
         self._start(self._first_kind())
 
     def factor(self, values: FloatArray) -> Factorisation:
@@ -116,11 +117,19 @@ class Pardiso:
         if self._handle.kind != kind:
             self._start(kind)
 
+    def _order(self) -> _core.SheetOrder | None:
+        """Return the order of a sheet; None leaves it to PARDISO."""
+        if not self._pattern.symmetric:
+            return None
+        sheet = _core.SheetOrder(self._matrix.indptr, self._matrix.indices)
+        return sheet if len(sheet.vertices) else None
+
     def _first_kind(self) -> int:
-        if self._sheet is None:
+        if not self._pattern.symmetric:
             return _UNSYMMETRIC
         n = self._pattern.n
-        return _IN_BLOCKS if n >= _LARGE and worth_blocks(self._sheet, n) else _CHOLESKY
+        blocks = n >= _LARGE and self._sheet is not None and worth_blocks(self._sheet, n)
+        return _IN_BLOCKS if blocks else _CHOLESKY
 
     def _start(self, kind: int) -> None:
         self._factored = False
@@ -164,7 +173,7 @@ class _Handle:
         The stored entries; its pattern stays the same from call to call.
     """
 
-    def __init__(self, kind: int, matrix: sparse.csr_matrix | SheetBlocks) -> None:
+    def __init__(self, kind: int, matrix: sparse.csr_matrix) -> None:
         n = matrix.shape[0]
         self.kind = kind
         self.order = np.zeros(n, dtype=np.int32)
@@ -182,10 +191,9 @@ class _Handle:
         return _call(self._library, self._memory, self._parameters, self.kind, phase, matrix, self.order, b, x)
 
     def eliminate_in(self, order: NDArray[np.int32]) -> None:
-        """Have the analysis take an order instead of looking for one; if it is empty, it looks for one."""
-        if len(order):
-            self.order[:] = order
-            self._parameters[4] = 1
+        """Have the analysis take an order instead of looking for one."""
+        self.order[:] = order
+        self._parameters[4] = 1
 
     @property
     def fill(self) -> int:
@@ -281,7 +289,7 @@ def _call(
     parameters: NDArray[np.int32],
     kind: int,
     phase: int,
-    matrix: sparse.csr_matrix | SheetBlocks,
+    matrix: sparse.csr_matrix,
     order: NDArray[np.int32],
     b: FloatArray | None = None,
     x: FloatArray | None = None,

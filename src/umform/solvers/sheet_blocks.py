@@ -54,5 +54,4 @@ class SheetBlocks:
 
 def worth_blocks(sheet: _core.SheetOrder, n: int) -> bool:
     """Return whether the groups of n equations are of one size but for few."""
-    vertices = len(sheet.vertices)
-    return 0 < vertices * sheet.largest <= _FILLING * n
+    return len(sheet.vertices) * sheet.largest <= _FILLING * n

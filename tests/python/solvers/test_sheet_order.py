@@ -109,6 +109,26 @@ def test_pieces_are_ordered_on_their_own():
 def test_others_are_left_to_pardiso(matrix):
     found = order(matrix)
     assert len(found.vertices) == len(found.equations) == 0
+
+
+@needs_mkl
+def test_others_are_solved(monkeypatch):
+    monkeypatch.setattr(pardiso, "_LARGE", 0)
+    matrix = neighbours(30, 30)
+    pattern, values = stored(matrix)
+    solver = make_solver(pattern, "pardiso")
+    solver.factor(values)
+    np.testing.assert_allclose(matrix @ solver.solve(np.ones(900)), 1.0, rtol=1e-9)
+    assert solver.memory() == pardiso._CHOLESKY
+
+
+def test_blocks_are_left_out_where_they_would_be_half_empty():
+    """Half of the fibres have three equations, half of them two."""
+    matrix = fibres(neighbours(8, 8), 3)
+    kept = np.arange(matrix.shape[0] - 32)
+    matrix = matrix[kept][:, kept]
+    found = order(matrix)
+    assert len(found.vertices) == 64
     assert not sheet_blocks.worth_blocks(found, matrix.shape[0])
 
 
