@@ -1,9 +1,10 @@
 """MKL PARDISO, called directly in the library of the PyPI package `mkl`: the fastest but for narrow bands.
 
-The equations of a sheet are put in order here (`umform._core.SheetOrder`): those of a fibre are one vertex, and the
-separators are minimal cuts. PARDISO's own METIS orders each equation by itself, which takes longer and leaves more to
-factorise; it has all other matrices. Large sheets go in as blocks, one for two neighbouring fibres: the analysis takes a
-quarter of the time then. PARDISO does not give the pivots of Cholesky factors of blocks, so these are L D L^T without exchanges.
+The equations of a sheet are put in order here (`umform._core.SheetOrder`): those of a fibre are one vertex, and
+the separators are minimal cuts. PARDISO's own METIS orders each equation by itself, which takes longer and leaves
+more to factorise; it has all other matrices. Large sheets go in as blocks, one for two neighbouring fibres: the
+analysis takes a quarter of the time then. PARDISO does not give the pivots of Cholesky factors of blocks, so
+these are L D L^T without exchanges.
 
 Against SuperLU it factorises strips 3 to 7 times faster and sheets 10 times and more. Cholesky comes first;
 once a pivot is not positive the pattern stays with Bunch-Kaufman factors, which cost 1.0 to 1.5 times as much
