@@ -50,14 +50,14 @@ _POSITIVE = (_CHOLESKY, _IN_BLOCKS)  # factors that end with the first pivot tha
 _ANALYSE, _FACTOR, _SOLVE, _DIVIDE, _RELEASE = 11, 22, 33, 332, -1
 _PIVOT_NOT_POSITIVE = -4
 _LP64, _GNU_THREADS = 0, 3
-# From so many equations on blocks are worth it: below, Cholesky factors take a few per cent less than those of blocks.
-_LARGE = 100_000
 _CAUSES = {
     -1: "the pattern is not consistent",
     -2: "not enough memory",
     -3: "the ordering failed",
     -8: "the factors need more than 2^31 entries",
 }
+# From so many equations on blocks are worth it: below, Cholesky factors take a few per cent less than those of blocks.
+_LARGE = 100_000
 
 
 class Pardiso:
