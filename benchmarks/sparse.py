@@ -1,6 +1,8 @@
 """How the sparse solvers compare: time of a factorisation with the analysis kept, as ratios to the fastest one; and
 what the analysis takes, that of the choice among them (`auto`) too, as ratios to the same factorisation.
 
+A second table has what the order of a sheet does for PARDISO, beside the order that PARDISO finds itself.
+
 Tangents of flat sheets at rest. The solvers that are installed take turns, so that a shared machine troubles all alike.
 """
 
@@ -14,6 +16,7 @@ import numpy as np
 import record
 import umform as uf
 from umform.solvers import available, make_solver
+from umform.solvers.pardiso import Pardiso
 
 #: Name, elements along and across, cell, repetitions.
 CASES = (
@@ -24,6 +27,18 @@ CASES = (
     ("sheet 40x40", (40, 40), "hex8", 3),
 )
 
+#: Sheets of the second table: elements along and across, cell, repetitions; in blocks from 100 000 equations on.
+SHEETS = (((48, 48), "hex8", 20), ((100, 100), "hex8", 5), ((50, 50), "hex18", 5), ((300, 120), "hex8", 2))
+
+
+class Metis(Pardiso):
+    """PARDISO with the order that it finds itself."""
+
+    name = "metis"
+
+    def _order(self) -> None:
+        return None
+
 
 def tangent(cells: tuple[int, int], cell: str) -> tuple[uf.Model, np.ndarray]:
     """Model of a clamped sheet and the entries of its tangent at rest."""
@@ -31,6 +46,31 @@ def tangent(cells: tuple[int, int], cell: str) -> tuple[uf.Model, np.ndarray]:
     model = uf.Model(mesh, "ANS3DEAS" if cell == "hex8" else "MI9K3DEAS", material=uf.SVK(E=210e3, nu=0.3))
     model.fix("x0")
     return model, model.evaluate(np.zeros_like(model.u)).values
+
+
+def orders() -> dict[str, float]:
+    """Print what PARDISO takes with both orders: best CPU milliseconds, and millions of entries of the factors."""
+    numbers: dict[str, float] = {}
+    columns = "".join(f"{what:>10}{'METIS':>9}" for what in ("analysis", "factor", "fill"))
+    print(f"\n{'ms, and 1e6 entries':<24}{'n':>7}{columns}")
+    for cells, cell, repeat in SHEETS:
+        model, values = tangent(cells, cell)
+        solvers = (Pardiso(), Metis())
+        took = np.full((3, 2), np.inf)
+        for _ in range(repeat):
+            for k, solver in enumerate(solvers):
+                begin = time.process_time()
+                solver.analyse(model.pattern)
+                middle = time.process_time()
+                fill = solver.factor(values).fill
+                end = time.process_time()
+                took[:, k] = np.minimum(took[:, k], (1e3 * (middle - begin), 1e3 * (end - middle), 1e-6 * fill))
+        label = f"sheet {cells[0]}x{cells[1]}, {cell}"
+        row = "".join(f"{own:>10.1f}{metis:>9.1f}" for own, metis in took)
+        print(f"{label:<24}{model.pattern.n:>7}{row}")
+        for what, (own, metis) in zip(("analysis, ms", "factor, ms", "fill, 1e6"), took, strict=True):
+            numbers |= {f"{label}, {what}": own, f"{label}, METIS, {what}": metis}
+    return numbers
 
 
 def main() -> None:
@@ -65,6 +105,8 @@ def main() -> None:
         print(f"{label:<24}{model.pattern.n:>8}{ratios}   {analyses}")
         numbers |= {f"{label}, {name}, ms": 1e3 * best[name] for name in names}
         numbers |= {f"{label}, {name}, analysis, ms": 1e3 * seconds for name, seconds in analysis.items()}
+    if "pardiso" in names:
+        numbers |= orders()
     record.write(arguments.json, "sparse", numbers)
 
 

@@ -145,6 +145,48 @@ class Pattern:
     def scatter(self, part: Connectivity) -> Scatter:
         """The map for the elements of one kind."""
 
+class BlockPattern:
+    """Upper triangle in square blocks, one for two neighbouring groups."""
+
+    @property
+    def size(self) -> int:
+        """Rows of a block."""
+
+    @property
+    def indptr(self) -> NDArray[int32]: ...
+
+    @property
+    def indices(self) -> NDArray[int32]: ...
+
+    @property
+    def place(self) -> NDArray[int32]:
+        """Row of each equation; other rows say x = 0."""
+
+    def fill(self, indptr: NDArray[int32], indices: NDArray[int32], values: NDArray[float64], out: NDArray[float64]) -> None:
+        """Entries of the blocks from those of the pattern."""
+
+class SheetOrder:
+    """
+    Order of elimination of a sheet, from the upper triangle of its pattern.
+    """
+
+    def __init__(self, indptr: NDArray[int32], indices: NDArray[int32]) -> None: ...
+
+    @property
+    def vertices(self) -> NDArray[int32]:
+        """Groups in their order; empty if it is no sheet."""
+
+    @property
+    def equations(self) -> NDArray[int32]:
+        """Equations in their order; empty if it is no sheet."""
+
+    @property
+    def largest(self) -> int:
+        """Equations of the largest group."""
+
+    def blocks(self) -> BlockPattern:
+        """The matrix in blocks, one row of them for each group."""
+
 class Tying:
     """One row of an assumed-strain rule."""
 

@@ -50,12 +50,16 @@ class Pattern:
         lengths = np.diff(self.indptr)
         if np.any(lengths < 1) or np.any(self.indices < 0) or np.any(self.indices >= self.n):
             raise _bad_pattern("a row is empty or a column lies outside of the matrix")
-        rows = self.rows
-        if np.any(np.diff(self.indices)[rows[1:] == rows[:-1]] < 1):
+        falls = self.indices[1:] <= self.indices[:-1]
+        falls[self.indptr[1:-1] - 1] = False  # from row to row
+        if falls.any():
             raise _bad_pattern("the columns of a row are not sorted or occur twice")
+        if self.symmetric and np.array_equal(self.indices[self.indptr[:-1]], np.arange(self.n)):
+            return  # each row begins with its diagonal entry
+        rows = self.rows
         if np.count_nonzero(self.indices == rows) < self.n:
             raise _bad_pattern("a diagonal entry is missing")
-        if self.symmetric and np.any(self.indices < rows):
+        if self.symmetric:
             raise _bad_pattern("a symmetric pattern holds entries below the diagonal")
 
     @property
