@@ -11,6 +11,7 @@ TITLE = "(w) The same strip, 10 wide with free edges"
 MESHES = (
     ("umform", "BEND8", 48, 1, 4),
     ("umform", "BEND8", 48, 1, 3),
+    ("umform", "BEND8", 24, 1, 2),
     ("umform", "BEND18", 24, 1, 2),
     ("CalculiX", "C3D8I", 48, 1, 4),
     ("CalculiX", "C3D8I", 48, 2, 4),
