@@ -6,12 +6,14 @@ import pytest
 
 import umform as uf
 from umform.verification import Case, Chapter, Page, Variant, book
-from umform.verification.checks import Verdict
+from umform.verification.checks import Check, Verdict
 from umform.verification.convergence import normalised, show, study
 from umform.verification.errata import errata_text
 from umform.verification.linear_algebra import linear_solution
+from umform.verification.page import StudyRecord
 from umform.verification.variants import SEVEN, VARIANTS
 from umform.verification.which_element import which_element_text
+from umform.verification.writing import Outcome
 
 
 def stretched(page):
@@ -104,3 +106,20 @@ def test_the_variants_are_the_seven_elements_twice():
 def test_drawn_from_nothing():
     assert "None." in errata_text({})
     assert "0 / 0" not in which_element_text({})
+
+
+def test_advice_counts_the_problems_that_an_element_meets():
+    def study(case, good, poor):
+        values = {"MI9K3DEAS, E_33 tied": {8: good, 16: 1.0}, "ANS3DEAS, E_33 tied": {8: poor, 16: poor}}
+        return StudyRecord(case, "deflection", values)
+
+    studies = (study("scordelis-lo", 0.99, 0.9), study("nonlinear-hemisphere", 0.9, 0.99), study("plastic-tube", 1, 1))
+    checks = Check("right", 1.0, 1.0, 0.01), Check("known", 1.1, 1.0, 0.01, known=0.2, cause="that is why")
+    told = which_element_text(
+        {
+            "any": Outcome("any", Verdict.GREEN, studies=studies),
+            "bend-stability": Outcome("bend-stability", Verdict.AMBER, checks=checks),
+        }
+    )
+    assert "| MI9K3DEAS, E_33 tied: 2 of 2, 12 intervals; ANS3DEAS, E_33 tied: 1 of 2, 8 intervals |" in told
+    assert "| [bend-stability](bend-stability.md): 1 of 2 checks green |" in told
