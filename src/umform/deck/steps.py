@@ -124,6 +124,8 @@ class Solution(Part):
     """Shorten increments that do not bring the residual down."""
     extrapolate: bool = True
     """Start an increment from the extrapolated last one."""
+    mixed: bool | None = None
+    """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets without contact."""
 
     def build(self) -> NewtonOptions:
         """Options of Newton's method."""
