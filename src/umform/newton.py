@@ -55,8 +55,8 @@ class NewtonOptions:
         always.
     mixed : bool, optional
         Take the geometric stiffness from the stress that the last increment foresaw, not from the present one: thin
-        elastic sheets take larger steps and fewer iterations. eq. (5.39) Default: without contact, and for laws
-        without a history.
+        elastic sheets take larger steps and fewer iterations. eq. (5.39) Default: where there is neither
+        contact nor a law with a history.
     """
 
     residual: float = 1e-9

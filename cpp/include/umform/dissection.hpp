@@ -141,7 +141,7 @@ class Dissection {
         for (const int v : members_) part_[v] = whole;
     }
 
-    /// Sorts the vertices by a key; those with the same key stay in the order of the last search.
+    /// Sorts the vertices by a key; those with the same key stay in the order of `members_`.
     template <class Key>
     void sort(const Key& key) {
         int least = key(members_[0]), most = least;

@@ -33,7 +33,8 @@ inline std::uint64_t mixed(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// A number for the set of columns of each row. Two sets with the same number would only make a poorer order.
+/// A number for the set of columns of each row. Two of n sets have the same number by chance once in 2^65 / n^2 matrices: the
+/// order is poorer then, and blocks refuse their entries.
 inline std::vector<std::uint64_t> row_keys(const std::int32_t* indptr, const std::int32_t* indices, int n) {
     std::vector<std::uint64_t> key(n, 0);
     for (int row = 0; row < n; ++row) {

@@ -15,6 +15,9 @@ from .protocol import IntArray, Pattern
 
 IntIndex = NDArray[np.intp]
 
+#: So many steps tell a sheet from a strip.
+_FAR = 200
+
 
 def orders(pattern: Pattern) -> Iterator[IntIndex]:
     """Yield ways to number the equations one after the other along the strip: the place of each."""
@@ -77,7 +80,7 @@ def wider_than(bandwidth: int, pattern: Pattern) -> bool:
     seen = np.zeros(pattern.n, dtype=bool)
     seen[0] = True
     front, count, steps = np.zeros(1, dtype=np.int64), 0, 0
-    while len(front) and count <= 2 * steps * bandwidth:
+    while len(front) and count <= 2 * steps * bandwidth and steps < _FAR:
         front = np.unique(_step(pattern.indptr, pattern.indices, front)[0])
         front = front[~seen[front]]
         seen[front] = True

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, SolveError
 
 _LP64, _GNU_THREADS = 0, 3
 
@@ -32,7 +32,15 @@ def library() -> ctypes.CDLL:
         raise InvalidValue(
             "The solver 'pardiso' needs MKL, which is not installed", remedy='pip install "umform[pardiso]"'
         )
-    loaded = ctypes.CDLL(str(path))
+    try:
+        loaded = ctypes.CDLL(str(path))
+    except OSError as error:
+        raise SolveError(
+            "MKL is installed, but cannot be loaded",
+            where=str(path),
+            cause=str(error),
+            remedy="install the package mkl anew, or remove it: umform then takes the solvers of SciPy",
+        ) from error
     loaded.MKL_Set_Interface_Layer(_LP64)
     if sys.platform == "linux" and "MKL_THREADING_LAYER" not in os.environ:
         loaded.MKL_Set_Threading_Layer(_GNU_THREADS)
@@ -42,8 +50,8 @@ def library() -> ctypes.CDLL:
 def _candidates() -> Iterator[Path]:
     """Yield files that may be it: beside Python as pip and conda put it, then among the files of the package `mkl`."""
     prefix = Path(sys.prefix)
-    yield from prefix.glob("lib/libmkl_rt.so*")
-    yield from prefix.glob("Library/bin/mkl_rt*.dll")
+    yield from sorted(prefix.glob("lib/libmkl_rt.so*"), reverse=True)  # the newest
+    yield from sorted(prefix.glob("Library/bin/mkl_rt*.dll"), reverse=True)
     from importlib import metadata  # slow to import
 
     try:

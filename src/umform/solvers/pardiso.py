@@ -2,7 +2,7 @@
 
 The equations of a sheet are put in order here (`umform._core.SheetOrder`): those of a fibre are one vertex, and
 the separators are minimal cuts. PARDISO's own METIS orders each equation by itself, which takes longer and leaves
-more to factorise; it has all other matrices. Large sheets go in as blocks, one for two neighbouring fibres: the
+more to factorise; it orders all other matrices. Large sheets go in as blocks, one for two neighbouring fibres: the
 analysis takes a quarter of the time then. PARDISO does not give the pivots of Cholesky factors of blocks, so
 these are L D L^T without exchanges.
 
@@ -105,6 +105,8 @@ class Pardiso:
 
     def recall(self, kind: int) -> None:
         """Go on with the kind of factors of a run that was kept."""
+        if kind in _POSITIVE:
+            kind = self._first_kind()
         if self._handle.kind != kind:
             self._start(kind)
 

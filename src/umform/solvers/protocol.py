@@ -169,9 +169,9 @@ class SparseSolver(Protocol):
         """Return x of K x = rhs, for one right-hand side (1D) or for the columns of several (2D)."""
 
 
-# A pivot below this part of its diagonal entry is rounding error. Rounding leaves 1e-14 and more of a pivot that should
-# vanish, growing with the mesh, so that a loose part of a large one may pass; a sheet that is free as a whole is refused
-# before, by the model. Thin beams that are well held come near: 7e-13 for a twisted one of 1/3750 of its length.
+# A pivot below this part of its diagonal entry is rounding error. Rounding leaves 1e-14 and more of a pivot that
+# should vanish, growing with the mesh, so that a loose part of a large one may pass; a sheet that is free as a whole is
+# refused before, by the model. Thin beams that are well held come near: 7e-13 for one of 1/3750 of its length.
 _ROUNDING = 2e-13
 
 
