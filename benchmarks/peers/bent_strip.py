@@ -25,7 +25,7 @@ CELLS = {"BEND8": "hex8", "BEND18": "hex18", "EAS3DEAS": "hex8", "C3D8I": "hex8"
 STACK = {"model": {"thickness_order": 2, "tie_E33": True, "thickness_points": 4, "thickness_rule": "gauss"}}
 #: Code, element, cells along, layers.
 MESHES = (
-    *(("umform", "BEND8", n, 1) for n in (16, 24, 32, 48, 96)),
+    *(("umform", "BEND8", n, 1) for n in (16, 24, 32, 36, 48, 96)),
     *(("umform", "BEND18", n, 1) for n in (12, 24, 48)),
     *(("CalculiX", "C3D8I", n, k) for n, k in ((24, 1), (48, 1), (96, 1), (48, 2))),
     *(("CalculiX", "C3D20R", n, k) for n, k in ((24, 1), (48, 1), (96, 1), (48, 2), (96, 4))),
@@ -80,7 +80,7 @@ def entries(short: bool) -> list[Entry]:
         return [Entry("umform", "BEND8", "24 x 1 x 1", made[1]), Entry("CalculiX", "C3D8I", "24 x 1 x 2", made[2])]
     loose = [entry(*mesh, loose=True) for mesh in MESHES if mesh[1] == "BEND8"]
     # Two layers of C3D8I have four points through the thickness.
-    loose += [entry("umform", "BEND8", n, 1, loose=True, points=6) for n in (16, 24, 32, 48)]
+    loose += [entry("umform", "BEND8", n, 1, loose=True, points=6) for n in (16, 24, 32, 36, 48)]
     return [*loose, *(entry(*mesh) for mesh in (*MESHES, FINEST))]
 
 
