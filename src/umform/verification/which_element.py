@@ -122,8 +122,9 @@ def which_element_text(outcomes: Mapping[str, Outcome]) -> str:
 def _because(advice: Advice, studies: Sequence[StudyRecord], outcomes: Mapping[str, Outcome]) -> str:
     """How many problems each element meets, and from how many intervals on; how many checks of pages are green."""
     parts = []
+    told = [s for s in studies if advice.speaks(s) and all(s.values.get(label) for label in advice.labels)]
     for label in advice.labels:
-        needed = [_needed(study, label) for study in studies if advice.speaks(study) and study.values.get(label)]
+        needed = [_needed(study, label) for study in told]
         met = [int(intervals) for intervals in needed if not intervals.startswith(">")]
         if needed:
             intervals = f", {statistics.median(met):g} intervals" if met else ""

@@ -114,6 +114,7 @@ def test_advice_counts_the_problems_that_an_element_meets():
         return StudyRecord(case, "deflection", values)
 
     studies = (study("scordelis-lo", 0.99, 0.9), study("nonlinear-hemisphere", 0.9, 0.99), study("plastic-tube", 1, 1))
+    studies += (StudyRecord("pinched-cylinder", "of one of them alone", {"ANS3DEAS, E_33 tied": {8: 1.0}}),)
     checks = Check("right", 1.0, 1.0, 0.01), Check("known", 1.1, 1.0, 0.01, known=0.2, cause="that is why")
     told = which_element_text(
         {
