@@ -93,7 +93,7 @@ def test_run(run):
 
 def test_memory(run):
     lines, numbers = run("memory", "--elements", "4", benchmark="memory 4")
-    assert [line[:16] for line in lines[1:3]] == ["umform, numpy, s", "history, converg"]
+    assert [line[:16] for line in lines[1:3]] == ["umform and numpy", "history, converg"]
     assert 20.0 < numbers["peak, MB"] < 2000.0
     unknowns = 1e6 * numbers["solution, MB"] / 8  # 18 nodes, of which 6 are clamped
     assert unknowns == pytest.approx(36)
