@@ -39,7 +39,7 @@ def run_case(
     """Make the runs of a case, one after the other; a run that fails is told and left out.
 
     Others use the machine too, and short runs tell it most: after all runs have been made once, those that are not long
-    are made again, in turns, and the run of the median CPU time counts.
+    are made again, in turns, and the fastest one counts.
     """
     made: dict[str, list[Outcome]] = {}
     entries = {entry.key: entry for entry in case.entries(short) if entry.peer in here}
@@ -50,8 +50,8 @@ def run_case(
             outcome = _once(entry, here[entry.peer], keep)
             if outcome is not None:
                 made.setdefault(key, []).append(outcome)
-    by_cost = {key: sorted(outcomes, key=lambda outcome: outcome.cost.cpu) for key, outcomes in made.items()}
-    return {key: (entries[key], outcomes[len(outcomes) // 2]) for key, outcomes in by_cost.items()}
+    least = {key: min(outcomes, key=lambda outcome: outcome.cost.cpu) for key, outcomes in made.items()}
+    return {key: (entries[key], outcome) for key, outcome in least.items()}
 
 
 def _once(entry: Entry, peer: Peer, keep: Path | None) -> Outcome | None:
