@@ -100,6 +100,13 @@ def test_memory(run):
     assert 1e6 * numbers["matrix, upper triangle, MB"] / 8 < unknowns * (unknowns + 1) / 2 + 0.5
 
 
+def test_mixed(run):
+    lines, numbers = run("mixed", "--cells", "8", benchmark="mixed")
+    assert lines[1].split()[0] == "hemisphere"
+    assert numbers["hemisphere in 5, evaluations over those of the consistent tangent"] < 0.6
+    assert 0.9 < numbers["an evaluation of ANS3DEAS, over one with the consistent tangent"] < 1.5
+
+
 def test_reuse(run):
     lines, _ = run("reuse", "--cells", "3", "--case", "plate")
     new, reused = lines[-2:]
