@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 namespace umform {
@@ -44,7 +45,7 @@ class Between {
             near_last[v] = back_[2 * v + 1] == 0 ? -1 : back_[2 * v] == 0 ? 0 : 1;
             here -= side[v], there -= near_last[v];
         }
-        if (std::abs(there) < std::abs(here)) side = near_last;
+        if (std::abs(there) < std::abs(here)) side = std::move(near_last);
     }
 
   private:
