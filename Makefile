@@ -27,7 +27,7 @@ unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-types lint-stubs lint-format lint-cpp stubs \
+.PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-stubs lint-format lint-cpp stubs \
         format bench compare peers clean
 
 help:  ## show this help
@@ -140,12 +140,16 @@ instructions: env  ## instructions of the kernels against the stored counts (ski
 
 # ---- style ----
 
-lint: lint-python lint-types lint-stubs lint-format lint-cpp  ## style, types and names, in Python and in C++
+lint: lint-python lint-imports lint-types lint-stubs lint-format lint-cpp  ## style, types and names, in Python and in C++
 
 lint-python: $(VENV)/.dev
 	$(SAY) 'ruff'
 	@$(BIN)/ruff check -q .
 	@$(BIN)/ruff format -q --check . || { echo "run 'make format' on the files that 'ruff format --check .' names"; exit 1; }
+
+lint-imports: $(VENV)/.dev
+	$(SAY) 'direction of imports'
+	@PYTHONPATH=src $(BIN)/lint-imports --no-cache > $(BUILD)/imports.log || { cat $(BUILD)/imports.log; exit 1; }
 
 lint-types: $(VENV)/.dev
 	$(SAY) 'mypy'

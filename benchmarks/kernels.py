@@ -23,8 +23,8 @@ import record
 import umform as uf
 from sheets import sheet
 from umform import elements
+from umform.elements.technology import COMPONENTS, Element
 from umform.model import Model
-from umform.technology import COMPONENTS, Element
 
 HERE = Path(__file__).parent
 #: Laws of the table; `sheets` has one more for the instructions.

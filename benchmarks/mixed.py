@@ -13,12 +13,12 @@ from collections.abc import Callable
 import record
 import umform as uf
 from sheets import sheet
-from umform.newton import NewtonOptions
 from umform.processes.bending import case as bending
 from umform.processes.bending.parameters import FreeBending
-from umform.verification.nonlinear import hemisphere, slit_annulus
-from umform.verification.nonlinear.course import TIED
-from umform.verification.nonlinear.tracing import Setup
+from umform.solution.newton import NewtonOptions
+from umform_book.nonlinear import hemisphere, slit_annulus
+from umform_book.nonlinear.course import TIED
+from umform_book.nonlinear.tracing import Setup
 
 #: Builds a model and its steps, in so many increments.
 Build = Callable[[int], tuple[uf.Model, uf.Move]]

@@ -63,10 +63,10 @@ def memory(peak: bool = False) -> float:
 
 def measure(cells: int) -> dict[str, object]:
     """Seconds (wall and CPU) of the parts of an iteration and memory after them, the largest of all ranks."""
-    from umform.distributed.mpi_ranks import world
-    from umform.distributed.outline import Outline
-    from umform.distributed.run import hand_out
-    from umform.distributed.solver import Petsc
+    from umform.parallel.mpi_ranks import world
+    from umform.parallel.outline import Outline
+    from umform.parallel.run import hand_out
+    from umform.parallel.solver import Petsc
 
     ranks, wall, cpu, held = world(), {}, {}, {"start": memory()}
 
@@ -105,9 +105,9 @@ def measure(cells: int) -> dict[str, object]:
 
 def describe(cells: int) -> dict[str, object]:
     """Bytes an element that the first rank takes to describe a sheet and to cut it; of the other, an own element."""
-    from umform.distributed.mpi_ranks import world
-    from umform.distributed.outline import Outline
-    from umform.distributed.run import hand_out
+    from umform.parallel.mpi_ranks import world
+    from umform.parallel.outline import Outline
+    from umform.parallel.run import hand_out
 
     ranks = world()
     before, start = memory(), time.process_time()
@@ -150,7 +150,7 @@ def tables(unknowns: int) -> dict[str, float]:
     """
     from petsc4py import PETSc
 
-    from umform.distributed.mpi_ranks import world
+    from umform.parallel.mpi_ranks import world
 
     ranks = world()
     rows = BLOCK if ranks.rank else unknowns - BLOCK * (ranks.size - 1)
@@ -280,7 +280,7 @@ def main(words: list[str]) -> None:
     if words and words[0].isdecimal():
         kind = {"describe": describe, "tables": tables}.get(words[-1], measure)
         outcome = kind(int(words[0]))
-        from umform.distributed.mpi_ranks import world
+        from umform.parallel.mpi_ranks import world
 
         if world().rank == 0:
             print(json.dumps(outcome))

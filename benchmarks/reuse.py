@@ -1,7 +1,8 @@
 """What it saves to use the factors of the iteration before once more: factorisations, iterations, CPU time.
 
 A plate that is bent far, and a sphere that is pressed into a clamped sheet; with new factors always, and with old ones
-where :mod:`umform.reuse` lets them serve. The two take turns. First the times that its estimate of the costs rests on.
+where `umform.solution.factor_reuse` lets them
+serve. The two take turns. First the times that its estimate of the costs rests on.
 """
 
 from __future__ import annotations
@@ -14,12 +15,12 @@ from typing import Any
 import numpy as np
 
 import umform as uf
-from umform.newton import Newton, NewtonOptions
 from umform.processes.air_bending import brake
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.bending import case as bending
 from umform.processes.bending.parameters import FreeBending
-from umform.reuse import cost_of_factors
+from umform.solution.factor_reuse import cost_of_factors
+from umform.solution.newton import Newton, NewtonOptions
 
 LAW = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
 

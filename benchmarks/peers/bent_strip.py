@@ -12,10 +12,10 @@ from meshes import grid, held
 from problem import Problem, Tool
 from ratios import Comparison, Found, as_good
 
-from umform.verification.references import table as stored
-from umform.verification.sharp_bends.candidates import KAPPA, MU, YIELD_STRESS
-from umform.verification.sharp_bends.over_cylinder import MARKS, PAPER
-from umform.verification.sharp_bends.strips import THICKNESS, WIDTH
+from umform_book.references import table as stored
+from umform_book.sharp_bends.candidates import KAPPA, MU, YIELD_STRESS
+from umform_book.sharp_bends.over_cylinder import MARKS, PAPER
+from umform_book.sharp_bends.strips import THICKNESS, WIDTH
 
 TITLE = "(a) Strip of J2 bent over a cylinder, plane strain"
 GOAL = 20.0

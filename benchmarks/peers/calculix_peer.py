@@ -12,7 +12,7 @@ from entries import Entry, Outcome
 from measure import Crashed, measured
 from problem import Floats, Problem
 
-from umform.verification.calculix import FIRST, Ring, contact_with_ring, element, metal, node_set, totals
+from umform_book.calculix import FIRST, Ring, contact_with_ring, element, metal, node_set, totals
 
 
 class CalculiX:

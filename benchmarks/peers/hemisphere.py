@@ -10,9 +10,9 @@ from meshes import grid, held
 from problem import Problem
 from ratios import Comparison, Found, as_good
 
-from umform.verification.nonlinear.hemisphere import FORCE
-from umform.verification.references import table as stored
-from umform.verification.shells import onto_hemisphere
+from umform_book.nonlinear.hemisphere import FORCE
+from umform_book.references import table as stored
+from umform_book.shells import onto_hemisphere
 
 TITLE = "(b) Pinched hemisphere, P = 400"
 GOAL = 8.0

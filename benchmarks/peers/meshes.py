@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from problem import Floats, Ids
 
 from umform import mesh
-from umform.verification.calculix import EDGES
+from umform_book.calculix import EDGES
 
 
 def grid(x: ArrayLike, y: ArrayLike, z: ArrayLike, cell: str) -> tuple[Floats, Ids]:

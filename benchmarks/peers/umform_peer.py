@@ -11,7 +11,7 @@ from problem import Problem
 from worker import means, work
 
 from umform import J2, SVK, Cylinder, Linear, Mesh, Model, Move, NewtonOptions, Result, set_threads
-from umform import solve as solve_steps
+from umform.run import solve as solve_steps
 
 
 def solve(problem: Problem, options: Mapping[str, Any]) -> dict[str, Any]:
@@ -68,7 +68,7 @@ def _load(problem: Problem, model: Model, newton: NewtonOptions, solver: str) ->
     assert forces is not None
     if not problem.large:
         # Imported here since the book brings the drawing of curves with it, which a run without it does not load.
-        from umform.verification.linear_algebra import linear_solution
+        from umform_book.linear_algebra import linear_solution
 
         model.u[:] = linear_solution(model, forces.ravel(), solver=solver).ravel()
         return {"increments": 1, "iterations": 1}

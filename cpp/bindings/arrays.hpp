@@ -6,7 +6,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
-#include "umform/csr.hpp"
+#include "umform/assembly/csr.hpp"
 
 namespace nb = nanobind;
 

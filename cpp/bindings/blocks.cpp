@@ -7,9 +7,9 @@
 #include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
-#include "umform/block.hpp"
-#include "umform/contact.hpp"
-#include "umform/pressure.hpp"
+#include "umform/contact/facets.hpp"
+#include "umform/elements/block.hpp"
+#include "umform/loads/pressure.hpp"
 
 using namespace umform;
 

@@ -1,6 +1,6 @@
 // The extension module umform._core.
 #include "arrays.hpp"
-#include "umform/threads.hpp"
+#include "umform/assembly/threads.hpp"
 
 #ifndef UMFORM_BUILD
     #define UMFORM_BUILD "unknown"  // CMake says it; tools that parse this file alone do not

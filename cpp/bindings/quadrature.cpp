@@ -1,10 +1,10 @@
-#include "umform/quadrature.hpp"
+#include "umform/elements/quadrature.hpp"
 
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 
 #include "arrays.hpp"
-#include "umform/topology.hpp"
+#include "umform/elements/topology.hpp"
 
 using namespace umform;
 

@@ -1,7 +1,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
-#include "umform/sheet_order.hpp"
+#include "umform/ordering/sheet_order.hpp"
 
 using namespace umform;
 

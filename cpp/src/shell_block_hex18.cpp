@@ -1,3 +1,3 @@
-#include "umform/block.hpp"
+#include "umform/elements/block.hpp"
 
 template class umform::ShellBlockOf<18>;

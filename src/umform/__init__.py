@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 from umform import errors
 
 if TYPE_CHECKING:
-    from umform import elements, fields, mesh, processes, sheet_metals, surfaces
+    from umform import elements, mesh, processes, sheet_metals, surfaces
     from umform._core import set_threads, threads
-    from umform.arc import Arc
     from umform.elements import Element, Term, Tying
     from umform.errors import UmformError
     from umform.materials import (
@@ -23,14 +22,16 @@ if TYPE_CHECKING:
         Perfect,
         Swift,
         Table,
+        UserLaw,
         Voce,
+        check_law,
     )
     from umform.mesh import Mesh
     from umform.model import Model
-    from umform.newton import NewtonOptions
-    from umform.release import Release
-    from umform.results import Result
-    from umform.steps import Move, resume, solve
+    from umform.results import fields
+    from umform.run import Result, resume, solve
+    from umform.solution.newton import NewtonOptions
+    from umform.steps import Arc, Move, Release
     from umform.surfaces import (
         Box,
         Cylinder,
@@ -48,13 +49,11 @@ if TYPE_CHECKING:
         check_surface,
         write_tool,
     )
-    from umform.user_law import UserLaw, check_law
 
 __version__ = "0.1.0"
 
 _HOME = {
     "umform._core": ("set_threads", "threads"),
-    "umform.arc": ("Arc",),
     "umform.elements": ("Element", "Term", "Tying"),
     "umform.errors": ("UmformError",),
     "umform.materials": (
@@ -67,14 +66,15 @@ _HOME = {
         "Perfect",
         "Swift",
         "Table",
+        "UserLaw",
         "Voce",
+        "check_law",
     ),
     "umform.mesh": ("Mesh",),
     "umform.model": ("Model",),
-    "umform.newton": ("NewtonOptions",),
-    "umform.results": ("Result",),
-    "umform.release": ("Release",),
-    "umform.steps": ("Move", "resume", "solve"),
+    "umform.run": ("Result", "resume", "solve"),
+    "umform.solution.newton": ("NewtonOptions",),
+    "umform.steps": ("Arc", "Move", "Release"),
     "umform.surfaces": (
         "Box",
         "Cylinder",
@@ -92,9 +92,15 @@ _HOME = {
         "check_surface",
         "write_tool",
     ),
-    "umform.user_law": ("UserLaw", "check_law"),
 }
-_MODULES = ("elements", "fields", "mesh", "processes", "sheet_metals", "surfaces")
+_MODULES = {
+    "elements": "umform.elements",
+    "fields": "umform.results.fields",
+    "mesh": "umform.mesh",
+    "processes": "umform.processes",
+    "sheet_metals": "umform.sheet_metals",
+    "surfaces": "umform.surfaces",
+}
 _HOME_OF = {name: module for module, names in _HOME.items() for name in names}
 
 __all__ = [
@@ -155,7 +161,7 @@ def __getattr__(name: str) -> object:
     if name in _HOME_OF:
         value = getattr(importlib.import_module(_HOME_OF[name]), name)
     elif name in _MODULES:
-        value = importlib.import_module(f"umform.{name}")
+        value = importlib.import_module(_MODULES[name])
     else:
         raise AttributeError(f"module 'umform' has no attribute {name!r}")
     globals()[name] = value

@@ -21,10 +21,10 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.io.atomic import PendingFile
-from umform.shape import Shape
+from umform.results.shape import Shape
 
 if TYPE_CHECKING:
-    from umform.results import Result
+    from umform.results.history import History
 
 Floats = NDArray[np.float64]
 
@@ -130,12 +130,12 @@ def inline_svg(figure: Figure) -> str:
     return re.sub(r' xmlns(:\w+)?="[^"]*"', "", svg)
 
 
-def plot_history(result: Result, x: str, ys: Sequence[str], path: str | Path | None = None) -> Figure:
+def plot_history(result: History, x: str, ys: Sequence[str], path: str | Path | None = None) -> Figure:
     """Draw columns of a history against each other.
 
     Parameters
     ----------
-    result : Result
+    result : History
         A result.
     x : str
         Column of the abscissa.
@@ -213,7 +213,7 @@ def _check_column(name: str, columns: Mapping[str, Floats], run: str) -> None:
 
 
 def plot_shape(
-    shape: Shape | Result,
+    shape: Shape | History,
     values: str | None = None,
     path: str | Path | None = None,
     *,
@@ -223,7 +223,7 @@ def plot_shape(
 
     Parameters
     ----------
-    shape : Shape or Result
+    shape : Shape or History
         What to draw; of a result, the last frame.
     values : str, optional
         Scalar field, such as plastic_strain_max or thickness_change; by default the first of these that is there.

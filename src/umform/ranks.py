@@ -1,7 +1,7 @@
 """What processes that share a model must agree on: sums, largest values, errors. In one process each is its own share.
 
 A rank is one process of a run under MPI. Everything that decides how a run goes on passes through here, so that all
-ranks decide alike; `umform.distributed` has the ranks of MPI.
+ranks decide alike; `umform.parallel` has the ranks of MPI.
 """
 
 from __future__ import annotations

@@ -15,13 +15,6 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from types import TracebackType
 
-import numpy as np
-from numpy.typing import NDArray
-
-from umform.solvers import Factorisation, Pattern, SparseSolver
-
-Floats = NDArray[np.float64]
-
 
 class Part:
     """Adds up what is spent inside of its ``with`` blocks, which never stand in each other.
@@ -148,33 +141,3 @@ def new_timing() -> Timing:
     if found is not None:
         found.append(timing)
     return timing
-
-
-class TimedSolver:
-    """A sparse solver on the clock of a run.
-
-    Parameters
-    ----------
-    solver : SparseSolver
-        The solver, which has analysed its pattern.
-    timing : Timing
-        Its parts `analysis`, `factorisation` and `solve` are counted.
-    """
-
-    def __init__(self, solver: SparseSolver, timing: Timing) -> None:
-        self.solver, self.timing, self.name = solver, timing, solver.name
-
-    def analyse(self, pattern: Pattern) -> None:
-        """See :class:`umform.solvers.SparseSolver`."""
-        with self.timing.analysis:
-            self.solver.analyse(pattern)
-
-    def factor(self, values: Floats) -> Factorisation:
-        """See :class:`umform.solvers.SparseSolver`."""
-        with self.timing.factorisation:
-            return self.solver.factor(values)
-
-    def solve(self, rhs: Floats) -> Floats:
-        """See :class:`umform.solvers.SparseSolver`."""
-        with self.timing.solve:
-            return self.solver.solve(rhs)

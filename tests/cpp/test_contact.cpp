@@ -3,7 +3,7 @@
 #include <random>
 
 #include "check.hpp"
-#include "umform/contact.hpp"
+#include "umform/contact/facets.hpp"
 #include "umform/surfaces/sphere.hpp"
 
 using namespace umform;

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "check.hpp"
-#include "umform/csr.hpp"
+#include "umform/assembly/csr.hpp"
 
 using namespace umform;
 

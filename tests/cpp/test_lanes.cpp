@@ -2,7 +2,7 @@
 #include <array>
 
 #include "check.hpp"
-#include "umform/condensation.hpp"
+#include "umform/algebra/condensation.hpp"
 #include "umform/materials/remainders.hpp"
 
 using namespace umform;

@@ -1,9 +1,9 @@
 // Energies of the laws: remainders of exp and log, integrals of the yield curves, elastic energy on both sides of its switch.
 #include "check.hpp"
+#include "umform/elements/quadrature.hpp"
 #include "umform/materials/j2.hpp"
 #include "umform/materials/neo_hooke.hpp"
 #include "umform/materials/saint_venant_kirchhoff.hpp"
-#include "umform/quadrature.hpp"
 
 using namespace umform;
 

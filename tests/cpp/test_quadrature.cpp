@@ -1,6 +1,6 @@
 // Rules of up to 15 points integrate polynomials as far as they promise, and not further; Legendre polynomials.
 #include "check.hpp"
-#include "umform/quadrature.hpp"
+#include "umform/elements/quadrature.hpp"
 
 using namespace umform;
 

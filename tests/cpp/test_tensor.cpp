@@ -3,7 +3,7 @@
 #include <random>
 
 #include "check.hpp"
-#include "umform/tensor.hpp"
+#include "umform/algebra/tensor.hpp"
 
 using namespace umform;
 

@@ -1,6 +1,6 @@
 // Shape functions: partition of unity, value one at their own node, slopes against differences, reproduction of fields.
 #include "check.hpp"
-#include "umform/topology.hpp"
+#include "umform/elements/topology.hpp"
 
 using namespace umform;
 

@@ -10,12 +10,12 @@ import json
 import numpy as np
 
 import umform as uf
-from umform.distributed.mpi_ranks import world
-from umform.distributed.outline import Outline
-from umform.distributed.run import hand_out
-from umform.distributed.solver import Petsc
 from umform.errors import NotFinite, SingularMatrix
 from umform.mesh import strip
+from umform.parallel.mpi_ranks import world
+from umform.parallel.outline import Outline
+from umform.parallel.run import hand_out
+from umform.parallel.solver import Petsc
 from umform.solvers import make_solver
 
 ELASTIC = uf.SVK(E=210e3, nu=0.3)

@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 
 import umform as uf
-from umform.distributed import run
-from umform.distributed.mpi_ranks import world
 from umform.mesh import strip
+from umform.parallel import run
+from umform.parallel.mpi_ranks import world
 
 #: Columns of cells that a rank after the first has.
 MINE, WIDE = 10, 5

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import umform
-from umform.steps import Move, solve
+from umform.run import solve
+from umform.steps import Move
 
 
 @pytest.fixture(autouse=True)

@@ -11,7 +11,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from umform.steps import Move, Release, solve
+from umform.run import solve
+from umform.steps import Move, Release
 
 UNITS = {
     "m-N-Pa": (1e-3, 1.0),

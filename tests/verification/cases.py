@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import umform as uf
-from umform.verification.references import table
+from umform_book.references import table
 
 __all__ = ["table"]
 

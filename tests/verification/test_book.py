@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from umform.verification.book import cases
-from umform.verification.checks import Verdict
-from umform.verification.page import Page
-from umform.verification.writing import page_text
+from umform_book.book import cases
+from umform_book.checks import Verdict
+from umform_book.page import Page
+from umform_book.writing import page_text
 
 
 @pytest.mark.parametrize("name", cases())

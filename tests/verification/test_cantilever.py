@@ -1,6 +1,6 @@
 """Cantilever strip of Sze et al. (2004): bent by an end shear force, and rolled up by an end moment.
 
-The strip and its loads are those of the verification book, umform.verification.nonlinear.cantilever.
+The strip and its loads are those of the verification book, umform_book.nonlinear.cantilever.
 """
 
 from __future__ import annotations
@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.verification.nonlinear import cantilever
-from umform.verification.nonlinear.tracing import trace
-from umform.verification.variants import Variant, with_tying
+from umform_book.nonlinear import cantilever
+from umform_book.nonlinear.tracing import trace
+from umform_book.variants import Variant, with_tying
 
 from .cases import table
 

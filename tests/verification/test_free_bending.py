@@ -14,8 +14,8 @@ import umform as uf
 from umform.processes import Bending, FreeBending, free_bending
 from umform.processes.bending.case import build
 from umform.solvers import available
-from umform.verification.free_bending.reproduction import case_of, rows
-from umform.verification.free_bending.runs import RECOMMENDED
+from umform_book.free_bending.reproduction import case_of, rows
+from umform_book.free_bending.runs import RECOMMENDED
 
 from .cases import free_bending as strip_over_cylinder
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.verification.linear_algebra import linear_solution
-from umform.verification.references import table
-from umform.verification.shells import pinched_hemisphere
-from umform.verification.variants import Variant
+from umform_book.linear_algebra import linear_solution
+from umform_book.references import table
+from umform_book.shells import pinched_hemisphere
+from umform_book.variants import Variant
 
 #: MacNeal & Harder, A proposed standard set of problems to test finite element accuracy, Finite Elem. Anal. Des. 1
 #: (1985) 3-20: the hemisphere with the hole. (0.0924 is the value of the closed hemisphere.)

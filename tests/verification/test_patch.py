@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.verification.linear_algebra import linear_solution, stiffness
-from umform.verification.quality.patches import (
+from umform_book.linear_algebra import linear_solution, stiffness
+from umform_book.quality.patches import (
     FIELDS,
     NUMBER,
     PLATE,

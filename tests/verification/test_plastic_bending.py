@@ -14,9 +14,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from umform.verification.sharp_bends.arc_bending import ArcBending
-from umform.verification.sharp_bends.candidates import KAPPA, YIELD_STRESS, Candidate
-from umform.verification.variants import Variant
+from umform_book.sharp_bends.arc_bending import ArcBending
+from umform_book.sharp_bends.candidates import KAPPA, YIELD_STRESS, Candidate
+from umform_book.variants import Variant
 
 LENGTH, THICKNESS = 0.5, 2.0
 EIGHT_POINTS = 1.0115

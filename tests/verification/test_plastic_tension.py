@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import umform as uf
-from umform.verification.plastic.bars import THICKNESS, WIDTH, bar
+from umform_book.plastic.bars import THICKNESS, WIDTH, bar
 
 HARDENING = uf.Linear(160.0, 500.0)
 STEEL = uf.J2(kappa=175000, mu=80770, hardening=HARDENING)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from umform.verification.sharp_bends import calculix
-from umform.verification.sharp_bends.section import BentSection, ThicknessStrain
-from umform.verification.sharp_bends.thickness_strains import AVERAGED, LIMIT, LOGARITHMIC, ORDERS, STABILISED
+from umform_book.sharp_bends import calculix
+from umform_book.sharp_bends.section import BentSection, ThicknessStrain
+from umform_book.sharp_bends.thickness_strains import AVERAGED, LIMIT, LOGARITHMIC, ORDERS, STABILISED
 
 
 @pytest.mark.parametrize(

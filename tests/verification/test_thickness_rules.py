@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from umform.verification.plastic.thickness_points import plastic_moment
+from umform_book.plastic.thickness_points import plastic_moment
 
 GAUSS = {2: 1.155, 3: 0.861, 4: 1.043, 5: 0.945, 6: 1.020, 7: 0.971, 8: 1.012, 9: 0.982}
 

@@ -3,10 +3,13 @@
 import os
 import sys
 
-from umform.cli import bend, check, demo, elements, new, plot, resume, run, verify, view
+from umform.cli import bend, check, demo, elements, new, plot, resume, run, view
+from umform.cli.plugins import add_plugins
 from umform.cli.root import app
 
-__all__ = ["app", "bend", "check", "demo", "elements", "main", "new", "plot", "resume", "run", "verify", "view"]
+__all__ = ["app", "bend", "check", "demo", "elements", "main", "new", "plot", "resume", "run", "view"]
+
+add_plugins(app)
 
 #: What a shell reports of a program that is ended by SIGPIPE: 128 + 13.
 CLOSED_PIPE = 141

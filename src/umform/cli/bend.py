@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from umform.processes.air_bending.budget import Budget
     from umform.processes.air_bending.case import AirBend
     from umform.processes.air_bending.measures import Measures
-    from umform.results import Result
+    from umform.run import Result
 
 
 def _option(help_text: str, panel: str, *names: str) -> Any:
@@ -191,10 +191,10 @@ def _strokes(text: str) -> list[float]:
 
 def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str) -> None:
     """Print measures, bending table, and what is to be said of them."""
-    from umform.contact.augmentation import penetrations
     from umform.processes.air_bending.formulas import shop_forces
     from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
     from umform.report.repeats import counted
+    from umform.results.penetration import penetrations
 
     screen = console()
     _print_table("Air bending", summary_header(errors), summary(done.measures, done.case.width, errors))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from umform.cli.root import app, console
 
 if TYPE_CHECKING:
-    from umform.technology import Element
+    from umform.elements.technology import Element
 
 
 @app.command()

@@ -78,9 +78,9 @@ def on_all_ranks(solver: str, options: Sequence[str]) -> Iterator[None]:
             )
         yield
         return
-    from umform.distributed.mpi_ranks import world
-    from umform.distributed.petsc import set_options
-    from umform.distributed.together import together
+    from umform.parallel.mpi_ranks import world
+    from umform.parallel.petsc import set_options
+    from umform.parallel.together import together
 
     set_options(options)
     with together(world()):

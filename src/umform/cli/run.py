@@ -16,7 +16,7 @@ from umform.errors import UmformError
 
 if TYPE_CHECKING:
     from umform.deck.running import Outcome
-    from umform.results import Result
+    from umform.run import Result
 
 Every = Annotated[
     float, typer.Option(metavar="SECONDS", help="Seconds between two checkpoints; 0: one after each increment.")
@@ -66,8 +66,8 @@ def run(
 
 def show(outcome: Outcome) -> None:
     """The table, what happened, and where the files are."""
-    from umform.contact.augmentation import penetrations
     from umform.report.repeats import counted
+    from umform.results.penetration import penetrations
 
     screen = console()
     screen.print(_table(outcome.result))

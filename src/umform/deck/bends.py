@@ -12,15 +12,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from umform.contact import Contact
-from umform.contact.encounter import sheet_thickness
 from umform.deck.deck import Deck
 from umform.deck.findings import Finding, ok, warning
 from umform.deck.problem import Problem
 from umform.deck.tools import ToolPart, along, smallest_radius
+from umform.elements.technology import Element
 from umform.materials import J2, Table
 from umform.model import Model
-from umform.technology import Element
+from umform.model.contact import Contact
+from umform.model.contact.encounter import sheet_thickness
 
 #: Degrees of a tool radius that one element may span: with 4 nodes a face, and with 9, which follow an arc.
 _ARC = {4: 12.0, 9: 24.0}

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 from pydantic_core import PydanticCustomError
 
-from umform.contact import Contact, Motion
 from umform.deck.parts import Name, Part, Positive, Vector
 from umform.deck.selection import Selection, faces_of
 from umform.model import Model
+from umform.model.contact import Contact, Motion
 from umform.surfaces import Tool
 
 Floats = NDArray[np.float64]

@@ -7,11 +7,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from umform.boundary import Control
-from umform.contact import Contact
 from umform.deck.parts import Axis, Directions, Name, Part, Vector, Way
 from umform.deck.selection import Selection, faces_of, nodes_of
 from umform.model import Model
+from umform.model.boundary import Control
+from umform.model.contact import Contact
 
 Contacts = Mapping[str, Contact]
 

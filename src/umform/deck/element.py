@@ -9,7 +9,7 @@ from pydantic import Field
 from umform.deck.parts import Part
 from umform.elements import CATALOGUE
 from umform.elements import element as catalogue_element
-from umform.technology import Element
+from umform.elements.technology import Element
 
 
 class ElementPart(Part):

@@ -10,12 +10,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from umform.contact.encounter import sheet_thickness
 from umform.deck.controls import Displacement, Drive, MidLine
 from umform.deck.deck import Deck
 from umform.deck.findings import Finding, ok, warning
 from umform.deck.problem import Problem
 from umform.deck.steps import Move
+from umform.model.contact.encounter import sheet_thickness
 
 #: Way in an increment, in thicknesses.
 _WAY = 0.5

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from umform.checkpoint import read_note
 from umform.deck.deck import Deck
 from umform.errors import FileProblem
+from umform.run.checkpoint import read_note
 
 
 @dataclass(frozen=True)

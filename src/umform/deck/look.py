@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from umform.contact.encounter import sheet_thickness
 from umform.deck import bends, fineness
 from umform.deck.contents import Contents
 from umform.deck.deck import Deck
@@ -19,7 +18,8 @@ from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallo
 from umform.materials import J2, Elastic
 from umform.mesh.quality import jacobians
 from umform.model import Model
-from umform.newton import Newton
+from umform.model.contact.encounter import sheet_thickness
+from umform.solution.newton import Newton
 
 #: An overlap of more than this part of the thickness at the start sends a jolt through the sheet.
 _OVERLAP = 0.02

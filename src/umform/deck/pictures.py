@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from umform.boundary import Control, Load, Pressure
 from umform.deck.problem import Problem
+from umform.model.boundary import Control, Load, Pressure
 from umform.plotting import house_style, plot_shape, save
-from umform.results import Result
+from umform.run import Result
 from umform.steps import Release
 
 

@@ -8,21 +8,21 @@ from typing import Any
 
 import numpy as np
 
-from umform.boundary import Control
-from umform.contact import Contact
 from umform.deck.contents import Contents
 from umform.deck.lines import Path
 from umform.deck.material import J2
 from umform.deck.source import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey, Source
 from umform.deck.tools import Profiled
+from umform.elements.technology import Element
 from umform.errors import UmformError
 from umform.materials import Material
 from umform.model import Model
-from umform.newton import Newton, NewtonOptions
-from umform.results import Result
-from umform.steps import Step, resume, solve
+from umform.model.boundary import Control
+from umform.model.contact import Contact
+from umform.run import Result, resume, solve
+from umform.solution.newton import Newton, NewtonOptions
+from umform.steps import Step
 from umform.surfaces import Tool
-from umform.technology import Element
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -213,7 +213,7 @@ class _Builder:
         with self._at("solution"):
             options = self.contents.solution.build()
         if self.solver == "petsc":  # each rank will have the pattern of its share
-            from umform.distributed.petsc import petsc
+            from umform.parallel.petsc import petsc
 
             with self._at("solution", "solver"):
                 petsc()

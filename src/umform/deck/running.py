@@ -11,7 +11,7 @@ from umform.deck.deck import Deck
 from umform.deck.kept import Kept
 from umform.deck.problem import Problem, Solving
 from umform.processes.bending.staging import Staging, staging
-from umform.results import Result
+from umform.run import Result
 
 log = logging.getLogger("umform")
 
@@ -72,7 +72,7 @@ def prepared(deck: Deck, solver: str) -> Solving:
     """
     if solver != "petsc":
         return deck.build(solver)
-    from umform.distributed.mpi_ranks import world
+    from umform.parallel.mpi_ranks import world
 
     problem = world().on_first(lambda: deck.build(solver))
     if problem is not None:
@@ -182,8 +182,8 @@ def _finish(
     """Solve, and write what came of it; on many ranks the first one writes for all."""
     if solver != "petsc":
         return _written(kept, problem, out, checkpoint, solve)
-    from umform.distributed.mpi_ranks import world
-    from umform.distributed.together import together
+    from umform.parallel.mpi_ranks import world
+    from umform.parallel.together import together
 
     ranks = world()
     with together(ranks):

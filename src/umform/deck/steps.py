@@ -8,9 +8,9 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from umform import steps
-from umform.boundary import Control
 from umform.deck.parts import Count, Name, Part, Positive
-from umform.newton import NewtonOptions
+from umform.model.boundary import Control
+from umform.solution.newton import NewtonOptions
 
 Controls = Mapping[str, Control]
 Targets = Annotated[dict[Name, float], Field(min_length=1)]

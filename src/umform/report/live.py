@@ -12,13 +12,14 @@ from string import Template
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
+from umform.io.tables import write_csv
 from umform.plotting import COLOURS, plot_history, plot_shape
 from umform.report import parts
 from umform.report.packing import compressed
 from umform.report.scene import Scene, scene_of
 
 if TYPE_CHECKING:
-    from umform.results import Result
+    from umform.results.history import History
 
 _SCRIPTS = ("unpack.js", "space.js", "shape.js", "curves.js", "start.js")
 
@@ -44,7 +45,7 @@ class Live:
     scripts: str
 
     @classmethod
-    def of(cls, result: Result) -> Live:
+    def of(cls, result: History) -> Live:
         """The parts for a result with a history; without kept frames, its last state only is drawn in space."""
         scene = scene_of(result)
         return cls(_shape(result, scene), _curves(result), _table(result), tuple(scene.notes), _scripts(scene))
@@ -66,7 +67,7 @@ def _scripts(scene: Scene) -> str:
     )
 
 
-def _shape(result: Result, scene: Scene) -> str:
+def _shape(result: History, scene: Scene) -> str:
     """The picture in space, or a still of the last state where it cannot be drawn."""
     options = "".join(f"<option>{escape(name)}</option>" for name in scene.fields)
     still = parts.figure(plot_shape(result), "The sheet in its last state, in true proportion.")
@@ -74,7 +75,7 @@ def _shape(result: Result, scene: Scene) -> str:
     return _filled("shape.html", still=still, fields=options, last=str(scene.frames - 1), without_tools=without_tools)
 
 
-def _curves(result: Result) -> str:
+def _curves(result: History) -> str:
     """Curves of the history, or a still for each control."""
     pairs = [(control.name, f"{control.name}_force") for control in result.model.controls]
     stills = [parts.figure(plot_history(result, x, [y]), f"{y} over {x}, all converged increments.") for x, y in pairs]
@@ -83,10 +84,12 @@ def _curves(result: Result) -> str:
     return _filled("curves.html", still="\n".join(stills), x=escape(x), y=escape(y), colours=colours)
 
 
-def _table(result: Result) -> str:
+def _table(result: History) -> str:
     """The history as a file to download, and all of its rows."""
     with TemporaryDirectory() as folder:
-        csv = result.write(Path(folder) / "history.csv").read_bytes()
+        path = Path(folder) / "history.csv"
+        write_csv(path, result.table())
+        csv = path.read_bytes()
     names = "".join(f"<th>{escape(name)}</th>" for name in result.columns())
     size = {"rows": str(len(result)), "count": str(len(result.columns()))}
     return _filled("history.html", csv=b64encode(csv).decode("ascii"), names=names, **size)

@@ -6,22 +6,22 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from umform.contact.augmentation import penetrations
 from umform.report import parts
 from umform.report.live import Live, style
 from umform.report.repeats import counted
 from umform.report.versions import versions
+from umform.results.penetration import penetrations
 
 if TYPE_CHECKING:
-    from umform.results import Result
+    from umform.results.history import History
 
 
-def write_report(result: Result, path: str | Path, *, deck: str = "") -> Path:
+def write_report(result: History, path: str | Path, *, deck: str = "") -> Path:
     """Write one self-contained page about a result.
 
     Parameters
     ----------
-    result : Result
+    result : History
         A result with a history.
     path : str or Path
         The page to write, ending in .html.
@@ -49,7 +49,7 @@ def write_report(result: Result, path: str | Path, *, deck: str = "") -> Path:
     return parts.write_html(path, title, lead, content, style=style(), scripts=live.scripts)
 
 
-def _parts(result: Result, live: Live, deck: str) -> Iterator[str]:
+def _parts(result: History, live: Live, deck: str) -> Iterator[str]:
     for message in counted(result.warnings):
         yield parts.note(message, bad=True)
     yield parts.heading("Shape")
@@ -74,7 +74,7 @@ def _parts(result: Result, live: Live, deck: str) -> Iterator[str]:
     yield parts.pairs(versions())
 
 
-def _end_values(result: Result) -> str:
+def _end_values(result: History) -> str:
     """All columns of the history at the start and at the end of each step."""
     ends = {int(row["step"]): row for row in result.rows}
     columns = [name for name in result.columns() if name != "step"]
@@ -82,7 +82,7 @@ def _end_values(result: Result) -> str:
     return parts.table(header, [[name, *(f"{row[name] + 0.0:.6g}" for row in ends.values())] for name in columns])
 
 
-def _time(result: Result) -> str:
+def _time(result: History) -> str:
     """Seconds, shares and calls of the parts of the run."""
     rows = [
         [name, f"{seconds:.2f}", f"{100 * share:.1f}", "" if calls is None else str(calls)]
@@ -91,7 +91,7 @@ def _time(result: Result) -> str:
     return parts.table(["", "s", "%", "calls"], rows)
 
 
-def settings(result: Result) -> dict[str, object]:
+def settings(result: History) -> dict[str, object]:
     """What the model of a run is made of, in words, with the penetrations that were reached."""
     model = result.model
     options = ", ".join(f"{name}={value}" for name, value in model.element.options.items())

@@ -15,14 +15,15 @@ from numpy.typing import NDArray
 from umform.errors import UmformError
 from umform.report.facets import smooth_groups
 from umform.report.packing import Quantised, pack
-from umform.shape import outer_quads
+from umform.results.shape import outer_quads
 from umform.surfaces import Tool
 from umform.surfaces.sampled import sampled
 from umform.surfaces.triangles import Box3, Triangles, inside_of
 
 if TYPE_CHECKING:
-    from umform.contact import Contact
-    from umform.results import Frame, Result
+    from umform.model.contact import Contact
+    from umform.model.frame import Frame
+    from umform.results.history import History
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int64]
@@ -64,7 +65,7 @@ class Scene:
     notes: list[str]
 
 
-def scene_of(result: Result) -> Scene:
+def scene_of(result: History) -> Scene:
     """The scene of a result; without kept frames, its last state only."""
     mesh = result.model.mesh
     faces, owners = outer_quads(mesh.connectivity.astype(np.int64))
@@ -99,13 +100,13 @@ def scene_of(result: Result) -> Scene:
     return Scene(pack(head, arrays), len(shifts), [field["label"] for field in fields], tools, notes)
 
 
-def _displacements(result: Result) -> Floats:
+def _displacements(result: History) -> Floats:
     if not result.frames:
         return result.model.u.reshape(1, -1, 3)
     return np.stack([frame.points["displacement"] for frame in result.frames])
 
 
-def _marks(result: Result) -> list[dict[str, float]]:
+def _marks(result: History) -> list[dict[str, float]]:
     """Row of the history and time of each frame."""
     if not result.frames:
         return [{"row": len(result) - 1, "time": float(result.model.time)}]
@@ -147,7 +148,7 @@ def _around(x: Floats) -> tuple[Floats, Floats]:
     return low - margin, high + margin
 
 
-def _poses(result: Result) -> Iterator[Poses]:
+def _poses(result: History) -> Iterator[Poses]:
     """Places of the tool of each contact at the frames."""
     for contact in result.model.contacts:
         if not result.frames:

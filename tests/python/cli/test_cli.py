@@ -57,7 +57,7 @@ def test_a_public_name_loads_its_own_home_only():
 
 def test_all_public_names_together_load_numpy_and_the_kernels_only():
     loaded = loaded_by("import umform as uf; [getattr(uf, name) for name in uf.__all__]")
-    assert {"numpy", "umform._core", "umform.steps", "umform.sheet_metals", "umform.processes"} <= loaded
+    assert {"numpy", "umform._core", "umform.run.execute", "umform.sheet_metals", "umform.processes"} <= loaded
     assert not loaded & (HEAVY - {"numpy", "umform._core"})
 
 
@@ -86,7 +86,7 @@ def run(cells, width, folder):
 def test_a_small_run_loads_no_scipy_where_mkl_is(cells, solver, tmp_path):
     loaded = loaded_by(f"exec({SMALL_RUN!r}); run({cells}, {2.5 * cells[1]}, {str(tmp_path)!r})")
     assert solver in loaded  # the line before the list
-    assert "umform.steps" in loaded
+    assert "umform.run.execute" in loaded
     assert not loaded & {"scipy", "importlib.metadata", "matplotlib", "h5py", "meshio", "rich"}
 
 
@@ -112,7 +112,7 @@ def test_a_template_is_printed_without_loading_what_computes(words):
 )
 def test_solving_and_looking_load_nothing_for_files_and_pictures(code):
     loaded = loaded_by(code)
-    assert "umform.steps" in loaded
+    assert "umform.run.execute" in loaded
     assert not loaded & {"meshio", "h5py", "matplotlib", "scipy.sparse", "scipy.optimize", "scipy.spatial"}
 
 
@@ -355,4 +355,4 @@ def test_log_of_increments(tmp_path):
     command = [sys.executable, "-m", "umform", "-v", "demo", "free-bending", "--out", tmp_path, *RUN]
     run = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=True)
     assert "step 1  time" in run.stderr
-    assert "umform.newton" not in run.stdout
+    assert "umform.solution.newton" not in run.stdout

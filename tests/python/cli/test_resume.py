@@ -16,11 +16,12 @@ import pytest
 from typer.testing import CliRunner
 
 from umform import cli
-from umform.checkpoint import read_checkpoint
 from umform.deck.templates import write_template
 from umform.errors import FileProblem
-from umform.newton import Newton
-from umform.steps import Move, solve
+from umform.run import solve
+from umform.run.checkpoint import read_checkpoint
+from umform.solution.newton import Newton
+from umform.steps import Move
 
 SOURCE = Path(cli.__file__).parents[2]
 #: Contact, plasticity and a release, in some seconds.

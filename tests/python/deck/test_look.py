@@ -3,12 +3,12 @@ import math
 import numpy as np
 import pytest
 
-from umform.contact.encounter import sheet_thickness
 from umform.deck import Deck, deck_of
 from umform.deck.bends import locking_moment
 from umform.deck.findings import Level
 from umform.deck.look import look
 from umform.mesh import strip as strip_mesh
+from umform.model.contact.encounter import sheet_thickness
 from umform.processes.air_bending import AirBending
 
 

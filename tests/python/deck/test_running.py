@@ -6,7 +6,7 @@ from typer.testing import CliRunner
 
 from umform import cli
 from umform.deck.templates import template_file
-from umform.newton import Newton
+from umform.solution.newton import Newton
 
 FILES = {"history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", "as-run.toml"}
 
@@ -110,7 +110,7 @@ def test_interrupt_writes_what_was_reached(deck, tmp_path, monkeypatch):
 
 
 def test_interrupt_while_writing_leaves_no_half_file(deck, tmp_path, monkeypatch):
-    from umform.results import Result
+    from umform.run import Result
 
     def interrupted(self, path, *, deck):
         path.write_text("<html>")

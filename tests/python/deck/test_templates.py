@@ -7,8 +7,8 @@ from umform.deck.look import look
 from umform.deck.templates import template, template_file, templates, write_template
 from umform.errors import InvalidValue
 from umform.processes import FreeBending, free_bending
-from umform.verification.nonlinear.hinged_roofs import limit_load
-from umform.verification.references import table
+from umform_book.nonlinear.hinged_roofs import limit_load
+from umform_book.references import table
 
 #: Changes that make a run of a template short.
 SHORT = {

@@ -11,7 +11,8 @@ from umform.io import VtkHdfSeries, read_mesh_arrays
 from umform.io.cells import cell_type, to_vtk
 from umform.mesh import strip
 from umform.model import Model
-from umform.steps import Move, solve
+from umform.run import solve
+from umform.steps import Move
 
 LAGRANGE_HEXAHEDRON = 72
 

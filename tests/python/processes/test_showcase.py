@@ -15,8 +15,8 @@ from umform.processes import FreeBending, demo, free_bending
 from umform.processes.bending import page, showcase
 from umform.processes.bending.case import build
 from umform.processes.bending.showcase import Selection
-from umform.results import Result
-from umform.steps import Move, solve
+from umform.run import Result, solve
+from umform.steps import Move
 
 BASE = FreeBending(steps=20, mesh=(12, 1))
 FILES = {

@@ -11,7 +11,7 @@ from umform.errors import InvalidValue
 from umform.plotting import inline_svg, plot_shape
 from umform.processes import FreeBending, free_bending
 from umform.report.page import write_report
-from umform.shape import Shape
+from umform.results.shape import Shape
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 import umform as uf
 from umform.errors import FileProblem, InvalidValue
 from umform.plotting import Picture, house_style, inline_svg, plot_history, plot_shape, save
-from umform.shape import Shape
+from umform.results.shape import Shape
 
 
 @pytest.fixture(scope="module", params=["hex8", "hex18"])

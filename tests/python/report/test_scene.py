@@ -11,7 +11,7 @@ import umform as uf
 from umform.report.facets import smooth_groups
 from umform.report.packing import Quantised
 from umform.report.scene import scene_of
-from umform.shape import Shape
+from umform.results.shape import Shape
 
 
 def unpacked(data):

@@ -8,8 +8,9 @@ import pytest
 from umform import materials as mt
 from umform.mesh import strip
 from umform.model import Model
-from umform.newton import Newton, NewtonOptions
-from umform.steps import Move, solve
+from umform.run import solve
+from umform.solution.newton import Newton, NewtonOptions
+from umform.steps import Move
 from umform.surfaces import Cylinder, Extruded, Profile, Punch, VDie
 
 STEEL = mt.J2(kappa=175e3, mu=80.77e3, hardening=mt.Linear(160.0, 500.0))

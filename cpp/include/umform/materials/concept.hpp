@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "umform/tensor.hpp"
+#include "umform/algebra/tensor.hpp"
 
 namespace umform {
 

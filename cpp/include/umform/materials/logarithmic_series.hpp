@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "umform/algebra/tensor.hpp"
 #include "umform/materials/remainders.hpp"
-#include "umform/tensor.hpp"
 
 namespace umform {
 

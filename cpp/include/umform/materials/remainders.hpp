@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "umform/lanes.hpp"
+#include "umform/algebra/lanes.hpp"
 
 namespace umform {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <memory>
 
-#include "umform/tensor.hpp"
+#include "umform/algebra/tensor.hpp"
 
 namespace umform {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "umform/tensor.hpp"
+#include "umform/algebra/tensor.hpp"
 
 namespace umform {
 

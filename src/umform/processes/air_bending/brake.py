@@ -9,18 +9,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.assembly import Snapshot
-from umform.boundary import Control
-from umform.contact import ContactPoints
 from umform.model import Model
-from umform.newton import NewtonOptions
+from umform.model.assembly import Snapshot
+from umform.model.boundary import Control
+from umform.model.contact import ContactPoints
 from umform.processes.air_bending.measures import Measures, measure
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.sheet import half_sheet
-from umform.release import Release
-from umform.results import Result
-from umform.steps import Move, solve
+from umform.run import Result, solve
+from umform.solution.newton import NewtonOptions
+from umform.steps import Move
+from umform.steps.release import Release
 
 #: Towards zero force the sheet rests on single rows of contact points, and plain Newton jumps between two rows.
 OPTIONS = NewtonOptions(line_search=True)

@@ -13,8 +13,8 @@ from umform.processes.air_bending.checks import needed_stroke
 from umform.processes.air_bending.measures import Measures, measure
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.section import Section
-from umform.results import Result
-from umform.steps import Move, Release, solve
+from umform.run import Result, solve
+from umform.steps import Move, Release
 
 Floats = NDArray[np.float64]
 #: Penetration, in thicknesses, that is worth a word.

@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass, fields
 from typing import Any
 
+from umform.elements.technology import Element
 from umform.materials import J2, Swift
 from umform.processes.air_bending.checks import check_geometry, check_parameters
 from umform.surfaces import Punch, VDie
-from umform.technology import Element
 
 #: Like DC04 across the rolling direction in shape and level; a curve of your own material is better.
 DC04_LIKE = J2(E=210e3, nu=0.3, hardening=Swift(strength=520.0, offset=0.004, exponent=0.22))

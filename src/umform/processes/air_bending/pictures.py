@@ -11,13 +11,13 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from umform.model.frame import Frame
 from umform.plotting import COLOURS, Picture, house_style
 from umform.processes.air_bending.case import AirBend
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.section import Section
-from umform.results import Frame
 
 Floats = NDArray[np.float64]
 

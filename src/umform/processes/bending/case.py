@@ -10,18 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
-from umform.boundary import Prescribed
 from umform.elements import element as catalogue_element
 from umform.errors import UmformError
 from umform.materials import J2, Linear, Perfect
 from umform.model import Model
-from umform.newton import Newton, NewtonOptions
+from umform.model.boundary import Prescribed
 from umform.processes.bending.measures import at_marks, jump, roughness
 from umform.processes.bending.parameters import FreeBending
 from umform.report.repeats import counted
-from umform.results import Result
-from umform.shape import Shape
-from umform.steps import Move, Release, solve
+from umform.results.shape import Shape
+from umform.run import Result, solve
+from umform.solution.newton import Newton, NewtonOptions
+from umform.steps import Move, Release
 from umform.surfaces import Cylinder
 from umform.timing import Timing
 

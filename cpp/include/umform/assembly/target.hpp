@@ -1,0 +1,58 @@
+// How a block of elements or facets adds its share to residual and tangent.
+#pragma once
+
+#include <array>
+
+#include "umform/assembly/csr.hpp"
+
+namespace umform {
+
+/// Where a block adds its share. Arrays over all degrees of freedom, but `values` over the entries of the pattern.
+struct Target {
+    double* f;                   // internal forces
+    double* values;              // tangent over the free degrees of freedom
+    const double* du = nullptr;  // if given: increment of the prescribed degrees of freedom ...
+    double* Kdu = nullptr;       // ... and K du
+};
+
+/// Outcome of `evaluate`: the first element whose strain left the domain of its law or whose
+/// enhanced parameters cannot be eliminated (or -1), and sum |f_e|^2, the scale
+/// of the forces that a residual is measured against.
+struct Outcome {
+    int failed = -1;
+    double force_scale_squared = 0.0;
+};
+
+/// Reads the nodal values of one element into its order by direction.
+template <int Nodes>
+void gather(const Connectivity& part, int element, const double* field, double* local) {
+    const std::int32_t* ids = part[element];
+    for (int a = 0; a < Nodes; ++a)
+        for (int k = 0; k < 3; ++k) local[k * Nodes + a] = field[3 * ids[a] + k];
+}
+
+/// Adds K, f (and K du of prescribed increments) of one element; K holds its upper triangle.
+template <int Nodes>
+void scatter_element(const Connectivity& part, const Scatter& scatter, int element, double* K, const double* f,
+                     const Target& target) {
+    constexpr int size = 3 * Nodes;
+    const std::int32_t* ids = part[element];
+    for (int a = 0; a < Nodes; ++a)
+        for (int k = 0; k < 3; ++k) target.f[3 * ids[a] + k] += f[k * Nodes + a];
+    if (!scatter.symmetric || target.du != nullptr)
+        for (int i = 0; i < size; ++i)
+            for (int j = 0; j < i; ++j) K[i * size + j] = K[j * size + i];
+    if (target.du != nullptr) {
+        std::array<double, size> du;
+        gather<Nodes>(part, element, target.du, du.data());
+        for (int a = 0; a < Nodes; ++a)
+            for (int k = 0; k < 3; ++k) {
+                double sum = 0.0;
+                for (int j = 0; j < size; ++j) sum += K[(k * Nodes + a) * size + j] * du[j];
+                target.Kdu[3 * ids[a] + k] += sum;
+            }
+    }
+    scatter.add(element, K, target.values);
+}
+
+}  // namespace umform

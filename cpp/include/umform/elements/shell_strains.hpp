@@ -1,0 +1,154 @@
+// First half of the Gauss loop: assumed and enhanced strains of a solid-shell at its Gauss points, in the local frame.
+#pragma once
+
+#include "umform/elements/shell_tables.hpp"
+#include "umform/elements/shell_workspace.hpp"
+
+namespace umform {
+
+template <int Nodes, class Real>
+class ShellStrains {
+  public:
+    using Workspace = ShellWorkspace<Nodes, Real>;
+    using Nodal = typename Workspace::Nodal;
+    using Vectors = std::array<Vec<Real, 3>, 3>;
+
+    ShellStrains(const Technology& technology, int surface_points, const Rule& thickness)
+        : tables_(technology, gauss(surface_points), thickness) {}
+
+    int points() const { return tables_.points(); }
+    int modes() const { return tables_.modes; }
+    Workspace workspace() const { return Workspace(tables_); }
+
+    /// Strains at the Gauss points in the local frame, with A, dV and the base vectors. False where inverted.
+    Mask<Real> strains(const Nodal& X, const Nodal& u, const Real* alpha, Workspace& w) const {
+        for (std::size_t k = 0; k < tables_.places.size(); ++k) {
+            w.G[k] = base_of(tables_.places[k].shape, X.data());
+            w.h[k] = base_of(tables_.places[k].shape, u.data());
+        }
+        sample_strains(tables_.mid_samples, 0.0, total(w), w.mid_E.data());
+        const Vectors G0 = w.G[tables_.centre].at(0.0);
+        const Mat<Real, 3, 3> centre_inverse = inverse(columns(G0));
+        const Real centre_det = det(columns(G0));
+        Mask<Real> valid = true;
+        for (int layer = 0, q = 0; layer < tables_.layers; ++layer) {
+            const double t = tables_.t[layer];
+            sample_strains(tables_.layer_samples, t, total(w), w.layer_E.data());
+            for (int p = 0; p < tables_.surface; ++p, ++q) {
+                const Vectors G = w.G[p].at(t);
+                const Real detJ = det(columns(G));
+                valid = valid & (detJ > 0.0);
+                w.dV[q] = detJ * tables_.weight[q];
+                w.A[q] = local_inverse(G);
+                Voigt E = assumed_strain(p, t, total(w), w);
+                if (tables_.modes > 0) {
+                    enhanced_directions(q, product(centre_inverse, columns(G)), centre_det / detJ, w);
+                    add_enhanced_strain(q, alpha, w, E);
+                }
+                w.E[q] = to_local(w.A[q], E);
+            }
+        }
+        return valid;
+    }
+
+    /// What is quadratic in a correction of the assumed strains at the Gauss points, in convected components. eq. (5.37)
+    void quadratic_strains(const Nodal& correction, Workspace& w) const {
+        for (std::size_t k = 0; k < tables_.places.size(); ++k)
+            w.d[k] = base_of(tables_.places[k].shape, correction.data());
+        const auto quadratic = [&w](int place, double t) {
+            return [d = w.d[place].at(t)](int component) {
+                const auto [i, j] = voigt_pair[component];
+                return quadratic_strain(i, j, d);
+            };
+        };
+        sample_strains(tables_.mid_samples, 0.0, quadratic, w.mid_E.data());
+        for (int layer = 0, q = 0; layer < tables_.layers; ++layer) {
+            const double t = tables_.t[layer];
+            sample_strains(tables_.layer_samples, t, quadratic, w.layer_E.data());
+            for (int p = 0; p < tables_.surface; ++p, ++q) w.bent[q] = assumed_strain(p, t, quadratic, w);
+        }
+    }
+
+    /// Base vectors of one lane at a Gauss point, after `strains`.
+    void base_vectors(int q, int lane, const Workspace& w, std::array<Vec3, 3>& G, std::array<Vec3, 3>& g) const {
+        const int place = q % tables_.surface;
+        const double t = tables_.t[q / tables_.surface];
+        const Vectors reference = w.G[place].at(t), now = current(place, t, w);
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) G[i][k] = reference[i][k][lane], g[i][k] = now[i][k][lane];
+    }
+
+  protected:
+    static Vectors current(int place, double t, const Workspace& w) {
+        Vectors g = w.G[place].at(t);
+        const Vectors h = w.h[place].at(t);
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) g[i][k] += h[i][k];
+        return g;
+    }
+
+    const ShellTables<Nodes> tables_;
+
+  private:
+    using Voigt = Vec<Real, 6>;
+
+    static Mat<Real, 3, 3> columns(const Vectors& v) {
+        return {{v[0][0], v[1][0], v[2][0], v[0][1], v[1][1], v[2][1], v[0][2], v[1][2], v[2][2]}};
+    }
+    /// Covariant strains: of place and t a function of the component.
+    static auto total(const Workspace& w) {
+        return [&w](int place, double t) {
+            return [G = w.G[place].at(t), h = w.h[place].at(t)](int component) {
+                const auto [i, j] = voigt_pair[component];
+                return covariant_strain(i, j, G, h);
+            };
+        };
+    }
+
+    template <class Strain>
+    static void sample_strains(const std::vector<typename ShellTables<Nodes>::Sample>& samples, double t,
+                               const Strain& strain, Real* E) {
+        for (const auto& [component, place] : samples) *E++ = strain(place, t)(component);
+    }
+
+    /// Compatible components, and tied ones from their samples. eq. (2.2)
+    template <class Strain>
+    Voigt assumed_strain(int surface_point, double t, const Strain& strain, const Workspace& w) const {
+        const auto compatible = strain(surface_point, t);
+        Voigt E{};
+        for (int p = 0; p < 6; ++p) {
+            if (tables_.row_of[p] < 0) {
+                E[p] = compatible(p);
+                continue;
+            }
+            const auto& row = tables_.rows[tables_.row_of[p]];
+            const Real* samples = row.at_layer ? w.layer_E.data() : w.mid_E.data();
+            for (const auto& [sample, weight] : row.shares[surface_point]) E[p] += weight * samples[sample];
+        }
+        return E;
+    }
+
+    /// (detJ0/detJ) A^T M A with A = J0^-1 J is for each enhanced component a fixed direction. eqs. (2.9), (2.10)
+    void enhanced_directions(int q, const Mat<Real, 3, 3>& A, Real ratio, Workspace& w) const {
+        Voigt* direction = w.enhanced.data() + q * tables_.enhanced.size();
+        for (const int component : tables_.enhanced) {
+            const auto [k, l] = voigt_pair[component];
+            for (int p = 0; p < 6; ++p) {
+                const auto [i, j] = voigt_pair[row_order[p]];
+                (*direction)[p] = (i == j ? 0.5 : 1.0) * ratio * (A(k, i) * A(l, j) + A(l, i) * A(k, j));
+            }
+            ++direction;
+        }
+    }
+
+    void add_enhanced_strain(int q, const Real* alpha, const Workspace& w, Voigt& E) const {
+        const Voigt* direction = w.enhanced.data() + q * tables_.enhanced.size();
+        const double* value = tables_.mode_values.data() + q * tables_.entries.size();
+        Voigt amount{};
+        for (const auto& [component, mode] : tables_.entries) amount[component] += *value++ * alpha[mode];
+        for (std::size_t c = 0; c < tables_.enhanced.size(); ++c)
+            for (int p = 0; p < 6; ++p) E[row_order[p]] += direction[c][p] * amount[c];
+    }
+};
+
+}  // namespace umform

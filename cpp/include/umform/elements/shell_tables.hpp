@@ -1,0 +1,127 @@
+// What is the same for all elements of a kind, computed once: shape functions, tying weights, values of the modes.
+#pragma once
+
+#include <vector>
+
+#include "umform/elements/quadrature.hpp"
+#include "umform/elements/technology.hpp"
+#include "umform/elements/topology.hpp"
+
+namespace umform {
+
+/// Gauss points are numbered q = layer * surface + point of the surface. All that depends on (r, s) is tabulated at places:
+/// the Gauss points of the surface come first, then the tying points, each once.
+template <int Nodes>
+struct ShellTables {
+    static constexpr int face = Nodes / 2;
+
+    struct Place {
+        double r, s;
+        FaceShape<face> shape;
+    };
+    struct Sample {
+        int component, place;
+    };
+    /// A share of a tied strain at a Gauss point: weight times a sample of the mid-surface or of the layer.
+    struct Share {
+        int sample;
+        double weight;
+    };
+    struct Row {
+        bool at_layer;
+        std::vector<std::vector<Share>> shares;  // [surface point]
+    };
+    struct ModeEntry {
+        int component, mode;  // component: position in enhanced
+    };
+
+    ShellTables(const Technology& technology, const Rule& surface_rule, const Rule& thickness)
+        : surface(surface_rule.size() * surface_rule.size()), layers(thickness.size()), t(thickness.x) {
+        tabulate_gauss_points(technology, surface_rule, thickness);
+        for (const Tying& tying : technology.tying) tabulate_tying(tying, surface_rule);
+        centre = place(0.0, 0.0);
+        tabulate_modes(technology, surface_rule, thickness);
+    }
+
+    int points() const { return surface * layers; }
+
+    int surface, layers, modes = 0, centre = 0;
+    std::vector<double> t;       // [layer]
+    std::vector<double> weight;  // [q]
+    std::vector<Place> places;
+    std::array<int, 6> row_of;  // component -> row of the tying rule, or -1
+    std::vector<Row> rows;
+    std::vector<Sample> mid_samples, layer_samples;
+    std::vector<int> enhanced;        // enhanced components
+    std::vector<ModeEntry> entries;   // which component of which mode is not zero
+    std::vector<double> mode_values;  // [q][entry]
+
+  private:
+    int place(double r, double s) {
+        for (std::size_t k = 0; k < places.size(); ++k)
+            if (places[k].r == r && places[k].s == s) return static_cast<int>(k);
+        places.push_back({r, s, face_shape<face>(r, s)});
+        return static_cast<int>(places.size()) - 1;
+    }
+
+    void tabulate_gauss_points(const Technology& technology, const Rule& surface_rule, const Rule& thickness) {
+        row_of.fill(-1);
+        for (std::size_t row = 0; row < technology.tying.size(); ++row)
+            row_of[technology.tying[row].component] = static_cast<int>(row);
+        for (const double s : surface_rule.x)
+            for (const double r : surface_rule.x) place(r, s);
+        for (const double wt : thickness.w)
+            for (const double ws : surface_rule.w)
+                for (const double wr : surface_rule.w) weight.push_back(wr * ws * wt);
+    }
+
+    void tabulate_tying(const Tying& tying, const Rule& surface_rule) {
+        std::vector<Sample>& samples = tying.at_layer ? layer_samples : mid_samples;
+        const int first = static_cast<int>(samples.size());
+        for (const double s : tying.s)
+            for (const double r : tying.r) samples.push_back({tying.component, place(r, s)});
+        Row row{tying.at_layer, {}};
+        for (const double s : surface_rule.x)
+            for (const double r : surface_rule.x) {
+                std::vector<Share>& shares = row.shares.emplace_back();
+                int sample = first;
+                for (const double ws : lagrange(tying.s, s))
+                    for (const double wr : lagrange(tying.r, r)) {
+                        // Where Gauss and tying points coincide, a weight is zero but for the round-off of both.
+                        if (std::abs(wr * ws) > 1e-14) shares.push_back({sample, wr * ws});
+                        ++sample;
+                    }
+            }
+        rows.push_back(std::move(row));
+    }
+
+    void tabulate_modes(const Technology& technology, const Rule& surface_rule, const Rule& thickness) {
+        modes = static_cast<int>(technology.modes.size());
+        std::array<int, 6> position;
+        position.fill(-1);
+        for (const Mode& mode : technology.modes)
+            for (const Term& term : mode)
+                if (position[term.component] < 0) {
+                    position[term.component] = static_cast<int>(enhanced.size());
+                    enhanced.push_back(term.component);
+                }
+        for (int m = 0; m < modes; ++m)
+            for (const int component : enhanced)
+                for (const Term& term : technology.modes[m])
+                    if (term.component == component
+                        && (entries.empty() || entries.back().mode != m
+                            || entries.back().component != position[component]))
+                        entries.push_back({position[component], m});
+        for (const double t : thickness.x)
+            for (const double s : surface_rule.x)
+                for (const double r : surface_rule.x)
+                    for (const ModeEntry& entry : entries) {
+                        double value = 0.0;
+                        for (const Term& term : technology.modes[entry.mode])
+                            if (term.component == enhanced[entry.component]) value += term(r, s, t);
+                        mode_values.push_back(value);
+                    }
+    }
+};
+
+}  // namespace umform

@@ -1,0 +1,59 @@
+// Everything that one thread needs to work on the elements in the lanes; nothing is allocated after construction.
+#pragma once
+
+#include <vector>
+
+#include "umform/elements/shell_tables.hpp"
+#include "umform/elements/strain_rows.hpp"
+
+namespace umform {
+
+template <int Nodes, class Real>
+struct ShellWorkspace {
+    static constexpr int face = Nodes / 2, half = 3 * face, size = 2 * half;
+    /// Values by degree of freedom: the mean by direction, mean[direction * face + node], then the director.
+    using Nodal = std::array<Real, size>;
+
+    explicit ShellWorkspace(const ShellTables<Nodes>& tables)
+        : G(tables.places.size()), h(tables.places.size()), d(tables.places.size()), E(tables.points()),
+          S(tables.points()), CC(tables.points()), A(tables.points()), dV(tables.points()), bent(tables.points()),
+          enhanced(tables.points() * tables.enhanced.size()), mid_E(tables.mid_samples.size()),
+          layer_E(tables.layer_samples.size()), mid_rows(tables.mid_samples.size() * size),
+          layer_rows(tables.layer_samples.size() * size), tied_rows(tables.surface * 6 * size),
+          B_mean(tables.surface * 6 * half), B_extra(B_mean), CB_mean(B_mean), CB_extra(B_mean),
+          moments(tables.places.size()), Kmm(half * half), Kdm(Kmm), Kdd(Kmm), Kaa(tables.modes * tables.modes),
+          Kad(tables.modes * size), Kad_raw(Kad), ra(tables.modes) {}
+
+    /// Sets to zero what `SolidShell::integrate` adds to.
+    void clear() {
+        f.fill(0.0), geometry_mm.fill(0.0), geometry_dm.fill(0.0), geometry_dd.fill(0.0);
+        for (std::vector<Real>* sum : {&Kmm, &Kdm, &Kdd, &Kaa, &Kad, &ra})
+            std::fill(sum->begin(), sum->end(), Real(0.0));
+        for (auto& of_place : moments)
+            for (auto& of_component : of_place) of_component.fill(0.0);
+    }
+
+    // Strain and material.
+    std::vector<Base<Real>> G, h, d;     // [place] reference base vectors, gradients of displacement and correction
+    std::vector<Vec<Real, 6>> E, S;      // [q] in the local frame
+    std::vector<Mat<Real, 6, 6>> CC;     // [q]
+    std::vector<Mat<Real, 3, 3>> A;      // [q] J^-1 in the local frame
+    std::vector<Real> dV;                // [q]
+    std::vector<Vec<Real, 6>> bent;      // [q] covariant strain that is quadratic in the correction
+    std::vector<Vec<Real, 6>> enhanced;  // [q][component] covariant direction of an enhanced component
+    std::vector<Real> mid_E, layer_E;    // [sample]
+    // Rows; those of a layer are [surface point][row_order][half].
+    std::vector<Real> mid_rows, layer_rows;  // [sample][size]
+    std::vector<Real> tied_rows;             // [surface point][row_order][size], of the mid-surface
+    std::vector<Real> B_mean, B_extra, CB_mean, CB_extra;
+    std::vector<std::array<std::array<Real, 3>, 6>> moments;  // [place][component][power of t] of the stress
+    // Results: the blocks mean-mean, director-mean, director-director of K; of the first and last what is on and above the
+    // diagonal.
+    std::vector<Real> Kmm, Kdm, Kdd;
+    std::array<Real, static_cast<std::size_t>(face) * face> geometry_mm, geometry_dm, geometry_dd;  // [node][node]
+    Nodal f;
+    // Enhanced parameters: after `condense`, Kad holds Kaa^-1 Kad and ra holds Kaa^-1 ra.
+    std::vector<Real> Kaa, Kad, Kad_raw, ra;
+};
+
+}  // namespace umform

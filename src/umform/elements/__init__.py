@@ -1,0 +1,33 @@
+"""Elements as data: tying rules, enhanced modes, and the catalogue by the names of the literature."""
+
+from umform.elements.catalogue import (
+    ANS_SHEAR,
+    ANS_THICKNESS,
+    CATALOGUE,
+    MITC9_IN_PLANE_SHEAR,
+    MITC9_MEMBRANE,
+    MITC9_SHEAR,
+    element,
+    membrane_modes,
+    thickness_modes,
+    thickness_rule,
+)
+from umform.elements.technology import COMPONENTS, Element, Mode, Term, Tying
+
+__all__ = [
+    "ANS_SHEAR",
+    "ANS_THICKNESS",
+    "CATALOGUE",
+    "COMPONENTS",
+    "MITC9_IN_PLANE_SHEAR",
+    "MITC9_MEMBRANE",
+    "MITC9_SHEAR",
+    "Element",
+    "Mode",
+    "Term",
+    "Tying",
+    "element",
+    "membrane_modes",
+    "thickness_modes",
+    "thickness_rule",
+]

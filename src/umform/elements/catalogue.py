@@ -1,0 +1,279 @@
+"""THE list of elements, by the names of the literature: which strains are tied where, which are enhanced by what.
+
+An element is data. A tying rule is a list of :class:`Tying` rows (docs/theory, eq. (2.2)), an enhancement a list of
+modes, each a sum of :class:`Term` (eq. (2.10)); the kernels know nothing else of it. A new element is a few rows here,
+or in the user's own script: ``Element("MINE", "hex8", tying=(...), modes=(...))``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TypedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform import _core
+from umform.elements.technology import Element, Mode, Term, Tying
+from umform.errors import InvalidValue
+
+_A = 1.0 / math.sqrt(3.0)
+_B = math.sqrt(3.0 / 5.0)
+
+
+# Tying rules -------------------------------------------------------------------------------------------------
+
+#: Bathe & Dvorkin (1985): transverse shear tied at the middles of the edges of the mid-surface.
+ANS_SHEAR = (Tying("13", (0.0,), (-1.0, 1.0)), Tying("23", (-1.0, 1.0), (0.0,)))
+
+#: Bucalem & Bathe (1993): in-plane and transverse shear strains tied layer by layer.
+MITC9_MEMBRANE = (
+    Tying("11", (-_A, _A), (-_B, 0.0, _B), at_layer=True),
+    Tying("22", (-_B, 0.0, _B), (-_A, _A), at_layer=True),
+)
+MITC9_IN_PLANE_SHEAR = (Tying("12", (-_A, _A), (-_A, _A), at_layer=True),)
+MITC9_SHEAR = (
+    Tying("13", (-_A, _A), (-_B, 0.0, _B), at_layer=True),
+    Tying("23", (-_B, 0.0, _B), (-_A, _A), at_layer=True),
+)
+
+#: Betsch & Stein (1995): thickness strain tied at the corners, and its biquadratic sister at the nine nodes.
+ANS_THICKNESS = {
+    "hex8": (Tying("33", (-1.0, 1.0), (-1.0, 1.0)),),
+    "hex18": (Tying("33", (-1.0, 0.0, 1.0), (-1.0, 0.0, 1.0)),),
+}
+
+# Enhanced modes ----------------------------------------------------------------------------------------------
+
+
+def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode, ...]:
+    """Modes of E_33: t times 1, 4 or 9 polynomials in the surface, then P_2(t) ... P_order(t) times as many again.
+
+    Parameters
+    ----------
+    count : {0, 1, 4, 9}
+        Number of modes linear in t: Büchter, Ramm & Roehl (1994) for one; {1, r, s, rs} let the distorted bending patch
+        test pass; nine are the full biquadratic set.
+    order : {1, 2, 3, 4}
+        Highest Legendre polynomial in t.
+    order_count : {1, 4, 9}
+        Number of polynomials in the surface that go with P_2 ... P_order. One is enough for 8 nodes, where more change
+        nothing that was measured; 18 nodes need nine in a sharp bend (docs/theory, 2.8).
+    """
+    if order_count not in (1, 4, 9):
+        raise InvalidValue("the number of modes of higher order must be 1, 4 or 9", value=order_count)
+    if count not in (0, 1, 4, 9):
+        raise InvalidValue("the number of thickness modes must be 0, 1, 4 or 9", value=count)
+    if order not in (1, 2, 3, 4):
+        raise InvalidValue("the thickness order must be 1, 2, 3 or 4", value=order)
+    counts = {1: count} | dict.fromkeys(range(2, order + 1), order_count)
+    return tuple(
+        (Term("33", a, b, p),)
+        for p, modes in counts.items()
+        for b in range(math.isqrt(modes))
+        for a in range(math.isqrt(modes))
+    )
+
+
+def membrane_modes(count: int) -> tuple[Mode, ...]:
+    """Modes of the in-plane strains: 4 or 5 (Simo & Rifai 1990), or 7 (Andelfinger & Ramm 1993)."""
+    four: tuple[Mode, ...] = ((Term("11", 1),), (Term("22", 0, 1),), (Term("12", 1),), (Term("12", 0, 1),))
+    coupled: Mode = (Term("11", 1, 1), Term("22", 1, 1, factor=-1.0), Term("12", 2), Term("12", 0, 2, factor=-1.0))
+    modes: dict[int, tuple[Mode, ...]] = {
+        0: (),
+        4: four,
+        5: (*four, coupled),
+        7: (*four, (Term("11", 1, 1),), (Term("22", 1, 1),), (Term("12", 1, 1),)),
+    }
+    if count not in modes:
+        raise InvalidValue("the number of membrane modes must be 0, 4, 5 or 7", value=count)
+    return modes[count]
+
+
+class _Bends(TypedDict):
+    order: int
+    tied: bool
+    plastic_points: tuple[int, str]
+
+
+# Elements ----------------------------------------------------------------------------------------------------
+
+
+def _build(
+    name: str,
+    cell: str,
+    tying: tuple[Tying, ...],
+    citation: str,
+    *,
+    thickness: int,
+    membrane: int = 0,
+    order: int = 1,
+    tied: bool = False,
+    plastic_points: tuple[int, str] = (5, "gauss"),
+) -> Callable[..., Element]:
+    """Element factory whose keyword arguments are the options that the literature leaves open."""
+
+    def make(
+        thickness_modes_count: int = thickness,
+        thickness_order: int = order,
+        order_modes_count: int = 9 if cell == "hex18" else 1,
+        membrane_modes_count: int = membrane,
+        tie_E33: bool = tied,
+        compatible_E12: bool = False,
+    ) -> Element:
+        if thickness == 0 and (thickness_modes_count != 0 or thickness_order != 1):
+            raise InvalidValue(
+                f"{name} has no enhanced thickness strain",
+                value=f"thickness_order={thickness_order}, thickness_modes={thickness_modes_count}",
+                remedy="take one of the elements with EAS in their name"
+                if cell == "hex8"
+                else "take DISP9K3DEAS or MI9K3DEAS",
+            )
+        if thickness > 0 and thickness_modes_count not in (1, 4, 9):
+            raise InvalidValue("the number of thickness modes must be 1, 4 or 9", value=thickness_modes_count)
+        if 9 in (thickness_modes_count, order_modes_count) and cell == "hex8":
+            raise InvalidValue(
+                f"{name} cannot tell nine thickness modes apart",
+                value=9,
+                cause="at 2 x 2 Gauss points r² and s² are constants",
+                remedy="take 4, or an element with 18 nodes",
+            )
+        if membrane == 0 and membrane_modes_count != 0:
+            raise InvalidValue(f"{name} has no enhanced membrane strain", remedy="take EAS3DEAS")
+        if membrane > 0 and membrane_modes_count not in (4, 5, 7):
+            raise InvalidValue("the number of membrane modes must be 4, 5 or 7", value=membrane_modes_count)
+        rows = tuple(row for row in tying if not (compatible_E12 and row.component == "12"))
+        modes = membrane_modes(membrane_modes_count)
+        if thickness > 0:
+            modes += thickness_modes(thickness_modes_count, thickness_order, order_modes_count)
+        return Element(
+            name=name,
+            cell=cell,
+            tying=rows + (ANS_THICKNESS[cell] if tie_E33 else ()),
+            modes=modes,
+            surface_points=2 if cell == "hex8" else 3,
+            thickness_order=thickness_order if thickness > 0 else 0,
+            citation=citation,
+            plastic_points=plastic_points,
+            options={
+                "thickness_modes": thickness_modes_count,
+                "thickness_order": thickness_order,
+                "order_modes": order_modes_count,
+                "membrane_modes": membrane_modes_count,
+                "tie_E33": tie_E33,
+                "compatible_E12": compatible_E12,
+            },
+        )
+
+    return make
+
+
+_MITC9 = MITC9_MEMBRANE + MITC9_IN_PLANE_SHEAR + MITC9_SHEAR
+
+#: What sharp bends need; the neutral line leaves the mid-surface, so that few Gauss points miss the plastic moment.
+_BENDS: _Bends = {"order": 4, "tied": True, "plastic_points": (12, "split")}
+
+#: The catalogue: name -> factory.
+CATALOGUE: dict[str, Callable[..., Element]] = {
+    "DISP3D": _build("DISP3D", "hex8", (), "HauptmannSchweizerhof1998", thickness=0),
+    "DISP3DEAS": _build("DISP3DEAS", "hex8", (), "HauptmannSchweizerhof1998", thickness=4),
+    "ANS3DEAS": _build("ANS3DEAS", "hex8", ANS_SHEAR, "HauptmannSchweizerhof1998", thickness=4),
+    "EAS3DEAS": _build("EAS3DEAS", "hex8", ANS_SHEAR, "HarnauSchweizerhof2002", thickness=4, membrane=7),
+    "DISP9K3D": _build("DISP9K3D", "hex18", (), "HauptmannEtAl2001", thickness=0),
+    "DISP9K3DEAS": _build("DISP9K3DEAS", "hex18", (), "HauptmannEtAl2001", thickness=9),
+    "MI9K3DEAS": _build("MI9K3DEAS", "hex18", _MITC9, "HauptmannEtAl2001", thickness=9),
+    # For sharp bends (docs/theory, 2.8): ANS3DEAS and MI9K3DEAS at order 4, with E_33 tied.
+    "BEND8": _build("BEND8", "hex8", ANS_SHEAR, "HauptmannSchweizerhof1998", thickness=4, **_BENDS),
+    "BEND18": _build("BEND18", "hex18", _MITC9, "HauptmannEtAl2001", thickness=9, **_BENDS),
+}
+
+
+def element(
+    name: str | Element,
+    *,
+    thickness_modes: int | None = None,
+    thickness_order: int | None = None,
+    order_modes: int | None = None,
+    membrane_modes: int | None = None,
+    tie_E33: bool | None = None,
+    compatible_E12: bool | None = None,
+) -> Element:
+    """Take an element out of the catalogue.
+
+    Parameters
+    ----------
+    name : str or Element
+        A name of :data:`CATALOGUE`, or an element of your own (then without options).
+    thickness_modes : {1, 4, 9}, optional
+        Number of enhanced modes of E_33 linear in t; default 4 (8 nodes) or 9 (18 nodes, there only).
+    thickness_order : {1, 2, 3, 4}, optional
+        Order of the thickness strain in t; 1 is the literature, the default; 4 is for sharp bends, the default of BEND8
+        and BEND18.
+    order_modes : {1, 4, 9}, optional
+        Number of polynomials in the surface that go with each order above 1; default 1 (8 nodes) or 9 (18 nodes).
+    membrane_modes : {4, 5, 7}, optional
+        Number of enhanced in-plane modes of EAS3DEAS; default 7.
+    tie_E33 : bool, optional
+        Tie E_33 at the corners (18 nodes: at the nodes) against curvature-thickness locking; BEND8 and BEND18 do.
+    compatible_E12 : bool, optional
+        Leave the tying of E_12 out of MI9K3DEAS or BEND18.
+
+    Raises
+    ------
+    InvalidValue
+        If the name is unknown or an option does not belong to the element.
+    """
+    options = {
+        "thickness_modes_count": thickness_modes,
+        "thickness_order": thickness_order,
+        "order_modes_count": order_modes,
+        "membrane_modes_count": membrane_modes,
+        "tie_E33": tie_E33,
+        "compatible_E12": compatible_E12,
+    }
+    given = {key: value for key, value in options.items() if value is not None}
+    if isinstance(name, Element):
+        if given:
+            raise InvalidValue(
+                "an Element takes no further options", value=sorted(given), remedy="set them where you build it"
+            )
+        return name
+    if name not in CATALOGUE:
+        raise InvalidValue("unknown element", value=name, remedy="one of " + ", ".join(CATALOGUE))
+    if compatible_E12 and name not in ("MI9K3DEAS", "BEND18"):
+        raise InvalidValue(f"{name} does not tie E_12", remedy="leave compatible_E12 out, or take MI9K3DEAS or BEND18")
+    return CATALOGUE[name](**given)
+
+
+def thickness_rule(points: int, rule: str = "gauss") -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Abscissae and weights through the thickness on [-1, 1].
+
+    Parameters
+    ----------
+    points : int
+        2 to 15.
+    rule : {"gauss", "lobatto", "split"}
+        ``split`` puts points/2 Gauss points into each half, exact for the kink of the stress at the mid-surface.
+    """
+    if points not in range(2, 16):
+        raise InvalidValue("the number of thickness points must be a whole number from 2 to 15", value=points)
+    if rule not in ("gauss", "lobatto", "split"):
+        raise InvalidValue("unknown thickness rule", value=rule, remedy="gauss, lobatto or split")
+    if rule == "split" and points % 2:
+        raise InvalidValue(
+            "the split rule needs an even number of thickness points", value=points, remedy=f"take {points + 1}"
+        )
+    return {"gauss": _core.gauss, "lobatto": _core.lobatto, "split": _core.split}[rule](points)
+
+
+__all__ = [
+    "CATALOGUE",
+    "Element",
+    "Term",
+    "Tying",
+    "element",
+    "membrane_modes",
+    "thickness_modes",
+    "thickness_rule",
+]

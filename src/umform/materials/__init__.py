@@ -1,0 +1,39 @@
+"""Material laws and hardening curves: frozen descriptions that make the laws of the kernels."""
+
+from umform.materials.laws import (
+    J2,
+    SVK,
+    Elastic,
+    Hardening,
+    Linear,
+    LinearVoce,
+    Material,
+    NeoHooke,
+    NeoHookePower,
+    Perfect,
+    Swift,
+    Table,
+    Voce,
+)
+from umform.materials.user_law import EnergyFunction, Floats, LawFunction, UserLaw, check_law
+
+__all__ = [
+    "J2",
+    "SVK",
+    "Elastic",
+    "EnergyFunction",
+    "Floats",
+    "Hardening",
+    "LawFunction",
+    "Linear",
+    "LinearVoce",
+    "Material",
+    "NeoHooke",
+    "NeoHookePower",
+    "Perfect",
+    "Swift",
+    "Table",
+    "UserLaw",
+    "Voce",
+    "check_law",
+]

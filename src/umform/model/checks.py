@@ -1,0 +1,128 @@
+"""Refuse models that cannot be solved as they stand, before time is spent on them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
+from umform.mesh import Mesh
+from umform.model import boundary
+
+if TYPE_CHECKING:
+    from umform.model import Model
+
+Floats = NDArray[np.float64]
+
+
+def check_model(model: Model) -> None:
+    """Look at nodes, supports and tools.
+
+    Raises
+    ------
+    RigidBodyMotion
+        If supports and tools in touch leave a rigid-body motion free, or a node belongs to no cell.
+    ToolSwallowsSheet
+        If a tool overlaps the sheet by more than half of its thickness.
+    """
+    check_nodes(model.mesh)
+    check_held(model)
+
+
+def check_nodes(mesh: Mesh) -> None:
+    """Refuse nodes without a cell."""
+    unused = np.setdiff1d(np.arange(len(mesh.points)), mesh.connectivity)
+    if len(unused):
+        raise RigidBodyMotion(
+            "a node belongs to no cell, so nothing holds it",
+            where=f"node {unused[0]} (one of {len(unused)})",
+            cause="left over from a mesh generator",
+            remedy="take unused nodes out of the mesh; umform.mesh.read does so",
+        )
+
+
+def middle(model: Model) -> tuple[Floats, float]:
+    """Mean of the nodes, and the largest distance from it along an axis."""
+    points, ranks = model.mesh.points, model.ranks
+    centre = ranks.sum(points.sum(axis=0)) / ranks.sum(float(len(points)))
+    return centre, max(ranks.max(float(np.abs(points - centre).max())), 1e-300)
+
+
+def check_held(model: Model) -> None:
+    """Refuse supports that leave a rigid-body motion free, and tools that swallow the sheet."""
+    centre, size = middle(model)
+    modes = boundary.rigid_body_modes(model.mesh.points, centre, size)
+    rows = [modes[:, np.flatnonzero(model.constrained())].T]
+    rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.ties]
+    problem = None
+    try:
+        rows += [_motion_along(x, n, centre, size) for x, n in _touching(model)]
+    except ModelError as error:
+        problem = error
+    model.ranks.agree(problem)
+    matrix = model.ranks.rows(np.concatenate([np.zeros((1, 6)), *rows]))
+    _, singular, directions = np.linalg.svd(matrix, full_matrices=True)
+    rank = int((singular > 1e-8 * max(singular.max(), 1e-300)).sum())
+    if rank < 6:
+        raise RigidBodyMotion(
+            f"the sheet can move as a rigid whole in {6 - rank} way{'s' if rank < 5 else ''}",
+            value="free: " + "; ".join(_describe_motion(motion) for motion in directions[rank:]),
+            cause="too few supports, or a tool that does not touch the sheet yet",
+            remedy="hold the sheet with fix(), symmetry(), hinge() or prescribe(), or let a tool overlap it by a hair",
+        )
+
+
+def _touching(model: Model) -> Iterator[tuple[Floats, Floats]]:
+    """Positions and normals of the points that each tool holds; a tool that swallows the sheet is refused."""
+    mesh = model.mesh
+    half = len(mesh.connectivity[0]) // 2
+    directors = mesh.points[mesh.connectivity[:, half:]] - mesh.points[mesh.connectivity[:, :half]]
+    thickness = float(np.median(np.linalg.norm(directors, axis=-1)))
+    for contact in model.contacts:
+        if len(contact.facets) == 0:
+            continue
+        contact.place(model.time)
+        contact.block.locate(model.u)
+        at = contact.at_points()
+        undefined = ~(np.isfinite(at.gap) & np.isfinite(at.normal).all(axis=1))
+        if undefined.any():
+            raise ToolSwallowsSheet(
+                "the gap to a tool has no normal at a contact point",
+                where=f"contact {contact.name}, x = {np.round(at.x[undefined][0], 6)}",
+                cause="the point lies on the axis or the centre of the tool",
+                remedy="move the tool so that it just touches the sheet",
+            )
+        gap = contact.gap((mesh.points + model.u.reshape(-1, 3))[contact.nodes])  # the far face tells a wrong side
+        deepest = int(np.argmin(gap))
+        if gap[deepest] < -0.5 * thickness:
+            raise ToolSwallowsSheet(
+                "a tool overlaps the sheet before anything has moved",
+                where=f"contact {contact.name}, node {model.node_number(contact.nodes[deepest])}",
+                value=f"gap {gap[deepest]:.4g}, thickness {thickness:.4g}",
+                cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
+                remedy="move the tool so that it just touches the sheet, or turn its normal",
+            )
+        touching = contact.active()
+        yield at.x[touching], at.normal[touching]
+
+
+def _motion_along(x: Floats, n: Floats, centre: Floats, size: float) -> Floats:
+    """Normal velocity of contact points in the six rigid modes: rows of the constraint matrix."""
+    arm = (x - centre) / size
+    return np.concatenate([n, np.cross(arm, n)], axis=1)
+
+
+def _describe_motion(mode: Floats) -> str:
+    names = (
+        "translation x",
+        "translation y",
+        "translation z",
+        "rotation about x",
+        "rotation about y",
+        "rotation about z",
+    )
+    strong = np.abs(mode) > 0.3 * np.abs(mode).max()
+    return " with ".join(name for name, hit in zip(names, strong, strict=True) if hit)

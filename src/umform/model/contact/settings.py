@@ -1,0 +1,149 @@
+"""What a contact is set to: its penalty from the penetration that is allowed, and its number of points."""
+
+from __future__ import annotations
+
+import logging
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from umform.errors import InvalidPenalty, InvalidValue
+from umform.materials import Material
+from umform.mesh import Mesh, Selector
+from umform.model.contact.encounter import Encounter, sheet_thickness
+from umform.surfaces import Surface
+
+log = logging.getLogger("umform.contact")
+
+#: Penetration that is allowed by default, in thicknesses.
+_PENETRATION = 1.0 / 200.0
+#: Largest penalty over stiffness / thickness: beyond it the sheet is squeezed ten times as much as it penetrates.
+_STIFFEST = 10.0
+#: Contact points that the expected contact length should hold, and the most points per direction. Where the force is a
+#: third of what is expected, as late in air bending, the contact is 0.7 times as long and still holds four.
+_WITHIN, _MOST = 6.0, 10
+
+
+@dataclass(frozen=True)
+class ContactSettings:
+    """What a contact is set to.
+
+    Attributes
+    ----------
+    penalty : float
+        Pressure per penetration.
+    points : int or "nodes"
+        Gauss points per direction and facet, or the nodes.
+    allowed : float, optional
+        Penetration that is allowed; None where only a penalty was given.
+    augmented : bool
+        Whether multipliers take the penetration away that is not allowed.
+    """
+
+    penalty: float
+    points: int | str
+    allowed: float | None = None
+    augmented: bool = False
+
+
+def contact_settings(
+    mesh: Mesh,
+    faces: Selector,
+    tool: Surface,
+    material: Material,
+    *,
+    penalty: float | None = None,
+    penetration: float | None = None,
+    points: int | str = 2,
+    augmented: bool = False,
+    where: str = "contact",
+) -> ContactSettings:
+    """Settings from what is given, the rest from mesh, tool and law. eqs. (4.29), (4.31)
+
+    Raises
+    ------
+    InvalidPenalty, InvalidValue
+        If a number is out of range, or two say the same thing.
+    """
+    _check(penalty, penetration, points, augmented, tool, where)
+    estimated = penalty is None or points == "auto"
+    allowed = penetration
+    if allowed is None and (penalty is None or augmented):
+        allowed = _PENETRATION * sheet_thickness(mesh)
+    if estimated:
+        met = Encounter.of(mesh, mesh.facets(faces), tool.kernel(), material, where)
+        if points == "auto":
+            points = _points(met, penalty, allowed, 2 if mesh.cell == "hex8" else 3)
+        if penalty is None:
+            assert allowed is not None
+            penalty = _penalty(met, allowed, points)
+        log.info(
+            "%s: thickness %.4g, tool radius %.4g, line force about %.4g: penalty %.4g, points %s",
+            where, met.thickness, met.radius, met.line_force, penalty, points,
+        )  # fmt: skip
+    assert penalty is not None
+    points = "nodes" if points == "nodes" else int(points)
+    return ContactSettings(float(penalty), points, None if allowed is None else float(allowed), bool(augmented))
+
+
+def contact_length(radius: float, line_force: float, penalty: float) -> float:
+    """Length on which a round tool touches a flat sheet. eq. (4.15)"""
+    return 2.0 * math.cbrt(1.5 * radius * line_force / penalty)
+
+
+def _length_at(met: Encounter, allowed: float) -> float:
+    """Length on which the tool touches when it penetrates as far as allowed; an edge counts as that round."""
+    return 2.0 * math.sqrt(2.0 * max(met.radius, allowed) * allowed)
+
+
+def _penalty(met: Encounter, allowed: float, points: int | str) -> float:
+    """Penalty that carries the line force at the penetration that is allowed. eq. (4.29)"""
+    spacing = met.length if isinstance(points, str) else met.length / points
+    length = max(2.0 / 3.0 * _length_at(met, allowed), spacing)
+    return min(met.line_force / (allowed * length), _STIFFEST * met.stiffness / met.thickness)
+
+
+def _points(met: Encounter, penalty: float | None, allowed: float | None, least: int) -> int:
+    """Points per direction, so that four lie within the length that touches, in wide dies too. eq. (4.31)"""
+    if penalty is None:
+        assert allowed is not None
+        length = _length_at(met, allowed)
+    else:
+        length = contact_length(met.radius, met.line_force, penalty)
+    wanted = _WITHIN * met.length / length if length > 0.0 else _MOST
+    return min(max(math.ceil(wanted), least), _MOST)
+
+
+def _check(
+    penalty: float | None, penetration: float | None, points: int | str, augmented: bool, tool: Surface, where: str
+) -> None:
+    if penalty is not None and not (np.isfinite(penalty) and penalty > 0):
+        raise InvalidPenalty(
+            "the penalty must be positive",
+            where=where,
+            value=penalty,
+            cause="a sign or a missing value",
+            remedy="leave it away, and give the penetration that you allow if the default will not do",
+        )
+    if penetration is not None and not (np.isfinite(penetration) and penetration > 0):
+        raise InvalidValue("the penetration that is allowed must be positive", where=where, value=penetration)
+    if penalty is not None and penetration is not None and not augmented:
+        raise InvalidValue(
+            "give the penalty or the penetration that is allowed, and not both",
+            where=where,
+            value=f"penalty {penalty:g}, penetration {penetration:g}",
+            cause="the penalty follows from the penetration",
+            remedy="leave one of them away; with augmented=True both may be given",
+        )
+    if not (isinstance(points, str) and points in ("auto", "nodes")) and (
+        isinstance(points, str) or points not in range(1, _MOST + 1)
+    ):
+        raise InvalidValue("contact points per direction must be 1 to 10, 'auto' or 'nodes'", where=where, value=points)
+    if not isinstance(tool, Surface):
+        raise InvalidValue(
+            "a tool must be a surface",
+            where=where,
+            value=type(tool).__name__,
+            remedy="a tool of umform.surfaces, VDie or Cylinder for instance, or UserSurface(function)",
+        )

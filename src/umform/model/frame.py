@@ -1,0 +1,23 @@
+"""Fields of one converged state, for pictures and files."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model.contact import ContactPoints
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Fields of one converged state: values at points (n, ...) and cells (m, ...), and each contact at its points."""
+
+    number: int
+    time: float
+    points: dict[str, Floats]
+    cells: dict[str, Floats]
+    contacts: dict[str, ContactPoints]

@@ -1,0 +1,118 @@
+"""Loads of a model: dead forces and follower pressure."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform import _core
+from umform.mesh import Mesh, Selector
+from umform.model import boundary
+from umform.model.boundary import Load, Pressure
+from umform.model.controls import Controlled
+
+Floats = NDArray[np.float64]
+
+
+class Loaded(Controlled):
+    """Loads on the nodes, faces and edges of a mesh."""
+
+    mesh: Mesh
+
+    def force(self, nodes: Selector, force: ArrayLike, name: str = "") -> Load:
+        """The same dead force on each node of a set.
+
+        Parameters
+        ----------
+        nodes : str, callable or array_like
+            Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
+        force : array_like, shape (3,)
+            Force on each node for the value 1 of the control.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        Load
+            The control whose value steps move.
+        """
+        return self._load(boundary.nodal_forces(self.mesh, nodes, force), name or self._name("force"))
+
+    def traction(self, faces: Selector, traction: ArrayLike, name: str = "") -> Load:
+        """Dead traction on faces of the cells, lateral ones too.
+
+        Parameters
+        ----------
+        faces : str, callable or array_like
+            Name of a set, predicate of x, y, z, or rows (cell, face), see :meth:`umform.Mesh.face_set`.
+        traction : array_like, shape (3,)
+            Force per reference area for the value 1 of the control.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        Load
+            The control whose value steps move.
+        """
+        return self._load(boundary.traction_forces(self.mesh, faces, traction), name or self._name("traction"))
+
+    def line_load(self, faces: Selector, side: str, load: ArrayLike, name: str = "") -> Load:
+        """Dead load on the lower or upper edge of lateral faces.
+
+        Parameters
+        ----------
+        faces : str, callable or array_like
+            Name of a set, predicate of x, y, z, or rows (cell, face), see :meth:`umform.Mesh.face_set`.
+        side : {"lower", "upper"}
+            Which edge of the faces.
+        load : array_like, shape (3,)
+            Force per reference length for the value 1 of the control.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        Load
+            The control whose value steps move.
+        """
+        return self._load(boundary.edge_forces(self.mesh, faces, side, load), name or self._name("line_load"))
+
+    def body_force(self, force: ArrayLike, name: str = "") -> Load:
+        """Dead force in the volume.
+
+        Parameters
+        ----------
+        force : array_like, shape (3,)
+            Force per reference volume for the value 1 of the control.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        Load
+            The control whose value steps move.
+        """
+        return self._load(boundary.body_forces(self.mesh, force), name or self._name("body_force"))
+
+    def pressure(self, faces: Selector, name: str = "") -> Pressure:
+        """Follower pressure on lower or upper faces, against their outward normal; the tangent becomes unsymmetric.
+
+        Parameters
+        ----------
+        faces : str, callable or array_like
+            Name of a set, predicate of x, y, z, or rows (cell, face), see :meth:`umform.Mesh.face_set`.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        Pressure
+            The control whose value (force per current area) steps move.
+        """
+        rows = self.mesh.face_set(faces)
+        block = _core.pressure_block(self.mesh.facets(rows), self.mesh.points)
+        return self._add(Pressure(name or self._name("pressure"), block=block, faces=rows))
+
+    def _load(self, vector: Floats, name: str) -> Load:
+        return self._add(Load(name, vector=vector))

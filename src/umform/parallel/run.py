@@ -1,0 +1,149 @@
+"""A run on all ranks: the model is shared, the steps are those of the share, and the result is that of the whole."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+import numpy as np
+
+from umform.digest import digest
+from umform.errors import InvalidValue, UmformError
+from umform.model import Model
+from umform.model.boundary import Load
+from umform.model.checks import check_nodes
+from umform.model.whole import not_here
+from umform.parallel.cutting import Cutting
+from umform.parallel.mpi_ranks import MpiRanks, world
+from umform.parallel.outline import Outline, Step
+from umform.parallel.partition import partition
+from umform.parallel.share import Share
+from umform.parallel.solver import Petsc
+from umform.parallel.together import together
+from umform.results.history import History
+from umform.solvers import register
+from umform.steps.arc_length.arc import Arc
+
+_H = TypeVar("_H", bound=History)
+
+
+def on_ranks(
+    model: Model | None, steps: Callable[[], Sequence[Step]], work: Callable[[Model, Sequence[Step]], _H]
+) -> _H:
+    """Share a model among all ranks and run steps on it.
+
+    Parameters
+    ----------
+    model : Model or None
+        The whole model; None on all ranks but the first, or else all have built it alike.
+    steps : callable
+        Gives what happens to the model of this rank, or refuses it.
+    work : callable
+        Runs steps on a model: here on the share of each rank, with its controls.
+
+    Returns
+    -------
+    History or a class derived from it
+        On all ranks the history, on the first one also the frames; only the first one writes files.
+
+    Raises
+    ------
+    InvalidValue
+        If a step cannot be run on ranks, or the first one has no model.
+    """
+    ranks = world()
+    with together(ranks):
+        share, own = _shared(model, steps, ranks)
+    try:
+        with together(ranks):
+            result = work(share, own)
+    except BaseException as error:  # all ranks have come here
+        _give_back(share, getattr(error, "result", None))
+        raise
+    _give_back(share, result)
+    return result
+
+
+def _shared(model: Model | None, steps: Callable[[], Sequence[Step]], ranks: MpiRanks) -> tuple[Share, Sequence[Step]]:
+    """The share of this rank, and the steps with its controls."""
+    if ranks.rank > 0:
+        logging.getLogger("umform").setLevel(logging.CRITICAL + 1)  # the first rank talks
+    outline = problem = None
+    try:
+        outline = None if model is None else _outline(model, steps(), ranks)
+    except UmformError as error:
+        problem = error
+    ranks.agree(problem)
+    if ranks.any(model is None):
+        outline = Outline.from_first(outline, ranks)
+    elif model is not None:
+        _check_alike(model, ranks)
+    assert outline is not None
+    register(Petsc.name, Petsc)
+    return hand_out(outline, model, ranks), outline.steps
+
+
+def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
+    """The outline of a model that can be shared."""
+    for number, step in enumerate(steps, start=1):
+        if isinstance(step, Arc):
+            raise InvalidValue(
+                "an arc cannot be followed with the solver petsc",
+                where=f"step {number}",
+                cause="the load is one more unknown, and critical points are looked for in the whole tangent",
+                remedy="another solver in one process, or Move and Release",
+            )
+    if model.elsewhere:
+        raise not_here("the history of the elements")
+    if ranks.rank == 0:
+        check_nodes(model.mesh)
+    return Outline.of(model, steps)
+
+
+def _check_alike(model: Model, ranks: MpiRanks) -> None:
+    """Refuse models that are not the same on all ranks."""
+    mesh, loads = model.mesh, [load.vector for load in model.of_kind(Load)]
+    facets = [contact.facets for contact in model.contacts]
+    mine = digest(mesh.points, mesh.connectivity, model.constrained(), *loads, *facets)
+    first = ranks.comm.bcast(mine)
+    if ranks.any(mine != first):
+        raise InvalidValue(
+            "the ranks have built different models",
+            cause="random numbers, or files that are not the same on all machines",
+            remedy="build the same mesh, supports, loads and contacts on all ranks, or all on the first one alone",
+        )
+
+
+def hand_out(outline: Outline, model: Model | None, ranks: MpiRanks) -> Share:
+    """The share of this rank in the model that the first rank has."""
+    if ranks.rank > 0:
+        partition(None, ranks)
+        return Share(outline, ranks.comm.recv(source=0), ranks, model)
+    assert model is not None
+    part = partition(model.mesh, ranks)
+    assert part is not None
+    cutting = Cutting(model, part, ranks.size)
+    for rank in range(1, ranks.size):
+        ranks.comm.send(cutting.parcel(rank), dest=rank)
+    return Share(outline, cutting.parcel(0), ranks, model)
+
+
+def _give_back(share: Share, result: History | None) -> None:
+    """Leave the whole model at the last converged state: its displacement on the first rank, NaN on the others."""
+    u, whole = share.gathering.displacement(share.u), share.whole
+    if whole is None:
+        return
+    whole.u = np.broadcast_to(np.nan, whole.u.shape) if u is None else u
+    whole.time = share.time
+    for control, own in zip(whole.controls, share.controls, strict=True):
+        control.value = own.value
+    whole.elsewhere = True
+    vars(whole).pop("block", None)
+    for contact, part in zip(whole.contacts, share.contacts, strict=True):
+        contact.elsewhere = True
+        for made in ("block", "multipliers"):
+            vars(contact).pop(made, None)
+        contact.put(part.pose)
+    if result is not None:
+        result.model = whole

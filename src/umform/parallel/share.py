@@ -1,0 +1,203 @@
+"""The share of a rank in a model: its own cells, supports, loads and contacts in numbers of its own.
+
+It is put together from an outline, which all ranks have, and a parcel, which the first rank has cut for this one.
+
+A share is a model like any other. Only where sums over all ranks are wanted it asks PETSc or the ranks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform import _core
+from umform.errors import UmformError
+from umform.mesh import Mesh
+from umform.model import Model
+from umform.model.assembly import Evaluation
+from umform.model.boundary import Control, Load, Prescribed, Pressure, rigid_body_modes
+from umform.model.checks import check_held, middle
+from umform.model.ties import MidLine, Tie
+from umform.parallel.cutting import Parcel
+from umform.parallel.exchange import Exchange
+from umform.parallel.gathering import Gathering
+from umform.parallel.mpi_ranks import MpiRanks
+from umform.parallel.numbering import SharedPattern
+from umform.parallel.outline import Outline
+from umform.solvers import Pattern
+
+if TYPE_CHECKING:
+    from umform.model.frame import Frame
+
+Floats = NDArray[np.float64]
+
+
+class Share(Model):
+    """What one rank has of a model.
+
+    Parameters
+    ----------
+    outline : Outline
+        What all ranks have of the model; the share takes its controls and contacts over.
+    parcel : Parcel
+        What this rank has of it.
+    ranks : MpiRanks
+        Those that share the model.
+    whole : Model, optional
+        The model, where it is there.
+
+    Attributes
+    ----------
+    whole : Model or None
+        The model.
+    cells, nodes : ndarray of int
+        Numbers in the whole mesh of the cells and nodes that are here. A node may be on several ranks.
+    facets_here : list of ndarray of int
+        For each contact, which of its facets are here.
+    """
+
+    ranks: MpiRanks
+    owned: NDArray[np.int64]
+
+    def __init__(self, outline: Outline, parcel: Parcel, ranks: MpiRanks, whole: Model | None = None) -> None:
+        mesh = Mesh(parcel.points, {parcel.cell: parcel.connectivity})
+        through = {"thickness_points": outline.thickness_points, "thickness_rule": outline.thickness_rule}
+        super().__init__(mesh, outline.element, material=outline.material, **through)  # type: ignore[arg-type]
+        self.whole, self.ranks = whole, ranks
+        self.cells, self.nodes, self.owned = parcel.cells, parcel.nodes, parcel.owned
+        self.controls, self._fixed = outline.controls, parcel.fixed
+        for control, here in zip(self.controls, parcel.controls, strict=True):
+            self._fill(control, here)
+        self.facets_here = parcel.facets
+        pairs = zip(outline.contacts, parcel.faces, strict=True)
+        self.contacts = [contact.part(mesh, faces) for contact, faces in pairs]
+        self.ties = [Tie(dofs, control) for dofs, control in zip(parcel.ties, outline.tied, strict=True)]
+        self._number(parcel)
+        self._stand(outline.time, parcel)
+
+    def _fill(self, control: Control, here: NDArray[Any]) -> None:
+        """Give a control what it has here."""
+        if isinstance(control, Prescribed | MidLine):
+            control.dofs = here
+        elif isinstance(control, Load):
+            control.vector = here
+        elif isinstance(control, Pressure):
+            control.faces = here
+            control.block = _core.pressure_block(self.mesh.facets_of(here), self.mesh.points)
+
+    def _number(self, parcel: Parcel) -> None:
+        """Global numbers of the unknowns and nodes that are here, and the ways to sum shares of them up."""
+        self._numbers, self._own, self._count = parcel.numbers, parcel.own, parcel.count
+        self._unknowns = Exchange(parcel.numbers, parcel.own, self.ranks)
+        self._at_nodes = Exchange(parcel.node_numbers, len(parcel.owned), self.ranks)
+        number = parcel.numbers - parcel.before
+        self._owned_places = np.flatnonzero((number >= 0) & (number < parcel.own))
+        self._owned_numbers = number[self._owned_places]
+        self._shared: SharedPattern | None = None
+
+    def _stand(self, time: float, parcel: Parcel) -> None:
+        """Begin in the state that the whole model is in."""
+        self.u, self.time = parcel.u, time
+        if parcel.history is not None:
+            self.block.restore(*parcel.history)
+        for contact, multipliers in zip(self.contacts, parcel.multipliers, strict=True):
+            if multipliers is not None:
+                contact.multipliers = multipliers
+                contact.revert()
+
+    # What all ranks have together ----------------------------------------------------------------------------
+
+    @property
+    def described(self) -> Model | None:
+        """The whole model, where it is there."""
+        return self.whole
+
+    @cached_property
+    def gathering(self) -> Gathering:
+        """The way of its arrays to the first rank and back."""
+        return Gathering(self)
+
+    def check(self) -> None:
+        """Refuse what cannot be solved; all ranks look at their own nodes and contact points."""
+        check_held(self)
+
+    def node_number(self, node: int) -> int:
+        """Number of a node in the whole mesh."""
+        return int(self.nodes[node])
+
+    def sum_at_nodes(self, shares: Floats) -> Floats:
+        """Sums over the ranks at the nodes, shape (n, k)."""
+        sums = [self._at_nodes.spread(self._at_nodes.sum(column)) for column in shares.T]
+        return np.stack(sums, axis=1)
+
+    def whole_frame(self, frame: Frame) -> Frame | None:
+        """The frame over the whole model, on the first rank."""
+        return self.gathering.frame(frame)
+
+    def whole_state(self, tree: dict[str, Any]) -> dict[str, Any]:
+        """The state of a run over the whole model, on the first rank."""
+        return self.gathering.state(tree)
+
+    def own_state(self, read: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+        """What is here of the state of a run, which the first rank reads."""
+        return self.gathering.own_state(read)
+
+    # What Newton asks ----------------------------------------------------------------------------------------
+
+    @property
+    def pattern(self) -> Pattern:
+        """Pattern of the share in the tangent, with the global numbers of its unknowns."""
+        if self._shared is None:
+            mine = self._assembly().pattern
+            entries = mine.indptr, mine.indices, mine.symmetric
+            self._shared = SharedPattern(self._count, *entries, self._numbers, self._own, self._modes, self.ranks)
+        return self._shared
+
+    def _modes(self) -> Floats:
+        modes = rigid_body_modes(self.mesh.points, *middle(self))
+        return np.stack([self.coefficients(mode) for mode in modes])
+
+    def restrict(self, r: Floats) -> Floats:
+        """Forces at the unknowns that this rank owns, summed over the ranks. eq. (5.18)"""
+        return self._unknowns.sum(super().restrict(r))
+
+    def coefficients(self, u: Floats) -> Floats:
+        """Unknowns that this rank owns in a displacement."""
+        found = np.empty(self._own)
+        found[self._owned_numbers] = super().coefficients(u)[self._owned_places]
+        return found
+
+    def extend(self, x: Floats) -> Floats:
+        """Displacement of the nodes that are here, from the unknowns that each rank owns. eq. (5.17)"""
+        return super().extend(self._unknowns.spread(x))
+
+    def largest_entry(self, values: Floats) -> float:
+        """Size of the largest entry; the diagonal ones, among which it is, are summed over the ranks."""
+        pattern = self.pattern
+        diagonal = self._unknowns.sum(values[pattern.indices == pattern.rows])
+        return self.ranks.max(max(super(Share, self).largest_entry(part) for part in (diagonal, values)))
+
+    def evaluate(
+        self,
+        u: Floats,
+        du: Floats | None = None,
+        rates: Mapping[Control, float] | None = None,
+        until: float | None = None,
+    ) -> Evaluation:
+        """Shares of residual and tangent; scale, round-off, failed cell and errors are those of all ranks."""
+        problem, found = None, None
+        try:
+            found = super().evaluate(u, du, rates, until)
+        except UmformError as error:
+            problem = error
+        self.ranks.agree(problem)
+        assert found is not None
+        first = -self.ranks.max(-float(self.cells[found.failed]) if found.failed >= 0 else -np.inf)
+        scale, round_off = np.sqrt(self.ranks.sum(np.array([found.force_scale, found.round_off]) ** 2))
+        failed = int(first) if np.isfinite(first) else -1
+        return replace(found, force_scale=float(scale), round_off=float(round_off), failed=failed)

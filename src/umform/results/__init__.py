@@ -1,0 +1,1 @@
+"""What comes out of a run: history, fields, balance of work and energies, shape."""

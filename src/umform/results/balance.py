@@ -1,0 +1,260 @@
+"""The balance of a run: external work against energies, external forces against each other.
+
+What is put in from outside is stored in elastic strains, spent on plastic flow or held by the penalty of contact. The
+work is summed over the converged states by the trapezoidal rule, without a look at the energies, so that the difference
+measures the increments; it falls with their square. docs/theory, 5.11
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform import _core
+from umform.model import Model
+from umform.model.boundary import Load, Pressure
+from umform.model.contact import Contact
+from umform.ranks import Ranks
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Energies:
+    """Energies of a model.
+
+    Attributes
+    ----------
+    elastic : float
+        Stored in elastic strains; NaN if the law does not know it.
+    plastic : float
+        Work of the yield stress on the plastic strains so far: heat, and what hardening keeps. NaN if not known.
+    contact : float
+        Held by penalty and multipliers of all contacts.
+    """
+
+    elastic: float
+    plastic: float
+    contact: float
+
+    @property
+    def total(self) -> float:
+        """Their sum."""
+        return self.elastic + self.plastic + self.contact
+
+
+def energies(model: Model) -> Energies:
+    """Energies of the converged state of a model, that of contact at its last evaluation. eq. (5.30)
+
+    Parameters
+    ----------
+    model : Model
+        A model that has been evaluated at its converged state.
+    """
+    elastic, plastic = model.block.energy(model.u)
+    parts = [elastic, plastic, sum(_contact_energy(contact) for contact in model.contacts)]
+    return Energies(*(model.ranks.sum(part) for part in parts))
+
+
+def _contact_energy(contact: Contact) -> float:
+    """Potential of penalty and multipliers, (p^2 - lambda^2) / (2 penalty) over the reference area. eq. (4.32)"""
+    at, multiplier = contact.at_points(), contact.block.multipliers
+    # (p - lambda)(p + lambda): a point that its multiplier alone holds has no energy, to the last digit.
+    return 0.5 / contact.penalty * float(((at.pressure - multiplier) * at.area) @ (at.pressure + multiplier))
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Balance of a run, one entry for each row of the history; arrays of shape (rows,).
+
+    Attributes
+    ----------
+    step, time : ndarray
+        As in the history.
+    external_work : ndarray
+        Work of loads, pressures, supports and tools, from the energy that the run started with.
+    elastic, plastic, contact : ndarray
+        Energies, see :class:`Energies`.
+    drift : ndarray
+        External work minus the sum of the energies, over the largest sum so far. eq. (5.33)
+    force_imbalance : ndarray
+        Sum of all external forces on the sheet, over the largest sum of their magnitudes so far. eq. (5.34)
+    moment_imbalance : ndarray
+        Sum of their moments about the origin, over the same times the largest distance of a node from it at the start.
+    """
+
+    step: Floats
+    time: Floats
+    external_work: Floats
+    elastic: Floats
+    plastic: Floats
+    contact: Floats
+    drift: Floats
+    force_imbalance: Floats
+    moment_imbalance: Floats
+
+
+def drift(external_work: Floats, stored: Floats) -> Floats:
+    """External work minus energies over the largest energies so far; zero while all are zero. eq. (5.33)"""
+    return _over(external_work - stored, np.maximum.accumulate(np.abs(stored)))
+
+
+def _over(value: Floats, scale: Floats) -> Floats:
+    return np.divide(value, scale, out=np.zeros_like(value), where=scale != 0.0)
+
+
+def _moment(arms: Floats, forces: Floats) -> Floats:
+    """Sum of the cross products of arms and forces, both of shape (n, 3)."""
+    products = arms.T @ forces
+    return np.array([products[1, 2] - products[2, 1], products[2, 0] - products[0, 2], products[0, 1] - products[1, 0]])
+
+
+@dataclass(frozen=True)
+class _Tool:
+    """Pose of a tool, force and moment of the sheet on it, and the sum of the magnitudes of the contact forces."""
+
+    point: Floats
+    rotation: Floats
+    force: Floats
+    moment: Floats  # about the point
+    magnitude: float
+
+    @classmethod
+    def of(cls, contact: Contact, ranks: Ranks) -> _Tool:
+        rotation, shift = contact.pose
+        point = rotation @ contact.reference_point + shift
+        at = contact.at_points()
+        magnitudes = at.pressure * at.area
+        forces = -magnitudes[:, None] * at.normal
+        force, moment = ranks.sum(forces.sum(axis=0)), ranks.sum(_moment(at.x - point, forces))
+        return cls(point, rotation, force, moment, ranks.sum(float(magnitudes.sum())))
+
+    def work_since(self, before: _Tool) -> float:
+        """Work that moves the tool against the sheet, from a state before. eq. (5.32)"""
+        work = -0.5 * float((before.force + self.force) @ (self.point - before.point))
+        if not np.array_equal(self.rotation, before.rotation):
+            from scipy.spatial.transform import Rotation  # slow to import
+
+            turn = Rotation.from_matrix(self.rotation @ before.rotation.T).as_rotvec()
+            work -= 0.5 * float((before.moment + self.moment) @ turn)
+        return work
+
+
+@dataclass(frozen=True)
+class _State:
+    """What the work to the next state needs of a state: displacement, external nodal forces, tools."""
+
+    u: Floats
+    forces: Floats
+    tools: list[_Tool]
+
+
+class ExternalWork:
+    """External work along the converged states of a run, and the resultants in each of them.
+
+    It starts at the sum of the energies that it finds, which is zero for a model at rest; where the energies are not
+    known it starts at zero and counts the work of this run.
+
+    Attributes
+    ----------
+    value : float
+        External work so far.
+    energies : Energies
+        Of the last state.
+    imbalances : list of tuple of float
+        Relative resultants of all external forces and moments, one pair for each state. eq. (5.34)
+    """
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.value = 0.0
+        self.energies = Energies(0.0, 0.0, 0.0)
+        self.imbalances: list[tuple[float, float]] = []
+        self._before: _State | None = None
+        self._largest = 0.0  # sum of the magnitudes of the external forces
+        distances = np.linalg.norm(model.mesh.points + model.u.reshape(-1, 3), axis=1)
+        self._length = model.ranks.max(float(distances.max()))
+        self._pressures = [control for control in model.controls if isinstance(control, Pressure)]
+        blocks = [control.block for control in self._pressures if control.block is not None]
+        # Facets add their forces but no tangent: in this pattern no degree of freedom is free.
+        nothing = _core.Pattern(np.full(model.u.size, -1, dtype=np.int32), [b.connectivity for b in blocks], False)
+        self._facets = [(block, nothing.scatter(block.connectivity)) for block in blocks]
+
+    def advance(self, residual: Floats) -> None:
+        """Go on to the converged state of the model.
+
+        Parameters
+        ----------
+        residual : ndarray, shape (3 n,)
+            Residual of the last evaluation, which was at this state; reactions where it is held, prescribed or tied.
+        """
+        model = self.model
+        tools = [_Tool.of(contact, model.ranks) for contact in model.contacts]
+        state = _State(model.u.copy(), self._nodal_forces(residual), tools)
+        self.energies = energies(model)
+        if self._before is None:
+            self.value = 0.0 if np.isnan(self.energies.total) else self.energies.total
+        else:
+            self.value += self._work(self._before, state)
+        self._before = state
+        self.imbalances.append(self._imbalance(state))
+
+    def memory(self) -> dict[str, Any]:
+        """All that the work of later states follows from, beside the model itself."""
+        imbalances = np.array(self.imbalances)
+        return {"value": self.value, "imbalances": imbalances, "largest": self._largest, "length": self._length}
+
+    def recall(self, memory: Mapping[str, Any], residual: Floats) -> None:
+        """Go on with the work of a run that was kept; the model has been evaluated at its last state.
+
+        Parameters
+        ----------
+        memory : mapping
+            What `memory` has given.
+        residual : ndarray, shape (3 n,)
+            Residual of that state.
+        """
+        self.advance(residual)
+        self.imbalances = [(force, moment) for force, moment in memory["imbalances"].tolist()]
+        self.value, self._largest, self._length = memory["value"], memory["largest"], memory["length"]
+
+    def _nodal_forces(self, residual: Floats) -> Floats:
+        """Dead loads, pressures and reactions on the nodes."""
+        model = self.model
+        forces = residual.copy()  # reactions and hinge forces
+        forces[model.free] = 0.0
+        for control in model.controls:
+            if isinstance(control, Load):
+                forces += control.value * control.vector
+        for control, (block, scatter) in zip(self._pressures, self._facets, strict=True):
+            inward = np.zeros_like(forces)
+            block.pressure = control.value
+            block.evaluate(model.u, scatter, inward, np.empty(0), None, None)
+            forces -= inward
+        return forces
+
+    def _work(self, before: _State, state: _State) -> float:
+        """Trapezoidal rule over the way from one state to the next. eqs. (5.31), (5.32)"""
+        nodes = 0.5 * self.model.ranks.dot(before.forces + state.forces, state.u - before.u)
+        return nodes + sum(now.work_since(then) for now, then in zip(state.tools, before.tools, strict=True))
+
+    def _imbalance(self, state: _State) -> tuple[float, float]:
+        """Resultants in the current configuration, over the largest magnitudes so far. eq. (5.34)"""
+        ranks, owned = self.model.ranks, self.model.owned
+        x = (self.model.mesh.points + state.u.reshape(-1, 3))[owned]
+        forces = self.model.sum_at_nodes(state.forces.reshape(-1, 3))[owned]
+        force, moment = ranks.sum(forces.sum(axis=0)), ranks.sum(_moment(x, forces))
+        magnitude = ranks.sum(float(np.sqrt((forces * forces).sum(axis=1)).sum()))
+        for tool in state.tools:
+            force -= tool.force
+            moment -= tool.moment + _moment(tool.point[None], tool.force[None])
+            magnitude += tool.magnitude
+        self._largest = max(self._largest, magnitude)
+        if self._largest == 0.0:
+            return 0.0, 0.0
+        return math.hypot(*force) / self._largest, math.hypot(*moment) / (self._largest * self._length)

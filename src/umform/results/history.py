@@ -1,0 +1,191 @@
+"""What comes out of a run: history, iterations, frames with fields."""
+
+from __future__ import annotations
+
+import logging
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue
+from umform.model import Model
+from umform.model.frame import Frame
+from umform.results import fields
+from umform.results.balance import Balance, ExternalWork, drift
+from umform.solution.newton import Iteration
+from umform.timing import Timing
+
+log = logging.getLogger("umform")
+
+Floats = NDArray[np.float64]
+
+
+class History:
+    """History of all converged increments, frames of some of them.
+
+    The history has one row for each increment: ``step``, ``time``, each control and its ``<name>_force``, for each
+    contact the force ``<name>_fx``, ``_fy``, ``_fz`` and moment about the origin ``_mx``, ``_my``, ``_mz`` of the sheet
+    on the tool, the largest penetration ``<name>_penetration`` and the number of ``<name>_active`` points, the
+    ``external_work`` and the ``elastic_energy``, ``plastic_work`` and ``contact_energy`` that it went into, and the
+    number of ``iterations``. ``events`` says what happened (lift-off), ``warnings`` what to look at, ``timing`` where
+    the time went, since the run began or was taken up.
+
+    All energies of a model at rest are zero. A run that starts from a deformed or loaded state starts its external work
+    at the sum of the energies that it finds. Energies that a law does not know (one of the user, without an energy) are
+    NaN, and the external work then starts at zero.
+    """
+
+    def __init__(self, model: Model, timing: Timing | None = None) -> None:
+        self.model = model
+        self.timing = timing or Timing()
+        self.rows: list[dict[str, float]] = []
+        self.frames: list[Frame] = []
+        self.iterations: list[list[Iteration]] = []
+        self.events: list[str] = []
+        self.warnings: list[str] = []
+        self.solver = ""
+        self.seconds = 0.0
+        self._work = ExternalWork(model)
+        self._writes = model.ranks.rank == 0  # one rank writes for all
+        self._residual: Floats = np.empty(0)
+
+    def add(self, residual: Floats, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
+        """Add the converged state of the model (of its last evaluation) to the history."""
+        with self.timing.output:
+            self._add(residual, iterations, step, frame)
+
+    def _add(self, residual: Floats, iterations: list[Iteration], step: int, frame: bool) -> None:
+        model = self.model
+        row: dict[str, float] = {"step": step, "time": model.time}
+        for control in model.controls:
+            row[control.name] = control.value
+            row[f"{control.name}_force"] = model.conjugate_force(control, residual)
+        for contact in model.contacts:
+            force, moment = (model.ranks.sum(part) for part in contact.resultant())
+            row |= {f"{contact.name}_f{axis}": float(value) for axis, value in zip("xyz", force, strict=True)}
+            row |= {f"{contact.name}_m{axis}": float(value) for axis, value in zip("xyz", moment, strict=True)}
+            gaps = contact.block.gaps
+            row[f"{contact.name}_penetration"] = model.ranks.max(float(max(0.0, -gaps.min(initial=np.inf))))
+            row[f"{contact.name}_active"] = int(model.ranks.sum(float(contact.active().sum())))
+        row |= self._energy_columns(residual)
+        row["iterations"] = len(iterations)
+        self._residual = residual
+        self.rows.append(row)
+        self.iterations.append(iterations)
+        log.info(
+            "step %d  time %.4f  %s  iterations %d",
+            step,
+            model.time,
+            "  ".join(f"{c.name} {c.value:.6g} force {row[c.name + '_force']:.6g}" for c in model.controls),
+            len(iterations),
+        )
+        if frame:
+            whole = model.whole_frame(self._frame(residual))
+            if whole is not None:
+                self.frames.append(whole)
+
+    def _energy_columns(self, residual: Floats) -> dict[str, float]:
+        self._work.advance(residual)
+        energies = self._work.energies
+        return {
+            "external_work": self._work.value,
+            "elastic_energy": energies.elastic,
+            "plastic_work": energies.plastic,
+            "contact_energy": energies.contact,
+        }
+
+    def balance(self) -> Balance:
+        """Balance of energies, forces and moments of each row of the history.
+
+        Returns
+        -------
+        Balance
+            Energies, the drift of the external work from their sum, which falls with the square of the increments, and
+            the relative resultants of all external forces, which are as small as Newton's method has left them.
+        """
+        elastic, plastic, contact = (self[name] for name in ("elastic_energy", "plastic_work", "contact_energy"))
+        forces, moments = np.array(self._work.imbalances).T
+        return Balance(
+            step=self["step"],
+            time=self["time"],
+            external_work=self["external_work"],
+            elastic=elastic,
+            plastic=plastic,
+            contact=contact,
+            drift=drift(self["external_work"], elastic + plastic + contact),
+            force_imbalance=forces,
+            moment_imbalance=moments,
+        )
+
+    def work_memory(self) -> dict[str, Any]:
+        """All that the external work of later states follows from, beside the model itself."""
+        return {"residual": self._residual, **self._work.memory()}
+
+    def recall_work(self, memory: dict[str, Any]) -> None:
+        """Go on with the external work of a run that was kept; the model has been evaluated at its last state."""
+        self._residual = memory["residual"]
+        self._work.recall(memory, self._residual)
+
+    def note(self, message: str) -> None:
+        """Keep an event, lift-off for instance, and log it."""
+        self.events.append(message)
+        log.info(message)
+
+    def warn(self, message: str) -> None:
+        """Keep a warning and log it."""
+        self.warnings.append(message)
+        log.warning(message)
+
+    def _frame(self, residual: Floats) -> Frame:
+        model = self.model
+        at = fields.point_fields(model)
+        cells = {
+            "stress_cauchy": at.cell_average(at.stress("cauchy", "global")),
+            "stress_cauchy_local": at.cell_average(at.stress("cauchy", "local")),
+            "stress_pk2": at.cell_average(at.stress("pk2", "global")),
+            "stress_pk2_local": at.cell_average(at.stress("pk2", "local")),
+        }
+        if at.eqps is not None:
+            cells |= {"plastic_strain_mean": at.cell_average(at.eqps), "plastic_strain_max": at.eqps.max(axis=1)}
+        reaction = model.sum_at_nodes(residual.reshape(-1, 3)).copy()
+        reaction.ravel()[model.free] = 0.0
+        points = {
+            "displacement": model.u.reshape(-1, 3).copy(),
+            "reaction": reaction,
+            "thickness_change": fields.thickness_change(model),
+        }
+        if model.contacts:
+            points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model)
+        contacts = {contact.name: contact.at_points() for contact in model.contacts}
+        return Frame(len(self.rows) - 1, model.time, points, cells, contacts)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __getitem__(self, column: str) -> Floats:
+        """A column of the history."""
+        if not self.rows or column not in self.rows[0]:
+            raise InvalidValue(
+                "the history has no such column", value=column, remedy="one of " + ", ".join(self.columns())
+            )
+        return np.array([row[column] for row in self.rows])
+
+    def columns(self) -> list[str]:
+        """Names of the columns of the history."""
+        return list(self.rows[0]) if self.rows else []
+
+    def table(self) -> dict[str, Floats]:
+        """History as columns; ``pandas.DataFrame(result.table())`` is a data frame."""
+        return {name: self[name] for name in self.columns()}
+
+    def summary(self) -> dict[str, Any]:
+        """Numbers that describe the run."""
+        return {
+            "increments": len(self.rows) - 1,
+            "iterations": int(sum(row["iterations"] for row in self.rows)),
+            "solver": self.solver,
+            "seconds": self.seconds,
+            "events": list(self.events),
+            "warnings": list(self.warnings),
+        }

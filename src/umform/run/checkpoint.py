@@ -1,0 +1,277 @@
+"""Checkpoints: the whole state of a run between two increments in one file, and a run that stands there again.
+
+The next increment recovers its enhanced parameters with the blocks of the last evaluation (2.19), which are not kept:
+the evaluation is made again, from the history that it had read. docs/long-runs.md
+"""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from umform.errors import FileProblem, InvalidValue
+from umform.io.atomic import PendingFile
+from umform.io.trees import read_tree, write_tree
+from umform.model import Snapshot
+from umform.model.contact import ContactPoints
+from umform.model.frame import Frame
+from umform.ranks import ONE, Ranks
+from umform.results.history import History
+from umform.solution.newton import Iteration
+from umform.solvers.pardiso import Pardiso
+from umform.steps.loop import Run
+
+_KIND = "checkpoint of umform"
+
+#: Checkpoints may take one part in so many of the time, where they are large.
+_SHARE = 20
+
+
+class Checkpoints:
+    """Writes the checkpoints of a run, one over the other.
+
+    Parameters
+    ----------
+    path : str or PathLike
+        The file.
+    every : float
+        Seconds between two of them, at least; 0: one after each increment.
+    fingerprint : dict of str to str
+        What the run is made of.
+    note : dict, optional
+        What else the file holds, see :func:`umform.io.trees.write_tree`: the deck that the run was built from.
+
+    Attributes
+    ----------
+    problem : str
+        Why the last one could not be written; empty if it could.
+
+    Raises
+    ------
+    FileProblem
+        If no file can be written there.
+    InvalidValue
+        If the seconds are not a number, zero or more.
+    """
+
+    def __init__(
+        self,
+        path: str | PathLike[str],
+        every: float,
+        fingerprint: dict[str, str],
+        note: Mapping[str, Any] | None = None,
+        ranks: Ranks = ONE,
+    ) -> None:
+        if not 0.0 <= every < np.inf:
+            raise InvalidValue(
+                "checkpoints are written every so many seconds, 0 or more",
+                where="every",
+                value=every,
+                cause="a sign, or a number that is not finite",
+                remedy="0 writes one after each increment; leave the checkpoint out to write none",
+            )
+        self.path, self.every, self.fingerprint = Path(path), every, fingerprint
+        self.note = dict(note or {})
+        self._writes = ranks.rank == 0  # one rank writes for all
+        self._last, self._cost, self.problem = clock.perf_counter(), 0.0, ""
+        ranks.agree(_problem_of_writing(self.path) if self._writes else None)  # better now than after an hour
+
+    def due(self) -> bool:
+        """Whether it is time for the next one."""
+        wait = max(self.every, _SHARE * self._cost) if self.every > 0.0 else 0.0
+        return clock.perf_counter() - self._last >= wait
+
+    def write(self, run: Run) -> None:
+        """Write the state of a run between two increments; if that fails, the result is warned and the run goes on."""
+        start = clock.perf_counter()
+        tree = {"fingerprint": self.fingerprint, "note": self.note, **_tree(run)}
+        try:
+            if self._writes:
+                write_tree(self.path, tree, _KIND)
+        except FileProblem as problem:
+            if problem.cause != self.problem:  # say it once
+                run.result.warn(f"no checkpoint was written to {self.path}: {problem.cause}; what was there stays")
+            self.problem = problem.cause
+        else:
+            self.problem = ""
+        self._last = clock.perf_counter()
+        self._cost = self._last - start
+
+
+def read_checkpoint(path: str | PathLike[str]) -> dict[str, Any]:
+    """What a checkpoint holds; its ``note`` is what :func:`umform.solve` was told to keep with it.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read, is damaged, or is no checkpoint.
+    """
+    return read_tree(path, _KIND)
+
+
+def read_note(path: str | PathLike[str]) -> dict[str, Any]:
+    """What :func:`umform.solve` was told to keep in a checkpoint, without the state, which may be large.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read, or is no checkpoint.
+    """
+    note: dict[str, Any] = read_tree(path, _KIND, whole=False)["note"]
+    return note
+
+
+def _problem_of_writing(path: Path) -> FileProblem | None:
+    trial = PendingFile(path)
+    try:
+        trial.__enter__()
+        trial.discard()
+    except FileProblem as problem:
+        return problem
+    return None
+
+
+def take_up(run: Run, checkpoints: Checkpoints) -> dict[str, Any] | None:
+    """Let a run that has not begun stand where its checkpoint says.
+
+    Parameters
+    ----------
+    run : Run
+        The run, with its model.
+    checkpoints : Checkpoints
+        Where it is, and what the run is made of; gets the note that was kept there.
+
+    Returns
+    -------
+    dict or None
+        Memory of the loop of the step ``run.number``; None if the run is at its end.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read, or belongs to another run.
+    """
+
+    def read() -> dict[str, Any]:
+        whole = read_checkpoint(checkpoints.path)
+        _refuse_another_run(checkpoints.path, whole["fingerprint"], checkpoints.fingerprint)
+        return whole
+
+    tree = run.model.own_state(read)
+    checkpoints.note = tree["note"]
+    model, snapshot = run.model, Snapshot(**tree["model"])
+    model.restore(snapshot)
+    model.block.restore(tree["history"], snapshot.alpha)
+    model.evaluate(model.u)
+    model.block.restore(snapshot.state, snapshot.alpha)
+    run.number, run.last_du, run.history = tree["number"], tree["last_du"], tree["history"]
+    solver = run.newton.ready_solver().solver
+    if isinstance(solver, Pardiso):
+        solver.recall(tree["factors"])
+    _recall_result(run.result, tree["result"])
+    memory: dict[str, Any] | None = tree["loop"]
+    return memory
+
+
+def _tree(run: Run) -> dict[str, Any]:
+    solver = run.newton.ready_solver().solver
+    return run.model.whole_state(
+        {
+            "number": run.number,
+            # The one solver with a memory: once it needs the factors of an indefinite matrix, it stays with them.
+            "factors": solver.memory() if isinstance(solver, Pardiso) else None,
+            "loop": None if run.loop is None else run.loop.memory(),
+            "model": vars(run.model.snapshot()),
+            "history": run.history,
+            "last_du": run.last_du,
+            "result": _result_tree(run.result),
+        }
+    )
+
+
+def _refuse_another_run(path: str | PathLike[str], there: dict[str, str], here: dict[str, str]) -> None:
+    different = [part for part in here if there.get(part) != here[part]]
+    if different == ["solver"] and "petsc" in (there.get("solver"), here["solver"]):
+        return  # on ranks, then on more of them or on one: the same to rounding
+    if not different:
+        return
+    part = different[0]
+    raise FileProblem(
+        "the checkpoint belongs to another run",
+        where=str(path),
+        value="different: " + ", ".join(different),
+        cause=f"{part}: {_around(there.get(part, ''), here[part])}",
+        remedy="take it up with what it was begun with, the same files too, or begin anew",
+    )
+
+
+def _around(there: str, here: str, width: int = 60) -> str:
+    """Where two texts part."""
+    same = next((k for k, (a, b) in enumerate(zip(there, here, strict=False)) if a != b), min(len(there), len(here)))
+    first = max(0, same - width // 2)
+    before = "... " if first else ""
+    return f"{before}{there[first : same + width]} in the file, {before}{here[first : same + width]} here"
+
+
+# The result -------------------------------------------------------------------------------------------------
+
+
+def _result_tree(result: History) -> dict[str, Any]:
+    columns = result.columns()
+    records = [record for records in result.iterations for record in records]
+    return {
+        "columns": columns,
+        "history": [result[name] for name in columns],
+        "iterations": {
+            "counts": [len(records) for records in result.iterations],
+            "records": [list(vars(record).values()) for record in records],
+        },
+        "frames": _stacked([_frame_tree(frame) for frame in result.frames]),
+        "events": result.events,
+        "warnings": result.warnings,
+        "seconds": result.seconds,
+        "work": result.work_memory(),
+    }
+
+
+def _recall_result(result: History, tree: dict[str, Any]) -> None:
+    columns = [column.tolist() for column in tree["history"]]
+    result.rows = [dict(zip(tree["columns"], row, strict=True)) for row in zip(*columns, strict=True)]
+    records = iter(tree["iterations"]["records"])
+    result.iterations = [[Iteration(*next(records)) for _ in range(count)] for count in tree["iterations"]["counts"]]
+    result.frames = [_frame(one) for one in _unstacked(tree["frames"])]
+    result.events, result.warnings, result.seconds = tree["events"], tree["warnings"], tree["seconds"]
+    result.recall_work(tree["work"])
+
+
+def _frame_tree(frame: Frame) -> dict[str, Any]:
+    return {**vars(frame), "contacts": {name: vars(points) for name, points in frame.contacts.items()}}
+
+
+def _frame(tree: dict[str, Any]) -> Frame:
+    contacts = {name: ContactPoints(**points) for name, points in tree["contacts"].items()}
+    return Frame(**{**tree, "number": int(tree["number"]), "time": float(tree["time"]), "contacts": contacts})
+
+
+def _stacked(trees: list[dict[str, Any]]) -> dict[str, Any] | None:
+    """Trees of the same shape as one tree of longer arrays; None for no trees."""
+    if not trees:
+        return None
+    columns = {key: [tree[key] for tree in trees] for key in trees[0]}
+    return {key: _stacked(parts) if isinstance(parts[0], dict) else np.stack(parts) for key, parts in columns.items()}
+
+
+def _unstacked(tree: dict[str, Any] | None) -> list[dict[str, Any]]:
+    """The trees that `_stacked` has made one of."""
+    if tree is None:
+        return []
+    return [_slice(tree, k) for k in range(len(tree["number"]))]
+
+
+def _slice(tree: dict[str, Any], k: int) -> dict[str, Any]:
+    return {key: _slice(part, k) if isinstance(part, dict) else part[k] for key, part in tree.items()}

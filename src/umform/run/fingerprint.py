@@ -1,0 +1,122 @@
+"""Texts that say what a run is made of, so that two runs that would go different ways can be told apart.
+
+A text holds names and numbers to the last digit; arrays and functions are there as digests. A function is its code, its
+defaults and what it encloses; where it is defined does not matter, as a script has another name when it is imported.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import enum
+import hashlib
+from collections.abc import Sequence
+from functools import partial
+from types import CodeType
+from typing import Any
+
+import numpy as np
+
+import umform
+from umform.digest import digest
+from umform.model import Model
+from umform.model.boundary import Control
+from umform.model.contact import Contact
+from umform.solution.newton import Newton
+
+_DEEPEST = 8
+
+
+def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: int) -> dict[str, str]:
+    """What must be the same in two runs that give the same bits, part by part.
+
+    Parameters
+    ----------
+    model : Model
+        The model, wherever it stands.
+    steps : sequence of Step
+        What happens.
+    newton : Newton
+        Its options and its solver.
+    frames : int
+        How many states are kept for pictures.
+    """
+    mesh = model.mesh
+    supports = [np.flatnonzero(model.constrained()), [(tie.dofs, tie.control) for tie in model.ties]]
+    return {
+        "version of umform": umform.__version__,
+        "mesh": f"{mesh.cell}, {len(mesh.points)} points, {len(mesh.connectivity)} cells, "
+        + digest(mesh.points, mesh.connectivity),
+        "element": text([model.element, model.thickness_points, model.thickness_rule]),
+        "material": text(model.material),
+        "supports and loads": text([supports, [_control(control) for control in model.controls]]),
+        "contacts": text([_contact(contact) for contact in model.contacts]),
+        "steps": text(list(steps)),
+        "options": text(newton.options),
+        "solver": newton.solver,
+        "frames": str(frames),
+    }
+
+
+def text(value: object, depth: int = 0) -> str:
+    """A value in words that stay the same from one process to the next."""
+    if depth > _DEEPEST:
+        return "..."
+    inner = partial(text, depth=depth + 1)
+    if isinstance(value, enum.Enum):
+        return str(value)
+    if isinstance(value, np.generic):  # a float of NumPy is a float too
+        return repr(value.item())
+    if value is None or isinstance(value, str | bool | int | float | complex | bytes):
+        return repr(value)
+    if isinstance(value, np.ndarray):
+        return f"array {value.shape} {digest(value)}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(inner(item) for item in value) + "]"
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{inner(key)}: {inner(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, Control):
+        return value.name
+    name = type(value).__qualname__
+    if dataclasses.is_dataclass(value):
+        entries = [(field.name, getattr(value, field.name)) for field in dataclasses.fields(value) if field.compare]
+        return f"{name}({', '.join(f'{key}={inner(item)}' for key, item in entries)})"
+    return _function(value, depth) if callable(value) else name
+
+
+def _control(control: Control) -> str:
+    """All of a control but its value."""
+    entries = {name: value for name, value in vars(control).items() if name != "value"}
+    return f"{type(control).__qualname__} {text(entries)}"
+
+
+def _contact(contact: Contact) -> str:
+    where = [contact.facets, contact.points, contact.translations]
+    how = [contact.penalty, contact.allowed, contact.augmented]
+    return text([contact.name, contact.tool, *where, *how, contact.motion, contact.reference_point])
+
+
+def _function(function: Any, depth: int) -> str:
+    """Name and digest of a function, of a method with its object, or the name of another thing that can be called."""
+    if isinstance(function, partial):
+        return text([function.func, function.args, function.keywords], depth + 1)
+    owner = getattr(function, "__self__", None)
+    function = getattr(function, "__func__", function)
+    code = getattr(function, "__code__", None)
+    if code is None:
+        return getattr(function, "__qualname__", type(function).__qualname__)
+    enclosed = [_content(cell) for cell in function.__closure__ or ()]
+    parts = [_code(code), function.__defaults__, function.__kwdefaults__, enclosed, owner]
+    check = hashlib.sha256(text(parts, depth + 1).encode()).hexdigest()[:32]
+    return f"{function.__name__} {check}"
+
+
+def _code(code: CodeType) -> list[object]:
+    constants = [_code(constant) if isinstance(constant, CodeType) else constant for constant in code.co_consts]
+    return [code.co_code, code.co_names, constants]
+
+
+def _content(cell: Any) -> object:
+    try:
+        return cell.cell_contents
+    except ValueError:  # it is empty so far
+        return None

@@ -1,0 +1,92 @@
+"""The result of a run: its history and frames, and how to write and draw them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from umform.errors import InvalidValue
+from umform.results.history import History
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+class Result(History):
+    """History of all converged increments, frames of some of them; see :class:`umform.results.history.History`."""
+
+    def write(self, path: str | Path, *, lagrange: bool = False) -> Path:
+        """Write frames (``.vtkhdf``) or the history (``.csv``), whole or not at all.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file to write.
+        lagrange : bool, optional
+            Whether frames of 18-node cells are written as Lagrange cells of VTK with the same nodes, which needs
+            VTK 9.7 or later to read, and not as cells with 27 nodes, which every VTK reads.
+
+        Returns
+        -------
+        Path
+            The file written.
+        """
+        path = Path(path)
+        if not self._writes:
+            return path
+        if path.suffix == ".csv":
+            from umform.io.tables import write_csv
+
+            write_csv(path, self.table())
+        elif path.suffix == ".vtkhdf":
+            from umform.io.vtkhdf import BUFFER, VtkHdfSeries
+
+            if not self.frames:
+                raise InvalidValue("this run kept no frames", remedy="solve(..., frames=60)")
+            mesh = (self.model.mesh.points, self.model.mesh.cell, self.model.mesh.connectivity)
+            with VtkHdfSeries(path, *mesh, lagrange=lagrange, buffer=BUFFER) as series:
+                for frame in self.frames:
+                    series.append(frame.time, frame.points, frame.cells)
+        else:
+            raise InvalidValue("results are written to .csv (history) or .vtkhdf (fields)", value=path.name)
+        return path
+
+    def plot(self, x: str, y: str | list[str], path: str | Path | None = None) -> Figure:
+        """Draw columns of the history against each other.
+
+        Parameters
+        ----------
+        x : str
+            Column along the horizontal axis.
+        y : str or list of str
+            One or more columns.
+        path : str or Path, optional
+            Picture to write: .png, .svg or .pdf.
+        """
+        from umform.plotting import plot_history
+
+        return plot_history(self, x, [y] if isinstance(y, str) else y, path if self._writes else None)
+
+    def report(self, path: str | Path, *, deck: str = "") -> Path:
+        """Write one self-contained HTML page: the shape in 3D, curves, events, history, settings, deck, versions.
+
+        Parameters
+        ----------
+        path : str or Path
+            The page, ending in .html.
+        deck : str, optional
+            The input that the result comes from, to be kept in the page.
+
+        Returns
+        -------
+        Path
+            The page.
+
+        Raises
+        ------
+        InvalidValue
+            If the name does not end in .html.
+        """
+        from umform.report.page import write_report
+
+        return write_report(self, path, deck=deck) if self._writes else Path(path)

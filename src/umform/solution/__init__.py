@@ -1,0 +1,1 @@
+"""Newton's method, its convergence criteria, and one increment of a run."""

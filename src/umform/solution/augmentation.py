@@ -1,0 +1,52 @@
+"""Multipliers that take the penetration away which a penalty leaves: the loop of Uzawa around Newton's method."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import replace
+
+import numpy as np
+
+from umform.model import Model
+from umform.solution.newton import Converged, Newton
+
+log = logging.getLogger("umform.contact")
+
+#: Passes after which an increment is taken as it is; the history has the penetration that is left.
+_PASSES = 10
+
+
+def augmented(model: Model, newton: Newton, converged: Converged) -> Converged:
+    """Hand the pressure over to the multipliers and iterate on, until no point is further off than allowed. eq. (4.34)
+
+    Parameters
+    ----------
+    model : Model
+        At ``converged``, not yet committed.
+    newton : Newton
+        The method that has converged.
+    converged : Converged
+        Equilibrium with the present multipliers.
+
+    Raises
+    ------
+    Failed
+        If a pass does not converge; the model is reverted, with its multipliers.
+    """
+    for number in range(1, _PASSES + 1):
+        pairs = [
+            contact for contact in model.contacts if contact.augmented and _anywhere(model, contact.active().any())
+        ]
+        if not pairs or (number > 1 and not _anywhere(model, any(contact.loose() for contact in pairs))):
+            break
+        change = np.zeros_like(converged.u)
+        for contact in pairs:
+            contact.augment(change)
+        again = newton.go_on(converged, change)
+        converged = replace(again, iterations=converged.iterations, passes=converged.passes + again.iterations)
+        log.debug("    pass %d of the multipliers, %d iterations", number, len(again.iterations))
+    return converged
+
+
+def _anywhere(model: Model, flag: bool | np.bool_) -> bool:
+    return model.ranks.any(bool(flag))

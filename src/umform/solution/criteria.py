@@ -1,0 +1,115 @@
+"""When an iteration is converged, and when it goes in circles. docs/theory, 5.3 and 4.9
+
+Convergence asks for a small residual AND a small increment, both without units: the residual against the root of the
+sum of squares of all element forces, the increment against the largest displacement. Neither can fall below round-off,
+so the floor that round-off sets is estimated in each iteration: a residual below it is small, and two in a row end the
+iteration even where the increment cannot become small (sheets so thin that round-off moves them).
+eqs. (5.8)-(5.11), (5.36), (5.40)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.solution.system import Evaluation, System
+
+Floats = NDArray[np.float64]
+
+_EPS = float(np.finfo(float).eps)
+
+
+class Criteria:
+    """Judges the iterations of one increment, one after the other.
+
+    Parameters
+    ----------
+    system : System
+        What is iterated on.
+    residual, increment : float
+        Tolerances.
+    """
+
+    def __init__(self, system: System, residual: float, increment: float) -> None:
+        self._system, self._residual, self._increment = system, residual, increment
+        self._granted = self._at_floor = 0
+
+    def met(self, norm: float, increment: float, u: Floats, evaluation: Evaluation, *, moved: bool) -> bool:
+        """Whether the iteration has converged; asked once in each.
+
+        Parameters
+        ----------
+        norm : float
+            Of the residual of the unknowns.
+        increment : float
+            The last one, over the largest displacement.
+        u : ndarray, shape (3 n,)
+            Displacement.
+        evaluation : Evaluation
+            The residual and tangent there.
+        moved : bool
+            Whether contact points came or went; two iterations more are granted then.
+        """
+        displacement = largest(self._system, u)
+        floor = self.floor(displacement, evaluation)
+        scale = evaluation.force_scale or 1.0
+        small = norm <= max(self._residual * scale, floor) and increment <= self._increment
+        small = small or self._nothing_left(norm, displacement * max(1.0, increment), evaluation)
+        self._at_floor = self._at_floor + 1 if norm <= floor else 0
+        if (small and (not moved or self._granted >= 2)) or self._at_floor >= 2:
+            return True
+        self._granted += small
+        return False
+
+    def floor(self, displacement: float, evaluation: Evaluation) -> float:
+        """Residual that round-off of the largest displacement and of the gaps leaves behind. eqs. (5.10), (5.36)"""
+        return math.hypot(self._round_off(evaluation, displacement), _EPS * evaluation.round_off)
+
+    def _nothing_left(self, norm: float, displacement: float, evaluation: Evaluation) -> bool:
+        """Whether displacement, last increment and residual are below the round-off of positions. eq. (5.40)"""
+        extent = self._system.extent
+        return displacement <= _EPS * extent and norm <= self._round_off(evaluation, extent)
+
+    def _round_off(self, evaluation: Evaluation, length: float) -> float:
+        """Residual that a relative error of such lengths leaves behind. eqs. (5.10), (5.40)"""
+        system = self._system
+        return _EPS * system.largest_entry(evaluation.values) * length * math.sqrt(system.pattern.n)
+
+
+class Chatter:
+    """Sees contact points go in and out in a cycle while the residual does not fall any more."""
+
+    def __init__(self, system: System) -> None:
+        self._system = system
+        self._seen: list[bytes] = []
+
+    def states(self, active: NDArray[np.bool_], residuals: Sequence[float]) -> int:
+        """Number of active sets that follow each other in a cycle, 0 for none; asked once in each iteration.
+
+        Parameters
+        ----------
+        active : ndarray of bool
+            The active set of this iteration.
+        residuals : sequence of float
+            Those of the iterations before.
+        """
+        ranks, seen = self._system.ranks, self._seen
+        if not ranks.any(active.size > 0):
+            return 0
+        seen.append(ranks.join(np.packbits(active).tobytes()))
+        for period in (2, 3):
+            if len(seen) < 3 * period or len(residuals) < 2 * period:
+                continue
+            tail = seen[-period:]
+            cycle = tail == seen[-2 * period : -period] == seen[-3 * period : -2 * period] and len(set(tail)) > 1
+            if cycle and residuals[-1] > 0.5 * residuals[-1 - period]:
+                return len(set(tail))
+        return 0
+
+
+def largest(system: System, u: Floats) -> float:
+    """Largest entry of a displacement, over all ranks."""
+    return system.ranks.max(float(np.abs(u).max()))

@@ -1,0 +1,420 @@
+"""Newton's method on a system that can evaluate, recover, commit and revert; it knows no elements and no contact.
+
+Where an iteration goes is up to a corrector: `Newton.solve` corrects at fixed loads, `umform.steps.arc_length` along a
+path.
+Whether it has arrived is for `umform.solution.criteria`.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+import time as clock
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Protocol, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue, NotFinite, SingularMatrix
+from umform.solution.criteria import Chatter, Criteria, largest
+from umform.solution.factor_reuse import Reuse
+from umform.solution.system import Evaluation, System
+from umform.solution.timed_solver import TimedSolver
+from umform.solvers import Pattern, SparseSolver, make_solver
+from umform.timing import Timing
+
+log = logging.getLogger("umform.newton")
+
+Floats = NDArray[np.float64]
+_T = TypeVar("_T")
+
+#: Each trial is at least a quarter of the one before: thin sheets, whose energy is a narrow bent valley, creep else.
+_LINE_SEARCH_TRIALS = 3
+
+
+@dataclass(frozen=True)
+class NewtonOptions:
+    """How far and how hard to iterate.
+
+    Attributes
+    ----------
+    residual : float
+        Tolerance of the residual, relative to the element forces.
+    increment : float
+        Tolerance of the increment, relative to the largest displacement.
+    max_iterations : int
+        Iterations before a step is given up.
+    line_search : bool
+        Shorten increments that do not bring the residual along them down.
+    extrapolate : bool
+        Start a step from the extrapolated last one instead of the tangent.
+    factor_cost : float, optional
+        What a factorisation costs over an evaluation with a solve; where it is dear, old factors serve for more than
+        one iteration, see :mod:`umform.solution.factor_reuse`. Default: an estimate from the entries of the factors; 0
+        makes new ones always.
+    mixed : bool, optional
+        Take the geometric stiffness from the stress that the last increment foresaw, not from the present one: thin
+        elastic sheets take larger steps and fewer iterations. eq. (5.39) Default: where there is neither
+        contact nor a law with a history.
+    """
+
+    residual: float = 1e-9
+    increment: float = 1e-6
+    max_iterations: int = 25
+    line_search: bool = False
+    extrapolate: bool = True
+    factor_cost: float | None = None
+    mixed: bool | None = None
+
+    def __post_init__(self) -> None:
+        if not self.residual > 0 or not self.increment > 0 or self.max_iterations < 1:
+            raise InvalidValue("tolerances and iterations must be positive", where="NewtonOptions", value=self)
+        if self.factor_cost is not None and not self.factor_cost >= 0:
+            raise InvalidValue("a cost is zero or more", where="factor_cost", value=self.factor_cost)
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """Record of one iteration.
+
+    Attributes
+    ----------
+    residual : float
+        Norm of the residual of the free degrees of freedom over the force scale.
+    increment : float
+        Largest entry of the increment that led here over the largest displacement.
+    energy : float
+        Residual times the increment to come (absolute); zero in the last iteration.
+    entered, left : int
+        Contact points that came into and went out of contact.
+    step_length : float
+        Step length that the line search took.
+    negative_pivots : int or None
+        Negative pivots of the tangent, where the solver tells.
+    seconds : float
+        Wall time.
+    switched : int
+        Points of the material that began or ceased to flow since the iteration before.
+    """
+
+    number: int
+    residual: float
+    increment: float
+    energy: float
+    entered: int
+    left: int
+    step_length: float
+    negative_pivots: int | None
+    seconds: float
+    switched: int = 0
+
+
+class Failed(Exception):
+    """A step that did not converge: why, and the iterations so far. Steps turn it into a cut or an error."""
+
+    def __init__(self, reason: str, iterations: list[Iteration], *, chattering: bool = False) -> None:
+        super().__init__(reason)
+        self.reason = reason
+        self.iterations = iterations
+        self.chattering = chattering
+
+
+@dataclass(frozen=True)
+class Converged:
+    """A converged step: displacement, the evaluation there, the iterations, those of more passes at the same loads."""
+
+    u: Floats
+    evaluation: Evaluation
+    iterations: list[Iteration]
+    passes: list[Iteration] = field(default_factory=list)
+
+    @property
+    def residual(self) -> Floats:
+        """Residual, reactions at the degrees of freedom that are held, prescribed or tied."""
+        return self.evaluation.residual
+
+
+class Corrector(Protocol):
+    """Evaluates the system and finds the increment that takes it nearer to equilibrium."""
+
+    @property
+    def line_search(self) -> bool:
+        """Whether the residual along the increment may judge its length."""
+
+    @property
+    def reuses(self) -> bool:
+        """Whether the factors of the iteration before may serve for the next one."""
+
+    @property
+    def mixed(self) -> bool:
+        """Whether the geometric stiffness is that of the stress which the last increment foresaw. eq. (5.39)"""
+
+    def evaluate(self, u: Floats) -> Evaluation:
+        """Residual and tangent."""
+
+    def direction(self, solver: SparseSolver, u: Floats, evaluation: Evaluation) -> Floats:
+        """Increment of all degrees of freedom; the solver holds the factors of the tangent."""
+
+
+class _FixedLoads:
+    """The corrector at fixed loads, supports and tools. eq. (5.5)"""
+
+    reuses = True
+
+    def __init__(self, system: System, line_search: bool, mixed: bool) -> None:
+        self.system, self.line_search, self.mixed = system, line_search, mixed
+
+    def evaluate(self, u: Floats) -> Evaluation:
+        return self.system.evaluate(u)
+
+    def direction(self, solver: SparseSolver, u: Floats, evaluation: Evaluation) -> Floats:
+        return self.system.extend(solver.solve(-self.system.restrict(evaluation.residual)))
+
+
+class Newton:
+    """Newton's method with a solver that keeps its symbolic factorisation while the pattern holds."""
+
+    def __init__(
+        self,
+        system: System,
+        options: NewtonOptions | None = None,
+        solver: str = "auto",
+        timing: Timing | None = None,
+    ) -> None:
+        self.system = system
+        self.timing = timing or Timing()
+        self.options = options or NewtonOptions()
+        self.solver_name = solver
+        self._solver: TimedSolver | None = None
+        self._pattern: Pattern | None = None
+        self.callbacks: list[Callable[[Iteration], None]] = []
+        self._flowing: NDArray[np.uint8] | None = None  # in the iteration before
+
+    @property
+    def solver(self) -> str:
+        """Name of the sparse solver that the system gets."""
+        return self.ready_solver().name
+
+    @cached_property
+    def mixed(self) -> bool:
+        """Whether tangents have the geometric stiffness of the stress that the last increment foresaw. eq. (5.39)"""
+        if self.options.mixed is not None:
+            return self.options.mixed
+        return not self.system.ranks.any(self.system.flowing().size + self.system.active_set().size > 0)
+
+    def solve(
+        self, extrapolation: Floats | None = None, *, line_search: bool = False, consistent: bool = False
+    ) -> Converged:
+        """Find the equilibrium at the present loads, supports and tools, starting from the converged state.
+
+        Parameters
+        ----------
+        extrapolation : ndarray, shape (3 n,), optional
+            Guess of the increment of this step; prescribed entries are overwritten. Without it the first increment is
+            that of the tangent. It is recovered with the blocks of the last evaluation, which must be at ``system.u``.
+        line_search : bool
+            Search along the increments even if the options do not ask for it.
+        consistent : bool
+            Take the consistent tangent even if the options ask for the mixed one.
+
+        Raises
+        ------
+        Failed
+            If it does not converge; the system is reverted.
+        """
+        options = self.options
+        loads = _FixedLoads(self.system, options.line_search or line_search, self.mixed and not consistent)
+        return self.guarded(lambda: self._solve(extrapolation, loads))
+
+    def go_on(self, converged: Converged, change: Floats) -> Converged:
+        """Find the equilibrium again after forces in the system have changed at the same loads, supports and tools.
+
+        Parameters
+        ----------
+        converged : Converged
+            The equilibrium before, which the last evaluation was at.
+        change : ndarray, shape (3 n,)
+            Change of the residual there, to first order; the first increment answers it with the tangent of before.
+
+        Raises
+        ------
+        Failed
+            If it does not converge; the system is reverted.
+        """
+
+        def work() -> Converged:
+            solver = self.ready_solver()
+            solver.factor(converged.evaluation.values)
+            du = self.system.extend(solver.solve(-self.system.restrict(change)))
+            return self.correct(converged.u, du, _FixedLoads(self.system, self.options.line_search, self.mixed))
+
+        return self.guarded(work)
+
+    def guarded(self, work: Callable[[], _T]) -> _T:
+        """Do work that leaves no trace in the system if it fails.
+
+        Raises
+        ------
+        Failed
+            If it does not converge, or the tangent is singular or not finite.
+        """
+        try:
+            return work()
+        except (SingularMatrix, NotFinite) as error:
+            self.system.revert()
+            raise Failed(error.what, []) from error
+        except BaseException:  # an error of a user's function or an interrupt too leaves no trace
+            self.system.revert()
+            raise
+
+    def _solve(self, extrapolation: Floats | None, loads: _FixedLoads) -> Converged:
+        """First increment from the extrapolation, or from the tangent by eq. (5.6); then corrections."""
+        system = self.system
+        solver = self.ready_solver()
+        start = clock.perf_counter()
+        u = system.u.copy()
+        du = self.prescribed_increment(u)
+        if extrapolation is not None:
+            du += system.extend(system.coefficients(extrapolation))
+        else:
+            first = system.evaluate(u, du)
+            self.check_domain(first, [])
+            solver.factor(first.values)
+            du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
+        return self.correct(u, du, loads, start)
+
+    def prescribed_increment(self, u: Floats) -> Floats:
+        """What takes the supports from ``u`` to where they are prescribed; nothing of it is left to the unknowns."""
+        gap = self.system.prescribed_displacement() - u
+        return gap - self.system.extend(self.system.coefficients(gap))
+
+    def correct(self, u: Floats, du: Floats, corrector: Corrector, start: float | None = None) -> Converged:
+        """Take a first increment ``du`` from ``u``, and iterate until residual and increments are small. eq. (5.9)"""
+        system, options = self.system, self.options
+        solver = self.ready_solver()
+        start = clock.perf_counter() if start is None else start
+        iterations: list[Iteration] = []
+        system.recover(du, 1.0, corrector.mixed)
+        u = u + du
+        increment, step_length, pivots = self._relative(du, u), 1.0, None
+        evaluation = corrector.evaluate(u)
+        active = system.active_set()
+        previous_active = active
+        criteria, chatter = Criteria(system, options.residual, options.increment), Chatter(system)
+        reuse = Reuse(options, system.pattern.n, system.effort)
+
+        for number in range(1, options.max_iterations + 1):
+            self.check_domain(evaluation, iterations)
+            r = system.restrict(evaluation.residual)
+            norm = math.sqrt(system.ranks.dot(r, r))
+            scale = evaluation.force_scale or 1.0
+            if not math.isfinite(norm):
+                raise Failed("the residual is not finite", iterations)
+            entered, left = self._count(active & ~previous_active), self._count(~active & previous_active)
+            moved = bool(entered or left)
+            if criteria.met(norm, increment, u, evaluation, moved=moved):
+                self._record(
+                    iterations, number, norm / scale, increment, 0.0, entered, left, step_length, pivots, start
+                )
+                return Converged(u, evaluation, iterations)
+            if states := chatter.states(active, [record.residual for record in iterations]):
+                reason = f"the active set of contact chatters between {states} states"
+                raise Failed(reason, iterations, chattering=True)
+
+            if not reuse.factors_will_do(norm / scale, increment, settled=corrector.reuses and not moved):
+                pivots = reuse.remember(solver.factor(evaluation.values))
+            du = corrector.direction(solver, u, evaluation)
+            energy = abs(system.ranks.dot(r, system.coefficients(du)))
+            self._record(iterations, number, norm / scale, increment, energy, entered, left, step_length, pivots, start)
+            u, evaluation, step_length = self._advance(u, du, r, corrector)
+            increment = step_length * self._relative(du, u)
+            previous_active, active = active, system.active_set()
+        raise Failed(f"no convergence in {options.max_iterations} iterations", iterations)
+
+    def _advance(self, u: Floats, du: Floats, r: Floats, corrector: Corrector) -> tuple[Floats, Evaluation, float]:
+        """Take the increment, shortened by the line search if that is wanted. eq. (5.12)"""
+        system = self.system
+        s = 1.0
+        x = system.coefficients(du)
+        slope = system.ranks.dot(r, x)
+        for _ in range(_LINE_SEARCH_TRIALS):
+            system.recover(du, s, corrector.mixed)
+            trial = u + s * du
+            evaluation = corrector.evaluate(trial)
+            if not corrector.line_search:
+                break
+            along = system.ranks.dot(system.restrict(evaluation.residual), x) if evaluation.failed < 0 else np.inf
+            if abs(along) <= 0.8 * abs(slope):
+                break
+            # Evaluation is pure: put the parameters back and evaluate at u again, and nothing of the trial is left.
+            system.undo_recover()
+            corrector.evaluate(u)
+            secant = s * slope / (slope - along) if np.isfinite(along) and slope != along else 0.5 * s
+            s = min(max(secant, 0.25 * s), 0.5 * s)
+        else:
+            system.recover(du, s, corrector.mixed)
+            trial = u + s * du
+            evaluation = corrector.evaluate(trial)
+        return trial, evaluation, s
+
+    def ready_solver(self) -> TimedSolver:
+        """Return the solver that has analysed the present pattern."""
+        pattern = self.system.pattern
+        if self._solver is None or self._pattern is not pattern:
+            with self.timing.analysis:
+                self._solver = TimedSolver(make_solver(pattern, self.solver_name), self.timing)
+            self._pattern = pattern
+        return self._solver
+
+    def _record(
+        self,
+        iterations: list[Iteration],
+        number: int,
+        residual: float,
+        increment: float,
+        energy: float,
+        entered: int,
+        left: int,
+        step_length: float,
+        pivots: int | None,
+        start: float,
+    ) -> None:
+        flowing, before = self.system.flowing(), self._flowing
+        switched = 0 if number == 1 or before is None else self._count(flowing != before)
+        self._flowing = flowing
+        seconds = clock.perf_counter() - start
+        record = Iteration(number, residual, increment, energy, entered, left, step_length, pivots, seconds, switched)
+        iterations.append(record)
+        log.debug(
+            "    iteration %2d  residual %.3e  increment %.3e  contact +%d -%d%s%s",
+            number,
+            residual,
+            increment,
+            entered,
+            left,
+            f"  flow switched {switched}" if switched else "",
+            f"  negative pivots {pivots}" if pivots else "",
+        )
+        for callback in self.callbacks:
+            callback(record)
+
+    @staticmethod
+    def check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:
+        """Fail where a cell is strained too far for its law."""
+        if evaluation.failed >= 0:
+            raise Failed(
+                f"cell {evaluation.failed} is strained beyond the domain of its material law "
+                "(or so far that its enhanced parameters cannot be eliminated)",
+                iterations,
+            )
+
+    def _count(self, points: NDArray[np.bool_]) -> int:
+        return int(self.system.ranks.sum(float(points.sum())))
+
+    def _relative(self, du: Floats, u: Floats) -> float:
+        """Size of an increment over that of the displacement."""
+        displacement = largest(self.system, u)
+        return largest(self.system, du) / displacement if displacement > 0 else 0.0

@@ -1,0 +1,261 @@
+"""Follow the path of equilibria through limit points: the load is one more unknown, the arc length one more equation.
+
+docs/theory, 5.12
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+
+from umform.errors import InvalidValue, NoConvergence
+from umform.model import Model
+from umform.model.boundary import Control
+from umform.solution.newton import Failed
+from umform.steps.arc_length.critical import CriticalPoints, PathState
+from umform.steps.arc_length.path import Line, Path
+from umform.steps.increment import last_residuals
+from umform.steps.loop import Run
+
+log = logging.getLogger("umform.arc")
+
+_KINDS = ("cylindrical", "spherical")
+
+
+@dataclass(frozen=True)
+class Arc:
+    """Follow the path of equilibria while controls go along straight lines, through maxima and minima of the load.
+
+    The load parameter goes from 0, where the controls stand, to 1, where they are at ``to``, and is an unknown: it
+    turns back where the load does (snap-through) and the displacements turn back where they do (snap-back). The step
+    ends when the load parameter reaches 1, exactly; or after ``most`` increments, or when ``until`` says so. The time
+    goes on with the length of the path, by ``increment`` in the first increment. Limit points and bifurcation points
+    are told in ``result.events``.
+
+    Parameters
+    ----------
+    control : Control or sequence of Control
+        What is moved: loads, pressures, prescribed displacements, tools, alone or together.
+    to : float or sequence of float
+        End value for each control.
+    increment : float
+        First increment of the load parameter along the tangent. It sets the first arc length.
+    kind : {"cylindrical", "spherical"}
+        Length of an increment: of the displacements, or of displacements and load parameter (which weighs as much as
+        the displacements in the first increment). eq. (5.22)
+    iterations : int
+        Number that the arc length is adapted to.
+    grow : float
+        Largest arc length over the first.
+    cuts : int
+        How often the first arc length may be halved before the run is given up.
+    most : int
+        Number of increments at which the step ends with a warning.
+    until : callable, optional
+        Asked with the model after each converged increment; True ends the step.
+
+    Notes
+    -----
+    The first increment goes towards ``to``, each other one on in the direction of the one before: a step that starts
+    beyond a limit point may lead back over it. The line search of :class:`umform.NewtonOptions` is off duty, since on
+    an arc the residual does not judge an increment.
+
+    Examples
+    --------
+    A shallow arch, hinged on its mid-line, snaps through under a force that goes down on the way:
+
+    >>> from umform import SVK, Arc, Model, solve
+    >>> from umform.mesh import strip
+    >>> mesh = strip(10.0, 1.0, 0.2, (8, 1)).transformed(lambda x: x + [0.0, 0.0, 0.5] * (1 - (x[:, :1] / 10.0) ** 2))
+    >>> model = Model(mesh, material=SVK(E=1000.0, nu=0.0))
+    >>> model.symmetry("x0", "x")
+    >>> model.hinge("x1", "xz")
+    >>> model.fix(lambda x, y, z: y < y.min() + 1e-9, "y")
+    >>> load = model.force("x0", (0.0, 0.0, -0.25), "load")
+    >>> result = solve(model, Arc(load, to=1.0, increment=0.05))
+    >>> float(result["load"][-1])
+    1.0
+    """
+
+    control: Control | Sequence[Control]
+    to: float | Sequence[float]
+    increment: float = 0.05
+    kind: str = "cylindrical"
+    iterations: int = 6
+    grow: float = 4.0
+    cuts: int = 10
+    most: int = 200
+    until: Callable[[Model], bool] | None = None
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.increment <= 1.0:
+            raise InvalidValue("the first increment of an arc is a fraction of the way", value=self.increment)
+        if self.kind not in _KINDS:
+            raise InvalidValue("an arc is cylindrical or spherical", value=self.kind)
+        if not self.grow >= 1:
+            raise InvalidValue("grow must be 1 or more", value=self.grow)
+        for name, least in (("iterations", 1), ("cuts", 0), ("most", 1)):
+            value = getattr(self, name)
+            if not isinstance(value, int) or value < least:
+                raise InvalidValue(f"{name} must be a whole number, {least} or more", value=value)
+        if len(self.targets()) != len(self.moved()) or len(set(self.moved())) != len(self.moved()):
+            raise InvalidValue(
+                "give one target for each control, and each control once",
+                value=f"{len(self.moved())} controls, {len(self.targets())} targets",
+            )
+        for target in self.targets():
+            if not (np.isscalar(target) and np.isrealobj(target) and np.isfinite(target)):
+                raise InvalidValue("a control is moved to a finite number", value=target)
+
+    def moved(self) -> list[Control]:
+        """The controls of the step."""
+        return [self.control] if isinstance(self.control, Control) else list(self.control)
+
+    def targets(self) -> list[float]:
+        """Their targets."""
+        return list(self.to) if isinstance(self.to, Sequence) else [self.to]
+
+
+@dataclass
+class Following:
+    """Follows the path with arc lengths that adapt to the iterations. eq. (5.26)
+
+    Attributes
+    ----------
+    path : Path
+        Line of the controls, and the last state on the path.
+    critical : CriticalPoints
+        What it has seen of the states.
+    length : float
+        The arc length that comes next.
+    count : int
+        Increments so far.
+    done : bool
+        Whether the step is at its end.
+    """
+
+    path: Path
+    critical: CriticalPoints
+    length: float
+    count: int = 0
+    done: bool = False
+
+    @classmethod
+    def begin(cls, run: Run, step: Arc) -> Self:
+        """The loop at the beginning of the step."""
+        path = _started(run, step, run.number)
+        run.history = run.model.block.state
+        critical = CriticalPoints(run.result, path.line.text, f"step {run.number}")
+        critical.advance(path.state)
+        return cls(path, critical, path.first)
+
+    @classmethod
+    def recall(cls, run: Run, step: Arc, memory: dict[str, Any]) -> Self:
+        """The loop as it stood."""
+        path = _Resumed(run, step, memory["path"])
+        critical = CriticalPoints(run.result, path.line.text, f"step {run.number}")
+        critical.recall(path.state, memory["critical"])
+        return cls(path, critical, memory["length"], memory["count"], memory["done"])
+
+    def memory(self) -> dict[str, Any]:
+        """All that the loop remembers."""
+        path = self.path
+        return {
+            "path": {
+                "starts": [start for start, _ in path.line.ends.values()],
+                "load_weight": path.load_weight,
+                "start_time": path.start_time,
+                "first": path.first,
+                "state": vars(path.state),
+            },
+            "critical": self.critical.memory(),
+            "length": self.length,
+            "count": self.count,
+            "done": self.done,
+        }
+
+    def advance(self, run: Run, step: Arc) -> None:
+        """Try one increment."""
+        path = self.path
+        tried = path.shortened(self.length)
+        run.history = run.model.block.state
+        try:
+            converged = path.advance(tried)
+        except Failed as failure:
+            self._cut(run, step, failure, tried)
+            return
+        self.count += 1
+        fraction = path.state.fraction
+        ended = True
+        try:
+            ended = step.until is not None and step.until(run.model)
+        finally:  # the state counts, whatever becomes of the user's function
+            self.done = fraction == 1.0 or ended or self.count == step.most
+            every = max(1, step.most // run.frames) if run.frames > 0 else 0
+            frame = bool(every) and (self.count % every == 0 or self.done)
+            part = min(max(fraction, 0.0), 1.0)
+            run.keep(converged, step.moved(), name=f"step {run.number}", fraction=part, frame=frame)
+            self.critical.advance(path.state)
+        if self.done:
+            _say_how_it_ended(run, step, run.number, path, ended)
+        adapted = self.length * min(max(math.sqrt(step.iterations / len(converged.iterations)), 0.5), 2.0)
+        self.length = min(adapted, step.grow * path.first)
+
+    def _cut(self, run: Run, step: Arc, failure: Failed, tried: float) -> None:
+        """Halve an arc length that failed, or give up."""
+        number, path = run.number, self.path
+        self.length = 0.5 * tried
+        if failure.chattering:
+            run.result.warn(f"step {number}, time {run.model.time:.4f}: {failure.reason}; the arc length is cut")
+        log.info("step %d: %s; arc length cut to %.3g of the first", number, failure.reason, self.length / path.first)
+        if self.length < path.first / 2**step.cuts:
+            at = path.line.text(path.state.fraction)
+            raise _no_convergence(failure, f"step {number}, at {at}") from None
+
+
+class _Resumed(Path):
+    """A path that goes on from a state that was kept, without a look at its beginning."""
+
+    def __init__(self, run: Run, step: Arc, memory: dict[str, Any]) -> None:
+        for control, start in zip(step.moved(), memory["starts"], strict=True):
+            control.value = start
+        self.model, self.newton, self.line = run.model, run.newton, Line(step.moved(), step.targets())
+        self.load_weight, self.first = memory["load_weight"], memory["first"]
+        self.start_time, self.increment = memory["start_time"], step.increment
+        self.state = PathState(**memory["state"])
+        self.line.move(self.state.fraction)
+
+
+def _say_how_it_ended(run: Run, step: Arc, number: int, path: Path, ended: bool) -> None:
+    fraction = path.state.fraction
+    if fraction == 1.0:
+        return
+    at = f"step {number}: the path ends at {path.line.text(fraction)}"
+    if ended:
+        run.result.note(f"{at}, as asked")
+    else:
+        run.result.warn(f"{at}, short of its target, after {step.most} increments")
+
+
+def _started(run: Run, step: Arc, number: int) -> Path:
+    try:
+        line = Line(step.moved(), step.targets())
+        return Path(run, line, step.increment, spherical=step.kind == "spherical")
+    except Failed as failure:
+        raise _no_convergence(failure, f"step {number}, at its beginning") from None
+
+
+def _no_convergence(failure: Failed, where: str) -> NoConvergence:
+    return NoConvergence(
+        "the path cannot be followed further, not even with the smallest arc length",
+        where=where,
+        value=last_residuals(failure.iterations),
+        cause=failure.reason,
+        remedy="look at the last converged state (it is kept): a path that ends or branches, folded elements, contact "
+        "that jumps; else a smaller increment or grow, more iterations in NewtonOptions, more cuts",
+    )

@@ -1,0 +1,130 @@
+"""Limit points and bifurcation points between the converged states of a path.
+
+At both a pivot of the tangent changes its sign. At a limit point the load turns back too, at a bifurcation point it
+does not. docs/theory, 5.12
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.results.history import History
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PathState:
+    """A converged state of a path.
+
+    Attributes
+    ----------
+    fraction : float
+        Load parameter lambda, the fraction of the way from the first to the last load.
+    arc : float
+        Length of the path so far.
+    tangent : ndarray, shape (3 n,)
+        Rate of the displacement with the load parameter.
+    slope : float
+        Rate of the load parameter with the length of the path; negative where the load goes back.
+    pivots : int or None
+        Negative pivots of the tangent, where the solver tells.
+    """
+
+    fraction: float
+    arc: float
+    tangent: Floats
+    slope: float
+    pivots: int | None
+
+
+class CriticalPoints:
+    """Looks between the states of a path, one after the other, and tells the result what lies there.
+
+    Parameters
+    ----------
+    result : History
+        Takes the events and warnings.
+    loads : callable
+        Text that says the loads at a load parameter.
+    where : str
+        Name of the step.
+    """
+
+    def __init__(self, result: History, loads: Callable[[float], str], where: str) -> None:
+        self.result, self.loads, self.where = result, loads, where
+        self._last: PathState | None = None
+        self._counted: PathState | None = None  # the last state with a known number of negative pivots
+        self._turns = 0  # limit points since then
+        self._silent = False
+
+    def memory(self) -> dict[str, Any]:
+        """All that it remembers of the states before the last one."""
+        counted = None if self._counted is None else vars(self._counted)
+        return {"counted": counted, "turns": self._turns, "silent": self._silent}
+
+    def recall(self, last: PathState, memory: Mapping[str, Any]) -> None:
+        """Go on from the last state of a path that was kept."""
+        counted = memory["counted"]
+        self._last, self._counted = last, None if counted is None else PathState(**counted)
+        self._turns, self._silent = memory["turns"], memory["silent"]
+
+    def advance(self, state: PathState) -> None:
+        """Go on to the next converged state."""
+        last, self._last = self._last, state
+        if last is not None and last.slope * state.slope < 0.0:
+            self._turns += 1
+            what = "maximum" if last.slope > 0.0 else "minimum"
+            self.result.note(
+                f"{self.where}: limit point, a {what} of the load at {self.loads(extremum(last, state))}"
+                + self._count(last, state)
+            )
+        if state.pivots is None:
+            self._say_that_pivots_are_unknown()
+            return
+        if self._counted is not None:
+            self._look_for_bifurcation(self._counted, state)
+        self._counted, self._turns = state, 0
+
+    def _look_for_bifurcation(self, before: PathState, state: PathState) -> None:
+        """Each limit point changes the sign of one pivot; what else has changed is a bifurcation."""
+        assert before.pivots is not None and state.pivots is not None
+        change = abs(state.pivots - before.pivots)
+        if change <= self._turns and (change + self._turns) % 2 == 0:
+            return
+        between = f"between {self.loads(before.fraction)} and {self.loads(state.fraction)}"
+        self.result.note(f"{self.where}: bifurcation point {between}{self._count(before, state)}")
+        if state.pivots > before.pivots:
+            self.result.warn(
+                f"{self.where}: {between} a bifurcation point was passed: the path may be the unstable primary one; "
+                "a small imperfection of the mesh or a small disturbing load leads to the other"
+            )
+
+    @staticmethod
+    def _count(before: PathState, state: PathState) -> str:
+        if before.pivots is None or state.pivots is None:
+            return ""
+        return f"; negative pivots {before.pivots} -> {state.pivots}"
+
+    def _say_that_pivots_are_unknown(self) -> None:
+        if not self._silent:
+            self._silent = True
+            self.result.note(
+                f"{self.where}: the solver {self.result.solver} does not tell the number of negative pivots; "
+                "bifurcation points may pass unseen"
+            )
+
+
+def extremum(one: PathState, other: PathState) -> float:
+    """Load parameter where it turns back between two states: a cubic with their slopes. eq. (5.27)"""
+    length = other.arc - one.arc
+    rise, m, n = other.fraction - one.fraction, length * one.slope, length * other.slope
+    cubic = np.polynomial.Polynomial([one.fraction, m, 3.0 * rise - 2.0 * m - n, m + n - 2.0 * rise])
+    roots = np.asarray(cubic.deriv().roots(), dtype=complex)
+    inside = roots.real[(np.abs(roots.imag) < 1e-9) & (roots.real >= 0.0) & (roots.real <= 1.0)]
+    return float(cubic(inside[0]))  # the slopes differ in sign: there is one

@@ -1,0 +1,64 @@
+"""One increment of a run: set the controls, let Newton find the equilibrium, commit; or put everything back."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+
+from umform.errors import NoConvergence
+from umform.model.boundary import Control
+from umform.solution.augmentation import augmented
+from umform.solution.newton import Converged, Failed, Iteration
+from umform.solution.starts import equilibrium
+from umform.steps.loop import Run
+
+log = logging.getLogger("umform.steps")
+
+
+def take_increment(
+    run: Run, values: Sequence[float], controls: Sequence[Control], time: float, extrapolation: float | None
+) -> Converged:
+    """One increment to new values of the controls; on failure everything stands as before."""
+    model = run.model
+    before, time_before = [control.value for control in controls], model.time
+    for control, value in zip(controls, values, strict=True):
+        control.value = float(value)
+    model.time = time
+    u_before, history = model.u.copy(), model.block.state
+    try:
+        starts = dict(zip(controls, before, strict=True))
+        guess = None if extrapolation is None or run.last_du is None else extrapolation * run.last_du
+        converged = equilibrium(model, run.newton, starts, time_before, guess)
+        try:
+            converged = augmented(model, run.newton, converged)
+        except Failed as failure:  # a smaller increment would end in the same pass: it is taken as the penalty has it
+            log.info("%s in a pass of the multipliers: they stay what they were", failure.reason)
+            converged = equilibrium(model, run.newton, starts, time_before, None)
+    except BaseException:  # no convergence, Ctrl-C, a user's function: the last converged state stands
+        for control, value in zip(controls, before, strict=True):
+            control.value = value
+        model.time = time_before
+        model.revert()
+        raise
+    model.commit(converged.u)
+    run.last_du, run.history = model.u - u_before, history
+    return converged
+
+
+def no_convergence(failure: Failed, number: int, controls: Sequence[Control], values: Sequence[float]) -> NoConvergence:
+    """Error for step ``number`` that could not bring the controls to the values."""
+    goal = ", ".join(f"{c.name} = {v:.6g}" for c, v in zip(controls, values, strict=True))
+    return NoConvergence(
+        "Newton's method did not converge at the smallest increment",
+        where=f"step {number}, on the way to {goal}",
+        value=last_residuals(failure.iterations),
+        cause=failure.reason,
+        remedy="look at the last converged state (it is kept): buckling, a pinched sheet, folded elements; "
+        "else take more steps, fewer contact jumps (more contact points), a softer penalty or line_search=True",
+    )
+
+
+def last_residuals(iterations: Sequence[Iteration]) -> str:
+    """Residuals of the last iterations in words."""
+    tail = [f"{record.residual:.1e}" for record in iterations[-4:]]
+    return "last residuals " + ", ".join(tail) if tail else "no iteration"

@@ -1,0 +1,80 @@
+"""State of a run between two increments, and what each kind of step remembers there.
+
+A run is a state machine: between two increments all that it will do follows from the model, from what `Run` holds and
+from the `Loop` of the step that is under way. There it may be written to a checkpoint, stopped and taken up again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model import Model
+from umform.model.boundary import Control
+from umform.progress import Tick, silent
+from umform.results.history import History
+from umform.solution.newton import Converged, Newton
+
+Floats = NDArray[np.float64]
+
+
+class Loop(Protocol):
+    """Where a step stands between two of its increments, and how it goes on."""
+
+    @property
+    def done(self) -> bool:
+        """Whether the step has come to its end."""
+
+    def advance(self, run: Run, step: Any) -> None:
+        """Try one increment: take it, or learn from its failure."""
+
+    def memory(self) -> dict[str, Any]:
+        """All that the loop remembers, as numbers, lists and arrays; ``recall`` of its class makes it again."""
+
+
+@dataclass
+class Run:
+    """State of a run between two increments.
+
+    Attributes
+    ----------
+    model, newton, result
+        What is solved, how, and what came out so far.
+    frames : int
+        About how many states of a step are kept for pictures.
+    number : int
+        The step under way, counted from 1.
+    loop : Loop, optional
+        Where it stands; None before it begins.
+    last_du : ndarray, shape (3 n,), optional
+        The last increment of displacement, for the extrapolation.
+    history : ndarray
+        History of the material that the last evaluation at ``model.u`` has read: with it that evaluation can be made
+        again, to the last bit, and with it the blocks that the next enhanced parameters are recovered with.
+    tick, pause : callable
+        Shows where the run stands; writes checkpoints and stops the run, between increments.
+    """
+
+    model: Model
+    newton: Newton
+    result: History
+    frames: int = 60
+    number: int = 1
+    loop: Loop | None = None
+    last_du: Floats | None = None
+    history: Floats = field(default_factory=lambda: np.empty(0))
+    tick: Tick = silent
+    pause: Callable[[], None] = field(default=lambda: None)
+
+    def keep(
+        self, converged: Converged, controls: Sequence[Control], *, name: str, fraction: float, frame: bool
+    ) -> None:
+        """Add a converged increment of the step to the result and show how far the step ``name`` has come."""
+        self.result.add(converged.residual, converged.iterations + converged.passes, step=self.number, frame=frame)
+        row = self.result.rows[-1]
+        forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
+        self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))

@@ -1,0 +1,186 @@
+"""Take a control back until its force is zero or contact has lifted off."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Self
+
+from umform.errors import InvalidValue
+from umform.model import Snapshot
+from umform.model.boundary import Control
+from umform.solution.newton import Converged, Failed
+from umform.steps.increment import no_convergence, take_increment
+from umform.steps.loop import Run
+
+
+@dataclass(frozen=True)
+class Release:
+    """Take a displacement or a tool back until its force is zero (or contact has lifted off).
+
+    Parameters
+    ----------
+    control : Control
+        A prescribed displacement or a tool motion.
+    increment : float, optional
+        Size of the first increment of the way back; default 1/1000 of the present value. It doubles while Newton is at
+        ease, up to a twentieth of the value.
+    tolerance : float
+        Force that counts as zero, relative to the force at the beginning.
+    """
+
+    control: Control
+    increment: float | None = None
+    tolerance: float = 1e-6
+
+    def __post_init__(self) -> None:
+        if self.increment is not None and not self.increment > 0:
+            raise InvalidValue("the increment of a release must be positive", value=self.increment)
+        if not self.tolerance > 0:
+            raise InvalidValue("the tolerance of a release must be positive", value=self.tolerance)
+
+
+@dataclass
+class Releasing:
+    """Secant on force against displacement from saved states; lift-off is bracketed to 1e-6 of the value. eq. (5.14)
+
+    Attributes
+    ----------
+    start_time, start_value, scale : float
+        Time, value of the control and size of its force at the beginning.
+    force, size : float
+        Force now, and the increment that comes next while the zero is not yet bracketed.
+    before : pair of float, optional
+        Value and force of the state before the present one.
+    bound : float, optional
+        A value where the force is known to be zero or beyond.
+    finest : float
+        Resolution of the way to the bound: where the force changes sign, only its zero counts.
+    taken : float, optional
+        The last increment, for the extrapolation.
+    failures, attempts : int
+        Increments that did not converge, and those that went too far.
+    done : bool
+        Whether the force is zero.
+    """
+
+    start_time: float
+    start_value: float
+    scale: float
+    force: float
+    size: float
+    finest: float
+    before: Sequence[float] | None = None
+    bound: float | None = None
+    taken: float | None = None
+    failures: int = 0
+    attempts: int = 0
+    done: bool = False
+
+    @classmethod
+    def begin(cls, run: Run, step: Release) -> Self:
+        """The loop at the beginning of the step; done if there is nothing to release."""
+        model, value = run.model, step.control.value
+        evaluation = model.evaluate(model.u)
+        run.history = model.block.state
+        force = model.conjugate_force(step.control, evaluation.residual)
+        size = -math.copysign(step.increment or abs(value) / 1000.0, value)
+        loop = cls(model.time, value, abs(force), force, size, finest=1e-6 * abs(value))
+        if value == 0.0 or loop.scale <= 1e-9 * evaluation.force_scale:
+            run.result.note(f"step {run.number}: nothing to release, the force of {step.control.name} is zero")
+            loop.done = True
+        return loop
+
+    @classmethod
+    def recall(cls, run: Run, step: Release, memory: dict[str, Any]) -> Self:
+        """The loop as it stood."""
+        return cls(**memory)
+
+    def memory(self) -> dict[str, Any]:
+        """All that the loop remembers."""
+        return dict(vars(self))
+
+    def advance(self, run: Run, step: Release) -> None:
+        """Try one increment."""
+        model, control = run.model, step.control
+        saved, value, touching = model.snapshot(), control.value, model.touching()
+        target = _next_release(value, self.force, self.before, self.bound, self.size, self.finest)
+        if self.failures and self.bound is None and target != value:
+            target = _short_of_zero(value, self.force, self.before, target)
+        if target * self.start_value < 0.0:
+            target = 0.0
+        if target == value or self.attempts > 50:  # the force jumps over zero
+            jump = Failed("the zero of the force cannot be closed in", [])
+            raise no_convergence(jump, run.number, [control], [target])
+        time = self.start_time + 1.0 - target / self.start_value
+        try:
+            converged = take_increment(
+                run, [target], [control], time, None if self.taken is None else (target - value) / self.taken
+            )
+        except Failed as failure:
+            self.size, self.taken, self.failures = 0.25 * self.size, None, self.failures + 1
+            if self.failures > 20:
+                raise no_convergence(failure, run.number, [control], [target]) from None
+            model.evaluate(model.u)  # what touches is asked of this state, not of the one that did not converge
+            run.history = saved.state
+            return
+        force = model.conjugate_force(control, converged.residual)
+        zero = abs(force) <= step.tolerance * self.scale
+        lifted = touching and zero and not model.touching()
+        resolution = 1e-6 * abs(self.start_value)
+        if (force * self.force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
+            self._go_back(run, saved, target, resolution if lifted else 0.0)
+            if not lifted:
+                self.size, self.before = (target - value) * self.force / (self.force - force), None
+            return
+        self.before, self.taken, self.force = (value, self.force), target - value, force
+        self.done = zero or target == 0.0
+        if self.bound is None and abs(2.0 * self.size) <= abs(self.start_value) / 20.0 and _at_ease(converged):
+            self.size *= 2.0
+        part = 1.0 if self.done else 1.0 - min(1.0, abs(force) / self.scale)
+        name = f"step {run.number}: release"
+        run.keep(converged, [control], name=name, fraction=part, frame=run.frames > 0 and self.done)
+        if self.done:
+            how = "contact has lifted off" if lifted else "the force is zero" if zero else "the way back is complete"
+            run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
+
+    def _go_back(self, run: Run, saved: Snapshot, target: float, finest: float) -> None:
+        """Restore the state before an increment that went too far; its end is the new bound."""
+        model = run.model
+        self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
+        model.restore(saved)
+        model.evaluate(model.u)
+        run.last_du, run.history, self.taken = None, saved.state, None
+
+
+def _short_of_zero(value: float, force: float, before: Sequence[float] | None, target: float) -> float:
+    """The target, or a value just short of the zero of the secant if that comes first: behind it nothing may hold."""
+    if before is None or before[0] == value or force == before[1]:
+        return target
+    to_zero = -force * (value - before[0]) / (force - before[1])
+    return value + 0.99 * to_zero if 0.0 < to_zero / (target - value) < 1.0 else target
+
+
+def _at_ease(converged: Converged) -> bool:
+    return len(converged.iterations) <= 8
+
+
+def _next_release(
+    value: float, force: float, before: Sequence[float] | None, bound: float | None, size: float, resolution: float
+) -> float:
+    """Next value of a control on its way to zero force; with a bound, close in on the zero from the loaded side."""
+    if bound is None:
+        return value + size
+    sign = 1.0 if bound > value else -1.0
+    if abs(bound - value) <= 2.5 * resolution:
+        return bound
+    if before is None or before[0] == value:  # crossed zero: the size is that of the secant
+        return value + size if abs(size) < abs(bound - value) else 0.5 * (value + bound)
+    slope = (force - before[1]) / (value - before[0])
+    zero = value - force / slope if slope != 0.0 else bound
+    if sign * (zero - value) <= 0.0 or sign * (bound - zero) < 0.0:
+        zero = 0.5 * (value + bound)
+    if abs(zero - value) <= 1.5 * resolution:
+        return value + sign * 2.0 * resolution
+    return value + 0.99 * (zero - value)

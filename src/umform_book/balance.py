@@ -1,0 +1,67 @@
+"""What every nonlinear run is asked: do work and forces balance, does Newton converge quadratically, or why not?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from umform_book.newton_order import NewtonOrder, measure
+
+#: An imbalance of the forces above this is no round-off.
+_AT_REST = 1e-6
+#: Part of the largest energy below which a sheet bears nothing: its forces are round-off, and not in balance.
+_NOTHING = 1e-12
+
+if TYPE_CHECKING:
+    from umform.run import Result
+
+
+@dataclass(frozen=True)
+class BalanceRow:
+    """Balance of a run.
+
+    Attributes
+    ----------
+    case, run : str
+        Which run.
+    increments, iterations : int
+        How long it was.
+    drift : float
+        Largest difference of external work and energies in the run, over the largest energy in the run.
+    force, moment : float
+        Largest resultant of all external forces and their moments, over the sum of their sizes.
+    newton : NewtonOrder
+        Order of Newton's method, and the reasons where it is low.
+    """
+
+    case: str
+    run: str
+    increments: int
+    iterations: int
+    drift: float
+    force: float
+    moment: float
+    newton: NewtonOrder
+
+
+def balance_row(case: str, run: str, result: Result) -> BalanceRow:
+    """Balance of a result."""
+    balance = result.balance()
+    energy = balance.elastic + balance.plastic + balance.contact
+    drift = balance.external_work - energy
+    if abs(balance.force_imbalance[0]) > _AT_REST:  # a start inside of a tool is no equilibrium
+        drift -= drift[min(1, len(drift) - 1)]
+    bears = np.abs(energy) > _NOTHING * np.abs(energy).max()
+    bears[0] = False  # the start
+    return BalanceRow(
+        case=case,
+        run=run,
+        increments=len(result) - 1,
+        iterations=int(result["iterations"].sum()),
+        drift=float(np.abs(drift[1:]).max(initial=0.0) / (np.abs(energy).max() or 1.0)),
+        force=float(np.abs(balance.force_imbalance[bears]).max(initial=0.0)),
+        moment=float(np.abs(balance.moment_imbalance[bears]).max(initial=0.0)),
+        newton=measure(result.iterations),
+    )

@@ -1,0 +1,149 @@
+"""The book: its chapters, and running cases in parallel processes, each of which writes its own page."""
+
+from __future__ import annotations
+
+import logging
+import time as clock
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cache, partial
+from importlib import import_module
+from pathlib import Path
+
+from umform.errors import InvalidValue, UmformError
+from umform.io.atomic import write_problem
+from umform.pool import check_processes, run_all
+from umform_book.case import Case, Chapter
+from umform_book.checks import Verdict
+from umform_book.errata import errata_text
+from umform_book.page import Page
+from umform_book.which_element import which_element_text
+from umform_book.writing import Outcome, failed_text, page_text, summary_text, write_text
+
+#: Resultant of the external forces over the sum of their sizes that Newton's tolerance leaves at most.
+BALANCED = 1e-6
+
+#: Folders of the chapters, in the order of the book.
+_FOLDERS = ("quality", "linear", "nonlinear", "plastic", "contact", "free_bending", "sharp_bends", "air_bending")
+
+
+@cache
+def chapters() -> tuple[Chapter, ...]:
+    """All chapters."""
+    return tuple(import_module(f"umform_book.{folder}").CHAPTER for folder in _FOLDERS)
+
+
+def cases() -> dict[str, Case]:
+    """All cases by name."""
+    return {case.name: case for chapter in chapters() for case in chapter.cases}
+
+
+def chosen(names: Sequence[str]) -> list[Case]:
+    """Cases of the given names.
+
+    Raises
+    ------
+    InvalidValue
+        If there is no such case; the nearest name is told.
+    """
+    known = cases()
+    for name in names:
+        if name not in known:
+            near = get_close_matches(name, known, 1)
+            raise InvalidValue(
+                "there is no such verification case",
+                value=name,
+                remedy=f"did you mean {near[0]}?" if near else "`umform verify` lists them",
+            )
+    return [known[name] for name in names]
+
+
+@dataclass(frozen=True)
+class Order:
+    """What a process is asked to do."""
+
+    name: str
+    folder: Path
+    short: bool
+
+
+def run_case(order: Order, tick: Callable[[str, float], None] = lambda what, done: None) -> Outcome:
+    """Run a case and write its page and pictures into a folder."""
+    case = cases()[order.name]
+    logging.getLogger("umform").addHandler(logging.NullHandler())  # warnings of runs belong on pages, if anywhere
+    page = Page(case, order.folder / "images", order.short, tick)
+    start = clock.perf_counter()
+    case.run(page)
+    if page.balances:
+        largest = max(row.force for row in page.balances)
+        page.at_most("resultant of the external forces over their sizes, all runs", largest, BALANCED)
+    write_text(order.folder / f"{case.name}.md", page_text(page))
+    seconds = clock.perf_counter() - start
+    return Outcome(case.name, page.verdict, tuple(page.checks), tuple(page.balances), tuple(page.studies), seconds)
+
+
+def run_cases(
+    names: Sequence[str],
+    folder: Path,
+    *,
+    short: bool = False,
+    processes: int | None = None,
+    tick: Callable[[str, float], None] = lambda what, done: None,
+) -> dict[str, Outcome]:
+    """Run cases and write their pages; the summary too if all cases were run.
+
+    Parameters
+    ----------
+    names : sequence of str
+        The cases.
+    folder : Path
+        Where the pages go.
+    short : bool
+        Whether only the short meshes are run.
+    processes : int, optional
+        How many run at a time; default: the processors.
+    tick : callable
+        Is told what is done and which part of the whole it is.
+
+    Returns
+    -------
+    dict of str to Outcome
+        A case that fails has an outcome that says why; the others go on.
+
+    Raises
+    ------
+    InvalidValue
+        If there is no such case, or the number of processes is less than 1.
+    FileProblem
+        If the folder cannot be made.
+    """
+    check_processes(processes)
+    selected = chosen(names)
+    try:
+        (folder / "images").mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise write_problem(folder, error, what="the folder cannot be made") from error
+    orders = [Order(case.name, folder, short) for case in selected]
+    alone = len(orders) == 1
+    found = run_all(
+        partial(run_case, tick=tick) if alone else run_case,
+        orders,
+        [case.cost for case in selected],
+        on_failure=_failed,
+        processes=1 if alone else processes,
+        tick=(lambda done: None) if alone else partial(tick, "cases"),
+    )
+    outcomes = {outcome.name: outcome for outcome in found}
+    if set(outcomes) == set(cases()):
+        write_text(folder / "README.md", summary_text(chapters(), outcomes))
+        write_text(folder / "which-element.md", which_element_text(outcomes))
+        write_text(folder / "errata.md", errata_text(outcomes))
+    return outcomes
+
+
+def _failed(order: Order, error: Exception) -> Outcome:
+    """A red case; its page says why, in the place of one of before."""
+    said = str(error) if isinstance(error, UmformError) else f"{type(error).__name__}: {error}"
+    write_text(order.folder / f"{order.name}.md", failed_text(cases()[order.name], said))
+    return Outcome(order.name, Verdict.RED, failure=said)

@@ -1,0 +1,47 @@
+"""A case of the book, and a chapter of cases."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from umform_book.page import Page
+
+
+@dataclass(frozen=True)
+class Case:
+    """A problem with a known answer.
+
+    Attributes
+    ----------
+    name : str
+        Its name on the command line and of its page: small letters and hyphens.
+    title : str
+        Heading of the page.
+    problem : str
+        What is computed: geometry, material, supports, loads, units (Markdown).
+    reference : str
+        Where the reference comes from, with its citation and its own uncertainty (Markdown).
+    run : callable
+        Computes, and enters into a :class:`Page` what came out.
+    cost : float
+        Seconds that the whole case takes on one core, about; the dearest cases start first.
+    """
+
+    name: str
+    title: str
+    problem: str
+    reference: str
+    run: Callable[[Page], None]
+    cost: float = 10.0
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """Cases that belong together."""
+
+    title: str
+    about: str
+    cases: tuple[Case, ...]

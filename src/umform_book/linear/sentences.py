@@ -1,0 +1,23 @@
+"""What a study says, in a sentence made of its numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from umform_book.convergence import Study
+from umform_book.variants import Variant, with_tying
+
+#: A baseline that locks, and what one would take instead.
+TOLD = (Variant("DISP3DEAS"), with_tying("ANS3DEAS"), with_tying("EAS3DEAS"), with_tying("MI9K3DEAS"))
+
+
+def coarse_and_fine(found: Study, reference: float, variants: Sequence[Variant] = TOLD) -> str:
+    """How much of the reference some elements find on the coarsest and on the finest mesh."""
+    parts = []
+    for variant in variants:
+        if variant in found:
+            row = found[variant]
+            coarse, fine = (100 * row[n] / reference for n in (min(row), max(row)))
+            parts.append(f"{variant.label} {coarse:.1f} and {fine:.1f} %")
+    meshes = next(iter(found.values()))
+    return f"Of the answer, {min(meshes)} and {max(meshes)} intervals give: {'; '.join(parts)}."

@@ -1,0 +1,166 @@
+"""The page of a case: text, tables, plots, pictures and checks in the order in which the case enters them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from umform.errors import UmformError
+from umform.plotting import plot_shape, save
+from umform_book.balance import BalanceRow, balance_row
+from umform_book.case import Case
+from umform_book.checks import Check, Verdict
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from umform.model import Model
+    from umform.results.shape import Shape
+    from umform.run import Result
+    from umform.steps import Step
+
+Item = TypeVar("Item")
+Cell = str | float | int | None
+
+
+@dataclass(frozen=True)
+class StudyRecord:
+    """A normalised number (1 is right) for each element (its label) on each mesh (intervals along an edge)."""
+
+    case: str
+    title: str
+    values: dict[str, dict[int, float]]
+
+
+@dataclass
+class Page:
+    """What a case found.
+
+    Attributes
+    ----------
+    case : Case
+        The case.
+    images : Path or None
+        Folder for pictures; without one, none are drawn.
+    short : bool
+        Whether only the short meshes are run.
+    """
+
+    case: Case
+    images: Path | None = None
+    short: bool = False
+    tick: Callable[[str, float], None] = lambda what, done: None
+    blocks: list[str] = field(default_factory=list)
+    checks: list[Check] = field(default_factory=list)
+    balances: list[BalanceRow] = field(default_factory=list)
+    studies: list[StudyRecord] = field(default_factory=list)
+    pictures: list[Path] = field(default_factory=list)
+
+    @property
+    def verdict(self) -> Verdict:
+        """The worst of all checks; without any check nothing is proved."""
+        return max((check.verdict for check in self.checks), default=Verdict.RED)
+
+    # What a case calls ------------------------------------------------------------------------------------------
+
+    def pick(self, whole: Sequence[Item], short: Sequence[Item]) -> Sequence[Item]:
+        """The meshes (or whatever it is) of the whole case or of the short one."""
+        return short if self.short else whole
+
+    def each(self, items: Iterable[Item], label: Callable[[Item], str] = str) -> Iterator[Item]:
+        """Run through items and tell how far it is."""
+        sequence = list(items)
+        for number, item in enumerate(sequence):
+            self.tick(label(item), number / len(sequence))
+            yield item
+        self.tick("", 1.0)
+
+    def solve(self, label: str, model: Model, steps: Sequence[Step] | Step, **options: Any) -> Result:
+        """Solve a nonlinear problem and enter its balance of work and forces, and the order of Newton's method."""
+        from umform.run import solve
+        from umform.solution.newton import NewtonOptions
+
+        newton = replace(options.pop("options", NewtonOptions()), factor_cost=0.0)  # the order is Newton's own
+        try:
+            result = solve(model, steps, progress=False, options=newton, **{"frames": 0, **options})
+        except UmformError as error:  # what was reached counts too
+            reached: Result = error.result  # type: ignore[attr-defined]
+            self.balances.append(balance_row(self.case.name, f"{label} (ended early)", reached))
+            raise
+        self.balances.append(balance_row(self.case.name, label, result))
+        return result
+
+    def text(self, markdown: str) -> None:
+        """Add a paragraph."""
+        self.blocks.append(markdown)
+
+    def heading(self, title: str) -> None:
+        """Begin a section."""
+        self.blocks.append(f"## {title}")
+
+    def table(self, title: str, columns: Sequence[str], rows: Iterable[Sequence[Cell]]) -> None:
+        """Add a table; numbers are shown with four digits, None as a dash."""
+        lines = [
+            tuple(columns),
+            ("---",) + ("---:",) * (len(columns) - 1),
+            *(tuple(_shown(c) for c in r) for r in rows),
+        ]
+        text = "\n".join(f"| {' | '.join(line)} |" for line in lines)
+        self.blocks.append(f"**{title}**\n\n{text}" if title else text)
+
+    def check(
+        self,
+        what: str,
+        found: float,
+        reference: float,
+        within: float,
+        *,
+        relative: bool = True,
+        known: float = 0.0,
+        cause: str = "",
+    ) -> Check:
+        """Compare a number with its reference, see :class:`Check`."""
+        check = Check(what, float(found), float(reference), within, relative, known, cause)
+        self.checks.append(check)
+        return check
+
+    def at_most(self, what: str, found: float, limit: float, *, known: float = 0.0, cause: str = "") -> Check:
+        """Check that an error, which should be zero, is not above a limit."""
+        return self.check(what, found, 0.0, limit, relative=False, known=known, cause=cause)
+
+    def figure(self, name: str, figure: Figure, caption: str) -> None:
+        """Add a plot."""
+        if self.images is None:
+            return
+        path = save(figure, self.images / f"{self.case.name}-{name}.svg")
+        self._show(path, caption)
+
+    def shape(
+        self,
+        name: str,
+        shape: Shape | Result,
+        caption: str,
+        *,
+        values: str | None = None,
+        view: tuple[float, float] = (-115.0, 28.0),
+    ) -> None:
+        """Add a picture of a deformed shape."""
+        if self.images is None:
+            return
+        path = self.images / f"{self.case.name}-{name}.png"
+        save(plot_shape(shape, values, view=view), path, dpi=90)
+        self._show(path, caption)
+
+    def _show(self, path: Path, caption: str) -> None:
+        self.pictures.append(path)
+        self.blocks.append(f"![{caption}](images/{path.name})\n\n*{caption}*")
+
+
+def _shown(cell: Cell) -> str:
+    if cell is None:
+        return "-"
+    if isinstance(cell, float):
+        return f"{cell:.4g}" if cell == cell else "-"
+    return str(cell)

@@ -1,0 +1,10 @@
+"""What every element must do before any problem is worth solving: patch tests, eigenvalues, invariance."""
+
+from umform_book.case import Chapter
+from umform_book.quality import eigenvalues, invariance, patch_tests
+
+CHAPTER = Chapter(
+    "Elements",
+    "What every element must do before any problem is worth solving: patch tests, eigenvalues, invariance.",
+    (patch_tests.CASE, eigenvalues.CASE, invariance.CASE),
+)

@@ -1,0 +1,30 @@
+"""Bends whose radius is near the thickness: which thickness strain they need."""
+
+from umform_book.case import Chapter
+from umform_book.sharp_bends import (
+    elastic_accuracy,
+    hinge,
+    hinge_points,
+    meshes,
+    moment,
+    over_cylinder,
+    small_cylinders,
+    stability,
+    thickness_strains,
+)
+
+CHAPTER = Chapter(
+    "Sharp bends",
+    "Bends whose radius is near the thickness: which thickness strain they need.",
+    (
+        moment.CASE,
+        thickness_strains.CASE,
+        hinge_points.CASE,
+        hinge.CASE,
+        over_cylinder.CASE,
+        small_cylinders.CASE,
+        meshes.CASE,
+        elastic_accuracy.CASE,
+        stability.CASE,
+    ),
+)

@@ -1,0 +1,127 @@
+"""Pages, the summary and what is drawn from all cases: made here from a case that takes no time."""
+
+from __future__ import annotations
+
+import pytest
+
+import umform as uf
+from umform_book import book
+from umform_book.case import Case, Chapter
+from umform_book.checks import Check, Verdict
+from umform_book.convergence import normalised, show, study
+from umform_book.errata import errata_text
+from umform_book.linear_algebra import linear_solution
+from umform_book.page import Page, StudyRecord
+from umform_book.variants import SEVEN, VARIANTS, Variant
+from umform_book.which_element import which_element_text
+from umform_book.writing import Outcome
+
+
+def stretched(page):
+    """A bar under tension: exact on every mesh."""
+
+    def elongation(variant, divisions):
+        mesh = uf.mesh.strip(10, 1, 1, (variant.cells(divisions), 1), cell=variant.cell)
+        model = uf.Model(mesh, variant.element, material=uf.SVK(E=100, nu=0.3))
+        for plane, normal in (("x0", "x"), ("y0", "y"), ("lower", "z")):
+            model.symmetry(plane, normal)
+        load = model.traction("x1", (1, 0, 0))
+        return linear_solution(model, load.vector)[mesh.nodes("x1"), 0].mean()
+
+    pair = (Variant("ANS3DEAS"), Variant("MI9K3DEAS"))
+    found = study(page, pair, page.pick((2, 4, 8), (2, 4)), elongation)
+    show(page, "convergence", "elongation over 0.1", normalised(found, 0.1))
+    page.check("ANS3DEAS, 4 intervals", found[pair[0]][4], 0.1, within=1e-8)
+    page.check("a count", 3, 3, within=0)
+    page.check("an expectation that is too high", 0.9, 1.0, 0.01, known=0.2, cause="it was too high")
+    page.heading("More")
+    page.table("A table", ("a", "b"), [("x", None), ("y", 0.123456), ("z", float("nan"))])
+
+
+def failing(page):
+    raise uf.errors.InvalidValue("this case cannot be run", value=1)
+
+
+STRETCHED = Case("bar-stretched", "A bar under tension", "A bar.", "Hooke.", stretched)
+FAILING = Case("bar-failing", "A bar that fails", "A bar.", "Nobody.", failing)
+
+
+@pytest.fixture
+def small_book(monkeypatch):
+    chapters = (Chapter("Bars", "Simple things.", (STRETCHED, FAILING)),)
+    monkeypatch.setattr(book, "chapters", lambda: chapters)
+
+
+def test_pages_and_what_is_drawn_from_them(small_book, tmp_path):
+    outcomes = book.run_cases(["bar-stretched", "bar-failing"], tmp_path / "deep" / "book", processes=1)
+    folder = tmp_path / "deep" / "book"
+    page = (folder / "bar-stretched.md").read_text()
+    for part in ("Verdict: **🟠 amber**", "Hooke.", "amber: it was too high", "## More", "| x | - |", "| y | 0.1235 |"):
+        assert part in page
+    assert (folder / "images" / "bar-stretched-convergence.svg").stat().st_size > 1000
+    summary = (folder / "README.md").read_text()
+    assert "[A bar under tension](bar-stretched.md) | 🟠 amber | 2 of 3 green" in summary
+    assert "| [A bar that fails](bar-failing.md) | 🔴 red | - | this case cannot be run" in summary
+    assert "it was too high" in (folder / "errata.md").read_text()
+    assert "| 1 / 1 | 1 / 1 |" in (folder / "which-element.md").read_text()
+    assert outcomes["bar-failing"].verdict is Verdict.RED
+    assert not list(folder.glob(".*"))
+
+
+def test_the_summary_is_written_for_the_whole_book_only(small_book, tmp_path):
+    book.run_cases(["bar-stretched"], tmp_path, short=True)
+    assert not (tmp_path / "README.md").exists()
+
+
+def test_progress_is_told(small_book, tmp_path):
+    told = []
+    book.run_cases(["bar-stretched"], tmp_path, short=True, tick=lambda what, done: told.append((what, done)))
+    assert told[0] == ("ANS3DEAS, 2", 0.0)
+    assert told[-1][1] == 1.0
+
+
+def test_an_unknown_case_is_told_with_the_nearest_one(small_book):
+    with pytest.raises(uf.errors.InvalidValue, match="no such verification case") as caught:
+        book.chosen(["bar-streched"])
+    assert "did you mean bar-stretched?" in str(caught.value)
+
+
+def test_without_checks_nothing_is_proved():
+    assert Page(STRETCHED).verdict is Verdict.RED
+
+
+def test_no_pictures_without_a_folder():
+    page = Page(STRETCHED, short=True)
+    stretched(page)
+    assert not page.pictures
+    assert "![" not in "".join(page.blocks)
+
+
+def test_the_variants_are_the_seven_elements_twice():
+    assert len(VARIANTS) == 14
+    assert {variant.name for variant in VARIANTS} == set(SEVEN)
+    assert Variant("MI9K3DEAS").cells(8) == 4
+    assert len(set(VARIANTS)) == 14
+
+
+def test_drawn_from_nothing():
+    assert "None." in errata_text({})
+    assert "0 / 0" not in which_element_text({})
+
+
+def test_advice_counts_the_problems_that_an_element_meets():
+    def study(case, good, poor):
+        values = {"MI9K3DEAS, E_33 tied": {8: good, 16: 1.0}, "ANS3DEAS, E_33 tied": {8: poor, 16: poor}}
+        return StudyRecord(case, "deflection", values)
+
+    studies = (study("scordelis-lo", 0.99, 0.9), study("nonlinear-hemisphere", 0.9, 0.99), study("plastic-tube", 1, 1))
+    studies += (StudyRecord("pinched-cylinder", "of one of them alone", {"ANS3DEAS, E_33 tied": {8: 1.0}}),)
+    checks = Check("right", 1.0, 1.0, 0.01), Check("known", 1.1, 1.0, 0.01, known=0.2, cause="that is why")
+    told = which_element_text(
+        {
+            "any": Outcome("any", Verdict.GREEN, studies=studies),
+            "bend-stability": Outcome("bend-stability", Verdict.AMBER, checks=checks),
+        }
+    )
+    assert "| MI9K3DEAS, E_33 tied: 2 of 2, 12 intervals; ANS3DEAS, E_33 tied: 1 of 2, 8 intervals |" in told
+    assert "| [bend-stability](bend-stability.md): 1 of 2 checks green |" in told

@@ -1,0 +1,167 @@
+"""What the first rank cuts for each rank: all parcels make the model, and none grows with what the others have."""
+
+from __future__ import annotations
+
+import dataclasses
+import pickle
+
+import numpy as np
+import pytest
+
+import umform as uf
+from umform.deck import load
+from umform.deck.templates import template_file
+from umform.errors import InvalidValue
+from umform.mesh import strip
+from umform.model.boundary import Load, Prescribed, Pressure
+from umform.model.ties import MidLine
+from umform.parallel.cutting import Cutting
+from umform.parallel.outline import Outline
+
+SIZE = 3
+
+
+def wave(fraction):
+    return np.sin(fraction)
+
+
+def sheet(cells=12, motion=None):
+    """Everything that a share may have: supports, ties, loads, a pressure, two contacts, a tool that is driven."""
+    model = uf.Model(strip(float(cells), 4.0, 1.0, (cells, 4)), material=uf.SVK(E=210e3, nu=0.3))
+    model.hinge(lambda x, y, z: (x < 1e-9) & (y < 2.5), "xz")
+    end = model.prescribe_midline("x1", "z", "end")
+    model.fix(lambda x, y, z: (x < 3.5) & (y < 1e-9), "y")
+    model.prescribe(lambda x, y, z: (x > 5.5) & (x < 6.5) & (z > 0), "x", "middle")
+    model.body_force((0.0, 0.0, -1.0), "weight")
+    model.pressure("lower", "pressure")
+    die = model.contact("lower", uf.Cylinder((4.0, 0.0, -10.5), "y", 10.0), penalty=10.0, name="die")
+    punch = model.contact("upper", uf.Cylinder((4.0, 0.0, 10.5), "y", 10.0), penalty=10.0, points=3, name="punch")
+    stroke = model.drive(punch, "-z", "stroke")
+    if motion is not None:
+        model.set_motion(die, motion)
+    return model, [uf.Move([end, stroke], [0.1, wave], steps=2), uf.Release(stroke)]
+
+
+def parts(model):
+    """Ranks of the cells, one after the other along x."""
+    x = model.mesh.points[model.mesh.connectivity].mean(axis=1)[:, 0]
+    return np.minimum(x / 4.0, SIZE - 1).astype(np.int32)
+
+
+def parcels(model):
+    cutting = Cutting(model, parts(model), SIZE)
+    return [cutting.parcel(rank) for rank in range(SIZE)]
+
+
+def size_of(value):
+    """Bytes of all arrays in something."""
+    if isinstance(value, np.ndarray):
+        return value.nbytes
+    if dataclasses.is_dataclass(value):
+        value = list(vars(value).values())
+    return sum(map(size_of, value)) if isinstance(value, list | tuple) else 0
+
+
+def test_all_parcels_make_the_model():
+    model, _ = sheet()
+    model.u = np.random.default_rng(2).normal(size=model.u.size)
+    cut = parcels(model)
+    np.testing.assert_array_equal(np.sort(np.concatenate([one.cells for one in cut])), np.arange(48))
+    owned = np.concatenate([one.nodes[one.owned] for one in cut])
+    np.testing.assert_array_equal(np.sort(owned), np.arange(len(model.mesh.points)))
+    for rank, one in enumerate(cut):
+        assert (parts(model)[one.cells] == rank).all()
+        np.testing.assert_array_equal(one.nodes[one.connectivity], model.mesh.connectivity[one.cells])
+        np.testing.assert_array_equal(one.points, model.mesh.points[one.nodes])
+        dofs = (3 * one.nodes[:, None] + np.arange(3)).ravel()
+        np.testing.assert_array_equal(one.fixed, model._fixed[dofs])
+        np.testing.assert_array_equal(one.u, model.u[dofs])
+        assert one.before == sum(other.own for other in cut[:rank])
+    assert sum(one.own for one in cut) == cut[0].count == model.unknown_count
+    numbers = np.concatenate([one.numbers for one in cut])
+    np.testing.assert_array_equal(np.unique(numbers), np.arange(model.unknown_count))
+
+
+def test_controls_ties_and_contacts_are_parted_too():
+    model, _ = sheet()
+    cut = parcels(model)
+    for number, control in enumerate(model.controls):
+        mine = [one.controls[number] for one in cut]
+        if isinstance(control, Prescribed | MidLine):
+            whole = [3 * one.nodes[dofs // 3] + dofs % 3 for one, dofs in zip(cut, mine, strict=True)]
+            np.testing.assert_array_equal(np.unique(np.concatenate(whole)), np.unique(control.dofs))
+        elif isinstance(control, Load):
+            total = np.zeros_like(model.mesh.points)
+            for one, vector in zip(cut, mine, strict=True):
+                total[one.nodes] += vector.reshape(-1, 3)
+            np.testing.assert_array_equal(total.ravel(), control.vector)
+        elif isinstance(control, Pressure):
+            whole = np.concatenate(
+                [np.c_[one.cells[rows[:, 0]], rows[:, 1]] for one, rows in zip(cut, mine, strict=True)]
+            )
+            np.testing.assert_array_equal(np.unique(whole, axis=0), np.unique(control.faces, axis=0))
+    for number, contact in enumerate(model.contacts):
+        for one in cut:
+            rows = contact.faces[one.facets[number]]
+            np.testing.assert_array_equal(np.c_[one.cells[one.faces[number][:, 0]], one.faces[number][:, 1]], rows)
+        assert sum(len(one.facets[number]) for one in cut) == len(contact.faces)
+    for number, tie in enumerate(model.ties):
+        whole = np.concatenate([3 * one.nodes[one.ties[number] // 3] + one.ties[number] % 3 for one in cut])
+        np.testing.assert_array_equal(np.unique(whole, axis=0), np.unique(tie.dofs, axis=0))
+
+
+def test_a_begun_state_goes_along():
+    model, _ = sheet()
+    model.block.restore(model.block.state, np.random.default_rng(3).normal(size=model.block.alpha.shape))
+    model.contacts[1].multipliers = np.arange(float(len(model.contacts[1].block.gaps)))
+    for one in parcels(model):
+        np.testing.assert_array_equal(one.history[1], model.block.alpha[one.cells])
+        np.testing.assert_array_equal(one.multipliers[1].reshape(-1, 9)[:, 0], 9.0 * one.facets[1])
+
+
+def test_a_parcel_and_the_outline_know_nothing_of_the_size_of_the_whole():
+    """The same four by four cells in the middle of sheets of other sizes: the same bytes, to the last one."""
+    small, large = (sheet(cells) for cells in (12, 120))
+    assert size_of(parcels(small[0])[1]) == size_of(parcels(large[0])[1]) > 0
+    assert size_of(parcels(large[0])[2]) > 10 * size_of(parcels(small[0])[2])
+    assert len(pickle.dumps(Outline.of(*small))) == len(pickle.dumps(Outline.of(*large)))
+
+
+def test_an_outline_is_the_same_on_the_other_side():
+    """Each step and tool moves a control of the outline, not of the model; the model is left as it was."""
+    model, steps = sheet(motion=wave)
+    here = Outline.of(model, steps)
+    for outline in (here, pickle.loads(pickle.dumps(here))):
+        names = {control.name: control for control in outline.controls}
+        assert list(names) == [control.name for control in model.controls]
+        assert outline.steps[0].control == [names["end"], names["stroke"]]
+        assert outline.steps[0].to[1] is wave
+        assert outline.contacts[1].translations == [names["stroke"]]
+        assert outline.contacts[0].motion is wave
+        assert outline.tied == [None, None, names["end"]]
+        assert names["stroke"] is not model.controls[-1]
+    assert len(model.contacts[0].facets) == 48
+    assert model.controls[0].dofs.size
+
+
+@pytest.mark.parametrize("name", ["air-bending", "cantilever", "free-bending", "own-mesh"])
+def test_what_a_deck_describes_can_be_sent(name):
+    changes = {"contacts.cylinder.motion": {"time": [0.0, 1.0], "translation": [[0, 0, 0], [0, 0, 2.0]]}}
+    problem = load(template_file(name), changes if name == "free-bending" else {}).build("superlu")
+    outline = pickle.loads(pickle.dumps(Outline.of(problem.model, problem.steps)))
+    assert [contact.name for contact in outline.contacts] == list(problem.contacts)
+    for contact, whole in zip(outline.contacts, problem.model.contacts, strict=True):
+        assert contact.tool == whole.tool
+        if whole.motion is not None:
+            np.testing.assert_array_equal(contact.motion(0.5)[0], [0.0, 0.0, 1.0])
+
+
+def test_a_function_without_a_name_is_refused_with_a_remedy():
+    from umform.parallel.outline import _pickled
+
+    model, steps = sheet(motion=lambda time: np.zeros(3))
+    with pytest.raises(InvalidValue, match="cannot be sent") as caught:
+        _pickled(Outline.of(model, steps))
+    assert "top of a file" in caught.value.remedy
+    with pytest.raises(InvalidValue, match="the first rank has no model"):
+        _pickled(None)

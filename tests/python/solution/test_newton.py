@@ -1,0 +1,382 @@
+"""Newton's method: its order, its purity, its line search, and how it gives up."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from umform import materials as mt
+from umform.errors import InvalidValue
+from umform.mesh import strip
+from umform.model import Model
+from umform.ranks import ONE
+from umform.run import solve
+from umform.solution.newton import Failed, Newton, NewtonOptions
+from umform.solvers import Pattern
+from umform.steps import Move
+
+ELEMENTS = ("DISP3D", "ANS3DEAS", "EAS3DEAS", "MI9K3DEAS")
+
+
+def block(element, law):
+    """A thick block clamped at x0, bent and twisted by a force at x1."""
+    made = strip(2.0, 1.0, 0.6, (2, 1), cell="hex18" if "9K" in element else "hex8")
+    model = Model(made, element, material=law)
+    model.fix("x0")
+    return model, model.traction("x1", (0.3, 0.2, 1.0))
+
+
+# Order of convergence ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("element", ELEMENTS)
+@pytest.mark.parametrize("law", [mt.SVK(E=100.0, nu=0.3), mt.NeoHooke(E=100.0, nu=0.3)], ids=["svk", "neo-hooke"])
+def test_convergence_is_quadratic_at_large_displacements(element, law):
+    model, load = block(element, law)
+    solve(model, Move(load, 4.0, steps=8), frames=0)
+    assert np.abs(model.u).max() > 0.8
+    converged = model.u.copy()
+    load.value = 5.0
+    norms = [it.residual for it in Newton(model, NewtonOptions(residual=1e-12, mixed=False)).solve().iterations]
+    np.testing.assert_array_equal(model.u, converged)  # Newton alone commits nothing
+    asymptotic = [n for n in norms if 1e-12 < n < 0.1]
+    assert len(asymptotic) >= 3
+    orders = [
+        math.log(c / b) / math.log(b / a) for a, b, c in zip(asymptotic, asymptotic[1:], asymptotic[2:], strict=False)
+    ]
+    assert max(orders) > 1.8
+    assert norms[-1] < 1e-10
+
+
+def test_convergence_is_quadratic_in_a_plastic_step(build):
+    case = build.free_bending((8, 1), thickness_points=5)
+    solve(case.model, Move(case.punch, -2.0, steps=8), frames=0)
+    assert (case.model.block.state[..., 6] > 0).any()
+    case.punch.value = -2.05
+    records = Newton(case.model, NewtonOptions(residual=1e-12)).solve().iterations
+    quiet = [r.residual for r in records if r.entered == r.left == 0 and r.residual > 1e-11]
+    assert len(records) <= 10
+    assert quiet[-1] < 1e3 * quiet[-2] ** 1.6
+
+
+def test_a_linear_problem_takes_one_correction():
+    model, load = block("ANS3DEAS", mt.SVK(E=100.0, nu=0.3))
+    load.value = 1e-9
+    records = Newton(model).solve().iterations
+    assert records[0].residual < 1e-7
+    assert len(records) <= 2
+
+
+# Purity -----------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def plastic(build):
+    """A strip bent into plasticity with contact, and a displacement to evaluate at."""
+    case = build.free_bending((8, 1), "EAS3DEAS")
+    solve(case.model, Move(case.punch, -1.5, steps=6), frames=0)
+    u = case.model.u + 1e-3 * np.random.default_rng(0).normal(size=case.model.u.size)
+    return SimpleNamespace(**vars(case), u=u)
+
+
+def state_of(model):
+    return model.u.copy(), model.block.state, model.block.alpha, model.time, [c.value for c in model.controls]
+
+
+def assert_same(one, other):
+    for a, b in zip(one, other, strict=True):
+        np.testing.assert_array_equal(a, b)
+
+
+def numbers(evaluation):
+    return evaluation.residual, evaluation.values, evaluation.predictor, evaluation.force_scale, evaluation.failed
+
+
+def test_evaluation_is_pure(plastic):
+    model, u = plastic.model, plastic.u
+    before = state_of(model)
+    first = numbers(model.evaluate(u, np.ones(u.size)))
+    model.evaluate(model.u)
+    model.evaluate(2 * u)
+    assert_same(numbers(model.evaluate(u, np.ones(u.size))), first)
+    assert_same(state_of(model), before)
+
+
+def test_predictor_is_the_tangent_times_the_increment(plastic, build, rng):
+    model = plastic.model
+    du = np.zeros(plastic.u.size)
+    du[model.free] = rng.normal(size=len(model.free))
+    evaluation = model.evaluate(plastic.u, du)
+    K = build.dense(model.pattern, evaluation.values)
+    np.testing.assert_allclose(evaluation.predictor[model.free], K @ du[model.free], atol=1e-11 * np.abs(K).max())
+
+
+def test_tangent_of_a_whole_model_is_the_derivative_of_its_residual(plastic, build, rng):
+    """With contact and prescribed displacements; the parameters are held, so without enhanced modes."""
+    case = build.free_bending((8, 1), "DISP3D", material=mt.NeoHooke(kappa=175e3, mu=80.77e3))
+    solve(case.model, Move(case.punch, -1.0, steps=4), frames=0)
+    model, u = case.model, case.model.u
+    K = build.dense(model.pattern, model.evaluate(u).values)
+    assert model.active_set().any()
+    du = np.zeros(u.size)
+    du[model.free] = rng.normal(size=len(model.free))
+    slope = build.central_difference(lambda v: model.evaluate(v).residual[model.free], u, du, 1e-6)
+    assert build.relative_error(K @ du[model.free], slope) < 1e-7
+
+
+def test_undo_recover_and_revert_leave_no_trace(plastic):
+    model, u = plastic.model, plastic.u
+    clean = numbers(model.evaluate(u))
+    before = state_of(model)
+    model.recover(1e-3 * u, 0.5)
+    assert not np.array_equal(model.evaluate(u).residual, clean[0])
+    model.undo_recover()
+    assert_same(numbers(model.evaluate(u)), clean)
+    for _ in range(3):
+        model.recover(1e-3 * u, 1.0)
+        model.evaluate(u)
+    model.revert()
+    assert_same(numbers(model.evaluate(u)), clean)
+    assert_same(state_of(model), before)
+
+
+def test_a_restored_snapshot_repeats_the_run_bit_by_bit(plastic):
+    model = plastic.model
+    saved = model.snapshot()
+    clean = numbers(model.evaluate(plastic.u))
+
+    def go_on():
+        solve(model, Move(plastic.punch, -2.0, steps=3), frames=0)
+        return state_of(model)
+
+    first = go_on()
+    model.restore(saved)
+    assert_same(state_of(model), (saved.u, saved.state, saved.alpha, saved.time, saved.controls))
+    assert_same(numbers(model.evaluate(plastic.u)), clean)
+    model.restore(saved)
+    assert_same(go_on(), first)
+
+
+def test_the_same_run_twice_gives_the_same_bits(build):
+    def run():
+        case = build.free_bending((8, 1))
+        result = solve(case.model, Move(case.punch, -1.5, steps=5), frames=0)
+        return case.model.u, result["punch_force"]
+
+    assert_same(run(), run())
+
+
+@pytest.mark.parametrize("element", ["ANS3DEAS", "MI9K3DEAS"])
+def test_a_load_that_is_taken_away_leaves_nothing_to_iterate_on(build, element):
+    model, tip = build.cantilever(element=element)
+    result = solve(model, [Move(tip, 1.0, steps=2), Move(tip, 0.0, steps=2)], frames=0)
+    assert np.abs(model.u).max() <= np.finfo(float).eps * model.extent
+    assert result["iterations"][-1] <= 10
+
+
+# Line search ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("element", ["ANS3DEAS", "EAS3DEAS", "MI9K3DEAS"])
+def test_line_search_reaches_the_same_solution(build, element):
+    """Also where increments were shortened, and the enhanced parameters put back in between."""
+
+    def run(line_search):
+        model, tip = build.cantilever(1.0, element=element)
+        tip.value = 1.0
+        converged = Newton(model, NewtonOptions(line_search=line_search, residual=1e-11, mixed=False)).solve()
+        model.commit(converged.u)
+        return model, [it.step_length for it in converged.iterations]
+
+    (searched, lengths), (plain, full) = run(True), run(False)
+    assert min(lengths) < 1.0
+    assert full == [1.0] * len(full)
+    np.testing.assert_allclose(searched.u, plain.u, atol=1e-9)
+    np.testing.assert_allclose(searched.block.alpha, plain.block.alpha, atol=1e-9)
+
+
+def test_line_search_of_a_thin_strip_does_not_creep():
+    """All of a large load at once on a strip as thin as a hundredth of its length: its energy is a narrow valley."""
+
+    def run(line_search):
+        model = Model(strip(10.0, 1.0, 0.1, (6, 1)), "ANS3DEAS", material=mt.SVK(E=1.2e6, nu=0.0))
+        model.fix("x0")
+        tip = model.line_load("x1", "lower", (0.0, 0.0, 1.0))
+        options = NewtonOptions(line_search=line_search, max_iterations=40, mixed=False)
+        result = solve(model, Move(tip, 4.0, steps=1, cuts=0), options=options, frames=0)
+        return model.u, [it.step_length for it in result.iterations[-1]]
+
+    (searched, lengths), (plain, _) = run(True), run(False)
+    assert min(lengths) < 1.0
+    np.testing.assert_allclose(searched, plain, atol=1e-7)
+
+
+class Scalar:
+    """A system of one unknown: residual and slope are functions of x, the active set a function of x."""
+
+    effort = extent = 1.0
+
+    def __init__(self, residual, slope, start=0.0, active=lambda x: [], scale=1.0):
+        self.u = np.array([start])
+        ends = np.array([0, 1], dtype=np.int32), np.array([0], dtype=np.int32)
+        self.pattern = Pattern(1, *ends, True)
+        self.residual, self.slope, self.active, self.scale = residual, slope, active, scale
+        self.x, self.calls = start, []
+
+    ranks = ONE
+
+    def restrict(self, r):
+        return r
+
+    coefficients = extend = restrict
+
+    def largest_entry(self, values):
+        return float(np.abs(values).max())
+
+    def prescribed_displacement(self):
+        return np.zeros(1)
+
+    def evaluate(self, u, du=None):
+        self.x = float(u[0])
+        self.calls.append("evaluate")
+        failed = 4 if abs(self.x) > 1e6 else -1
+        r = np.array([self.residual(self.x)])
+        return SimpleNamespace(
+            residual=r, values=np.array([self.slope(self.x)]), predictor=np.zeros(1),
+            force_scale=self.scale, failed=failed, round_off=0.0,
+        )  # fmt: skip
+
+    def recover(self, du, s, mixed=False):
+        self.calls.append("recover")
+
+    def undo_recover(self):
+        self.calls.append("undo")
+
+    def active_set(self):
+        return np.array(self.active(self.x), dtype=bool)
+
+    def flowing(self):
+        return np.zeros(0, dtype=np.uint8)
+
+    def commit(self, u):
+        self.calls.append("commit")
+
+    def revert(self):
+        self.calls.append("revert")
+
+
+def arc_tangent(start):
+    return Scalar(math.atan, lambda x: 1 / (1 + x * x), start)
+
+
+def test_line_search_tames_a_step_that_diverges_without():
+    with pytest.raises(Failed):
+        Newton(arc_tangent(3.0), NewtonOptions(max_iterations=20)).solve()
+    system = arc_tangent(3.0)
+    # The first increment is that of the predictor and never shortened: from 3 it lands at -9.5.
+    converged = Newton(system, NewtonOptions(line_search=True)).solve()
+    assert abs(converged.u[0]) < 1e-6
+    assert min(record.step_length for record in converged.iterations) < 1.0
+    assert "undo" in system.calls
+    assert system.calls.count("recover") > len(converged.iterations)
+
+
+def test_each_trial_of_the_line_search_is_taken_back_before_the_next():
+    system = arc_tangent(3.0)
+    Newton(system, NewtonOptions(line_search=True)).solve()
+    at = [k for k, call in enumerate(system.calls) if call == "undo"]
+    assert at
+    for k in at:  # trial, undo, evaluation at the point of departure, next trial
+        assert system.calls[k - 2 : k + 3] == ["recover", "evaluate", "undo", "evaluate", "recover"]
+
+
+# Giving up --------------------------------------------------------------------------------------------------
+
+
+def test_an_active_set_that_alternates_without_progress_is_chattering():
+    """Out of touch it is pulled in, in touch it is pushed out: no equilibrium."""
+    system = Scalar(lambda x: x + 1 if x >= 0 else x - 1, lambda x: 1.0, 1.0, lambda x: [x < 0, True])
+    with pytest.raises(Failed, match="chatters between 2 states") as caught:
+        Newton(system).solve()
+    assert caught.value.chattering
+    assert 4 <= len(caught.value.iterations) <= 10
+    assert {(record.entered, record.left) for record in caught.value.iterations[1:]} == {(1, 0), (0, 1)}
+    assert system.calls[-1] == "revert"
+
+
+def test_a_cycle_of_three_states_is_chattering_too():
+    """From 1 to 2 to 3 and back to 1."""
+    system = Scalar(
+        lambda x: {1: -1.0, 2: -1.0, 3: 2.0}[round(x)], lambda x: 1.0, 1.0, lambda x: [round(x) == k for k in (1, 2, 3)]
+    )
+    with pytest.raises(Failed, match="chatters between 3 states") as caught:
+        Newton(system).solve()
+    assert caught.value.chattering
+
+
+def test_an_active_set_that_alternates_while_the_residual_falls_is_not_chattering():
+    """An overshooting slope: the point goes in and out, but each time less."""
+    system = Scalar(lambda x: x - 5.0, lambda x: 0.7, 6.0, lambda x: [x < 5.0])
+    converged = Newton(system, NewtonOptions(max_iterations=60)).solve()
+    assert converged.u[0] == pytest.approx(5.0, abs=1e-6)
+    assert any(record.entered for record in converged.iterations)
+
+
+def test_a_step_that_does_not_end_fails_with_its_records():
+    seen = []
+    system = Scalar(lambda x: math.exp(-x), lambda x: -math.exp(-x))
+    newton = Newton(system, NewtonOptions(max_iterations=7, residual=1e-12))
+    newton.callbacks.append(seen.append)
+    with pytest.raises(Failed, match="no convergence in 7 iterations") as caught:
+        newton.solve()
+    assert not caught.value.chattering
+    assert [record.number for record in caught.value.iterations] == list(range(1, 8))
+    assert seen == caught.value.iterations
+    assert system.calls[-1] == "revert"
+    assert "commit" not in system.calls
+
+
+def test_a_strain_outside_of_the_domain_names_its_cell():
+    system = Scalar(lambda x: 1e9, lambda x: 1.0)
+    with pytest.raises(Failed, match="cell 4 "):
+        Newton(system).solve()
+
+
+@pytest.mark.parametrize("residual", [math.nan, math.inf])
+def test_a_residual_that_is_not_finite_fails(residual):
+    system = Scalar(lambda x: 1.0 if x == 0 else residual, lambda x: 1.0)
+    with pytest.raises(Failed, match="not finite"):
+        Newton(system).solve()
+
+
+def test_a_singular_tangent_fails():
+    system = Scalar(lambda x: 1.0, lambda x: 0.0)
+    with pytest.raises(Failed):
+        Newton(system).solve()
+    assert system.calls[-1] == "revert"
+
+
+@pytest.mark.parametrize("error", [RuntimeError("broken"), KeyboardInterrupt("stop")])
+def test_whatever_ends_the_iterations_the_system_is_reverted(error):
+    def residual(x):
+        if system.calls.count("evaluate") > 3:
+            raise error
+        return math.exp(-x)
+
+    system = Scalar(residual, lambda x: -math.exp(-x))
+    with pytest.raises(type(error)) as caught:
+        Newton(system).solve()
+    assert caught.value is error
+    assert system.calls[-2:] == ["evaluate", "revert"]
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"residual": 0.0}, {"residual": math.nan}, {"increment": -1.0}, {"max_iterations": 0}],
+)
+def test_options_that_make_no_sense_are_refused(options):
+    with pytest.raises(InvalidValue):
+        NewtonOptions(**options)
