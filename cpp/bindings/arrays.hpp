@@ -42,3 +42,5 @@ void bind_materials(nb::module_& m);
 void bind_surfaces(nb::module_& m);
 void bind_sparse(nb::module_& m);
 void bind_blocks(nb::module_& m);
+void bind_contact(nb::module_& m);
+void bind_loads(nb::module_& m);

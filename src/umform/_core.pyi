@@ -210,9 +210,9 @@ class ShellBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
-    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64], du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
         """
-        Add the share of the block to f and values (and K du to Kdu); returns the first failed element (or -1) and sum |f_e|^2.
+        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
         """
 
     @property
@@ -276,9 +276,9 @@ class ContactBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
-    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64], du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
         """
-        Add the share of the block to f and values (and K du to Kdu); returns the first failed element (or -1) and sum |f_e|^2.
+        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
         """
 
     @property
@@ -333,9 +333,9 @@ class PressureBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
-    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64], du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
         """
-        Add the share of the block to f and values (and K du to Kdu); returns the first failed element (or -1) and sum |f_e|^2.
+        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
         """
 
     @property

@@ -39,7 +39,8 @@ class PressureBlockOf final : public PressureBlock {
     std::size_t dofs() const override { return X_.size(); }
 
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
-        if (scatter.symmetric) throw std::invalid_argument("a follower pressure needs an unsymmetric pattern");
+        if (target.values != nullptr && scatter.symmetric)
+            throw std::invalid_argument("a follower pressure needs an unsymmetric pattern");
         for_each_by_colour(colours_, part_.size(), [&](int e, int) { facet(e, u, scatter, target); });
         Outcome outcome;
         for (const double scale : scale_) outcome.force_scale_squared += scale;
@@ -62,6 +63,7 @@ class PressureBlockOf final : public PressureBlock {
             for (int a = 0; a < Nodes; ++a)
                 for (int k = 0; k < 3; ++k) {
                     f[k * Nodes + a] += p * shape.N[a] * normal[k];
+                    if (!target.wants_tangent()) continue;
                     // d(gr x gs) = -gs x du,r + gr x du,s
                     for (int b = 0; b < Nodes; ++b)
                         for (int l = 0; l < 3; ++l) {
@@ -86,7 +88,7 @@ class PressureBlockOf final : public PressureBlock {
                 for (int k = 0; k < 3; ++k)
                     for (int j = 0; j < size; ++j) target.Kdu[3 * ids[a] + k] += K[(k * Nodes + a) * size + j] * du[j];
         }
-        scatter.add(e, K.data(), target.values);
+        if (target.values != nullptr) scatter.add(e, K.data(), target.values);
     }
 
     Connectivity part_;
