@@ -1,12 +1,13 @@
 // Arrays that cross the border to Python: NumPy float64 and int32, contiguous, on the CPU.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
-#include "umform/assembly/csr.hpp"
+#include "umform/assembly/connectivity.hpp"
 
 namespace nb = nanobind;
 

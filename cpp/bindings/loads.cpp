@@ -1,3 +1,4 @@
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
 
 #include "evaluate.hpp"
@@ -19,7 +20,9 @@ std::unique_ptr<PressureBlock> pressure_block(const InputIds& facets, const Inpu
 void bind_loads(nb::module_& m) {
     auto pressure = nb::class_<PressureBlock>(m, "PressureBlock", "Follower pressure on element faces.");
     bind_common(pressure);
-    pressure.def_rw("pressure", &PressureBlock::pressure);
+    pressure.def_rw("pressure", &PressureBlock::pressure)
+        .def_rw("name", &PressureBlock::name, "For messages.")
+        .def_ro_static("symmetric", &PressureBlock::symmetric, "Whether its tangent is symmetric.");
     m.def("pressure_block", &pressure_block, nb::arg("facets"), nb::arg("X"),
           nb::sig("def pressure_block(facets: NDArray[int32], X: NDArray[float64]) -> PressureBlock"));
 }

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "umform/algebra/lanes.hpp"
-#include "umform/assembly/csr.hpp"
+#include "umform/assembly/connectivity.hpp"
 
 namespace umform {
 

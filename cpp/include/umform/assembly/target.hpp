@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "umform/assembly/csr.hpp"
+#include "umform/assembly/scatter.hpp"
 
 namespace umform {
 
@@ -34,16 +34,17 @@ void gather(const Connectivity& part, int element, const double* field, double* 
         for (int k = 0; k < 3; ++k) local[k * Nodes + a] = field[3 * ids[a] + k];
 }
 
-/// Adds K, f (and K du of prescribed increments) of one element, as far as they are asked for; K holds its upper triangle.
+/// Adds K, f (and K du of prescribed increments) of one element, as far as they are asked for. K holds its upper
+/// triangle, which is completed where that is needed, or all of a matrix that is not symmetric (`full`).
 template <int Nodes>
 void scatter_element(const Connectivity& part, const Scatter& scatter, int element, double* K, const double* f,
-                     const Target& target) {
+                     const Target& target, bool full = false) {
     constexpr int size = 3 * Nodes;
     const std::int32_t* ids = part[element];
     for (int a = 0; a < Nodes; ++a)
         for (int k = 0; k < 3; ++k) target.f[3 * ids[a] + k] += f[k * Nodes + a];
     if (!target.wants_tangent()) return;
-    if (!scatter.symmetric || target.du != nullptr)
+    if (!full && (!scatter.symmetric || target.du != nullptr))
         for (int i = 0; i < size; ++i)
             for (int j = 0; j < i; ++j) K[i * size + j] = K[j * size + i];
     if (target.du != nullptr) {

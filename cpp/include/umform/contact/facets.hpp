@@ -2,6 +2,7 @@
 // area.
 #pragma once
 
+#include "umform/assembly/colours.hpp"
 #include "umform/assembly/target.hpp"
 #include "umform/assembly/threads.hpp"
 #include "umform/elements/kinematics.hpp"
@@ -136,7 +137,7 @@ class ContactBlockOf final : public ContactBlock {
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         locate(u);
         const int per_facet = static_cast<int>(N_.size());
-        for_each_by_colour(colours_, part_.size(), [&](int e, int) {
+        for_each_by_colour(colours_, part_.size(), thread_count(), [&](int e, int) {
             scale_[e] = 0.0;
             bool active = false;
             for (int q = 0; q < per_facet; ++q) active = active || shifted_gap(e * per_facet + q) <= 0.0;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "umform/assembly/batch.hpp"
+#include "umform/assembly/colours.hpp"
 #include "umform/assembly/history.hpp"
 #include "umform/assembly/target.hpp"
 #include "umform/assembly/threads.hpp"
@@ -154,7 +155,7 @@ class ShellBlockOf final : public ShellBlock {
     }
 
     void element(int e, const double* u, double* K, double* f) override {
-        prepare_workspaces();
+        prepare_workspaces(1);
         Workspace& w = workspaces_[0];
         const Batch batch = alone(e);
         std::vector<double> scratch(history_.stride());
@@ -173,7 +174,7 @@ class ShellBlockOf final : public ShellBlock {
     }
 
     void fields(const double* u, const PointFields& out) override {
-        prepare_workspaces();
+        prepare_workspaces(1);
         Workspace& w = workspaces_[0];
         std::vector<double> scratch(history_.stride());  // trial stays as it is
         for (int e = 0; e < part_.size(); ++e) {
@@ -229,8 +230,8 @@ class ShellBlockOf final : public ShellBlock {
         std::vector<Energy> energy;  // [q]
     };
 
-    void prepare_workspaces() {
-        while (static_cast<int>(workspaces_.size()) < thread_count())
+    void prepare_workspaces(int threads) {
+        while (static_cast<int>(workspaces_.size()) < threads)
             workspaces_.push_back({element_.workspace(),
                                    {},
                                    {},
@@ -243,8 +244,10 @@ class ShellBlockOf final : public ShellBlock {
     /// Calls work(batch, workspace) for all batches, in parallel within a colour.
     template <class Work>
     void for_each_batch(const Work& work) {
-        prepare_workspaces();
-        for_each_by_colour(batches_.colours, part_.size(), [&](int b, int thread) { work(b, workspaces_[thread]); });
+        const int threads = thread_count();  // once: another thread may change it while this one works
+        prepare_workspaces(threads);
+        for_each_by_colour(batches_.colours, part_.size(), threads,
+                           [&](int b, int thread) { work(b, workspaces_[thread]); });
     }
 
     static Batch alone(int e) {
