@@ -235,6 +235,10 @@ class ShellBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
+
     def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
         """
         Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
@@ -301,6 +305,10 @@ class ContactBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
+
     def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
         """
         Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
@@ -357,6 +365,10 @@ class PressureBlock:
 
     @property
     def connectivity(self) -> Connectivity: ...
+
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
 
     def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
         """

@@ -88,9 +88,7 @@ def gaps(problem: Problem) -> Iterator[Finding]:
     model = problem.model
     thickness = sheet_thickness(model.mesh)
     for name, contact in problem.contacts.items():
-        contact.place(model.time)
-        contact.block.locate(model.u)
-        gap = contact.at_points().gap
+        gap = contact.locate(model.u, contact.pose).gap
         about = f"contact {name}"
         if not np.isfinite(gap).all():
             remedy = "move the tool so that it just touches the sheet"
@@ -156,7 +154,7 @@ def effort(contents: Contents, problem: Problem) -> Finding:
         seconds = np.inf
         for _ in range(2):  # the first one is slow: memory is new, and libraries wake up
             start = clock.perf_counter()
-            solver.factor(model.evaluate(model.u).values)
+            solver.factor(model.evaluate(model.x))
             seconds = min(seconds, clock.perf_counter() - start)
     except (SingularMatrix, NotFinite) as refusal:
         remedy = "let tools touch the sheet at the start, or hold it"
@@ -165,7 +163,7 @@ def effort(contents: Contents, problem: Problem) -> Finding:
         model.revert()
     increments = sum(step.expected for step in contents.steps)
     text = (
-        f"about {increments} increments; {1e3 * seconds:.3g} ms an iteration with {solver.name}: "
+        f"about {increments} increments; {1e3 * seconds:.3g} ms an iteration with {solver.solver.name}: "
         f"about {_spell(seconds * increments * _ITERATIONS)}"
     )
     return ok("effort", text)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
 from umform.mesh import Mesh
-from umform.model import boundary
+from umform.model import forces
 
 if TYPE_CHECKING:
     from umform.model import Model
@@ -54,7 +54,7 @@ def middle(model: Model) -> tuple[Floats, float]:
 def check_held(model: Model) -> None:
     """Refuse supports that leave a rigid-body motion free, and tools that swallow the sheet."""
     centre, size = middle(model)
-    modes = boundary.rigid_body_modes(model.mesh.points, centre, size)
+    modes = forces.rigid_body_modes(model.mesh.points, centre, size)
     rows = [modes[:, np.flatnonzero(model.constrained())].T]
     rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.ties]
     problem = None
@@ -84,9 +84,7 @@ def _touching(model: Model) -> Iterator[tuple[Floats, Floats]]:
     for contact in model.contacts:
         if len(contact.facets) == 0:
             continue
-        contact.place(model.time)
-        contact.block.locate(model.u)
-        at = contact.at_points()
+        at = contact.locate(model.u, contact.pose)
         undefined = ~(np.isfinite(at.gap) & np.isfinite(at.normal).all(axis=1))
         if undefined.any():
             raise ToolSwallowsSheet(
@@ -105,7 +103,7 @@ def _touching(model: Model) -> Iterator[tuple[Floats, Floats]]:
                 cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
                 remedy="move the tool so that it just touches the sheet, or turn its normal",
             )
-        touching = contact.active()
+        touching = at.active
         yield at.x[touching], at.normal[touching]
 
 

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh, Selector
-from umform.model.boundary import DIRECTIONS, Control, Prescribed
-from umform.model.controls import Controlled
+from umform.model.control import Control, Prescribed
+from umform.model.controls import Controlled, columns_of
+from umform.model.forces import DIRECTIONS
 from umform.model.ties import MidLine, Tie, node_pairs
 
 Floats = NDArray[np.float64]
@@ -160,6 +161,7 @@ class Supported(Controlled):
         >>> result = solve(model, Move(lift, 0.5, steps=2))
         """
         control = MidLine(name or self._name("midline"))
+        self._refuse_taken(columns_of(control), control.name)
         control.dofs = self._tie(nodes, direction, control, control.name)
         return self._add(control)
 
@@ -197,8 +199,7 @@ class Supported(Controlled):
         """
         u = np.zeros(self._fixed.size)
         for control in self.controls:
-            if isinstance(control, Prescribed | MidLine):
-                u[control.dofs] = values.get(control, 0.0)
+            control.displace(u, values.get(control, 0.0))
         return u
 
     def prescribed_displacement(self) -> Floats:
