@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     )
     from umform.mesh import Mesh
     from umform.model import Model
+    from umform.model.axes import cylindrical, turned
     from umform.results import fields
     from umform.run import Result, resume, solve
     from umform.solution.newton import NewtonOptions
@@ -72,6 +73,7 @@ _HOME = {
     ),
     "umform.mesh": ("Mesh",),
     "umform.model": ("Model",),
+    "umform.model.axes": ("cylindrical", "turned"),
     "umform.run": ("Result", "resume", "solve"),
     "umform.solution.newton": ("NewtonOptions",),
     "umform.steps": ("Arc", "Move", "Release"),
@@ -141,6 +143,7 @@ __all__ = [
     "WipingDie",
     "check_law",
     "check_surface",
+    "cylindrical",
     "elements",
     "errors",
     "fields",
@@ -152,6 +155,7 @@ __all__ = [
     "solve",
     "surfaces",
     "threads",
+    "turned",
     "write_tool",
 ]
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.errors import InvalidValue
 from umform.model.boundary import Pressure
-from umform.model.ties import Unknowns
+from umform.model.unknowns import Unknowns
 from umform.solvers import Pattern
 
 if TYPE_CHECKING:
@@ -66,15 +66,15 @@ class Assembly:
     """Unknowns, pattern and scatter maps, made once for a set of supports, contacts and pressures."""
 
     def __init__(self, model: Model) -> None:
-        constrained = model.constrained()
-        pairs = np.concatenate([np.empty((0, 2), dtype=np.int32), *[tie.dofs for tie in model.ties]])
+        constrained, pairs, groups = model.constrained(), model.pairs, model.groups
         constrained[pairs] = True
+        constrained[groups.dofs] = True
         free = np.flatnonzero(~constrained)
-        if not model.ranks.any(len(free) + len(pairs) > 0):
+        if not model.ranks.any(len(free) + len(pairs) + groups.count > 0):
             raise InvalidValue("all degrees of freedom are prescribed", remedy="leave some nodes free")
-        self.unknowns = Unknowns(free, pairs, constrained.size)
+        self.unknowns = Unknowns(free, pairs, groups, constrained.size)
         equation = np.full(constrained.size, -1, dtype=np.int32)
-        equations = np.concatenate([free, *pairs.T])
+        equations = self.unknowns.equations
         equation[equations] = np.arange(len(equations))
         pressures = [c.block for c in model.of_kind(Pressure) if c.block is not None]
         pattern = _core.Pattern(equation, [model.block.connectivity], symmetric=not pressures)
@@ -84,9 +84,9 @@ class Assembly:
         detailed = Pattern(len(equations), pattern.indptr.astype(np.int32), pattern.indices, pattern.symmetric)
         self.entries = detailed.nnz
         self.pattern, self._reduction = detailed, None
-        if len(pairs):
+        if self.unknowns.reduced:
             self.pattern, self._reduction = self.unknowns.reduction(detailed.rows, detailed.indices, detailed.symmetric)
 
     def reduce(self, values: Floats) -> Floats:
-        """Entries over the unknowns from those over free and tied degrees of freedom. eq. (5.19)"""
+        """Entries over the unknowns from those over the equations of the elements. eq. (5.19)"""
         return values if self._reduction is None else self._reduction(values)

@@ -228,7 +228,7 @@ class Model(Supported, Loaded, Touched, Whole):
             if load.value != 0.0:
                 f -= load.value * load.vector
                 scale += load.value**2 * float(load.vector @ load.vector)
-        if self.ties:
+        if self.ties or self.rows:
             with self.timing.ties:
                 values = assembly.reduce(values)
         return Evaluation(f, values, Kdu, float(np.sqrt(scale)), failed, float(np.sqrt(round_off)))
@@ -294,6 +294,8 @@ class Model(Supported, Loaded, Touched, Whole):
     def conjugate_force(self, control: Control, residual: Floats) -> float:
         """Force that belongs to a control: sum of reactions, force on a tool along its motion, or the load itself."""
         if isinstance(control, Prescribed | MidLine):
+            if self.rows:  # what moves with the control is more than its own degrees of freedom
+                return float(residual @ self.displacement_of_supports({control: 1.0}))
             return self.ranks.sum(float(residual[control.dofs].sum()))
         if isinstance(control, ToolMotion):
             owner = next(contact for contact in self.contacts if control in contact.translations)
