@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from umform.results import fields
     from umform.run import Result, resume, solve
     from umform.solution.newton import NewtonOptions
-    from umform.steps import Arc, Move, Release
+    from umform.steps import Arc, Free, Move, Release
     from umform.surfaces import (
         Box,
         Cylinder,
@@ -76,7 +76,7 @@ _HOME = {
     "umform.model.axes": ("cylindrical", "turned"),
     "umform.run": ("Result", "resume", "solve"),
     "umform.solution.newton": ("NewtonOptions",),
-    "umform.steps": ("Arc", "Move", "Release"),
+    "umform.steps": ("Arc", "Free", "Move", "Release"),
     "umform.surfaces": (
         "Box",
         "Cylinder",
@@ -113,6 +113,7 @@ __all__ = [
     "Cylinder",
     "Element",
     "Extruded",
+    "Free",
     "Linear",
     "LinearVoce",
     "Mesh",

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,7 +53,10 @@ class Evaluation:
 
 @dataclass(frozen=True)
 class Snapshot:
-    """A converged state that a model can be put back to; of each contact it has the multipliers."""
+    """A converged state that a model can be put back to.
+
+    Of each contact it has the multipliers, of each support that may be removed whether it acts, and where.
+    """
 
     u: Floats
     state: Floats
@@ -60,6 +64,7 @@ class Snapshot:
     controls: tuple[float, ...]
     time: float
     multipliers: tuple[Floats, ...] = ()
+    supports: Mapping[str, Any] = field(default_factory=dict)
 
 
 class Assembly:

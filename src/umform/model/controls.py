@@ -26,6 +26,14 @@ class Controlled:
         """Controls of a kind, in the order in which they were made."""
         return [control for control in self.controls if isinstance(control, kind)]
 
+    def forget_assembly(self) -> None:
+        """Build pattern and maps again at the next evaluation."""
+        self._assembled = None
+
+    def free_name(self, base: str) -> str:
+        """A name that no control has: the given one, or with a number."""
+        return self._name(base)
+
     def _add(self, control: _C) -> _C:
         if any(other.name == control.name for other in self.controls) or control.name in _COLUMNS:
             raise InvalidValue("the name of a control is taken", value=control.name, remedy="give it another name")

@@ -45,8 +45,17 @@ class Held(Controlled):
 
     @property
     def supports(self) -> list[Support]:
-        """Supports in the order in which they were put in place; those of controls are not among them."""
+        """Supports that act, in the order in which they were put in place; those of controls are not among them."""
+        return [support for support in self.all_supports if not support.removed]
+
+    @property
+    def all_supports(self) -> list[Support]:
+        """The supports, also those that have been removed and may be put back."""
         return [holder for holder in self._holders if holder.control is None]
+
+    def hold_again(self) -> None:
+        """Let the supports act as they stand, after one of them has been removed, put back or moved."""
+        self._support(self._holders)
 
     def constrained(self) -> NDArray[np.bool_]:
         """Which degrees of freedom are held or prescribed; tied ones and those in local axes are not."""
@@ -85,7 +94,7 @@ class Held(Controlled):
     def prescribed_displacement(self) -> Floats:
         """Displacement that supports prescribe at the present values of the controls; zero elsewhere."""
         values = {control: control.value for control in self.controls}
-        return self._displacement(values, self.controls, self.groups, self._holders)
+        return self._displacement(values, self.controls, self.groups, _acting(self._holders))
 
     def _displacement(
         self,
@@ -124,6 +133,12 @@ class Held(Controlled):
 
     def _hold(self, support: Support) -> Support:
         """Let a support act beside the others."""
+        self.refuse_taken(support)
+        self._support([*self._holders, support])
+        return support
+
+    def refuse_taken(self, support: Support) -> None:
+        """Refuse a support that does not act yet, if another one holds its degrees of freedom."""
         fixed = self._fixed.copy()
         fixed[support.held] = True
         taken = self._taken([tie.without_held(fixed) for tie in self.ties])
@@ -132,8 +147,6 @@ class Held(Controlled):
         for dofs in [support.held, *(tie.without_held(fixed).dofs.ravel() for tie in support.ties)]:
             for number, letter in enumerate("xyz"):
                 refuse_twice(dofs[dofs % 3 == number], letter, taken, support.kind)
-        self._support([*self._holders, support])
-        return support
 
     def _drive(self, control: _C, holder: Support | None) -> _C:
         """Add a control and what it prescribes; neither if one of them is refused."""
@@ -147,14 +160,14 @@ class Held(Controlled):
 
     def _support(self, holders: list[Support], controls: Sequence[Control] = ()) -> None:
         """Let these supports and those of new controls act, if they do not contradict each other."""
-        fixed = np.zeros_like(self._fixed)
-        for holder in holders:
+        acting, fixed = _acting(holders), np.zeros_like(self._fixed)
+        for holder in acting:
             fixed[holder.held] = True
-        ties = [tie.without_held(fixed) for holder in holders for tie in holder.ties]
-        rows = [part for holder in holders for part in holder.rows]
+        ties = [tie.without_held(fixed) for holder in acting for tie in holder.ties]
+        rows = [part for holder in acting for part in holder.rows]
         every = [*self.controls, *controls]
         split = _split(_constrained(fixed, [c for c in every if isinstance(c, Prescribed)]), ties, rows)
-        self._refuse_contradictions(split[1], every, holders)
+        self._refuse_contradictions(split[1], every, acting)
         self._fixed, self.ties, self.rows, self._split, self._holders = fixed, ties, rows, split, holders
         self._assembled = None
 
@@ -198,6 +211,10 @@ def _twice(node: int, direction: str, other: str, by: str) -> InvalidValue:
         cause="two supports ask for it",
         remedy="take the node out of one of the sets; a hinge bears a node that is held if its partner is too",
     )
+
+
+def _acting(holders: Iterable[Support]) -> list[Support]:
+    return [holder for holder in holders if not holder.removed]
 
 
 def _constrained(fixed: NDArray[np.bool_], prescribed: Iterable[Prescribed]) -> NDArray[np.bool_]:

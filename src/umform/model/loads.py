@@ -114,5 +114,9 @@ class Loaded(Controlled):
         block = _core.pressure_block(self.mesh.facets(rows), self.mesh.points)
         return self._add(Pressure(name or self._name("pressure"), block=block, faces=rows))
 
+    def add_load(self, load: Load) -> Load:
+        """Add a load that has been made elsewhere."""
+        return self._add(load)
+
     def _load(self, vector: Floats, name: str) -> Load:
         return self._add(Load(name, vector=vector))

@@ -15,12 +15,14 @@ from umform.elements import thickness_rule as make_thickness_rule
 from umform.errors import InvalidValue, WrongCellType
 from umform.materials import Material
 from umform.mesh import Mesh
+from umform.model import removal
 from umform.model.assembly import Assembly, Evaluation, Snapshot
 from umform.model.boundary import Control, Load, Prescribed, Pressure
 from umform.model.checks import check_model
-from umform.model.contact import ToolMotion
+from umform.model.contact import Contact, ToolMotion
 from umform.model.contact.touched import Touched
 from umform.model.loads import Loaded
+from umform.model.support import Support
 from umform.model.supports import Supported
 from umform.model.ties import MidLine
 from umform.model.whole import Whole, not_here
@@ -278,10 +280,12 @@ class Model(Supported, Loaded, Touched, Whole):
             tuple(c.value for c in self.controls),
             self.time,
             tuple(contact.multipliers for contact in self.contacts),
+            removal.states_of_supports(self),
         )
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot."""
+        removal.put_supports(self, snapshot.supports)
         self.block.restore(snapshot.state, snapshot.alpha)
         for contact, multipliers in zip(self.contacts, snapshot.multipliers, strict=True):
             contact.multipliers = multipliers
@@ -301,6 +305,42 @@ class Model(Supported, Loaded, Touched, Whole):
             owner = next(contact for contact in self.contacts if control in contact.translations)
             return float(self.ranks.sum(owner.resultant()[0]) @ np.asarray(control.direction))
         return control.value
+
+    def remove(self, thing: Support | Contact) -> Load:
+        """Take a support or a contact away; the forces that it exerted stay as a dead load of factor 1.
+
+        Move the load to zero to let the sheet go gradually, see docs/tools.md. A step :class:`umform.Free` does both
+        within a run.
+
+        Parameters
+        ----------
+        thing : Support or Contact
+            What ``fix``, ``symmetry``, ``hinge``, ``hold_director`` or ``contact`` returned. With a contact its
+            controls go too.
+
+        Returns
+        -------
+        Load
+            The control of the forces.
+
+        Raises
+        ------
+        InvalidValue
+            If the model does not have it, or it has been removed already.
+        """
+        return removal.remove(self, thing)
+
+    def put_back(self, support: Support, *, here: bool = True) -> None:
+        """Let a support that was removed act again.
+
+        Parameters
+        ----------
+        support : Support
+            The support.
+        here : bool
+            Hold its nodes where they are now, not where they were in the undeformed mesh.
+        """
+        removal.put_back(self, support, here=here)
 
     def check(self) -> None:
         """Refuse what cannot be solved before time is spent on it, see :func:`umform.model.checks.check_model`."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -48,6 +48,8 @@ class Support:
         What prescribes it; None for a support.
     load : Load, optional
         The forces that take its place once it is removed.
+    removed : bool
+        Whether it does not act.
     """
 
     name: str
@@ -60,6 +62,13 @@ class Support:
     base: Floats | None = None
     control: Control | None = None
     load: Load | None = None
+    removed: bool = False
+
+    def hold_at(self, base: Floats | None) -> None:
+        """Hold the nodes at a displacement of the model, or where they are in the undeformed mesh."""
+        self.base = base
+        self.ties = [replace(tie, offsets=None if base is None else base[tie.dofs].mean(axis=1)) for tie in self.ties]
+        self.rows = [replace(part, offsets=_offsets(part.dofs, part.weights, base)) for part in self.rows]
 
     def __repr__(self) -> str:
         return f"Support({self.name!r}, {self.kind} {self.directions}, {len(self.nodes)} nodes)"
@@ -112,5 +121,8 @@ def rows_of_pairs(
 
 
 def _rows(dofs: Ids, weights: Floats, by: str, control: Control | None, base: Floats | None) -> Rows:
-    offsets = None if base is None else (weights * base[dofs]).sum(axis=1)
-    return Rows(dofs, weights, control, by, offsets)
+    return Rows(dofs, weights, control, by, _offsets(dofs, weights, base))
+
+
+def _offsets(dofs: Ids, weights: Floats, base: Floats | None) -> Floats | None:
+    return None if base is None else (weights * base[dofs]).sum(axis=1)

@@ -19,10 +19,11 @@ from umform.model.contact import Contact
 from umform.model.ties import MidLine
 from umform.parallel.mpi_ranks import MpiRanks
 from umform.steps.arc_length.arc import Arc
+from umform.steps.free import Free
 from umform.steps.move import Move
 from umform.steps.release import Release
 
-Step = Move | Release | Arc
+Step = Move | Release | Arc | Free
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +105,7 @@ def _bare(control: Control) -> Control:
 
 def _moving(step: Step, twin: dict[Control, Any]) -> Step:
     """The same step of the controls of an outline."""
+    assert not isinstance(step, Free)  # refused before
     moved = step.control
     own: Any = twin[moved] if isinstance(moved, Control) else [twin[control] for control in moved]
     return replace(step, control=own)
