@@ -309,7 +309,7 @@ class Model(Supported, Loaded, Touched, Whole):
     def remove(self, thing: Support | Contact) -> Load:
         """Take a support or a contact away; the forces that it exerted stay as a dead load of factor 1.
 
-        Move the load to zero to let the sheet go gradually, see docs/tools.md. A step :class:`umform.Free` does both
+        Move the load to zero to let the sheet go gradually, see docs/supports.md. A step :class:`umform.Free` does both
         within a run.
 
         Parameters
