@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 
 from umform import _core
 from umform.errors import InvalidValue
+from umform.mesh import Ids
+from umform.model.constraints import Groups
 from umform.model.term import Term
-from umform.model.ties import Tie, Unknowns
+from umform.model.unknowns import Unknowns
 from umform.ranks import Ranks
 from umform.solvers import Pattern
 
@@ -26,23 +28,25 @@ class Assembly:
         What adds to the tangent.
     constrained : ndarray of bool, shape (3 n,)
         Degrees of freedom that are held or prescribed.
-    ties : sequence of Tie
+    pairs : ndarray of int, shape (k, 2)
         Pairs of degrees of freedom whose mean is held.
+    groups : Groups
+        Constraints in local axes.
     ranks : Ranks
         Who shares the model.
     """
 
     def __init__(
-        self, terms: Sequence[Term], constrained: NDArray[np.bool_], ties: Sequence[Tie], ranks: Ranks
+        self, terms: Sequence[Term], constrained: NDArray[np.bool_], pairs: Ids, groups: Groups, ranks: Ranks
     ) -> None:
-        pairs = np.concatenate([np.empty((0, 2), dtype=np.int32), *[tie.dofs for tie in ties]])
         constrained[pairs] = True
+        constrained[groups.dofs] = True
         free = np.flatnonzero(~constrained)
-        if not ranks.any(len(free) + len(pairs) > 0):
+        if not ranks.any(len(free) + len(pairs) + groups.count > 0):
             raise InvalidValue("all degrees of freedom are prescribed", remedy="leave some nodes free")
-        self.unknowns = Unknowns(free, pairs, constrained.size)
+        self.unknowns = Unknowns(free, pairs, groups, constrained.size)
         equation = np.full(constrained.size, -1, dtype=np.int32)
-        equations = np.concatenate([free, *pairs.T])
+        equations = self.unknowns.equations
         equation[equations] = np.arange(len(equations))
         couplings = {term: tuple(term.couples()) for term in terms}
         wide = [part for term, parts in couplings.items() if not term.within_bodies for part in parts]
@@ -51,9 +55,9 @@ class Assembly:
         detailed = Pattern(len(equations), pattern.indptr.astype(np.int32), pattern.indices, pattern.symmetric)
         self.entries = detailed.nnz
         self.pattern, self._reduction = detailed, None
-        if len(pairs):
+        if self.unknowns.reduced:
             self.pattern, self._reduction = self.unknowns.reduction(detailed.rows, detailed.indices, detailed.symmetric)
 
     def reduce(self, values: Floats) -> Floats:
-        """Entries over the unknowns from those over free and tied degrees of freedom. eq. (5.19)"""
+        """Entries over the unknowns from those over the equations of the elements. eq. (5.19)"""
         return values if self._reduction is None else self._reduction(values)

@@ -78,12 +78,23 @@ class Control:
 
 @dataclass(eq=False, repr=False)
 class OnDofs(Control):
-    """A control of the displacement at some degrees of freedom; its force is the sum of the reactions there."""
+    """A control of the displacement at some degrees of freedom; its force is the sum of the reactions there.
+
+    Attributes
+    ----------
+    dofs : ndarray of int
+        The degrees of freedom.
+    along : ndarray, shape (3 n,), optional
+        Displacement that the value 1 makes, where supports in local axes let more than these move with it.
+    """
 
     dofs: Ids = field(default_factory=lambda: np.empty(0, dtype=np.int32))
+    along: Floats | None = None
 
     def force(self, evaluation: Seen, ranks: Ranks) -> float:
         """Sum of the reactions on the sheet."""
+        if self.along is not None:
+            return ranks.sum(float(evaluation.residual[: self.along.size] @ self.along))
         return ranks.sum(float(evaluation.residual[self.dofs].sum()))
 
     def displace(self, u: Floats, value: float) -> None:

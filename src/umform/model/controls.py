@@ -63,6 +63,14 @@ class Controlled:
                     remedy="give it another name",
                 )
 
+    def forget_assembly(self) -> None:
+        """Build pattern and maps again at the next evaluation."""
+        self._assembled = None
+
+    def free_name(self, base: str) -> str:
+        """A name that no control has: the given one, or with a number."""
+        return self._name(base)
+
     def _add(self, control: _C) -> _C:
         self._refuse_taken(columns_of(control), control.name)
         self.controls.append(control)

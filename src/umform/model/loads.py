@@ -112,5 +112,9 @@ class Loaded(Controlled):
         """
         return self._add(Pressure.on(name or self._name("pressure"), self.mesh, self.mesh.face_set(faces)))
 
+    def add_load(self, load: Load) -> Load:
+        """Add a load that has been made elsewhere."""
+        return self._add(load)
+
     def _load(self, vector: Floats, name: str) -> Load:
         return self._add(Load(name, vector=vector))

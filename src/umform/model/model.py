@@ -13,14 +13,18 @@ from umform.elements import Element
 from umform.errors import InvalidValue
 from umform.materials import Material
 from umform.mesh import Mesh
+from umform.model import removal
 from umform.model.assembly import Assembly
 from umform.model.bodies import Embodied
 from umform.model.body import Body
 from umform.model.checks import check_model
+from umform.model.contact import Contact
 from umform.model.control import Control
+from umform.model.dead_load import Load
 from umform.model.evaluation import Evaluation, first_failure
 from umform.model.loads import Loaded
 from umform.model.state import Snapshot
+from umform.model.support import Support
 from umform.model.supports import Supported
 from umform.model.term import At, Border, Global, Into, Term
 from umform.model.touched import Touched
@@ -255,7 +259,7 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
         for term in self.terms:
             with self.timing.of(term.timed_as):
                 into.found[term] = term.evaluate(at, into)
-        if self.ties and values is not None:
+        if (self.ties or self.rows) and values is not None:
             with self.timing.ties:
                 values = assembly.reduce(values)
         return self._evaluation(x, at, into, values)
@@ -387,10 +391,12 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
             {control.name: control.value for control in self.controls},
             {unknown.name: unknown.value for unknown in self.unknowns},
             {key: tree for key, tree in states.items() if tree},
+            removal.states_of_supports(self),
         )
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot."""
+        removal.put_supports(self, snapshot.supports)
         self.u, self.time = snapshot.u.copy(), snapshot.time
         for control in self.controls:
             control.value = snapshot.controls.get(control.name, 0.0)
@@ -401,6 +407,42 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
                 term.restore(snapshot.terms[term.key])
             else:
                 term.revert()
+
+    def remove(self, thing: Support | Contact) -> Load:
+        """Take a support or a contact away; the forces that it exerted stay as a dead load of factor 1.
+
+        Move the load to zero to let the sheet go gradually, see docs/supports.md. A step :class:`umform.Free` does both
+        within a run.
+
+        Parameters
+        ----------
+        thing : Support or Contact
+            What ``fix``, ``symmetry``, ``hinge``, ``hold_director`` or ``contact`` returned. With a contact its
+            controls go too.
+
+        Returns
+        -------
+        Load
+            The control of the forces.
+
+        Raises
+        ------
+        InvalidValue
+            If the model does not have it, or it has been removed already.
+        """
+        return removal.remove(self, thing)
+
+    def put_back(self, support: Support, *, here: bool = True) -> None:
+        """Let a support that was removed act again.
+
+        Parameters
+        ----------
+        support : Support
+            The support.
+        here : bool
+            Hold its nodes where they are now, not where they were in the undeformed mesh.
+        """
+        removal.put_back(self, support, here=here)
 
     def check(self) -> None:
         """Refuse what cannot be solved before time is spent on it, see :func:`umform.model.checks.check_model`."""
@@ -415,6 +457,6 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
     def _assembly(self) -> Assembly:
         if self._assembled is None:
             with self.timing.analysis:
-                self._assembled = Assembly(self.terms, self.constrained(), self.ties, self.ranks)
+                self._assembled = Assembly(self.terms, self.constrained(), self.pairs, self.groups, self.ranks)
         assembled: Assembly = self._assembled
         return assembled

@@ -30,6 +30,8 @@ class Snapshot:
         Value of each scalar unknown, by its name.
     terms : dict of str to Tree
         History of each term that has one, by its key.
+    supports : dict of str to Tree
+        Of each support that has been removed, or is to be: whether it acts, where, and the forces in its place.
     """
 
     u: Floats
@@ -37,3 +39,4 @@ class Snapshot:
     controls: dict[str, float] = field(default_factory=dict)
     unknowns: dict[str, float] = field(default_factory=dict)
     terms: dict[str, Tree] = field(default_factory=dict)
+    supports: dict[str, Tree] = field(default_factory=dict)

@@ -15,7 +15,7 @@ from umform.model.now import Now
 from umform.model.term import Term
 from umform.model.ties import MidLine
 from umform.parallel.mpi_ranks import MpiRanks
-from umform.steps import Step
+from umform.steps import Free, Step
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +81,7 @@ class Outline:
 
 def _moving(step: Step, twins: Twins) -> Step:
     """The same step of the controls of an outline."""
+    assert not isinstance(step, Free)  # refused before
     moved = step.control
     own: Any = twins.of(moved) if isinstance(moved, Control) else [twins.of(control) for control in moved]
     return replace(step, control=own)

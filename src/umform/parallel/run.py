@@ -23,7 +23,7 @@ from umform.parallel.solver import Petsc
 from umform.parallel.together import together
 from umform.results.history import History
 from umform.solvers import register
-from umform.steps import Arc, Step
+from umform.steps import Arc, Free, Step
 
 _H = TypeVar("_H", bound=History)
 
@@ -94,6 +94,21 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
                 cause="the load is one more unknown, and critical points are looked for in the whole tangent",
                 remedy="another solver in one process, or Move and Release",
             )
+        if isinstance(step, Free):
+            raise InvalidValue(
+                "a support cannot be freed with the solver petsc",
+                where=f"step {number}",
+                cause="the unknowns of all ranks would have to be numbered again",
+                remedy="another solver in one process; or remove() between two calls of solve()",
+            )
+    if model.rows or any(support.base is not None for support in model.supports):
+        raise InvalidValue(
+            "supports in local axes, and those that hold nodes where they are now, do not go with the solver petsc",
+            where="supports",
+            value="; ".join(str(support) for support in model.supports if support.rows or support.base is not None),
+            cause="ranks share out single degrees of freedom and pairs of them",
+            remedy="another solver in one process, or supports along x, y and z of the undeformed mesh",
+        )
     if model.elsewhere:
         raise not_here("the history of the elements")
     if ranks.rank == 0:

@@ -41,7 +41,12 @@ def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: i
         How many states are kept for pictures.
     """
     mesh = model.mesh
-    supports = [np.flatnonzero(model.constrained()), [(tie.dofs, tie.control) for tie in model.ties]]
+    supports = [
+        np.flatnonzero(model.constrained()),
+        [(tie.dofs, tie.control) for tie in model.ties],
+        [(part.dofs, part.weights, part.control, part.offsets) for part in model.rows],
+        [(support.name, support.base) for support in model.supports if support.base is not None],
+    ]
     return {
         "version of umform": umform.__version__,
         "mesh": f"{mesh.cell}, {len(mesh.points)} points, {len(mesh.connectivity)} cells, "

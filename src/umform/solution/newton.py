@@ -116,11 +116,14 @@ class Iteration:
 class Failed(Exception):
     """A step that did not converge: why, and the iterations so far. Steps turn it into a cut or an error."""
 
-    def __init__(self, reason: str, iterations: list[Iteration], *, chattering: bool = False) -> None:
+    def __init__(
+        self, reason: str, iterations: list[Iteration], *, chattering: bool = False, singular: bool = False
+    ) -> None:
         super().__init__(reason)
         self.reason = reason
         self.iterations = iterations
         self.chattering = chattering
+        self.singular = singular
 
 
 @dataclass(frozen=True)
@@ -270,7 +273,7 @@ class Newton:
             return work()
         except (SingularMatrix, NotFinite) as error:
             self.system.revert()
-            raise Failed(error.what, []) from error
+            raise Failed(error.what, [], singular=isinstance(error, SingularMatrix)) from error
         except BaseException:  # an error of a user's function or an interrupt too leaves no trace
             self.system.revert()
             raise

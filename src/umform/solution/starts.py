@@ -42,6 +42,7 @@ def equilibrium(
             return newton.solve(start, line_search=search, consistent=consistent)
         except Failed as failure:
             failures.append(failure)
+    failures[-1].singular = any(failure.singular for failure in failures)
     if not touches:
         raise failures[-1]
     try:

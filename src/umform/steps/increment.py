@@ -6,6 +6,7 @@ import logging
 from collections.abc import Sequence
 
 from umform.errors import NoConvergence
+from umform.model.checks import diagnosis
 from umform.model.control import Control
 from umform.solution.augmentation import augmented
 from umform.solution.newton import Converged, Failed, Iteration
@@ -45,16 +46,25 @@ def take_increment(
     return converged
 
 
-def no_convergence(failure: Failed, number: int, controls: Sequence[Control], values: Sequence[float]) -> NoConvergence:
-    """Error for step ``number`` that could not bring the controls to the values."""
+def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], values: Sequence[float]) -> NoConvergence:
+    """Error for the step under way, which could not bring the controls to the values."""
     goal = ", ".join(f"{c.name} = {v:.6g}" for c, v in zip(controls, values, strict=True))
+    cause, remedy = (
+        failure.reason,
+        (
+            "look at the last converged state (it is kept): buckling, a pinched sheet, folded elements; "
+            "else take more steps, fewer contact jumps (more contact points), a softer penalty or line_search=True"
+        ),
+    )
+    loose = diagnosis(run.model) if failure.singular else None
+    if loose is not None:
+        cause, remedy = f"{cause}: {loose[0]}", loose[1]
     return NoConvergence(
         "Newton's method did not converge at the smallest increment",
-        where=f"step {number}, on the way to {goal}",
+        where=f"step {run.number}, on the way to {goal}",
         value=last_residuals(failure.iterations),
-        cause=failure.reason,
-        remedy="look at the last converged state (it is kept): buckling, a pinched sheet, folded elements; "
-        "else take more steps, fewer contact jumps (more contact points), a softer penalty or line_search=True",
+        cause=cause,
+        remedy=remedy,
     )
 
 

@@ -171,4 +171,4 @@ class Moving:
         log.info("step %d: %s; increment cut to %.3g", run.number, failure.reason, self.size)
         if self.size < 1.0 / step.steps / 2**step.cuts:
             values = step.values(target, self.starts)
-            raise no_convergence(failure, run.number, step.moved(), values) from None
+            raise no_convergence(run, failure, step.moved(), values) from None

@@ -112,7 +112,7 @@ class Releasing:
             target = 0.0
         if target == value or self.attempts > 50:  # the force jumps over zero
             jump = Failed("the zero of the force cannot be closed in", [])
-            raise no_convergence(jump, run.number, [control], [target])
+            raise no_convergence(run, jump, [control], [target])
         time = self.start_time + 1.0 - target / self.start_value
         try:
             converged = take_increment(
@@ -121,7 +121,7 @@ class Releasing:
         except Failed as failure:
             self.size, self.taken, self.failures = 0.25 * self.size, None, self.failures + 1
             if self.failures > 20:
-                raise no_convergence(failure, run.number, [control], [target]) from None
+                raise no_convergence(run, failure, [control], [target]) from None
             return
         force = control.force(converged.evaluation, model.ranks)
         zero = abs(force) <= step.tolerance * self.scale
