@@ -123,11 +123,16 @@ def _processors() -> int:
 
 
 def _prepare(level: int) -> None:
-    """Make a new process ready: one kernel thread, the log of its parent, silent on Ctrl-C."""
+    """Make a new process ready: one kernel thread, the log of its parent, silent on Ctrl-C.
+
+    Without a log, warnings come back with the answers and are not printed here too.
+    """
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     _core.set_threads(1)
     if level < logging.WARNING:
         log_to_stderr(level)
+    else:
+        logging.getLogger("umform").addHandler(logging.NullHandler())
 
 
 @contextmanager

@@ -11,14 +11,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.check import Force
 from umform.cli.metal import law_of, numbers
 from umform.cli.root import Debug, Verbose, app, console
 from umform.cli.timing import Timed, show_timing
+from umform.cli.warnings import echo_warnings, print_warnings_once
 
 if TYPE_CHECKING:
     from umform.processes.air_bending.budget import Budget
     from umform.processes.air_bending.case import AirBend
     from umform.processes.air_bending.measures import Measures
+    from umform.processes.air_bending.parameters import AirBending
     from umform.run import Result
 
 
@@ -72,6 +75,7 @@ def bend(
     print_deck: Annotated[
         bool, typer.Option("--print-deck", help="Print the bend as a deck for `umform run`, and run nothing else.")
     ] = False,
+    force: Force = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -89,6 +93,7 @@ def bend(
     from umform.processes.air_bending.search import bending_table, find_stroke
     from umform.timing import Timing, timings
 
+    print_warnings_once()
     _check_goal(angle, stroke)
     check_tolerance(tolerance)
     check_processes(processes)
@@ -117,6 +122,7 @@ def bend(
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if not print_deck:
+        _refuse_implausible(case, force=force)
         check_folder(out)
     with timings() as spent, _what_was_reached(Path(out)):
         if angle is not None:
@@ -137,6 +143,17 @@ def bend(
     console().print(f"Written to {out}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
+
+
+def _refuse_implausible(case: AirBending, *, force: bool) -> None:
+    """Refuse numbers that cannot be meant, and warn of those that are unusual, before time is spent on a run."""
+    from umform.deck.check import of_model
+    from umform.deck.findings import accept
+    from umform.processes.air_bending.brake import build
+
+    model, _ = build(case)
+    for warning in accept(of_model(model, millimetres=True), force=force):
+        typer.echo(f"umform: {warning}", err=True)
 
 
 @contextmanager
@@ -193,7 +210,6 @@ def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str)
     """Print measures, bending table, and what is to be said of them."""
     from umform.processes.air_bending.formulas import shop_forces
     from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
-    from umform.report.repeats import counted
     from umform.results.penetration import penetrations
 
     screen = console()
@@ -206,8 +222,7 @@ def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str)
         screen.print(f"contact {name}: {said}", soft_wrap=True)
     if note:
         screen.print(note, soft_wrap=True)
-    for warning in counted(done.warnings):
-        typer.echo(f"umform: {warning}", err=True)
+    echo_warnings(done.warnings)
     for name, why in (errors.failures if errors else {}).items():
         typer.echo(f"umform: {name}: {why}", err=True)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -72,6 +73,7 @@ def free_bending(
     What is said of mesh, element and contact selects runs; a thickness option replaces the cubic ones; all other
     options hold for all runs.
     """
+    logging.getLogger("umform").addHandler(logging.NullHandler())  # warnings are printed with the name of their run
     from umform.processes.bending.options import read_contact, read_mesh
     from umform.processes.bending.showcase import Selection, demo
 

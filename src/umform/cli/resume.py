@@ -11,6 +11,7 @@ from umform.cli.check import told
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Verbose, app
 from umform.cli.run import Every, end, show
+from umform.cli.warnings import print_warnings_once
 
 
 @app.command(cls=WithPetscOptions)
@@ -33,6 +34,7 @@ def resume(
     from umform.deck.kept import Kept
 
     let_the_first_talk()
+    print_warnings_once()
     with told():
         kept = Kept.read(checkpoint)
         with on_all_ranks(kept.chosen_solver, petsc_options(ctx)):

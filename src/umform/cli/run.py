@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import shlex
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from umform.cli.check import Changes, DeckFile, read, told
+from umform.cli.check import Changes, DeckFile, Force, read, told
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import INTERRUPTED, Debug, Verbose, app, console
 from umform.cli.timing import Timed, show_timing
+from umform.cli.warnings import echo_warnings, print_warnings_once
 from umform.errors import UmformError
 
 if TYPE_CHECKING:
@@ -37,6 +39,7 @@ def run(
         typer.Option(metavar="FILE", help="Keep the state of the run here; default: checkpoint.h5 beside the results."),
     ] = None,
     every: Every = 60.0,
+    force: Force = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -52,11 +55,12 @@ def run(
     from umform.deck import running
 
     let_the_first_talk()
+    print_warnings_once()
     with told():
         loaded = read(deck, changes or ())
         chosen = solver or loaded.contents.solution.solver
         with on_all_ranks(chosen, petsc_options(ctx)):
-            problem = running.prepared(loaded, chosen)
+            problem = running.prepared(loaded, chosen, partial(running.refuse_implausible, loaded, force=force))
             outcome = running.run(loaded, problem, out, solver=solver, checkpoint=checkpoint, every=every)
     show(outcome)
     if timing:
@@ -66,7 +70,6 @@ def run(
 
 def show(outcome: Outcome) -> None:
     """The table, what happened, and where the files are."""
-    from umform.report.repeats import counted
     from umform.results.penetration import penetrations
 
     screen = console()
@@ -78,8 +81,7 @@ def show(outcome: Outcome) -> None:
     if outcome.files:
         names = ", ".join(file.name for file in outcome.files)
         screen.print(f"Written to {outcome.files[0].parent}: {names}", soft_wrap=True, markup=False)
-    for warning in counted(outcome.result.warnings):
-        typer.echo(f"umform: {warning}", err=True)
+    echo_warnings(outcome.result.warnings)
 
 
 def _table(result: Result) -> object:

@@ -7,7 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from umform.deck.check import before_run
 from umform.deck.deck import Deck
+from umform.deck.findings import accept
 from umform.deck.kept import Kept
 from umform.deck.problem import Problem, Solving
 from umform.processes.bending.staging import Staging, staging
@@ -50,7 +52,7 @@ def folder_of(deck: Deck) -> Path:
     return Path(folder) if folder else Path("results") / Path(deck.source.name).stem
 
 
-def prepared(deck: Deck, solver: str) -> Solving:
+def prepared(deck: Deck, solver: str, check: Callable[[Problem], None] = lambda problem: None) -> Solving:
     """Build what a deck describes; on many ranks the first one does so, and the others get their shares from it.
 
     Parameters
@@ -59,6 +61,8 @@ def prepared(deck: Deck, solver: str) -> Solving:
         The deck.
     solver : str
         The sparse solver that will be used.
+    check : callable
+        May refuse what was built, :func:`refuse_implausible` for one; called in one process only.
 
     Returns
     -------
@@ -70,14 +74,41 @@ def prepared(deck: Deck, solver: str) -> Solving:
     UmformError
         On all ranks, with all that does not fit.
     """
+
+    def built() -> Problem:
+        problem = deck.build(solver)
+        check(problem)
+        return problem
+
     if solver != "petsc":
-        return deck.build(solver)
+        return built()
     from umform.parallel.mpi_ranks import world
 
-    problem = world().on_first(lambda: deck.build(solver))
+    problem = world().on_first(built)
     if problem is not None:
         return problem
     return Solving(options=deck.contents.solution.build(), solver=solver, frames=deck.contents.output.frames)
+
+
+def refuse_implausible(deck: Deck, problem: Problem, *, force: bool = False) -> None:
+    """Refuse numbers that cannot be meant, and log warnings of what is unusual, before time is spent on a run.
+
+    Parameters
+    ----------
+    deck : Deck
+        The deck.
+    problem : Problem
+        What was built from it; its model is left as it was.
+    force : bool
+        Warn only.
+
+    Raises
+    ------
+    DeckError
+        With all that a check calls an error.
+    """
+    for message in accept(before_run(deck, problem), force=force):
+        log.warning(message)
 
 
 def run(
