@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.root import Debug, Verbose, app, console
+from umform.cli.root import Debug, Verbose, app, console, say_of
 from umform.errors import InvalidValue, UmformError
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def told() -> Iterator[None]:
     try:
         yield
     except UmformError as error:
-        typer.echo(f"umform: {error}", err=True)
+        say_of(error)
         raise typer.Exit(1) from error
 
 
