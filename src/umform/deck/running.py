@@ -245,9 +245,9 @@ def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: C
     with staging(out, FILES) as stage:
         remove_left_behind(checkpoint)
         result, ended_by = _solved(solve)
-        if stage.make_again():
-            result.warn(f"the folder {out} was removed during the run; it was made again")
         with result.timing.files, says_what_is_kept(stage, checkpoint, before):
+            if stage.make_again():
+                result.warn(f"the folder {out} was removed during the run; it was made again")
             files = write(kept.deck, problem, result, stage)
         over = ended_by is None or isinstance(ended_by, UmformError)
         if over and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():

@@ -8,7 +8,7 @@ from itertools import count
 from pathlib import Path
 
 from umform.errors import FileProblem
-from umform.io.staging import is_taken
+from umform.io.staging import check_name, is_taken
 
 
 def folder_for(
@@ -56,11 +56,14 @@ def chosen_folder(out: str | Path, names: Sequence[str], *, overwrite: bool) -> 
 
     Raises
     ------
+    InvalidValue
+        Its name is empty.
     FileProblem
         It holds results, and they may not be overwritten.
     """
+    check_name(out)
     folder = Path(out)
-    there = [] if overwrite or not str(out).strip() else _results(folder, names)
+    there = [] if overwrite else _results(folder, names)
     if there:
         raise FileProblem(
             "the folder holds the results of another run",

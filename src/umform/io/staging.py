@@ -97,14 +97,7 @@ def staging(out: str | Path, names: Sequence[str]) -> Iterator[Staging]:
     FileProblem
         The folder cannot be made, nothing can be written there, or another run is writing there.
     """
-    if not str(out).strip():
-        raise InvalidValue(
-            "the folder for the results has no name",
-            where="out",
-            value=repr(str(out)),
-            cause="an empty word, perhaps of a variable that is not set",
-            remedy="name a folder; a dot is the current one",
-        )
+    check_name(out)
     folder = Path(out)
     missing = [place for place in (folder, *folder.parents) if not _is_there(place)]
     waiting: Path | None = None
@@ -122,6 +115,23 @@ def staging(out: str | Path, names: Sequence[str]) -> Iterator[Staging]:
         for place in missing:
             with suppress(OSError):  # it holds files, or was never made
                 place.rmdir()
+
+
+def check_name(out: str | Path) -> None:
+    """Refuse the name of a folder that is none.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    if not str(out).strip():
+        raise InvalidValue(
+            "the folder for the results has no name",
+            where="out",
+            value=repr(str(out)),
+            cause="an empty word, perhaps of a variable that is not set",
+            remedy="name a folder; a dot is the current one",
+        )
 
 
 def is_taken(folder: Path) -> bool:
