@@ -54,7 +54,9 @@ def test_yield_stress_against_the_modulus(E, yield_stress, level, strip, found):
 @pytest.mark.parametrize(("end", "level"), [(0.2, None), (3.0, Level.WARNING), (20.0, Level.ERROR)])
 def test_a_curve_in_per_cent(end, level, strip, found):
     curve = {"curve": "Table", "eqps": [0.0, 0.5 * end, end], "stress": [200.0, 300.0, 350.0]}
-    told = [finding for finding in found(strip, "material", material=plastic(210e3, curve)) if "per cent" in finding.text]
+    told = [
+        finding for finding in found(strip, "material", material=plastic(210e3, curve)) if "per cent" in finding.text
+    ]
     assert levels(told) == ([] if level is None else [level])
 
 
