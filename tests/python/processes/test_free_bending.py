@@ -153,7 +153,8 @@ def test_a_wrong_parameter_is_named(field, value):
 
 
 @pytest.mark.parametrize(
-    ("setting", "room"), [({"radius": 30.0}, "12.67"), ({"tool_x": 5.0}, "0.6039"), ({"tool_x": 0.0, "tool_z": -22.5}, "2")]
+    ("setting", "room"),
+    [({"radius": 30.0}, "12.67"), ({"tool_x": 5.0}, "0.6039"), ({"tool_x": 0.0, "tool_z": -22.5}, "2")],
 )
 def test_a_cylinder_that_leaves_no_room_is_refused(setting, room):
     with pytest.raises(InvalidValue, match="no room for the stroke") as caught:
