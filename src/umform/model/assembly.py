@@ -37,9 +37,11 @@ class Evaluation:
     force_scale : float
         Root of the sum of squares of all element forces, the scale of a residual. eq. (5.8)
     failed : int
-        First cell whose strain left the domain of its law, or -1.
+        First cell that has no residual, or -1.
     round_off : float
         What a relative error of all positions makes of the residual of contact, over that error. eq. (5.36)
+    failure : str
+        Why that cell has no residual, in words that follow its number: it is turned inside out, for instance.
     """
 
     residual: Floats
@@ -48,6 +50,7 @@ class Evaluation:
     force_scale: float
     failed: int
     round_off: float = 0.0
+    failure: str = ""
 
 
 @dataclass(frozen=True)
@@ -77,7 +80,7 @@ class Assembly:
         equations = np.concatenate([free, *pairs.T])
         equation[equations] = np.arange(len(equations))
         pressures = [c.block for c in model.of_kind(Pressure) if c.block is not None]
-        pattern = _core.Pattern(equation, [model.block.connectivity], symmetric=not pressures)
+        pattern = _core.Pattern(equation, [model.block.connectivity], symmetric=model.block.symmetric and not pressures)
         self.scatter = pattern.scatter(model.block.connectivity)
         self.contact_scatter = [pattern.scatter(contact.block.connectivity) for contact in model.contacts]
         self.pressure_scatter = [pattern.scatter(block.connectivity) for block in pressures]

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from umform import _core
-from umform.elements import Element
+from umform.elements import Element, rolling_directions
 from umform.elements import element as catalogue_element
 from umform.elements import thickness_rule as make_thickness_rule
 from umform.errors import InvalidValue, WrongCellType
@@ -49,6 +49,9 @@ class Model(Supported, Loaded, Touched, Whole):
         plastic one, but 12 with BEND8 and BEND18.
     thickness_rule : {"gauss", "lobatto", "split"}, optional
         Where they lie; default gauss, but split where the default of the points is 12.
+    rolling : array_like, shape (3,) or (cells, 3), optional
+        Rolling direction of the sheet: e_1 of the local axes is its projection onto the layer, eq. (1.13a). By default
+        e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic law does not see.
     **options
         Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
         compatible_E12.
@@ -72,6 +75,7 @@ class Model(Supported, Loaded, Touched, Whole):
         material: Material,
         thickness_points: int | None = None,
         thickness_rule: str | None = None,
+        rolling: ArrayLike | None = None,
         **options: int | bool | None,
     ) -> None:
         super().__init__(mesh)
@@ -88,6 +92,7 @@ class Model(Supported, Loaded, Touched, Whole):
                 remedy="SVK, NeoHooke, NeoHookePower or J2",
             )
         self.material = material
+        self.rolling = rolling_directions(rolling, len(mesh.connectivity))
         least = self.element.thickness_order + 1
         self.thickness_points, self.thickness_rule = self._through_thickness(thickness_points, thickness_rule)
         if self.thickness_points < least:
@@ -120,12 +125,20 @@ class Model(Supported, Loaded, Touched, Whole):
         ------
         ModelError
             If the model was solved on many ranks: they have its history.
+        InvalidValue
+            If the rolling direction stands on the sheet somewhere.
         """
         if self.elsewhere:
             raise not_here("the history of the elements")
         mesh, (t, w) = self.mesh, self._through
         technology, law = self.element.technology(), self.material.law()
-        return _core.shell_block(technology, self.element.surface_points, t, w, law, mesh.connectivity, mesh.points)
+        points, cells = self.element.surface_points, mesh.connectivity
+        try:
+            return _core.shell_block(technology, points, t, w, law, cells, mesh.points, self.rolling)
+        except ValueError as error:
+            if self.rolling is None:
+                raise
+            raise InvalidValue(str(error), remedy="a vector in the plane of the sheet, or one for each cell") from error
 
     # Evaluation ----------------------------------------------------------------------------------------------
 
@@ -201,7 +214,7 @@ class Model(Supported, Loaded, Touched, Whole):
             du = self.displacement_of_supports(rates)
         product = None if du is None else Kdu
         with self.timing.elements:
-            failed, scale = self.block.evaluate(u, assembly.scatter, f, values, du, product)
+            failed, scale, failure = self.block.evaluate(u, assembly.scatter, f, values, du, product)
         round_off = 0.0
         for contact, scatter in zip(self.contacts, assembly.contact_scatter, strict=True):
             with self.timing.contact:
@@ -231,7 +244,7 @@ class Model(Supported, Loaded, Touched, Whole):
         if self.ties:
             with self.timing.ties:
                 values = assembly.reduce(values)
-        return Evaluation(f, values, Kdu, float(np.sqrt(scale)), failed, float(np.sqrt(round_off)))
+        return Evaluation(f, values, Kdu, float(np.sqrt(scale)), failed, float(np.sqrt(round_off)), failure)
 
     def recover(self, du: Floats, s: float, mixed: bool = False) -> None:
         """Update the enhanced parameters after ``u += s du``. eq. (2.19)

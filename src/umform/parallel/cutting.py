@@ -30,6 +30,8 @@ class Parcel:
         Kind of the cells.
     points, connectivity : ndarray
         The mesh of this rank.
+    rolling : ndarray, optional
+        Rolling direction of the sheet, or of each cell.
     owned : ndarray of int
         Nodes that this rank owns.
     fixed : ndarray of bool, shape (3 * nodes,)
@@ -57,6 +59,7 @@ class Parcel:
     cell: str
     points: Floats
     connectivity: Ids
+    rolling: Floats | None
     owned: Numbers
     fixed: NDArray[np.bool_]
     controls: list[Ids | Floats]
@@ -111,6 +114,7 @@ class Cutting:
             cell=whole.mesh.cell,
             points=whole.mesh.points[nodes],
             connectivity=self._node[whole.mesh.connectivity[cells]],
+            rolling=whole.rolling if whole.rolling is None or whole.rolling.ndim == 1 else whole.rolling[cells],
             owned=owned,
             fixed=whole._fixed.reshape(-1, 3)[nodes].ravel(),
             controls=[self._of_control(control, rank, nodes, owned) for control in whole.controls],

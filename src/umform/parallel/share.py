@@ -67,7 +67,7 @@ class Share(Model):
     def __init__(self, outline: Outline, parcel: Parcel, ranks: MpiRanks, whole: Model | None = None) -> None:
         mesh = Mesh(parcel.points, {parcel.cell: parcel.connectivity})
         through = {"thickness_points": outline.thickness_points, "thickness_rule": outline.thickness_rule}
-        super().__init__(mesh, outline.element, material=outline.material, **through)  # type: ignore[arg-type]
+        super().__init__(mesh, outline.element, material=outline.material, rolling=parcel.rolling, **through)  # type: ignore[arg-type]
         self.whole, self.ranks = whole, ranks
         self.cells, self.nodes, self.owned = parcel.cells, parcel.nodes, parcel.owned
         self.controls, self._fixed = outline.controls, parcel.fixed
@@ -78,6 +78,7 @@ class Share(Model):
         self.contacts = [contact.part(mesh, faces) for contact, faces in pairs]
         self.ties = [Tie(dofs, control) for dofs, control in zip(parcel.ties, outline.tied, strict=True)]
         self._number(parcel)
+        self.block.set_numbers(self.cells.astype(np.int32))
         self._stand(outline.time, parcel)
 
     def _fill(self, control: Control, here: NDArray[Any]) -> None:
@@ -199,5 +200,10 @@ class Share(Model):
         assert found is not None
         first = -self.ranks.max(-float(self.cells[found.failed]) if found.failed >= 0 else -np.inf)
         scale, round_off = np.sqrt(self.ranks.sum(np.array([found.force_scale, found.round_off]) ** 2))
-        failed = int(first) if np.isfinite(first) else -1
-        return replace(found, force_scale=float(scale), round_off=float(round_off), failed=failed)
+        failed, failure = -1, ""
+        if np.isfinite(first):
+            failed = int(first)
+            mine = found.failed >= 0 and self.cells[found.failed] == failed
+            failure = self.ranks.text(found.failure if mine else "")
+        scale, round_off = float(scale), float(round_off)
+        return replace(found, force_scale=scale, round_off=round_off, failed=failed, failure=failure)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
-from umform.materials import J2
 from umform.model import Model
 
 Floats = NDArray[np.float64]
@@ -31,8 +31,8 @@ class PointFields:
         Compatible deformation gradient in global axes.
     volume : ndarray, shape (cells, points)
         Reference volume of a point.
-    eqps : ndarray or None, shape (cells, points)
-        Accumulated plastic strain; None for elastic laws.
+    history : mapping of str to ndarray, shape (cells, points, size)
+        Parts of the history of the law by their names, ``history["Cp_inv"]`` for instance.
     """
 
     E: Floats
@@ -40,7 +40,13 @@ class PointFields:
     frame: Floats
     F: Floats
     volume: Floats
-    eqps: Floats | None
+    history: Mapping[str, Floats]
+
+    @property
+    def eqps(self) -> Floats | None:
+        """Accumulated plastic strain (cells, points) of laws that name it ``eqps`` in their history; None for others."""
+        part = self.history.get("eqps")
+        return None if part is None else part[..., 0]
 
     def stress(self, kind: str = "cauchy", frame: str = "global") -> Floats:
         """Stress at the Gauss points, Voigt order 11 22 33 12 23 13.
@@ -88,9 +94,15 @@ class PointFields:
 def point_fields(model: Model) -> PointFields:
     """Fields at the Gauss points of the converged state of a model."""
     E, S, frame, F, volume = model.block.point_fields(model.u)
+    return PointFields(E, S, frame, F, volume, named_history(model))
+
+
+def named_history(model: Model) -> dict[str, Floats]:
+    """Parts of the converged history of a model by their names, arrays (cells, points, size)."""
+    sizes = model.block.state_names
+    ends = np.cumsum([0, *sizes.values()])
     state = model.block.state
-    eqps = state[..., 6] if isinstance(model.material, J2) else None
-    return PointFields(E, S, frame, F, volume, eqps)
+    return {name: state[..., begin : begin + size] for (name, size), begin in zip(sizes.items(), ends, strict=False)}
 
 
 def thickness(model: Model) -> Floats:

@@ -47,7 +47,7 @@ def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: i
         "mesh": f"{mesh.cell}, {len(mesh.points)} points, {len(mesh.connectivity)} cells, "
         + digest(mesh.points, mesh.connectivity),
         "element": text([model.element, model.thickness_points, model.thickness_rule]),
-        "material": text(model.material),
+        "material": text(model.material) + ("" if model.rolling is None else f", rolling {text(model.rolling)}"),
         "supports and loads": text([supports, [_control(control) for control in model.controls]]),
         "contacts": text([_contact(contact) for contact in model.contacts]),
         "steps": text(list(steps)),

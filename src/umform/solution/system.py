@@ -38,7 +38,11 @@ class Evaluation(Protocol):
 
     @property
     def failed(self) -> int:
-        """First cell outside of the domain of its law, or -1."""
+        """First cell that has no residual, or -1."""
+
+    @property
+    def failure(self) -> str:
+        """Why that cell has none, in words that follow its number."""
 
 
 class System(Protocol):
