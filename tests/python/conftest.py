@@ -29,7 +29,7 @@ CELL_NODES = {"hex8": 8, "hex18": 18}
 class OneElement:
     """One distorted element whose enhanced parameters are solved for at each displacement."""
 
-    def __init__(self, name, material, thickness_points=5, seed=1, **options):
+    def __init__(self, name, material, thickness_points=5, seed=1, rolling=None, **options):
         self.rng = np.random.default_rng(seed)
         self.element = elements.element(name, **options)
         self.nodes = self.element.nodes
@@ -41,8 +41,10 @@ class OneElement:
             material.law(),
             np.arange(self.nodes, dtype=np.int32)[None],
             self.X.copy(),
+            None if rolling is None else np.asarray(rolling, dtype=float),
         )
-        self.pattern = _core.Pattern(np.arange(3 * self.nodes, dtype=np.int32), [self.block.connectivity], True)
+        equation = np.arange(3 * self.nodes, dtype=np.int32)
+        self.pattern = _core.Pattern(equation, [self.block.connectivity], self.block.symmetric)
         self.scatter = self.pattern.scatter(self.block.connectivity)
 
     def natural_nodes(self):
@@ -62,7 +64,7 @@ class OneElement:
         last = np.inf
         for _ in range(40):
             f, values = np.zeros(u.size), np.zeros(self.pattern.indices.size)
-            failed, _scale = self.block.evaluate(u, self.scatter, f, values, None, None)
+            failed, _scale, _why = self.block.evaluate(u, self.scatter, f, values, None, None)
             assert failed == -1
             if self.block.modes == 0 or np.abs(f - last).max() <= 1e-15 * np.abs(f).max():
                 return

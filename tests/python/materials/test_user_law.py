@@ -10,7 +10,7 @@ import pytest
 import umform
 from umform import materials as mt
 from umform.errors import InvalidValue, NoConvergence, NotFinite
-from umform.materials.user_law import UserLaw, check_law
+from umform.materials import UserLaw, check_law
 from umform.mesh import strip
 from umform.model import Model
 from umform.run import solve
@@ -124,7 +124,7 @@ def test_wrong_shapes_are_refused(watched, spoil, message):
     function.hook = lambda answer: spoil(*answer)
     with pytest.raises(InvalidValue, match=message) as caught:
         solve(model, Move(pull, 0.1, steps=1), frames=0)
-    assert caught.value.where == "damage"
+    assert caught.value.where == "damage, cell 0"
     with pytest.raises(InvalidValue, match=message):
         model.material.law().respond(np.zeros((3, 6)), np.zeros((3, 1)))
 
@@ -141,7 +141,7 @@ def test_what_is_not_finite_is_refused(watched, which, name, value):
     function.hook = spoil
     with pytest.raises(NotFinite, match=f"{name} of a law is not finite") as caught:
         model.evaluate(model.u)
-    assert caught.value.where == "damage"
+    assert caught.value.where == "damage, cell 0"
 
 
 def test_a_law_cannot_change_strain_or_history(watched):
@@ -228,6 +228,43 @@ def test_an_error_of_the_function_arrives_intact_at_the_last_converged_state(thr
         solve(m, Move(c, 0.3, steps=2), frames=0)
     np.testing.assert_array_equal(model.u, other.u)
     np.testing.assert_array_equal(model.block.state, other.block.state)
+
+
+@pytest.mark.parametrize("spoilt", [0, 5, 17])
+def test_an_error_of_the_function_says_its_cell(spoilt):
+    """Of a team of threads too; the error stays what it was, with a note."""
+
+    def moody(E, state):
+        if E[0, 0] > 0.1:
+            raise ArithmeticError("too much")
+        return hooke(E, state)
+
+    def bitter(E, state):
+        if E[0, 0] > 0.1:
+            raise NotFinite("too much", where="bitter")
+        return hooke(E, state)
+
+    for function in (moody, bitter):
+        model, _ = pulled(UserLaw(function, name="moody"), (18, 1))
+        u = np.zeros_like(model.mesh.points)
+        right = model.mesh.points[:, 0] > (spoilt + 0.5) / 18
+        u[right, 0] = 0.5 / 18
+        with pytest.raises((ArithmeticError, NotFinite), match="too much") as caught:
+            model.evaluate(u.ravel())
+        if function is moody:
+            assert caught.value.__notes__ == [f"in the law 'moody', cell {spoilt}"]
+        else:
+            assert caught.value.where == f"bitter, cell {spoilt}"
+
+
+def test_an_error_of_the_energy_says_its_cell():
+    def energy(E, state):
+        raise ZeroDivisionError("nothing")
+
+    model, _ = pulled(UserLaw(hooke, energy=energy, name="mine"))
+    with pytest.raises(ZeroDivisionError) as caught:
+        model.block.energy(model.u)
+    assert caught.value.__notes__ == ["in the law 'mine', cell 0"]
 
 
 def test_the_number_of_threads_changes_no_bit(threads_as_before):

@@ -246,7 +246,7 @@ class Scalar:
         r = np.array([self.residual(self.x)])
         return SimpleNamespace(
             residual=r, values=np.array([self.slope(self.x)]), predictor=np.zeros(1),
-            force_scale=self.scale, failed=failed, round_off=0.0,
+            force_scale=self.scale, failed=failed, failure="is out of its domain", round_off=0.0,
         )  # fmt: skip
 
     def recover(self, du, s, mixed=False):
