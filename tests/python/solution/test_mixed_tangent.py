@@ -92,7 +92,7 @@ def test_what_is_taken_back_or_committed_leaves_the_consistent_tangent():
     model.revert()
     np.testing.assert_array_equal(model.evaluate(u).values, consistent)
     model.recover(0 * du, 0.0, mixed=True)
-    model.commit(u)
+    model.commit(model.evaluate(u))
     committed = model.evaluate(u).values.copy()
     model.recover(0 * du, 0.0)
     model.revert()
