@@ -142,8 +142,7 @@ def _give_back(share: Share, result: History | None) -> None:
     vars(whole).pop("block", None)
     for contact, part in zip(whole.contacts, share.contacts, strict=True):
         contact.elsewhere = True
-        for made in ("block", "multipliers"):
-            vars(contact).pop(made, None)
+        vars(contact).pop("block", None)
         contact.put(part.pose)
     if result is not None:
         result.model = whole

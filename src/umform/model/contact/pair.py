@@ -109,21 +109,25 @@ class Contact:
             raise not_here(f"the state of contact {self.name}")
         at_nodes = isinstance(self.points, str)
         per_side = 1 if isinstance(self.points, str) else self.points
-        block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self._kernel)
-        block.penalty = self.penalty
+        law = _core.penalty_law(self.penalty)
+        block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self._kernel, law)
+        block.name = f"contact {self.name}"
         block.set_pose(*self.pose)
-        self.multipliers = block.multipliers
         return block
 
-    @cached_property
+    @property
     def multipliers(self) -> Floats:
         """Multipliers of the converged state at the contact points; zero without augmentation."""
-        return self.block.multipliers
+        return self.block.state[:, 0]
+
+    @multipliers.setter
+    def multipliers(self, values: Floats) -> None:
+        self.block.restore(np.ascontiguousarray(values, dtype=float))
 
     def bare(self) -> Self:
         """The same contact without its faces, which :meth:`part` gives it anew."""
         bare = copy.copy(self)
-        for made in ("block", "multipliers", "faces", "facets", "nodes", "_mesh_points", "_kernel"):
+        for made in ("block", "faces", "facets", "nodes", "_mesh_points", "_kernel"):
             bare.__dict__.pop(made, None)
         return bare
 
@@ -158,11 +162,6 @@ class Contact:
         return np.ascontiguousarray(rotation), centre + shift - rotation @ centre
 
     @property
-    def _shifted_gap(self) -> Floats:
-        """Gap less multiplier over penalty: what pressure and active set are told by. eq. (4.33)"""
-        return self.block.gaps - self.block.multipliers / self.penalty
-
-    @property
     def penalty(self) -> float:
         """Pressure per penetration."""
         return self._penalty
@@ -175,7 +174,7 @@ class Contact:
 
     def active(self) -> NDArray[np.bool_]:
         """Which points are held by the tool, of the last evaluation."""
-        return self._shifted_gap <= 0.0
+        return self.block.active.astype(bool)
 
     def loose(self) -> bool:
         """Whether multipliers are wanted and a point that the tool holds is further from it than allowed."""
@@ -233,18 +232,18 @@ class Contact:
 
     def commit(self) -> None:
         """Make the multipliers those of the converged state."""
-        self.multipliers = self.block.multipliers
+        self.block.commit()
 
     def revert(self) -> None:
         """Go back to the multipliers of the converged state."""
-        self.block.multipliers = self.multipliers
+        self.block.revert()
 
     def at_points(self) -> ContactPoints:
         """Gap, pressure and the rest at the contact points, of the last evaluation. eqs. (4.6), (4.33)"""
         return ContactPoints(
             x=self.block.positions,
             gap=self.block.gaps,
-            pressure=self.penalty * np.maximum(-self._shifted_gap, 0.0),
+            pressure=self.block.pressures,
             normal=self.block.normals,
             area=self.block.areas,
         )
