@@ -21,17 +21,17 @@ struct Skewed {
     static std::vector<Quantity> quantities() { return {{"multiplier", 1}, {"place", 3}}; }
     double reach(const double* trial) const { return trial[0] / penalty; }
 
-    Reaction respond(const Place& place, double weight, const double*, double* trial) const {
+    bool respond(const Place& place, double weight, const double*, double* trial, Reaction& reaction) const {
         const Vec3 z = place.pose.to_tool(place.x);
         std::copy(z.begin(), z.end(), trial + 1);
         const double g = place.gap - trial[0] / penalty, stiffness = weight * penalty;
-        if (g > 0.0) return {};
-        Reaction reaction{true, -stiffness * g, {-mu * stiffness * g, 0.0, 0.0}, {}};
+        if (g > 0.0) return false;
+        reaction.pressure = -stiffness * g;
+        reaction.tangential = {-mu * stiffness * g, 0.0, 0.0};
         for (int k = 0; k < 3; ++k)
             for (int l = 0; l < 3; ++l)
-                reaction.stiffness(k, l) =
-                    stiffness * ((place.n[k] + (k == 0 ? mu : 0.0)) * place.n[l] + g * place.H(k, l));
-        return reaction;
+                reaction.K[k][l] = stiffness * ((place.n[k] + (k == 0 ? mu : 0.0)) * place.n[l] + g * place.H(k, l));
+        return true;
     }
 };
 
@@ -192,7 +192,7 @@ void check_history() {
 /// What was found belongs to its evaluation, whatever comes after it.
 void check_found() {
     const auto block = skewed();
-    const std::vector<double> u = lowered(waved(), 0.002), multipliers{3.0, 0.0, 1.5, 0.2};
+    const std::vector<double> u = lowered(waved(), 0.0014), multipliers{3.0, 0.0, 1.5, 0.2};
     block->set_multipliers(multipliers.data());
     const Answer at = evaluate(*block, u);
     const ContactFound found = block->found();

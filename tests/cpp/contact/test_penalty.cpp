@@ -12,12 +12,14 @@ const Vec3 x{1.0, 2.0, 3.0}, n{0.6, 0.0, 0.8};
 const Mat3 H{{0.64, 0.0, -0.48, 0.0, 1.0, 0.0, -0.48, 0.0, 0.36}};
 
 Reaction at(double gap, double multiplier, double weight = 1.0) {
-    return law.respond({gap, x, n, H, pose}, weight, nullptr, &multiplier);
+    Reaction reaction{};
+    reaction.held = law.respond({gap, x, n, H, pose}, weight, nullptr, &multiplier, reaction);
+    return reaction;
 }
 
 void check_pressure() {
     CHECK(at(0.0, 0.0).held && at(0.0, 0.0).pressure == 0.0);  // a tool that just touches can hold
-    CHECK(!at(1e-9, 0.0).held && at(1e-9, 0.0).stiffness.a == Mat3{}.a);
+    CHECK(!at(1e-9, 0.0).held);
     CHECK_NEAR(at(-0.2, 0.0).pressure, 10.0, 1e-14);
     CHECK_NEAR(at(-0.2, 3.0).pressure, 13.0, 1e-14);
     CHECK_NEAR(at(0.05, 3.0).pressure, 0.5, 1e-14);  // held at an open gap by its multiplier
@@ -32,8 +34,7 @@ void check_parts() {
     for (int k = 0; k < 3; ++k) {
         CHECK_NEAR(reaction.tangential[k], 0.0, 0.0);
         CHECK_NEAR(reaction.traction(n)[k], 0.25 * 13.0 * n[k], 1e-14);
-        for (int l = 0; l < 3; ++l)
-            CHECK_NEAR(reaction.stiffness(k, l), 0.25 * (50.0 * n[k] * n[l] - 13.0 * H(k, l)), 1e-14);
+        for (int l = k; l < 3; ++l) CHECK_NEAR(reaction.K[k][l], 0.25 * (50.0 * n[k] * n[l] - 13.0 * H(k, l)), 1e-14);
     }
 }
 

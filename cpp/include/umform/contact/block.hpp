@@ -109,7 +109,7 @@ class ContactBlockOf final : public ContactBlock {
     }
 
     std::vector<Reaction> reactions() override {
-        std::vector<Reaction> reactions(points());
+        std::vector<Reaction> reactions(points(), Reaction{});
         for_each_held([&](int, int q, const Reaction& reaction) { reactions[q] = reaction; });
         return reactions;
     }
@@ -250,7 +250,7 @@ class ContactBlockOf final : public ContactBlock {
         if (!tangent) return;
         for (int k = 0; k < 3; ++k)
             for (int l = symmetric() ? k : 0; l < 3; ++l) {
-                const double stiffness = reaction.stiffness(k, l);
+                const double stiffness = reaction.K[k][l];
                 for (int a = 0; a < Nodes; ++a)
                     for (int b = 0; b < Nodes; ++b)
                         K[(k * Nodes + a) * size + l * Nodes + b] += stiffness * N[a] * N[b];

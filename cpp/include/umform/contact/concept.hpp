@@ -21,10 +21,10 @@ struct Place {
 /// What the tool does to the sheet at a place: a traction on the reference area, in its parts along and across the normal, times
 /// a weight.
 struct Reaction {
-    bool held = false;      // else all is zero
-    double pressure = 0.0;  // along n, positive
-    Vec3 tangential{};      // across n
-    Mat3 stiffness{};       // minus the derivative of the traction with respect to x
+    bool held;        // if not, the rest has no meaning
+    double pressure;  // along n, positive
+    Vec3 tangential;  // across n
+    double K[3][3];   // minus the derivative of the traction with respect to x
 
     Vec3 traction(const Vec3& n) const {
         Vec3 t;
@@ -35,15 +35,17 @@ struct Reaction {
 
 /// A law answers at one place. Its history begins with the multiplier of the normal direction. `state` is the converged history,
 /// which is never changed; `trial` comes with the multiplier that is wanted now and takes the rest of the new history. `reach` is
-/// the largest gap at which the place can be held. A law that is `symmetric` has a symmetric stiffness.
+/// the largest gap at which the place can be held. `respond` says whether it is held, and writes the reaction then, without `held`
+/// and times the weight. A law that is `symmetric` has a symmetric K; what is below its diagonal is not read.
 template <class L>
-concept PlaceLaw = requires(const L& law, L& mutable_law, const Place& place, const double* state, double* trial) {
-    { L::symmetric } -> std::convertible_to<bool>;
-    { L::quantities() } -> std::same_as<std::vector<Quantity>>;
-    { mutable_law.penalty } -> std::same_as<double&>;
-    { law.reach(trial) } -> std::same_as<double>;
-    { law.respond(place, 1.0, state, trial) } -> std::same_as<Reaction>;
-};
+concept PlaceLaw =
+    requires(const L& law, L& mutable_law, const Place& place, const double* state, double* trial, Reaction& reaction) {
+        { L::symmetric } -> std::convertible_to<bool>;
+        { L::quantities() } -> std::same_as<std::vector<Quantity>>;
+        { mutable_law.penalty } -> std::same_as<double&>;
+        { law.reach(trial) } -> std::same_as<double>;
+        { law.respond(place, 1.0, state, trial, reaction) } -> std::same_as<bool>;
+    };
 
 /// Places of a facet, arrays [place].
 struct Places {
@@ -87,8 +89,9 @@ class ContactLawOf final : public ContactLaw {
     void respond(int count, const Places& places, const double* weights, const double* state, double* trial,
                  Reaction* reactions) const override {
         for (int q = 0; q < count; ++q)
-            reactions[q] = law_.respond({places.gap[q], places.x[q], places.n[q], places.H[q], *places.pose},
-                                        weights == nullptr ? 1.0 : weights[q], state + q * size_, trial + q * size_);
+            reactions[q].held =
+                law_.respond({places.gap[q], places.x[q], places.n[q], places.H[q], *places.pose},
+                             weights == nullptr ? 1.0 : weights[q], state + q * size_, trial + q * size_, reactions[q]);
     }
 
   private:

@@ -15,18 +15,17 @@ struct Penalty {
     double reach(const double* trial) const { return trial[0] / penalty; }
 
     /// A place is held where its gap less multiplier over penalty, g~, is not positive (a tool that just touches can hold):
-    /// traction -penalty g~ n, stiffness penalty (n n^T + g~ H). eqs. (4.6), (4.10), (4.33)
-    Reaction respond(const Place& place, double weight, const double*, const double* trial) const {
+    /// traction -penalty g~ n, K = penalty (n n^T + g~ H). eqs. (4.6), (4.10), (4.33)
+    bool respond(const Place& place, double weight, const double*, const double* trial, Reaction& reaction) const {
         const double g = place.gap - trial[0] / penalty;
-        if (!(g <= 0.0)) return {};
-        Reaction reaction;
-        reaction.held = true;
+        if (!(g <= 0.0)) return false;
         const double stiffness = penalty * weight;
         reaction.pressure = -(stiffness * g);
+        reaction.tangential = {0.0, 0.0, 0.0};
         for (int k = 0; k < 3; ++k)
-            for (int l = 0; l < 3; ++l)
-                reaction.stiffness(k, l) = stiffness * std::fma(place.n[k], place.n[l], g * place.H(k, l));
-        return reaction;
+            for (int l = k; l < 3; ++l)
+                reaction.K[k][l] = stiffness * std::fma(place.n[k], place.n[l], g * place.H(k, l));
+        return true;
     }
 };
 
