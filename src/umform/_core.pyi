@@ -298,6 +298,12 @@ class ShellBlock:
         Update the enhanced parameters after u += s du; mixed: the geometric stiffness is of the foreseen stress.
         """
 
+    @property
+    def keeps_blocks(self) -> bool:
+        """
+        Whether enhanced parameters can be recovered from the converged state without an evaluation there.
+        """
+
     def undo_recover(self) -> None:
         """Take the last recover back."""
 
