@@ -6,7 +6,7 @@
 
 #include "umform/materials/j2.hpp"
 #include "umform/materials/saint_venant_kirchhoff.hpp"
-#include "umform/solid_shell.hpp"
+#include "umform/elements/solid_shell.hpp"
 
 namespace umform {
 
