@@ -40,7 +40,7 @@ def bent(tool=None, cell="hex8", motion=None):
     if tool is not None:
         moves[model.drive(model.contact("lower", tool, penalty=10.0, name="tool"), "z", name="drop")] = -0.25
         if motion is not None:
-            model.contacts[0].motion = motion
+            model.set_motion(model.contacts[0], motion)
     steps = [uf.Move(control, to=to, steps=2) for control, to in moves.items()]
     return uf.solve(model, steps, progress=False, frames=10)
 
