@@ -227,9 +227,9 @@ def run_until_killed(path: str, increment: int, writing: bool) -> None:
         add(self, *arguments, **more)
         rows.append(len(self))
 
-    def kill_in_the_second_iteration(self, iterations, number, *arguments):
-        record(self, iterations, number, *arguments)
-        if not writing and len(rows) > increment and number == 2:
+    def kill_in_the_second_iteration(self, iterations, *arguments):
+        record(self, iterations, *arguments)
+        if not writing and len(rows) > increment and len(iterations) == 2:
             os.kill(os.getpid(), signal.SIGKILL)
 
     def kill(self):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property, partial
 from typing import Any, Self
 
@@ -74,6 +75,10 @@ class Contact(Term):
         """Penetration that is allowed; None where only a penalty was given."""
         return self._settings.allowed
 
+    @allowed.setter
+    def allowed(self, value: float | None) -> None:
+        self._settings = replace(self._settings, allowed=value)
+
     @property
     def augmented(self) -> bool:
         """Whether multipliers take the penetration away that is not allowed."""
@@ -100,7 +105,7 @@ class Contact(Term):
             If the model was solved on many ranks: each had the points of its own facets.
         """
         if self.elsewhere:
-            raise not_here(f"the state of contact {self.name}")
+            raise self._not_here()
         at_nodes = isinstance(self.points, str)
         per_side = 1 if isinstance(self.points, str) else self.points
         law = _core.penalty_law(self.penalty)
@@ -117,6 +122,9 @@ class Contact(Term):
     def multipliers(self) -> Floats:
         """Multipliers of the converged state at the contact points; zero without augmentation."""
         return self.block.state[:, 0]
+
+    def _not_here(self) -> ModelError:
+        return not_here(f"the state of contact {self.name}")
 
     # Term ----------------------------------------------------------------------------------------------------
 
@@ -251,8 +259,11 @@ class Contact(Term):
         Raises
         ------
         ModelError
-            If the model has not been solved yet; ask ``model.evaluate(u).found[contact]`` then.
+            If the model has not been solved yet; ask ``model.evaluate(u).found[contact]`` then. If it was solved on
+            many ranks: each had the points of its own facets.
         """
+        if self.elsewhere:
+            raise self._not_here()
         if self._last is None:
             raise ModelError(
                 f"nothing is known of contact {self.name} yet",
