@@ -44,7 +44,7 @@ class PointFields:
 
     @property
     def eqps(self) -> Floats | None:
-        """Accumulated plastic strain (cells, points) of laws that name it ``eqps`` in their history; None for others."""
+        """Accumulated plastic strain (cells, points) of laws that name it ``eqps`` in their history, or None."""
         part = self.history.get("eqps")
         return None if part is None else part[..., 0]
 
