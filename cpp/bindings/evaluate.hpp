@@ -40,6 +40,7 @@ std::tuple<int, double, const char*> evaluate(Block& block, const Input& u, cons
 template <class Block>
 void bind_common(nb::class_<Block>& type) {
     type.def_prop_ro("connectivity", &Block::connectivity, nb::rv_policy::reference_internal)
+        .def_prop_ro("dofs", &Block::dofs, "Degrees of freedom of the model.")
         .def(
             "evaluate", &evaluate<Block>, nb::arg("u"), nb::arg("scatter"), nb::arg("f"), nb::arg("values").none(),
             nb::arg("du").none(), nb::arg("Kdu").none(),

@@ -249,6 +249,10 @@ class ShellBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
+
     def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float, str]:
         """
         Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1), sum |f_e|^2 and why it has failed, in words that follow its number.
@@ -338,6 +342,10 @@ class ContactBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
+
     def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float, str]:
         """
         Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1), sum |f_e|^2 and why it has failed, in words that follow its number.
@@ -394,6 +402,10 @@ class PressureBlock:
 
     @property
     def connectivity(self) -> Connectivity: ...
+
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
 
     def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float, str]:
         """

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
+from dataclasses import is_dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -212,6 +214,22 @@ def limit_loads(result):
     return [float(match[1]) for match in found if match]
 
 
+def same_state(a, b):
+    """Whether two states are the same to the last bit: snapshots, trees by name, sequences, arrays and numbers."""
+    if is_dataclass(a):
+        a, b = vars(a) if type(a) is type(b) else None, vars(b) if is_dataclass(b) else b
+    if isinstance(a, Mapping):
+        return isinstance(b, Mapping) and a.keys() == b.keys() and all(same_state(a[name], b[name]) for name in a)
+    if isinstance(a, (list, tuple)):
+        return isinstance(b, (list, tuple)) and len(a) == len(b) and all(map(same_state, a, b))
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        one, other = np.asarray(a), np.asarray(b)
+        return one.shape == other.shape and one.dtype == other.dtype and one.tobytes() == other.tobytes()
+    if isinstance(a, float) and isinstance(b, float):
+        return np.float64(a).tobytes() == np.float64(b).tobytes()
+    return type(a) is type(b) and a == b
+
+
 def thickness_vectors(mesh):
     half = mesh.connectivity.shape[1] // 2
     return mesh.points[mesh.connectivity[:, half:]] - mesh.points[mesh.connectivity[:, :half]]
@@ -249,6 +267,12 @@ def build():
         thickness_vectors=thickness_vectors,
         volume=volume,
     )
+
+
+@pytest.fixture(name="same_state", scope="session")
+def same_state_of_two():
+    """Whether two states are the same to the last bit."""
+    return same_state
 
 
 @pytest.fixture

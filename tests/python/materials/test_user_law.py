@@ -83,11 +83,6 @@ def raised(error):
     return action
 
 
-def assert_same(one, other):
-    for a, b in zip(vars(one).values(), vars(other).values(), strict=True):
-        np.testing.assert_array_equal(a, b)
-
-
 # What a law returns -----------------------------------------------------------------------------------------
 
 
@@ -164,7 +159,7 @@ def test_a_law_cannot_change_strain_or_history(watched):
 
 
 @pytest.mark.parametrize("calls", [0, 3, 7])
-def test_nan_in_the_middle_of_a_run_ends_with_its_cause_at_the_last_converged_state(watched, calls):
+def test_nan_in_the_middle_of_a_run_ends_with_its_cause_at_the_last_converged_state(watched, calls, same_state):
     function, model, pull = watched
     solve(model, Move(pull, 0.1, steps=2), frames=0)
     before, residual = model.snapshot(), model.evaluate(model.u).residual
@@ -174,7 +169,7 @@ def test_nan_in_the_middle_of_a_run_ends_with_its_cause_at_the_last_converged_st
     assert "S of a law is not finite" in caught.value.cause
     assert len(caught.value.result) == 1
     function.hook = None
-    assert_same(model.snapshot(), before)
+    assert same_state(model.snapshot(), before)
     np.testing.assert_array_equal(model.evaluate(model.u).residual, residual)
 
 
@@ -202,7 +197,9 @@ def test_a_single_nan_costs_a_cut_and_leaves_no_trace_in_the_history(watched):
 @pytest.mark.parametrize(
     "error", [RuntimeError("broken law", 7), KeyError("K"), InvalidValue("bad", value=3), KeyboardInterrupt("stop")]
 )
-def test_an_error_of_the_function_arrives_intact_at_the_last_converged_state(threads_as_before, threads, cells, error):
+def test_an_error_of_the_function_arrives_intact_at_the_last_converged_state(
+    threads_as_before, threads, cells, error, same_state
+):
     """Also out of a team of threads, which is sent out for more than 64 elements."""
     umform.set_threads(threads)
     function = Watched()
@@ -218,7 +215,7 @@ def test_an_error_of_the_function_arrives_intact_at_the_last_converged_state(thr
     assert len(error.result) == 1
     assert error.result["pull"][-1] == 0.1
     function.hook = None
-    assert_same(model.snapshot(), before)
+    assert same_state(model.snapshot(), before)
     assert pull.value == 0.1
     np.testing.assert_array_equal(model.evaluate(model.u).residual, residual)
     other, control = pulled(UserLaw(damage, initial=(0.0,)), cells)
@@ -315,13 +312,13 @@ def test_damage_stays_when_the_load_goes(watched):
     assert (model.block.state > 1.2 * damaged).all()
 
 
-def test_a_snapshot_holds_the_history(watched):
+def test_a_snapshot_holds_the_history(watched, same_state):
     _, model, pull = watched
     solve(model, Move(pull, 0.1, steps=1), frames=0)
     saved = model.snapshot()
     first = solve(model, Move(pull, 0.2, steps=2), frames=0)["pull_force"]
     model.restore(saved)
-    assert_same(model.snapshot(), saved)
+    assert same_state(model.snapshot(), saved)
     np.testing.assert_array_equal(solve(model, Move(pull, 0.2, steps=2), frames=0)["pull_force"], first)
 
 
