@@ -140,7 +140,7 @@ def test_a_law_sees_axes_size_and_step(build):
     mesh = strip(4.0, 2.0, 0.1, (2, 1))
     model = Model(mesh, "DISP3D", material=UserLaw(curious), rolling=(0, 1, 0))
     model.fix("x0")
-    model.block.step = 0.125
+    model.time = 0.125  # the last increment ended at 0
     model.evaluate(model.u)
     frame = model.block.point_fields(model.u)[2]
     assert len(seen) == 4

@@ -23,8 +23,7 @@ def stretched(law):
     model = Model(strip(2.0, 1.0, 0.2, (2, 1)), "DISP3D", material=law)
     model.fix("x0")
     u = (0.02 * model.mesh.points * (1, 0, 0)).ravel()
-    model.evaluate(u)
-    model.commit(u)
+    model.commit(model.evaluate(u))
     return model
 
 
@@ -67,7 +66,7 @@ def test_the_plastic_strain_goes_by_its_name_not_by_its_place():
 
 def test_j2_has_its_metric_and_its_plastic_strain():
     model = stretched(mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(160.0, 500.0)))
-    parts = named_history(model)
+    parts = named_history(model.body)
     assert list(parts) == ["Cp_inv", "eqps"]
     assert parts["Cp_inv"].shape == (2, model.block.points, 6)
     assert parts["eqps"].min() > 0.01

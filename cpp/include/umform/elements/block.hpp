@@ -197,7 +197,21 @@ class ShellBlockOf final : public ShellBlock {
 
     /// Throws an error of the law again with the number of the element that it comes from, which is the one that throws alone.
     template <class Ask>
-    [[noreturn]] void name_cell(const Batch& batch, const Ask& ask, const Workspace& w, const std::string& what) const;
+    [[noreturn]] void name_cell(const Batch& batch, const Ask& ask, const Workspace& w, const std::string& what) const {
+        for (int lane = 0; lane < batch.count; ++lane) {
+            std::vector<Vec<Lanes, 6>> E(w.shell.E.size());
+            for (std::size_t q = 0; q < E.size(); ++q)
+                for (int p = 0; p < 6; ++p) E[q][p] = w.shell.E[q][p][lane];
+            LaneMask alone = false;
+            alone.set(lane, true);
+            try {
+                ask(alone, E.data());
+            } catch (const std::exception&) {
+                throw std::runtime_error("cell " + std::to_string(number_of(batch.element[lane])) + ": " + what);
+            }
+        }
+        throw std::runtime_error("cell " + std::to_string(number_of(batch.element[0])) + " or a neighbour: " + what);
+    }
 
     /// Strains at u with the enhanced parameters `alpha` of all elements. False where an element is turned inside out.
     LaneMask strains(const Batch& batch, const double* u, const std::vector<double>& alpha, Workspace& w) const {
@@ -277,13 +291,7 @@ class ShellBlockOf final : public ShellBlock {
     std::vector<Energy> energy_;
 };
 
-}  // namespace umform
-
-#include "umform/elements/block_output.hpp"
-
-namespace umform {
-
-// Instantiated in cpp/src, one file each, so that they compile in parallel.
+// Instantiated in cpp/src, one file each, so that they compile in parallel; what is only declared here is in block_output.hpp.
 extern template class ShellBlockOf<8>;
 extern template class ShellBlockOf<18>;
 

@@ -1,4 +1,4 @@
-// What a block of elements gives beside residual and tangent: one element, fields, energies; and messages.
+// What a block of elements gives beside residual and tangent: one element, fields, energies. For the files that instantiate it.
 #pragma once
 
 #include "umform/elements/block.hpp"
@@ -71,25 +71,6 @@ Energy ShellBlockOf<Nodes>::energy(const double* u) {
         total.plastic += one.plastic;
     }
     return total;
-}
-
-template <int Nodes>
-template <class Ask>
-void ShellBlockOf<Nodes>::name_cell(const Batch& batch, const Ask& ask, const Workspace& w,
-                                    const std::string& what) const {
-    for (int lane = 0; lane < batch.count; ++lane) {
-        std::vector<Vec<Lanes, 6>> E(w.shell.E.size());
-        for (std::size_t q = 0; q < E.size(); ++q)
-            for (int p = 0; p < 6; ++p) E[q][p] = w.shell.E[q][p][lane];
-        LaneMask alone = false;
-        alone.set(lane, true);
-        try {
-            ask(alone, E.data());
-        } catch (const std::exception&) {
-            throw std::runtime_error("cell " + std::to_string(number_of(batch.element[lane])) + ": " + what);
-        }
-    }
-    throw std::runtime_error("cell " + std::to_string(number_of(batch.element[0])) + " or a neighbour: " + what);
 }
 
 template <int Nodes>

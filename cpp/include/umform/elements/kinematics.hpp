@@ -42,7 +42,7 @@ Axes<Real> local_frame(const std::array<Vec<Real, 3>, 3>& G) {
     return {e1, cross(e3, e1), e3};
 }
 
-/// The same with e_1 along the rolling direction, which is projected onto the layer. eq. (1.13a)
+/// The same with e_1 along the rolling direction, which is projected onto the layer. eq. (1.26)
 template <class Real>
 Axes<Real> local_frame(const std::array<Vec<Real, 3>, 3>& G, const Vec<Real, 3>& rolling) {
     const Vec<Real, 3> e3 = normalised(cross(G[0], G[1]));
@@ -67,7 +67,7 @@ template <class Real>
     return A;
 }
 
-/// J^-1 in any local frame whose e_3 is normal to G_1 and G_2: its third row is (0, 0, 1 / J_33). eq. (1.14a)
+/// J^-1 in any local frame whose e_3 is normal to G_1 and G_2: its third row is (0, 0, 1 / J_33). eq. (1.27)
 template <class Real>
 Mat<Real, 3, 3> local_inverse(const std::array<Vec<Real, 3>, 3>& G, const Axes<Real>& e) {
     const Real J00 = dot(e[0], G[0]), J01 = dot(e[0], G[1]), J10 = dot(e[1], G[0]), J11 = dot(e[1], G[1]);

@@ -80,7 +80,7 @@ class ShellProducts : public ShellRows<Nodes, Real> {
                                  [&](int i, int j, const Tile<Real>& R) { add_tile<half>(Kdd, i, j, 1.0, R); });
     }
 
-    /// The same for a law whose tangent is not symmetric: all tiles, and the block mean-director with M^T C X. eq. (2.36)
+    /// The same for a law whose tangent is not symmetric: all tiles, and the block mean-director with M^T C X. eq. (2.40)
     void add_layer_full(double t, Workspace& w) const {
         Real *Kmm = w.Kmm.data(), *Kdm = w.Kdm.data(), *Kmd = w.Kmd.data(), *Kdd = w.Kdd.data();
         const int shift = first_extra_ * half;

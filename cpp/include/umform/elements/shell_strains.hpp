@@ -21,7 +21,7 @@ class ShellStrains {
 
     /// Strains at the Gauss points in the local frame, with A, dV and the base vectors. The frame follows the `rolling`
     /// direction, if one is given. False where det J of the reference or of the current configuration is not positive
-    /// at a Gauss point: the strain alone cannot tell an element that is turned inside out from one that is not. eq. (1.4)
+    /// at a Gauss point: the strain alone cannot tell an element that is turned inside out from one that is not. eqs. (1.4), (1.25)
     Mask<Real> strains(const Nodal& X, const Nodal& u, const Real* alpha, const Vec<Real, 3>* rolling,
                        Workspace& w) const {
         for (std::size_t k = 0; k < tables_.places.size(); ++k) {

@@ -8,7 +8,7 @@
 namespace umform {
 
 /// One point, or the same point of the elements in the lanes. The axes are those of the local frame: e_3 is normal to the sheet,
-/// e_1 along the rolling direction where there is one, else along G_1. eqs. (1.13), (1.13a)
+/// e_1 along the rolling direction where there is one, else along G_1. eqs. (1.13), (1.26)
 template <class Real>
 struct Point {
     Axes<Real> axes{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
