@@ -174,9 +174,7 @@ class Cutting:
 
     def _multipliers(self, here: list[Numbers]) -> list[Floats | None]:
         return [
-            contact.multipliers.reshape(len(contact.facets), -1)[rows].ravel()
-            if "block" in vars(contact)
-            else None
+            contact.multipliers.reshape(len(contact.facets), -1)[rows].ravel() if "block" in vars(contact) else None
             for contact, rows in zip(self._whole.contacts, here, strict=True)
         ]
 
