@@ -13,7 +13,7 @@ namespace umform {
 
 /// Positions, gaps, normals and Hessians at the points of all facets. Where the tool is a distance, a facet is *far* if the
 /// least gap of its points when it was last located, less the way that its nodes have gone since in the frame of the tool, is
-/// more than its reach: no point of it can be held. The points of far facets are located when they are asked for.
+/// more than its reach: no point of it can be held. eq. (4.40) The points of far facets are located when they are asked for.
 template <int Nodes>
 class Locator {
   public:
