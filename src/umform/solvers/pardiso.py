@@ -6,7 +6,7 @@ more to factorise; it orders all other matrices. Large sheets go in as blocks, o
 analysis takes a quarter of the time then. PARDISO does not give the pivots of Cholesky factors of blocks, so
 these are L D L^T without exchanges.
 
-Against SuperLU it factorises strips 3 to 7 times faster and sheets 3 times and more. Cholesky comes first; a pivot
+Against SuperLU it factorises strips 3 to 7 times faster and sheets 6 to 8 times. Cholesky comes first; a pivot
 that is not positive leads to Bunch-Kaufman factors, which cost 1.0 to 1.5 times as much and know the inertia, until a
 matrix has no negative pivot any more. LU for unsymmetric matrices costs twice as much. Matching and scaling would tie
 the analysis to the values and make the factors of a sheet 3 times dearer: they are off, and the residual is

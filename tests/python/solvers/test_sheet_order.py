@@ -284,17 +284,17 @@ def test_there_is_none_for_an_unsymmetric_structure():
 @pytest.mark.parametrize("symmetric", [True, False])
 def test_a_sheet_in_its_order_leaves_less_to_factorise(name, symmetric, monkeypatch):
     """Than minimum degree (SuperLU) or METIS (PARDISO), with symmetric values and with others."""
-    matrix = fibres(neighbours(30, 30), 6)
+    matrix = fibres(neighbours(50, 50), 6)
     if not symmetric:
-        matrix = (matrix + 0.2 * sparse.triu(matrix, 1)).tocsr()
+        matrix = (matrix + 0.1 * (sparse.triu(matrix, 1) - sparse.tril(matrix, -1))).tocsr()
     pattern, values = whole(matrix, symmetric)
     solver = make_solver(pattern, name)
     own = solver.factor(values).fill
     rhs = np.random.default_rng(0).normal(size=(matrix.shape[0], 2))
-    np.testing.assert_allclose(matrix @ solver.solve(rhs), rhs, rtol=1e-8, atol=1e-9)
+    np.testing.assert_allclose(matrix @ solver.solve(rhs), rhs, rtol=1e-8, atol=1e-8)
     monkeypatch.setattr(superlu if name == "superlu" else pardiso, "sheet_of", lambda pattern: None)
     other = make_solver(pattern, name).factor(values).fill
-    assert own < 0.95 * other
+    assert own < 0.97 * other
 
 
 @needs_mkl
