@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.root import Debug, Verbose, app, console
+from umform.cli.root import Debug, Verbose, app, console, say_of
 from umform.errors import InvalidValue, UmformError
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def check_deck(deck: DeckFile, changes: Changes = None, verbose: Verbose = 0, de
     from umform.deck.check import check
     from umform.deck.findings import Level
 
-    with told():
+    with deck_errors():
         loaded = read(deck, changes or ())
         problem = loaded.build()
         findings = list(check(loaded, problem))
@@ -54,12 +54,12 @@ def read(path: Path, changes: Sequence[str]) -> Deck:
 
 
 @contextmanager
-def told() -> Iterator[None]:
+def deck_errors() -> Iterator[None]:
     """Print what is wrong with a deck in the words of decks, and end with exit code 1."""
     try:
         yield
     except UmformError as error:
-        typer.echo(f"umform: {error}", err=True)
+        say_of(error)
         raise typer.Exit(1) from error
 
 

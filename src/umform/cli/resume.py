@@ -7,10 +7,10 @@ from typing import Annotated
 
 import typer
 
-from umform.cli.check import told
+from umform.cli.check import deck_errors
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
-from umform.cli.root import Debug, Verbose, app
-from umform.cli.run import Every, end, show
+from umform.cli.root import Debug, Overwrite, Verbose, app
+from umform.cli.run import Every, finish
 from umform.cli.warnings import print_warnings_once
 
 
@@ -22,6 +22,7 @@ def resume(
         str | None, typer.Option(metavar="FOLDER", help="Folder for what comes out; default: that of the run.")
     ] = None,
     every: Every = 60.0,
+    overwrite: Overwrite = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -35,9 +36,8 @@ def resume(
 
     let_the_first_talk()
     print_warnings_once()
-    with told():
+    with deck_errors():
         kept = Kept.read(checkpoint)
         with on_all_ranks(kept.chosen_solver, petsc_options(ctx)):
-            outcome = running.resume(checkpoint, kept, out, every=every)
-    show(outcome)
-    end(outcome)
+            outcome = running.resume(checkpoint, kept, out, every=every, overwrite=overwrite)
+    finish(outcome)
