@@ -114,3 +114,13 @@ def test_with_the_log_a_warning_is_printed_once_too(deck, monkeypatch):
     run = umform("run", "-v", deck, *SHORT, *fine)
     assert run.stderr.count("the force climbs in stairs") == 1
     assert "step 1  time 0.25" in run.stderr
+
+
+def test_a_demo_without_room_for_its_stroke_is_refused_with_its_options(tmp_path):
+    refused = umform("demo", "free-bending", "--radius", "30", "--out", tmp_path / "out")
+    assert refused.exit_code == 1
+    assert "no room for the stroke" in refused.stderr
+    assert "--stroke" in refused.stderr
+    assert "12.67 at most" in refused.stderr
+    assert "--tool-x 31 or more" in refused.stderr
+    assert not (tmp_path / "out").exists()
