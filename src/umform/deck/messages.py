@@ -11,8 +11,9 @@ from pydantic import BaseModel, Tag, ValidationError
 from pydantic.fields import FieldInfo
 
 from umform.deck.contents import Contents
+from umform.deck.errors import ANY_CAUSE, ANY_REMEDY, DeckKey, nearest, shortened, slip
 from umform.deck.lines import Path
-from umform.deck.source import ANY_CAUSE, ANY_REMEDY, DeckKey, Source, nearest, shortened, slip
+from umform.deck.source import Source
 
 _UNIONS = (Union, types.UnionType)
 _BEYOND = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
@@ -22,6 +23,7 @@ _CAUSES = dict.fromkeys(_BEYOND, "a sign, another unit, or a slip of the pen") |
     "finite_number": "inf or nan",
     "string_type": "a value without quotes",
     "string_pattern_mismatch": "a letter that does not belong there",
+    "too_long": "a decimal comma, which makes two numbers of one, or an entry too many",
 }
 _REMEDIES = dict.fromkeys(_BEYOND, "write a number within the bound") | {
     "float_type": "write a number, without quotes",
@@ -36,6 +38,7 @@ _REMEDIES = dict.fromkeys(_BEYOND, "write a number within the bound") | {
     "model_type": "write a table: a header, or keys between braces",
     "model_attributes_type": "write a table: a header, or keys between braces",
     "finite_number": "write a finite number",
+    "too_long": "numbers have a decimal point, entries a comma between them: [25.0, 0.5]",
 }
 
 
@@ -56,7 +59,7 @@ def messages(error: ValidationError, source: Source) -> Iterator[DeckKey]:
 def _message(found: Mapping[str, Any], source: Source) -> DeckKey:
     loc, kind, given = found["loc"], found["type"], found["input"]
     path = path_in(source.data, loc)
-    told = found.get("ctx") or {}
+    context = found.get("ctx") or {}
     if kind == "extra_forbidden":
         known = list(fields_at(loc[:-1]))
         return DeckKey(
@@ -78,9 +81,9 @@ def _message(found: Mapping[str, Any], source: Source) -> DeckKey:
         field = fields_at(loc[:-1]).get(str(loc[-1]))
         meaning = f": {field.description}" if field and field.description else ""
         return _missing(source, path, str(loc[-1]), meaning)
-    if kind in ("union_tag_not_found", "union_tag_invalid") or "key" in told:
-        return _wrong_kind(source, path, given, told)
-    words = _quoted(told.get("expected", ""))
+    if kind in ("union_tag_not_found", "union_tag_invalid") or "key" in context:
+        return _wrong_kind(source, path, given, context)
+    words = _quoted(context.get("expected", ""))
     return DeckKey(
         _plain(found["msg"]),
         where=source.place(path),
@@ -99,10 +102,10 @@ def _missing(source: Source, path: Path, key: str, meaning: str, cause: str = "i
     )
 
 
-def _wrong_kind(source: Source, path: Path, given: Any, told: Mapping[str, Any]) -> DeckKey:
+def _wrong_kind(source: Source, path: Path, given: Any, context: Mapping[str, Any]) -> DeckKey:
     """A table whose kind is missing, or not known."""
-    key = str(told.get("key") or told.get("discriminator", "")).strip("'")
-    known = _quoted(str(told.get("expected_tags", "")))
+    key = str(context.get("key") or context.get("discriminator", "")).strip("'")
+    known = _quoted(str(context.get("expected_tags", "")))
     if not isinstance(given, dict):
         return DeckKey(
             "this should be a table",
@@ -193,7 +196,7 @@ def _bare(kind: Any) -> Any:
 
 
 def _tags(member: Any) -> set[object]:
-    """Words by which a member of a union is told from the others."""
+    """Words by which a member of a union differs from the others."""
     tags: set[object] = {note.tag for note in get_args(member)[1:] if isinstance(note, Tag)}
     bare = _bare(member)
     if not tags and isinstance(bare, type) and issubclass(bare, BaseModel):
