@@ -1,12 +1,13 @@
 // Arrays that cross the border to Python: NumPy float64 and int32, contiguous, on the CPU.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
-#include "umform/assembly/csr.hpp"
+#include "umform/assembly/connectivity.hpp"
 
 namespace nb = nanobind;
 
@@ -42,3 +43,5 @@ void bind_materials(nb::module_& m);
 void bind_surfaces(nb::module_& m);
 void bind_sparse(nb::module_& m);
 void bind_blocks(nb::module_& m);
+void bind_contact(nb::module_& m);
+void bind_loads(nb::module_& m);

@@ -1,15 +1,9 @@
-#include <optional>
-
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
-#include "arrays.hpp"
-#include "umform/contact/facets.hpp"
+#include "evaluate.hpp"
 #include "umform/elements/block.hpp"
-#include "umform/loads/pressure.hpp"
 
 using namespace umform;
 
@@ -28,60 +22,6 @@ std::unique_ptr<ShellBlock> shell_block(const Technology& technology, int surfac
         return std::make_unique<ShellBlockOf<18>>(technology, surface_points, to_rule(t, w), std::move(material),
                                                   std::move(part), to_vector(X));
     throw std::invalid_argument("a solid-shell has 8 or 18 nodes");
-}
-
-std::unique_ptr<ContactBlock> contact_block(const InputIds& facets, const Input& X, int points, bool at_nodes,
-                                            std::shared_ptr<Surface> surface) {
-    Connectivity part = to_connectivity(facets);
-    const ContactRule rule{points, at_nodes};
-    if (part.nodes == 4)
-        return std::make_unique<ContactBlockOf<4>>(std::move(part), to_vector(X), rule, std::move(surface));
-    if (part.nodes == 9)
-        return std::make_unique<ContactBlockOf<9>>(std::move(part), to_vector(X), rule, std::move(surface));
-    throw std::invalid_argument("a facet has 4 or 9 nodes");
-}
-
-std::unique_ptr<PressureBlock> pressure_block(const InputIds& facets, const Input& X) {
-    Connectivity part = to_connectivity(facets);
-    if (part.nodes == 4) return std::make_unique<PressureBlockOf<4>>(std::move(part), to_vector(X));
-    if (part.nodes == 9) return std::make_unique<PressureBlockOf<9>>(std::move(part), to_vector(X));
-    throw std::invalid_argument("a facet has 4 or 9 nodes");
-}
-
-void require(bool right, const char* what) {
-    if (!right) throw std::invalid_argument(what);
-}
-
-template <class Block>
-const double* nodal(const Block& block, const Input& values) {
-    require(values.size() == block.dofs(), "an array over the degrees of freedom has another length than the model");
-    return values.data();
-}
-
-/// Adds the share of a block to f and values (and K du to Kdu); returns (first failed element or -1, sum |f_e|^2).
-template <class Block>
-std::pair<int, double> evaluate(Block& block, const Input& u, const Scatter& scatter, Output f, Output values,
-                                std::optional<Input> du, std::optional<Output> Kdu) {
-    require(f.size() == block.dofs() && (!Kdu || Kdu->size() == block.dofs()),
-            "f or Kdu has another length than the model");
-    require(values.size() == scatter.entries, "values has another length than the pattern");
-    require(du.has_value() == Kdu.has_value(), "du and Kdu belong together");
-    const double* position = nodal(block, u);
-    const Target target{f.data(), values.data(), du ? nodal(block, *du) : nullptr, Kdu ? Kdu->data() : nullptr};
-    const nb::gil_scoped_release release;
-    const Outcome outcome = block.evaluate(position, scatter, target);
-    return {outcome.failed, outcome.force_scale_squared};
-}
-
-template <class Block>
-void bind_common(nb::class_<Block>& type) {
-    type.def_prop_ro("connectivity", &Block::connectivity, nb::rv_policy::reference_internal)
-        .def(
-            "evaluate", &evaluate<Block>, nb::arg("u"), nb::arg("scatter"), nb::arg("f"), nb::arg("values"),
-            nb::arg("du").none(), nb::arg("Kdu").none(),
-            nb::sig(
-                "def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64], du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]"),
-            "Add the share of the block to f and values (and K du to Kdu); returns the first failed element (or -1) and sum |f_e|^2.");
 }
 
 nb::object point_fields(ShellBlock& block, const Input& u) {
@@ -187,67 +127,4 @@ void bind_blocks(nb::module_& m) {
         nb::arg("material"), nb::arg("connectivity"), nb::arg("X"),
         nb::sig(
             "def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64]) -> ShellBlock"));
-
-    auto contact = nb::class_<ContactBlock>(m, "ContactBlock", "Contact of element faces with one rigid tool.");
-    bind_common(contact);
-    contact.def_rw("penalty", &ContactBlock::penalty)
-        .def(
-            "set_pose",
-            [](ContactBlock& b, const Input& Q, const Input& c) {
-                require(Q.size() == 9 && c.size() == 3, "a pose is a matrix Q (3, 3) and a vector c (3,)");
-                std::copy_n(Q.data(), 9, b.pose.Q.a.begin());
-                std::copy_n(c.data(), 3, b.pose.c.begin());
-            },
-            nb::arg("Q"), nb::arg("c"), nb::sig("def set_pose(self, Q: NDArray[float64], c: NDArray[float64]) -> None"),
-            "Place the tool: x = Q X + c.")
-        .def(
-            "locate", [](ContactBlock& b, const Input& u) { b.locate(nodal(b, u)); }, nb::arg("u"),
-            nb::sig("def locate(self, u: NDArray[float64]) -> None"),
-            "Move the contact points to X + u and measure the gaps.")
-        .def_prop_ro(
-            "shape_values",
-            [](const ContactBlock& b) {
-                const std::size_t nodes = b.connectivity().nodes;
-                std::vector<double> values = b.shape_values();
-                const std::size_t points = values.size() / nodes;
-                return to_numpy(std::move(values), {points, nodes});
-            },
-            nb::sig("def shape_values(self) -> NDArray[float64]"),
-            "Shape functions at the points of a facet (points, nodes).")
-        .def_prop_ro("points", &ContactBlock::points)
-        .def_prop_ro(
-            "positions", [](const ContactBlock& b) { return to_numpy(b.positions(), {b.gaps().size(), 3}); },
-            nb::sig("def positions(self) -> NDArray[float64]"))
-        .def_prop_ro(
-            "gaps", [](const ContactBlock& b) { return to_numpy(b.gaps(), {b.gaps().size()}); },
-            nb::sig("def gaps(self) -> NDArray[float64]"))
-        .def_prop_ro(
-            "normals", [](const ContactBlock& b) { return to_numpy(b.normals(), {b.gaps().size(), 3}); },
-            nb::sig("def normals(self) -> NDArray[float64]"))
-        .def_prop_ro(
-            "areas", [](const ContactBlock& b) { return to_numpy(b.areas(), {b.areas().size()}); },
-            nb::sig("def areas(self) -> NDArray[float64]"))
-        .def_prop_ro(
-            "round_off_squared", &ContactBlock::round_off_squared,
-            "Square of what a relative error 1 of all positions makes of the residual, at the last evaluation.")
-        .def_prop_rw(
-            "multipliers", [](const ContactBlock& b) { return to_numpy(b.multipliers(), {b.multipliers().size()}); },
-            [](ContactBlock& b, const Input& values) {
-                require(values.size() == b.multipliers().size(), "there is one multiplier for each contact point");
-                b.set_multipliers(values.data());
-            },
-            nb::for_getter(nb::sig("def multipliers(self) -> NDArray[float64]")),
-            nb::for_setter(nb::sig("def multipliers(self, values: NDArray[float64], /) -> None")),
-            "Pressures at the contact points that are there without a penetration.");
-    m.def(
-        "contact_block", &contact_block, nb::arg("facets"), nb::arg("X"), nb::arg("points"), nb::arg("at_nodes"),
-        nb::arg("surface"),
-        nb::sig(
-            "def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface) -> ContactBlock"));
-
-    auto pressure = nb::class_<PressureBlock>(m, "PressureBlock", "Follower pressure on element faces.");
-    bind_common(pressure);
-    pressure.def_rw("pressure", &PressureBlock::pressure);
-    m.def("pressure_block", &pressure_block, nb::arg("facets"), nb::arg("X"),
-          nb::sig("def pressure_block(facets: NDArray[int32], X: NDArray[float64]) -> PressureBlock"));
 }

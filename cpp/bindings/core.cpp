@@ -14,8 +14,10 @@ NB_MODULE(_core, m) {
     bind_surfaces(m);
     bind_sparse(m);
     bind_blocks(m);
+    bind_contact(m);
+    bind_loads(m);
     m.def("build", [] { return UMFORM_BUILD; }, "Compiler, kind of build and instruction set of the kernels.");
-    m.def("threads", [] { return umform::thread_count(); }, "Number of threads that the kernels use.");
+    m.def("threads", [] { return umform::thread_count().load(); }, "Number of threads that the kernels use.");
     m.def(
         "set_threads",
         [](int count) {

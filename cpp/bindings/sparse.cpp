@@ -1,14 +1,57 @@
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
+#include "umform/assembly/scatter.hpp"
 #include "umform/ordering/sheet_order.hpp"
 
 using namespace umform;
 
+namespace {
+
+/// Adds matrices of all elements, whose degrees of freedom are in the order 3 * node + direction.
+void add_matrices(const Scatter& scatter, const Input& matrices, const Output& values) {
+    const std::size_t size = scatter.size, nodes = size / 3;
+    if (matrices.ndim() != 3 || matrices.shape(0) != static_cast<std::size_t>(scatter.elements())
+        || matrices.shape(1) != size || matrices.shape(2) != size)
+        throw std::invalid_argument("matrices must have shape (elements, 3 nodes, 3 nodes)");
+    if (values.size() != scatter.entries) throw std::invalid_argument("values has another length than the pattern");
+    std::vector<double> K(size * size);
+    const auto local = [nodes](std::size_t i) { return i % 3 * nodes + i / 3; };
+    for (int e = 0; e < scatter.elements(); ++e) {
+        const double* given = matrices.data() + e * size * size;
+        for (std::size_t i = 0; i < size; ++i)
+            for (std::size_t j = 0; j < size; ++j) K[local(i) * size + local(j)] = given[i * size + j];
+        scatter.add(e, K.data(), values.data());
+    }
+}
+
+}  // namespace
+
 void bind_sparse(nb::module_& m) {
-    nb::class_<Connectivity>(m, "Connectivity", "Node ids of the elements of one kind.")
+    nb::class_<Connectivity>(m, "Connectivity", "Node ids of the elements of one kind: what a term couples.")
+        .def(
+            "__init__",
+            [](Connectivity* self, const InputIds& ids) {
+                if (ids.ndim() != 2) throw std::invalid_argument("ids must have shape (elements, nodes)");
+                new (self) Connectivity(to_connectivity(ids));
+            },
+            nb::arg("ids"), nb::sig("def __init__(self, ids: NDArray[int32]) -> None"))
+        .def_prop_ro(
+            "ids",
+            [](const Connectivity& c) {
+                return to_numpy(c.ids, {static_cast<std::size_t>(c.size()), static_cast<std::size_t>(c.nodes)});
+            },
+            nb::sig("def ids(self) -> NDArray[int32]"), "Node ids (elements, nodes).")
         .def("__len__", &Connectivity::size);
     nb::class_<Scatter>(m, "Scatter", "Map from the element matrices of one kind into a pattern.")
+        .def_ro("symmetric", &Scatter::symmetric)
+        .def("require", &Scatter::require, nb::arg("symmetric_tangent"), nb::arg("term"),
+             "Refuse a tangent that is not symmetric, by the name of its term, if the pattern holds one triangle only.")
+        .def(
+            "add", &add_matrices, nb::arg("matrices"), nb::arg("values"),
+            nb::sig("def add(self, matrices: NDArray[float64], values: NDArray[float64]) -> None"),
+            "Add matrices (elements, 3 nodes, 3 nodes), in the order 3 * node + direction, to the entries of the pattern.")
         .def_prop_ro("bytes", [](const Scatter& s) { return s.position.size() * sizeof(s.position[0]); });
     nb::class_<Pattern>(m, "Pattern", "Sparse pattern over the free degrees of freedom (upper triangle if symmetric).")
         .def(
@@ -28,6 +71,8 @@ void bind_sparse(nb::module_& m) {
             "indices", [](const Pattern& p) { return to_numpy(p.indices, {p.indices.size()}); },
             nb::sig("def indices(self) -> NDArray[int32]"))
         .def_ro("symmetric", &Pattern::symmetric)
+        .def("find", &Pattern::find, nb::arg("row"), nb::arg("column"),
+             "Position of an entry; IndexError for a pair that is not in the pattern.")
         .def(
             "scatter",
             [](const Pattern& p, const Connectivity& part) {

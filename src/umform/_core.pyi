@@ -4,6 +4,7 @@ Kernels of umform: elements, materials, surfaces, contact, sparse patterns.
 
 from collections.abc import Sequence
 import enum
+from typing import Final
 
 
 from collections.abc import Callable
@@ -116,12 +117,31 @@ def rounded_box(centre: Sequence[float], axes: NDArray[float64], core: Sequence[
 def placed(tool: Surface, matrix: NDArray[float64], shift: Sequence[float]) -> Surface: ...
 
 class Connectivity:
-    """Node ids of the elements of one kind."""
+    """Node ids of the elements of one kind: what a term couples."""
+
+    def __init__(self, ids: NDArray[int32]) -> None: ...
+
+    @property
+    def ids(self) -> NDArray[int32]:
+        """Node ids (elements, nodes)."""
 
     def __len__(self) -> int: ...
 
 class Scatter:
     """Map from the element matrices of one kind into a pattern."""
+
+    @property
+    def symmetric(self) -> bool: ...
+
+    def require(self, symmetric_tangent: bool, term: str) -> None:
+        """
+        Refuse a tangent that is not symmetric, by the name of its term, if the pattern holds one triangle only.
+        """
+
+    def add(self, matrices: NDArray[float64], values: NDArray[float64]) -> None:
+        """
+        Add matrices (elements, 3 nodes, 3 nodes), in the order 3 * node + direction, to the entries of the pattern.
+        """
 
     @property
     def bytes(self) -> int: ...
@@ -141,6 +161,11 @@ class Pattern:
 
     @property
     def symmetric(self) -> bool: ...
+
+    def find(self, row: int, column: int) -> int:
+        """
+        Position of an entry; IndexError for a pair that is not in the pattern.
+        """
 
     def scatter(self, part: Connectivity) -> Scatter:
         """The map for the elements of one kind."""
@@ -210,9 +235,13 @@ class ShellBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
-    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64], du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
+
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
         """
-        Add the share of the block to f and values (and K du to Kdu); returns the first failed element (or -1) and sum |f_e|^2.
+        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
         """
 
     @property
@@ -276,9 +305,13 @@ class ContactBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
-    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64], du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
+
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
         """
-        Add the share of the block to f and values (and K du to Kdu); returns the first failed element (or -1) and sum |f_e|^2.
+        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
         """
 
     @property
@@ -333,9 +366,13 @@ class PressureBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
-    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64], du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
+
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
         """
-        Add the share of the block to f and values (and K du to Kdu); returns the first failed element (or -1) and sum |f_e|^2.
+        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
         """
 
     @property
@@ -343,6 +380,16 @@ class PressureBlock:
 
     @pressure.setter
     def pressure(self, arg: float, /) -> None: ...
+
+    @property
+    def name(self) -> str:
+        """For messages."""
+
+    @name.setter
+    def name(self, arg: str, /) -> None: ...
+
+    symmetric: Final[bool] = ...
+    """Whether its tangent is symmetric."""
 
 def pressure_block(facets: NDArray[int32], X: NDArray[float64]) -> PressureBlock: ...
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
@@ -53,3 +56,46 @@ def test_a_run_is_bitwise_the_same(build):
 
     for a, b in zip(run(1), run(2), strict=True):
         np.testing.assert_array_equal(a, b)
+
+
+def test_the_number_may_change_while_another_thread_evaluates(build):
+    """An evaluation reads the number once; the workspaces of a new block are as many as its team has threads."""
+    done = threading.Event()
+
+    def change():
+        while not done.is_set():
+            for count in range(1, 9):
+                umform.set_threads(count)
+
+    other = threading.Thread(target=change)
+    other.start()
+    try:
+        found = set()
+        for _ in range(60):
+            model = build.free_bending((40, 8)).model
+            found.add(model.evaluate(np.zeros(3 * len(model.mesh.points))).values.tobytes())
+    finally:
+        done.set()
+        other.join()
+    assert len(found) == 1
+
+
+def test_two_models_evaluate_in_two_python_threads(build, rng):
+    """Kernels leave the interpreter to others while they work, and share nothing."""
+    umform.set_threads(2)
+    cases = [build.free_bending((40, 8)), build.free_bending((30, 10), "MI9K3DEAS")]
+    states = []
+    for case in cases:
+        u = 0.02 * rng.normal(size=(len(case.model.mesh.points), 3))
+        u[:, 2] -= 0.1
+        states.append(u.ravel())
+
+    def evaluate(number):
+        evaluations = [cases[number].model.evaluate(states[number], np.ones(states[number].size)) for _ in range(20)]
+        return {(e.residual.tobytes(), e.values.tobytes(), e.predictor.tobytes()) for e in evaluations}
+
+    expected = [evaluate(0), evaluate(1)]
+    with ThreadPoolExecutor(2) as pool:
+        together = list(pool.map(evaluate, (0, 1)))
+    assert together == expected
+    assert [len(one) for one in together] == [1, 1]

@@ -8,7 +8,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from umform.deck.problem import Problem
-from umform.model.boundary import Control, Load, Pressure
+from umform.model.control import Control
+from umform.model.dead_load import Load
+from umform.model.pressure import Pressure
 from umform.plotting import house_style, plot_shape, save
 from umform.run import Result
 from umform.steps import Release

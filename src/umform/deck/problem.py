@@ -17,8 +17,8 @@ from umform.elements.technology import Element
 from umform.errors import UmformError
 from umform.materials import Material
 from umform.model import Model
-from umform.model.boundary import Control
 from umform.model.contact import Contact
+from umform.model.control import Control
 from umform.run import Result, resume, solve
 from umform.solution.newton import Newton, NewtonOptions
 from umform.steps import Step

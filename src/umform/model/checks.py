@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
 from umform.mesh import Mesh
-from umform.model import boundary
+from umform.model import forces
 
 if TYPE_CHECKING:
     from umform.model import Model
@@ -81,7 +81,7 @@ def free_motions(model: Model, touched: Sequence[tuple[Floats, Floats]] = ()) ->
     """
     points = model.mesh.points + model.u.reshape(-1, 3)
     centre, size = middle(model, points)
-    modes = boundary.rigid_body_modes(points, centre, size)
+    modes = forces.rigid_body_modes(points, centre, size)
     rows = [modes[:, np.flatnonzero(model.constrained())].T]
     rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.ties]
     rows += [np.einsum("mkd,kd->km", modes[:, part.dofs], part.weights) for part in model.rows]
@@ -117,10 +117,8 @@ def _in_touch(model: Model) -> Iterator[tuple[Floats, Floats]]:
     """Positions and normals of the points that each tool holds at the present state."""
     for contact in model.contacts:
         if len(contact.facets) > 0:
-            contact.place(model.time)
-            contact.block.locate(model.u)
-            at, active = contact.at_points(), contact.active()
-            yield at.x[active], at.normal[active]
+            at = contact.locate(model.u, contact.pose)
+            yield at.x[at.active], at.normal[at.active]
 
 
 def _touching(model: Model) -> Iterator[tuple[Floats, Floats]]:
@@ -132,9 +130,7 @@ def _touching(model: Model) -> Iterator[tuple[Floats, Floats]]:
     for contact in model.contacts:
         if len(contact.facets) == 0:
             continue
-        contact.place(model.time)
-        contact.block.locate(model.u)
-        at = contact.at_points()
+        at = contact.locate(model.u, contact.pose)
         undefined = ~(np.isfinite(at.gap) & np.isfinite(at.normal).all(axis=1))
         if undefined.any():
             raise ToolSwallowsSheet(
@@ -153,7 +149,7 @@ def _touching(model: Model) -> Iterator[tuple[Floats, Floats]]:
                 cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
                 remedy="move the tool so that it just touches the sheet, or turn its normal",
             )
-        touching = contact.active()
+        touching = at.active
         yield at.x[touching], at.normal[touching]
 
 

@@ -15,7 +15,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from umform.mesh import Ids
-from umform.model.boundary import Control
+from umform.model.control import Control
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]

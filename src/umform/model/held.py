@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh
-from umform.model.boundary import Control, Prescribed
 from umform.model.constraints import Groups, Rows
+from umform.model.control import Control, OnDofs, Prescribed
 from umform.model.controls import Controlled
 from umform.model.support import Support
-from umform.model.ties import MidLine, Tie, split_ties
+from umform.model.ties import Tie, split_ties
 
 Floats = NDArray[np.float64]
 _C = TypeVar("_C", bound=Control)
@@ -106,8 +106,7 @@ class Held(Controlled):
         """Displacement that controls prescribe; with holders, also where these hold the nodes."""
         u = np.zeros(self._fixed.size)
         for control in controls:
-            if isinstance(control, Prescribed | MidLine):
-                u[control.dofs] = values.get(control, 0.0)
+            control.displace(u, values.get(control, 0.0))
         for holder in holders:
             if holder.base is not None:
                 u[holder.held] = holder.base[holder.held]
@@ -170,12 +169,15 @@ class Held(Controlled):
         self._refuse_contradictions(split[1], every, acting)
         self._fixed, self.ties, self.rows, self._split, self._holders = fixed, ties, rows, split, holders
         self._assembled = None
+        for control in every:
+            if isinstance(control, OnDofs):  # what moves with the control may be more than its own degrees of freedom
+                control.along = self._displacement({control: 1.0}, every, split[1]) if rows else None
 
     def _refuse_contradictions(self, groups: Groups, controls: Sequence[Control], holders: list[Support]) -> None:
         """Each control in turn moves alone, then none does: what the constraints ask for must be met each time."""
         if not groups.rows:
             return
-        moved = [control for control in controls if isinstance(control, Prescribed | MidLine)]
+        moved = [control for control in controls if isinstance(control, OnDofs)]
         for control in [*moved, None]:
             values: dict[Control, float] = {} if control is None else {control: 1.0}
             at = holders if control is None else []

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
-from umform.model.boundary import Load
 from umform.model.contact import Contact
+from umform.model.dead_load import Load
 from umform.model.support import Support
 
 if TYPE_CHECKING:
@@ -140,16 +140,21 @@ def _remove_contact(model: Model, contact: Contact) -> Load:
             cause="it has been removed already, or belongs to another model",
             remedy="take what contact() of this model returned",
         )
-    contacts, controls = model.contacts, model.controls
+    contacts, tools, controls, tool = model.contacts, model.tools, model.controls, contact.tool
     load = Load(model.free_name(contact.name), vector=np.zeros_like(model.u))
     model.contacts = [other for other in contacts if other is not contact]
-    model.controls = [control for control in controls if control not in contact.translations]
+    tool.pairs.remove(contact)
+    if not tool.pairs:
+        gone = [*tool.ways, *(force for press in tool.presses for force in press.forces)]
+        model.tools = [other for other in tools if other is not tool]
+        model.controls = [control for control in controls if control not in gone]
     model.forget_assembly()
     try:
         load.vector = _unbalanced(model)
         load = model.add_load(load)
     except BaseException:
-        model.contacts, model.controls = contacts, controls
+        model.contacts, model.tools, model.controls = contacts, tools, controls
+        tool.pairs.append(contact)
         model.forget_assembly()
         raise
     load.value = 1.0
@@ -158,4 +163,5 @@ def _remove_contact(model: Model, contact: Contact) -> Load:
 
 def _unbalanced(model: Model) -> NDArray[np.float64]:
     """Forces on the unknowns that nothing in the model balances at its present state."""
-    return model.extend(model.restrict(model.evaluate(model.u).residual))
+    residual: NDArray[np.float64] = model.extend(model.restrict(model.evaluate(model.x).residual))
+    return residual[: model.u.size]

@@ -11,8 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 from umform.errors import InvalidValue
 from umform.mesh import Ids
 from umform.model.axes import Axes, directions_at, unit_normals
-from umform.model.boundary import DIRECTIONS, Control, Load
 from umform.model.constraints import Rows
+from umform.model.control import Control
+from umform.model.dead_load import Load
+from umform.model.forces import DIRECTIONS
 from umform.model.ties import MidLine, Tie
 
 Floats = NDArray[np.float64]

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from umform.mesh import Selector
 from umform.model.axes import GLOBAL, Axes
-from umform.model.boundary import Prescribed
+from umform.model.control import Prescribed
 from umform.model.held import HELD, Held, refuse_twice
 from umform.model.support import Support, direction_number, directions_of, rows_of_nodes, rows_of_pairs, tie_of
 from umform.model.ties import MidLine, node_pairs

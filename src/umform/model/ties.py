@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh, Selector
-from umform.model.boundary import Control
 from umform.model.constraints import Rows
+from umform.model.control import Control
 
 Floats = NDArray[np.float64]
 

@@ -11,20 +11,19 @@ import numpy as np
 from umform.digest import digest
 from umform.errors import InvalidValue, UmformError
 from umform.model import Model
-from umform.model.boundary import Load
 from umform.model.checks import check_nodes
+from umform.model.dead_load import Load
 from umform.model.whole import not_here
 from umform.parallel.cutting import Cutting
 from umform.parallel.mpi_ranks import MpiRanks, world
-from umform.parallel.outline import Outline, Step
+from umform.parallel.outline import Outline
 from umform.parallel.partition import partition
 from umform.parallel.share import Share
 from umform.parallel.solver import Petsc
 from umform.parallel.together import together
 from umform.results.history import History
 from umform.solvers import register
-from umform.steps.arc_length.arc import Arc
-from umform.steps.free import Free
+from umform.steps import Arc, Free, Step
 
 _H = TypeVar("_H", bound=History)
 
@@ -154,12 +153,12 @@ def _give_back(share: Share, result: History | None) -> None:
     whole.time = share.time
     for control, own in zip(whole.controls, share.controls, strict=True):
         control.value = own.value
+    for unknown, own_unknown in zip(whole.unknowns, share.unknowns, strict=True):
+        unknown.value = own_unknown.value
     whole.elsewhere = True
-    vars(whole).pop("block", None)
-    for contact, part in zip(whole.contacts, share.contacts, strict=True):
-        contact.elsewhere = True
+    for thing in (*whole.bodies, *whole.contacts):
+        thing.elsewhere = True
         for made in ("block", "multipliers"):
-            vars(contact).pop(made, None)
-        contact.put(part.pose)
+            vars(thing).pop(made, None)
     if result is not None:
         result.model = whole

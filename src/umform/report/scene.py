@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -21,8 +20,8 @@ from umform.surfaces.sampled import sampled
 from umform.surfaces.triangles import Box3, Triangles, inside_of
 
 if TYPE_CHECKING:
-    from umform.model.contact import Contact
     from umform.model.frame import Frame
+    from umform.model.tool import Tool as RigidTool
     from umform.results.history import History
 
 Floats = NDArray[np.float64]
@@ -53,7 +52,7 @@ class Scene:
     fields : list of str
         Names of the fields for people.
     tools : list of str
-        Names of the contacts whose tools are drawn.
+        Names of the tools that are drawn.
     notes : list of str
         What could not be drawn.
     """
@@ -87,14 +86,14 @@ def scene_of(result: History) -> Scene:
         fields.append({"name": name, "label": name.replace("_", " "), "on": place, **_scale(values)})
     tools, notes = [], []
     box = _around(X + shifts)
-    for contact, poses in zip(result.model.contacts, _poses(result), strict=True):
+    for tool, poses in zip(result.model.tools, _poses(result), strict=True):
         try:
-            surface = _surface(contact, poses, box)
+            surface = _surface(tool, poses, box)
         except UmformError as error:
-            notes.append(f"The tool of contact {contact.name} is not drawn: {error.what}.")
+            notes.append(f"The tool {tool.name} is not drawn: {error.what}.")
             continue
         if len(surface.triangles):
-            tools.append(contact.name)
+            tools.append(tool.name)
             arrays |= _tool_arrays(f"tool {len(tools) - 1}", surface, poses)
     head = {"frames": _marks(result), "fields": fields, "tools": tools, "maps": _maps(fields)}
     return Scene(pack(head, arrays), len(shifts), [field["label"] for field in fields], tools, notes)
@@ -149,42 +148,29 @@ def _around(x: Floats) -> tuple[Floats, Floats]:
 
 
 def _poses(result: History) -> Iterator[Poses]:
-    """Places of the tool of each contact at the frames."""
-    for contact in result.model.contacts:
+    """Places of each tool at the frames."""
+    for tool in result.model.tools:
         if not result.frames:
-            yield contact.pose[0][None], contact.pose[1][None]
+            rotation, shift = tool.pose_now
+            yield rotation[None], shift[None]
             continue
-        with _put_back(contact):
-            places = []
-            for frame in result.frames:
-                for control in contact.translations:
-                    control.value = result.rows[frame.number][control.name]
-                contact.place(frame.time)
-                places.append(contact.pose)
+        rows = [result.rows[frame.number] for frame in result.frames]
+        places = [
+            tool.pose({way: row[way.name] for way in tool.ways}, frame.time)
+            for row, frame in zip(rows, result.frames, strict=True)
+        ]
         rotations, shifts = zip(*places, strict=True)
         yield np.stack(rotations), np.stack(shifts)
 
 
-@contextmanager
-def _put_back(contact: Contact) -> Iterator[None]:
-    """Leave the tool where it was found."""
-    values, pose = [control.value for control in contact.translations], contact.pose
-    try:
-        yield
-    finally:
-        for control, value in zip(contact.translations, values, strict=True):
-            control.value = value
-        contact.put(pose)
-
-
-def _surface(contact: Contact, poses: Poses, box: tuple[Floats, Floats]) -> Triangles:
+def _surface(tool: RigidTool, poses: Poses, box: tuple[Floats, Floats]) -> Triangles:
     """Triangles of a tool, in its own frame, that come into the box at one frame at least."""
     low, high = box
     corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
     own = np.concatenate([(corners - shift) @ rotation for rotation, shift in zip(*poses, strict=True)])
     inner: Box3 = (tuple(own.min(axis=0)), tuple(own.max(axis=0)))
-    tool = contact.tool
-    facets = tool.facets if isinstance(tool, Tool) else partial(sampled, tool.kernel().gap)
+    surface = tool.surface
+    facets = surface.facets if isinstance(surface, Tool) else partial(sampled, tool.kernel.gap)
     return inside_of(facets, inner, _CHORD * float(np.linalg.norm(high - low)))
 
 

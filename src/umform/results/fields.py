@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.materials import J2
-from umform.model import Model
+from umform.model import Evaluation, Model
 
 Floats = NDArray[np.float64]
 
@@ -131,8 +131,15 @@ def _thickness(model: Model, x: Floats) -> Floats:
     return thickness
 
 
-def contact_at_nodes(model: Model) -> tuple[Floats, Floats]:
+def contact_at_nodes(model: Model, evaluation: Evaluation | None = None) -> tuple[Floats, Floats]:
     """Contact pressure (sum over the contacts) and gap (to the nearest tool, NaN off the contact faces) at the nodes.
+
+    Parameters
+    ----------
+    model : Model
+        The model, at a converged state.
+    evaluation : Evaluation, optional
+        The evaluation there; default what the contacts found last.
 
     Returns
     -------
@@ -140,8 +147,8 @@ def contact_at_nodes(model: Model) -> tuple[Floats, Floats]:
     """
     pressure, gap = np.zeros(len(model.mesh.points)), np.full(len(model.mesh.points), np.nan)
     for contact in model.contacts:
-        contact.block.locate(model.u)
-        here, distance = contact.at_nodes(model.u, model.mesh, model.sum_at_nodes)
+        found = contact.found if evaluation is None else evaluation.found[contact]
+        here, distance = contact.found_at_nodes(found, model.u, model.mesh, model.sum_at_nodes)
         pressure += here
         gap = np.fmin(gap, distance)
     return pressure, gap

@@ -96,8 +96,7 @@ def solve(
             result = Result(model, timing)
             run = _ready(result, solver, options, frames)
             checkpoints = _checkpoints(run, steps, checkpoint, every, note)
-            run.history = model.block.state
-            run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
+            result.add(run.evaluation, [], frame=frames > 0)
             _go_on(run, steps, progress, checkpoints)
             return result
 
@@ -226,7 +225,9 @@ def _ready(result: Result, solver: str, options: NewtonOptions | None, frames: i
     model, timing = result.model, result.timing
     model.timing = timing
     model.check()
-    run = Run(model, Newton(model, options, solver, timing), result, frames)
+    evaluation = model.evaluate(model.x)
+    model.stand(evaluation)
+    run = Run(model, Newton(model, options, solver, timing), result, evaluation, frames)
     run.result.solver = run.newton.solver
     return run
 

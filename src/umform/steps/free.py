@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Self
 
 from umform.errors import InvalidValue
-from umform.model.boundary import Control
+from umform.model.control import Control
 from umform.model.removal import put_supports, states_of_supports
 from umform.model.support import Support
 from umform.steps.loop import Run
@@ -74,8 +74,6 @@ class Freeing(Moving):
         model = run.model
         before = states_of_supports(model)
         load = model.remove(step.support)
-        model.evaluate(model.u)  # the first increment recovers with the blocks of this evaluation
-        run.history = model.block.state
         try:
             super().advance(run, step.move())
         finally:

@@ -6,8 +6,8 @@ import logging
 from collections.abc import Sequence
 
 from umform.errors import NoConvergence
-from umform.model.boundary import Control
 from umform.model.checks import diagnosis
+from umform.model.control import Control
 from umform.solution.augmentation import augmented
 from umform.solution.newton import Converged, Failed, Iteration
 from umform.solution.starts import equilibrium
@@ -25,10 +25,10 @@ def take_increment(
     for control, value in zip(controls, values, strict=True):
         control.value = float(value)
     model.time = time
-    u_before, history = model.u.copy(), model.block.state
+    x_before = model.x.copy()
     try:
         starts = dict(zip(controls, before, strict=True))
-        guess = None if extrapolation is None or run.last_du is None else extrapolation * run.last_du
+        guess = None if extrapolation is None or run.last_dx is None else extrapolation * run.last_dx
         converged = equilibrium(model, run.newton, starts, time_before, guess)
         try:
             converged = augmented(model, run.newton, converged)
@@ -41,8 +41,8 @@ def take_increment(
         model.time = time_before
         model.revert()
         raise
-    model.commit(converged.u)
-    run.last_du, run.history = model.u - u_before, history
+    model.commit(converged.evaluation)
+    run.last_dx, run.evaluation = model.x - x_before, converged.evaluation
     return converged
 
 

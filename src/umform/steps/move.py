@@ -11,7 +11,7 @@ from typing import Any, Self
 import numpy as np
 
 from umform.errors import InvalidValue, NotFinite
-from umform.model.boundary import Control
+from umform.model.control import Control
 from umform.solution.newton import Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run

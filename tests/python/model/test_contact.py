@@ -12,7 +12,7 @@ from umform import _core
 from umform import materials as mt
 from umform.errors import InvalidValue, NoConvergence, NotFinite, RigidBodyMotion
 from umform.mesh import strip
-from umform.model import Model, boundary
+from umform.model import Model, forces
 from umform.model.contact.pair import hat_functions
 from umform.results import fields
 from umform.run import solve
@@ -131,7 +131,7 @@ def test_a_flat_block_feels_penalty_times_penetration(build, cell, points, face)
     np.testing.assert_allclose(contact.resultant()[1], [-1.5 * sign * 0.75, 1.5 * sign, 0.0], atol=1e-13)
     assert f.reshape(-1, 3).sum(axis=0) == pytest.approx(contact.resultant()[0], abs=1e-13)
     if (cell, points) != ("hex18", 1):  # one point does not integrate the biquadratic functions of a face
-        expected = -boundary.traction_forces(mesh, face, (0.0, 0.0, 0.5 * sign))
+        expected = -forces.traction_forces(mesh, face, (0.0, 0.0, 0.5 * sign))
         np.testing.assert_allclose(f, expected, atol=1e-13)
 
 
@@ -144,7 +144,7 @@ def test_forces_of_uniform_pressure_are_consistent_on_distorted_faces(build, cel
     f = build.full_tangent(contact.block, len(mesh.points)).force(u)
     degree = 2 if cell == "hex8" else 5  # of N_a times the area
     if points == "nodes" or 2 * points - 1 >= degree:
-        np.testing.assert_allclose(f, -boundary.traction_forces(mesh, "lower", (0, 0, 1.0)), atol=1e-14)
+        np.testing.assert_allclose(f, -forces.traction_forces(mesh, "lower", (0, 0, 1.0)), atol=1e-14)
     assert f.sum() == pytest.approx(-3.0, rel=1e-13)
 
 

@@ -141,7 +141,7 @@ def test_an_increment_whose_passes_fail_is_taken_as_the_penalty_has_it(monkeypat
         raise Failed("no pass today", [])
 
     monkeypatch.setattr(Newton, "go_on", fail)
-    with caplog.at_level(logging.INFO, logger="umform.run.execute"):
+    with caplog.at_level(logging.INFO, logger="umform.steps"):
         held = bent(penalty=100.0, augmented=True, depth=1.0, steps=5)
     assert "no pass today in a pass of the multipliers" in caplog.text
     np.testing.assert_allclose(held.force, plain.force, rtol=1e-7)

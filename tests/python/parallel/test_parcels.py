@@ -13,7 +13,9 @@ from umform.deck import load
 from umform.deck.templates import template_file
 from umform.errors import InvalidValue
 from umform.mesh import strip
-from umform.model.boundary import Load, Prescribed, Pressure
+from umform.model.control import Prescribed
+from umform.model.dead_load import Load
+from umform.model.pressure import Pressure
 from umform.model.ties import MidLine
 from umform.parallel.cutting import Cutting
 from umform.parallel.outline import Outline

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "umform/algebra/lanes.hpp"
-#include "umform/assembly/csr.hpp"
+#include "umform/assembly/connectivity.hpp"
 
 namespace umform {
 
@@ -66,12 +66,17 @@ struct NodalResults {
     std::array<std::array<double, static_cast<std::size_t>(size) * size>, lane_count> K;
     std::array<std::array<double, size>, lane_count> f;
 
-    /// From mean m and director d of both faces: lower = m - d, upper = m + d, so that an entry of the faces with the signs s_i
-    /// and s_j is (mm + s_i dm + s_j dm^T + s_i s_j dd) / 4. eq. (2.38)
-    void set(const Lanes* Kmm, const Lanes* Kdm, const Lanes* Kdd, const Lanes* forces) {
+    /// From mean m and director d of both faces: lower = m - d, upper = m + d.
+    void set_forces(const Lanes* forces) {
         for (int i = 0; i < half; ++i) {
             store_force(lower(i), 0.5 * (forces[i] - forces[half + i]));
             store_force(lower(i) + face, 0.5 * (forces[i] + forces[half + i]));
+        }
+    }
+
+    /// An entry of the faces with the signs s_i and s_j is (mm + s_i dm + s_j dm^T + s_i s_j dd) / 4. eq. (2.38)
+    void set_tangent(const Lanes* Kmm, const Lanes* Kdm, const Lanes* Kdd) {
+        for (int i = 0; i < half; ++i)
             for (int j = i; j < half; ++j) {
                 const Lanes mm = 0.25 * Kmm[i * half + j], dd = 0.25 * Kdd[i * half + j];
                 const Lanes dm = 0.25 * Kdm[i * half + j], md = 0.25 * Kdm[j * half + i];
@@ -82,7 +87,6 @@ struct NodalResults {
                 const bool above = i / face < j / face;
                 store(above ? lower(i) + face : lower(j), above ? lower(j) : lower(i) + face, across + difference);
             }
-        }
     }
 
   private:

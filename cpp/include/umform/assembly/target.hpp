@@ -3,16 +3,19 @@
 
 #include <array>
 
-#include "umform/assembly/csr.hpp"
+#include "umform/assembly/scatter.hpp"
 
 namespace umform {
 
-/// Where a block adds its share. Arrays over all degrees of freedom, but `values` over the entries of the pattern.
+/// Where a block adds its share. Arrays over all degrees of freedom, but `values` over the entries of the pattern. Without
+/// `values` and `du` the residual is asked for only: the tangent costs nothing then.
 struct Target {
     double* f;                   // internal forces
-    double* values;              // tangent over the free degrees of freedom
+    double* values = nullptr;    // if given: tangent over the free degrees of freedom
     const double* du = nullptr;  // if given: increment of the prescribed degrees of freedom ...
     double* Kdu = nullptr;       // ... and K du
+
+    bool wants_tangent() const { return values != nullptr || du != nullptr; }
 };
 
 /// Outcome of `evaluate`: the first element whose strain left the domain of its law or whose
@@ -31,15 +34,17 @@ void gather(const Connectivity& part, int element, const double* field, double* 
         for (int k = 0; k < 3; ++k) local[k * Nodes + a] = field[3 * ids[a] + k];
 }
 
-/// Adds K, f (and K du of prescribed increments) of one element; K holds its upper triangle.
+/// Adds K, f (and K du of prescribed increments) of one element, as far as they are asked for. K holds its upper
+/// triangle, which is completed where that is needed, or all of a matrix that is not symmetric (`full`).
 template <int Nodes>
 void scatter_element(const Connectivity& part, const Scatter& scatter, int element, double* K, const double* f,
-                     const Target& target) {
+                     const Target& target, bool full = false) {
     constexpr int size = 3 * Nodes;
     const std::int32_t* ids = part[element];
     for (int a = 0; a < Nodes; ++a)
         for (int k = 0; k < 3; ++k) target.f[3 * ids[a] + k] += f[k * Nodes + a];
-    if (!scatter.symmetric || target.du != nullptr)
+    if (!target.wants_tangent()) return;
+    if (!full && (!scatter.symmetric || target.du != nullptr))
         for (int i = 0; i < size; ++i)
             for (int j = 0; j < i; ++j) K[i * size + j] = K[j * size + i];
     if (target.du != nullptr) {
@@ -52,7 +57,7 @@ void scatter_element(const Connectivity& part, const Scatter& scatter, int eleme
                 target.Kdu[3 * ids[a] + k] += sum;
             }
     }
-    scatter.add(element, K, target.values);
+    if (target.values != nullptr) scatter.add(element, K, target.values);
 }
 
 }  // namespace umform

@@ -1,6 +1,7 @@
-// Number of threads of all kernels, and the loop over colours that gives the same sums for any number of them.
+// Number of threads of all kernels, and loops that give the same bits for any number of them.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <exception>
@@ -12,11 +13,12 @@
 
 namespace umform {
 
-inline int& thread_count() {
+/// Number of threads of evaluations to come. An evaluation reads it once: another thread may change it at any time.
+inline std::atomic<int>& thread_count() {
 #ifdef _OPENMP
-    static int count = omp_get_max_threads();
+    static std::atomic<int> count{omp_get_max_threads()};
 #else
-    static int count = 1;
+    static std::atomic<int> count{1};
 #endif
     return count;
 }
@@ -29,35 +31,61 @@ inline int thread_index() {
 #endif
 }
 
-/// Calls work(element, thread) for every element, colour after colour. Small sets run on one thread: starting a team
-/// costs more than it brings. The first exception (a user's function may throw) ends the work and is thrown again outside
-/// of the team.
-template <class Work>
-void for_each_by_colour(const std::vector<std::vector<std::int32_t>>& colours, int size, const Work& work) {
-    constexpr int worth_a_team = 256;
-    [[maybe_unused]] const int threads = size < worth_a_team ? 1 : thread_count();
-    std::exception_ptr thrown;
-    std::atomic<bool> stopped{false};
-    const auto guarded = [&](std::int32_t element, int thread) {
-        if (stopped.load(std::memory_order_relaxed)) return;
+/// Keeps the first exception of a team (a user's function may throw), which ends the work and is thrown again outside of it.
+class FirstException {
+  public:
+    template <class Work>
+    void guard(const Work& work) {
+        if (stopped_.load(std::memory_order_relaxed)) return;
         try {
-            work(element, thread);
+            work();
         } catch (...) {
-            stopped = true;
+            stopped_ = true;
 #pragma omp critical
-            if (!thrown) thrown = std::current_exception();
+            if (!thrown_) thrown_ = std::current_exception();
         }
-    };
-#pragma omp parallel num_threads(threads) if (threads > 1)
+    }
+    void rethrow() const {
+        if (thrown_) std::rethrow_exception(thrown_);
+    }
+
+  private:
+    std::exception_ptr thrown_;
+    std::atomic<bool> stopped_{false};
+};
+
+/// Starting a team for fewer elements costs more than it brings.
+inline constexpr int worth_a_team = 256;
+
+/// Calls work(element, thread) for every element, colour after colour, on so many `threads`; thread < threads. Sets of a small
+/// `size` run on one.
+template <class Work>
+void for_each_by_colour(const std::vector<std::vector<std::int32_t>>& colours, int size, int threads,
+                        const Work& work) {
+    FirstException exception;
+    [[maybe_unused]] const int team = size < worth_a_team ? 1 : threads;
+#pragma omp parallel num_threads(team) if (team > 1)
     {
         const int thread = thread_index();
         for (const auto& colour : colours) {
             const int count = static_cast<int>(colour.size());
 #pragma omp for schedule(static)
-            for (int k = 0; k < count; ++k) guarded(colour[k], thread);
+            for (int k = 0; k < count; ++k) exception.guard([&] { work(colour[k], thread); });
         }
     }
-    if (thrown) std::rethrow_exception(thrown);
+    exception.rethrow();
+}
+
+/// Calls work(first, last) for the ranges that 0 .. count - 1 is cut into, whatever the number of threads.
+template <class Work>
+void for_each_range(int count, int threads, const Work& work) {
+    constexpr int length = 64;
+    FirstException exception;
+    [[maybe_unused]] const int team = count < worth_a_team ? 1 : threads;
+#pragma omp parallel for num_threads(team) if (team > 1) schedule(dynamic)
+    for (int first = 0; first < count; first += length)
+        exception.guard([&] { work(first, std::min(first + length, count)); });
+    exception.rethrow();
 }
 
 }  // namespace umform

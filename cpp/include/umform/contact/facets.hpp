@@ -2,6 +2,7 @@
 // area.
 #pragma once
 
+#include "umform/assembly/colours.hpp"
 #include "umform/assembly/target.hpp"
 #include "umform/assembly/threads.hpp"
 #include "umform/elements/kinematics.hpp"
@@ -136,14 +137,15 @@ class ContactBlockOf final : public ContactBlock {
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         locate(u);
         const int per_facet = static_cast<int>(N_.size());
-        for_each_by_colour(colours_, part_.size(), [&](int e, int) {
+        for_each_by_colour(colours_, part_.size(), thread_count(), [&](int e, int) {
             scale_[e] = 0.0;
             bool active = false;
             for (int q = 0; q < per_facet; ++q) active = active || shifted_gap(e * per_facet + q) <= 0.0;
             if (!active) return;
             alignas(64) std::array<double, static_cast<std::size_t>(size) * size> K{};
             std::array<double, size> f{};
-            for (int q = 0; q < per_facet; ++q) add_point(e * per_facet + q, N_[q], K.data(), f.data());
+            for (int q = 0; q < per_facet; ++q)
+                add_point(e * per_facet + q, N_[q], target.wants_tangent(), K.data(), f.data());
             for (const double value : f) scale_[e] += value * value;
             scatter_element<Nodes>(part_, scatter, e, K.data(), f.data(), target);
         });
@@ -212,13 +214,14 @@ class ContactBlockOf final : public ContactBlock {
                 H_[9 * q + 3 * i + j] = QH(i, 0) * Q(j, 0) + QH(i, 1) * Q(j, 1) + QH(i, 2) * Q(j, 2);
     }
 
-    void add_point(int q, const Values& N, double* K, double* f) const {
+    void add_point(int q, const Values& N, bool tangent, double* K, double* f) const {
         const double g = shifted_gap(q);
         if (g > 0.0) return;
         const double weight = penalty * area_[q];
         const double *n = n_.data() + 3 * q, *H = H_.data() + 9 * q;
         for (int k = 0; k < 3; ++k)
             for (int a = 0; a < Nodes; ++a) f[k * Nodes + a] += weight * g * n[k] * N[a];
+        if (!tangent) return;
         for (int k = 0; k < 3; ++k)
             for (int l = k; l < 3; ++l) {
                 const double stiffness = weight * (n[k] * n[l] + g * H[3 * k + l]);

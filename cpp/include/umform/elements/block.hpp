@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "umform/assembly/batch.hpp"
+#include "umform/assembly/colours.hpp"
+#include "umform/assembly/history.hpp"
 #include "umform/assembly/target.hpp"
 #include "umform/assembly/threads.hpp"
 #include "umform/elements/solid_shell.hpp"
@@ -21,7 +23,7 @@ struct PointFields {
 };
 
 /// The elements as Python sees them. `evaluate` is pure in the history: it reads the converged state and writes the
-/// trial state and the condensed blocks; `recover`, `commit` and `revert` are explicit.
+/// trial state and, with a tangent, the condensed blocks; `recover`, `commit` and `revert` are explicit.
 class ShellBlock {
   public:
     virtual ~ShellBlock() = default;
@@ -38,8 +40,9 @@ class ShellBlock {
     /// K, f of one element before its scatter, condensed; for tests and eigenvalues.
     virtual void element(int e, const double* u, double* K, double* f) = 0;
 
-    /// alpha -= Kaa^-1 (ra + s Kad du) with the blocks of the last `evaluate`. eq. (2.19) If `mixed`, the evaluations that
-    /// follow take the geometric stiffness from the stress that the correction s du foresaw. eq. (5.39)
+    /// alpha -= Kaa^-1 (ra + s Kad du) with the blocks of the last `evaluate` with a tangent; those without one leave the blocks
+    /// as they are. eq. (2.19) If `mixed`, the evaluations that follow take the geometric stiffness from the stress that the
+    /// correction s du foresaw. eq. (5.39)
     void recover(const double* du, double s, bool mixed) {
         alpha_before_ = alpha_;
         correction_.resize(mixed ? dofs() : 0);
@@ -53,29 +56,22 @@ class ShellBlock {
     }
 
     void commit() {
-        state_.swap(trial_);
-        trial_ = state_;
+        history_.commit();
         alpha_converged_ = alpha_;
         correction_.clear();
     }
     void revert() {
+        history_.revert();
         alpha_ = alpha_before_ = alpha_converged_;
         correction_.clear();
     }
 
-    const std::vector<double>& state() const { return state_; }
+    const std::vector<double>& state() const { return history_.state(); }
     /// For each point, whether the last `evaluate` has changed its history: 1 where the material flows.
-    std::vector<std::uint8_t> flowing() const {
-        const std::size_t size = state_size(), count = size > 0 ? state_.size() / size : 0;
-        std::vector<std::uint8_t> flows(count);
-        for (std::size_t q = 0; q < count; ++q)
-            flows[q] =
-                !std::equal(state_.begin() + q * size, state_.begin() + (q + 1) * size, trial_.begin() + q * size);
-        return flows;
-    }
+    std::vector<std::uint8_t> flowing() const { return history_.changed(); }
     const std::vector<double>& alpha() const { return alpha_converged_; }
     void restore(const double* state, const double* alpha) {
-        state_.assign(state, state + state_.size());
+        history_.restore(state, history_.state().size());
         alpha_converged_.assign(alpha, alpha + alpha_converged_.size());
         revert();
     }
@@ -84,7 +80,7 @@ class ShellBlock {
     virtual void recover_enhanced(const double* du, double s) = 0;
 
     std::vector<double> correction_;                              // of all degrees of freedom, or empty
-    std::vector<double> state_, trial_;                           // [element][point][state_size]
+    History history_;                                             // [element][point][state_size]
     std::vector<double> alpha_, alpha_before_, alpha_converged_;  // [element][mode]
 };
 
@@ -99,11 +95,8 @@ class ShellBlockOf final : public ShellBlock {
         : element_(technology, surface_points, thickness), material_(std::move(material)), part_(std::move(part)),
           X_(std::move(X)), batches_(make_colours(part_)) {
         const std::size_t elements = part_.size(), modes = element_.modes();
-        const int state_size = material_->state_size();
-        state_.resize(elements * element_.points() * state_size);
-        if (state_size > 0)
-            for (double* s = state_.data(); s != state_.data() + state_.size(); s += state_size) material_->initial(s);
-        trial_ = state_;
+        history_ = History(part_.size(), element_.points(), {{"state", material_->state_size()}});
+        history_.initialise([this](double* state) { material_->initial(state); });
         alpha_.assign(elements * modes, 0.0);
         alpha_before_ = alpha_converged_ = alpha_;
         y_.resize(batches_.all.size() * modes);
@@ -122,10 +115,12 @@ class ShellBlockOf final : public ShellBlock {
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         for_each_batch([&](int b, Workspace& w) {
             const Batch& batch = batches_.all[b];
-            const LaneMask good = compute(batch, u, correction_, trial_of(batch), w);
-            const std::size_t modes = element_.modes();
-            std::copy(w.shell.ra.begin(), w.shell.ra.end(), y_.begin() + b * modes);
-            std::copy(w.shell.Kad.begin(), w.shell.Kad.end(), Y_.begin() + b * modes * size);
+            const LaneMask good = compute(batch, u, target.wants_tangent(), correction_, trial_of(batch), w);
+            if (target.wants_tangent()) {
+                const std::size_t modes = element_.modes();
+                std::copy(w.shell.ra.begin(), w.shell.ra.end(), y_.begin() + b * modes);
+                std::copy(w.shell.Kad.begin(), w.shell.Kad.end(), Y_.begin() + b * modes * size);
+            }
             for (int lane = 0; lane < batch.count; ++lane) {
                 const int e = batch.element[lane];
                 failed_[e] = good[lane] ? 0 : 1;
@@ -160,11 +155,11 @@ class ShellBlockOf final : public ShellBlock {
     }
 
     void element(int e, const double* u, double* K, double* f) override {
-        prepare_workspaces();
+        prepare_workspaces(1);
         Workspace& w = workspaces_[0];
         const Batch batch = alone(e);
-        std::vector<double> scratch(trial_size());
-        if (!compute(batch, u, {}, filled(scratch.data()), w)[0])
+        std::vector<double> scratch(history_.stride());
+        if (!compute(batch, u, true, {}, filled(scratch.data()), w)[0])
             throw std::domain_error("the element is outside of the domain of its law, or Kaa is singular");
         for (int a = 0; a < Nodes; ++a)
             for (int k = 0; k < 3; ++k) {
@@ -179,9 +174,9 @@ class ShellBlockOf final : public ShellBlock {
     }
 
     void fields(const double* u, const PointFields& out) override {
-        prepare_workspaces();
+        prepare_workspaces(1);
         Workspace& w = workspaces_[0];
-        std::vector<double> scratch(trial_size());  // trial stays as it is
+        std::vector<double> scratch(history_.stride());  // trial stays as it is
         for (int e = 0; e < part_.size(); ++e) {
             const Batch batch = alone(e);
             if (!strains(batch, u, alpha_, w)[0] || !respond(batch, true, filled(scratch.data()), w)[0])
@@ -208,7 +203,7 @@ class ShellBlockOf final : public ShellBlock {
                 if (!valid[lane]) continue;
                 for (int q = 0; q < points(); ++q)
                     for (int p = 0; p < 6; ++p) w.E[q][p] = w.shell.E[q][p][lane];
-                material_->energy(points(), w.E.data(), state_.data() + first_state(e), w.energy.data());
+                material_->energy(points(), w.E.data(), history_.state(e), w.energy.data());
                 energy_[e] = {0.0, 0.0};
                 for (int q = 0; q < points(); ++q) {
                     energy_[e].elastic += w.energy[q].elastic * w.shell.dV[q][lane];
@@ -235,8 +230,8 @@ class ShellBlockOf final : public ShellBlock {
         std::vector<Energy> energy;  // [q]
     };
 
-    void prepare_workspaces() {
-        while (static_cast<int>(workspaces_.size()) < thread_count())
+    void prepare_workspaces(int threads) {
+        while (static_cast<int>(workspaces_.size()) < threads)
             workspaces_.push_back({element_.workspace(),
                                    {},
                                    {},
@@ -249,8 +244,10 @@ class ShellBlockOf final : public ShellBlock {
     /// Calls work(batch, workspace) for all batches, in parallel within a colour.
     template <class Work>
     void for_each_batch(const Work& work) {
-        prepare_workspaces();
-        for_each_by_colour(batches_.colours, part_.size(), [&](int b, int thread) { work(b, workspaces_[thread]); });
+        const int threads = thread_count();  // once: another thread may change it while this one works
+        prepare_workspaces(threads);
+        for_each_by_colour(batches_.colours, part_.size(), threads,
+                           [&](int b, int thread) { work(b, workspaces_[thread]); });
     }
 
     static Batch alone(int e) {
@@ -264,19 +261,16 @@ class ShellBlockOf final : public ShellBlock {
         return trials;
     }
 
-    /// Length of the history of an element, and where it begins in `state_` and `trial_`.
-    std::size_t trial_size() const { return static_cast<std::size_t>(points()) * material_->state_size(); }
-    std::size_t first_state(int e) const { return e * trial_size(); }
     LaneTrials trial_of(const Batch& batch) {
         LaneTrials trial;
-        for (int lane = 0; lane < lane_count; ++lane) trial[lane] = trial_.data() + first_state(batch.element[lane]);
+        for (int lane = 0; lane < lane_count; ++lane) trial[lane] = history_.trial(batch.element[lane]);
         return trial;
     }
 
     /// Asks the material at the points of the `wanted` elements; `trial` takes the new history.
     LaneMask respond(const Batch& batch, LaneMask wanted, const LaneTrials& trial, Workspace& w) const {
         LaneStates state;
-        for (int lane = 0; lane < lane_count; ++lane) state[lane] = state_.data() + first_state(batch.element[lane]);
+        for (int lane = 0; lane < lane_count; ++lane) state[lane] = history_.state(batch.element[lane]);
         return material_->respond(points(), wanted & batch.filled(), w.shell.E.data(), state, w.shell.S.data(),
                                   w.shell.CC.data(), trial);
     }
@@ -291,18 +285,20 @@ class ShellBlockOf final : public ShellBlock {
         return element_.strains(w.X, w.u, w.alpha.data(), w.shell);
     }
 
-    LaneMask compute(const Batch& batch, const double* u, const std::vector<double>& correction,
+    LaneMask compute(const Batch& batch, const double* u, bool tangent, const std::vector<double>& correction,
                      const LaneTrials& trial, Workspace& w) const {
         LaneMask good = strains(batch, u, alpha_, w);
         good = respond(batch, good, trial, w);
         if (!any(good)) return good;
-        if (!correction.empty()) {
+        const bool corrected = tangent && !correction.empty();  // only the geometric stiffness knows the correction
+        if (corrected) {
             gather<Nodes>(part_, batch, correction.data(), w.u);
             element_.quadratic_strains(w.u, w.shell);
         }
-        element_.integrate(!correction.empty(), w.shell);
-        good = good & element_.condense(w.shell);
-        w.results.set(w.shell.Kmm.data(), w.shell.Kdm.data(), w.shell.Kdd.data(), w.shell.f.data());
+        element_.integrate({tangent, corrected}, w.shell);
+        good = good & element_.condense(tangent, w.shell);
+        w.results.set_forces(w.shell.f.data());
+        if (tangent) w.results.set_tangent(w.shell.Kmm.data(), w.shell.Kdm.data(), w.shell.Kdd.data());
         return good;
     }
 

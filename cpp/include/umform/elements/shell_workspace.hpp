@@ -24,11 +24,13 @@ struct ShellWorkspace {
           moments(tables.places.size()), Kmm(half * half), Kdm(Kmm), Kdd(Kmm), Kaa(tables.modes * tables.modes),
           Kad(tables.modes * size), Kad_raw(Kad), ra(tables.modes) {}
 
-    /// Sets to zero what `SolidShell::integrate` adds to.
-    void clear() {
-        f.fill(0.0), geometry_mm.fill(0.0), geometry_dm.fill(0.0), geometry_dd.fill(0.0);
-        for (std::vector<Real>* sum : {&Kmm, &Kdm, &Kdd, &Kaa, &Kad, &ra})
-            std::fill(sum->begin(), sum->end(), Real(0.0));
+    /// Sets to zero what `SolidShell::integrate` adds to, with or without a tangent.
+    void clear(bool tangent) {
+        f.fill(0.0);
+        for (std::vector<Real>* sum : {&Kaa, &Kad, &ra}) std::fill(sum->begin(), sum->end(), Real(0.0));
+        if (!tangent) return;
+        geometry_mm.fill(0.0), geometry_dm.fill(0.0), geometry_dd.fill(0.0);
+        for (std::vector<Real>* sum : {&Kmm, &Kdm, &Kdd}) std::fill(sum->begin(), sum->end(), Real(0.0));
         for (auto& of_place : moments)
             for (auto& of_component : of_place) of_component.fill(0.0);
     }

@@ -15,6 +15,12 @@
 
 namespace umform {
 
+/// What `SolidShell::integrate` forms beside the residual.
+struct Wanted {
+    bool tangent;    // else what the residual of condensed elements needs, and nothing more
+    bool corrected;  // the geometric stiffness of the foreseen stress
+};
+
 template <int Nodes, class Real>
 class SolidShell : public ShellStrains<Nodes, Real> {
     using Strains = ShellStrains<Nodes, Real>;
@@ -35,10 +41,11 @@ class SolidShell : public ShellStrains<Nodes, Real> {
             if (tied_at_middle(row_order[p])) first_extra_ = 0;
     }
 
-    /// Residual f, tangent and the blocks of the enhanced parameters from S and CC. With the strains that `corrected` finds
-    /// quadratic in the last correction, the geometric stiffness takes the stress that this correction foresaw. eq. (5.39)
-    void integrate(bool corrected, Workspace& w) const {
-        w.clear();
+    /// Residual f, tangent and the blocks of the enhanced parameters from S and CC. With the strains that `quadratic_strains`
+    /// found in the last correction, the geometric stiffness takes the stress that this correction foresaw. eq. (5.39)
+    /// The residual has the same bits with and without a tangent.
+    void integrate(Wanted wanted, Workspace& w) const {
+        w.clear(wanted.tangent);
         mid_surface_rows(w);
         for (int layer = 0; layer < tables_.layers; ++layer) {
             const double t = tables_.t[layer];
@@ -47,31 +54,31 @@ class SolidShell : public ShellStrains<Nodes, Real> {
                 point_rows(p, t, w);
                 const int q = layer * tables_.surface + p;
                 if (first_extra_ == first_shear_row)
-                    integrate_point<first_shear_row>(q, p, t, corrected, w);
+                    integrate_point<first_shear_row>(q, p, t, wanted, w);
                 else
-                    integrate_point<0>(q, p, t, corrected, w);
+                    integrate_point<0>(q, p, t, wanted, w);
             }
-            add_layer(t, w);
+            if (wanted.tangent) add_layer(t, w);
         }
-        for (std::size_t k = 0; k < tables_.places.size(); ++k) add_geometry(static_cast<int>(k), w);
-        for (int k = 0; k < 3; ++k)
-            for (int a = 0; a < face; ++a)
-                for (int b = 0; b < face; ++b) {
-                    const int at = (k * face + a) * half + k * face + b, node = a * face + b;
-                    w.Kmm[at] += w.geometry_mm[node];
-                    w.Kdm[at] += w.geometry_dm[node];
-                    w.Kdd[at] += w.geometry_dd[node];
-                }
+        if (wanted.tangent) add_geometry(w);
     }
 
     /// Eliminates the enhanced parameters: K -= Kda Kaa^-1 Kad, f -= Kda Kaa^-1 ra. False where Kaa is singular.
-    /// eq. (2.18)
-    Mask<Real> condense(Workspace& w) const {
+    /// eq. (2.18) Without a tangent K and Kad stay as they are.
+    Mask<Real> condense(bool tangent, Workspace& w) const {
         if (tables_.modes == 0) return true;
         const Mask<Real> regular = factor_ldlt(w.Kaa.data(), tables_.modes);
         w.Kad_raw = w.Kad;
-        solve_ldlt(w.Kaa.data(), tables_.modes, w.Kad.data(), size);
         solve_ldlt(w.Kaa.data(), tables_.modes, w.ra.data(), 1);
+        for (int m = 0; m < tables_.modes; ++m)
+            for (int i = 0; i < size; ++i) w.f[i] -= w.Kad_raw[m * size + i] * w.ra[m];
+        if (tangent) condense_tangent(w);
+        return regular;
+    }
+
+  private:
+    void condense_tangent(Workspace& w) const {
+        solve_ldlt(w.Kaa.data(), tables_.modes, w.Kad.data(), size);
         const RowSet all{1, tables_.modes, 0, size};
         const Real *raw = w.Kad_raw.data(), *solved = w.Kad.data();
         const auto subtract = [](std::vector<Real>& K) {
@@ -80,12 +87,8 @@ class SolidShell : public ShellStrains<Nodes, Real> {
         transposed_product<half>(all, raw, solved, true, subtract(w.Kmm));
         transposed_product<half>(all, raw + half, solved, false, subtract(w.Kdm));
         transposed_product<half>(all, raw + half, solved + half, true, subtract(w.Kdd));
-        for (int m = 0; m < tables_.modes; ++m)
-            for (int i = 0; i < size; ++i) w.f[i] -= w.Kad_raw[m * size + i] * w.ra[m];
-        return regular;
     }
 
-  private:
     bool tied_at_middle(int component) const {
         return tables_.row_of[component] >= 0 && !tables_.rows[tables_.row_of[component]].at_layer;
     }
@@ -167,18 +170,21 @@ class SolidShell : public ShellStrains<Nodes, Real> {
     }
 
     template <int FirstExtra>
-    void integrate_point(int q, int point, double t, bool corrected, Workspace& w) const {
+    void integrate_point(int q, int point, double t, Wanted wanted, Workspace& w) const {
         Voigt S;
         Voigt66 C;
         convected(q, w, S, C);
-        gather_stress(point, t, corrected ? foreseen(S, C, w.bent[q]) : S, w);
+        if (wanted.tangent) gather_stress(point, t, wanted.corrected ? foreseen(S, C, w.bent[q]) : S, w);
 
         const int first = point * 6 * half;
         const Real *mean = w.B_mean.data() + first, *extra = w.B_extra.data() + first;
         Real *CB_mean = w.CB_mean.data() + first, *CB_extra = w.CB_extra.data() + first;
         add_force<FirstExtra>(S, t, mean, extra, w.f.data());
-        for (int p = 0; p < 6; p += 2) multiply<0, mean_rows, 2>(C.data() + p, mean, CB_mean + p * half);
-        for (int p = FirstExtra; p < 6; p += 3) multiply<FirstExtra, 6, 3>(C.data() + p, extra, CB_extra + p * half);
+        if (wanted.tangent) {
+            for (int p = 0; p < 6; p += 2) multiply<0, mean_rows, 2>(C.data() + p, mean, CB_mean + p * half);
+            for (int p = FirstExtra; p < 6; p += 3)
+                multiply<FirstExtra, 6, 3>(C.data() + p, extra, CB_extra + p * half);
+        }
         if (tables_.modes > 0) add_enhanced_blocks<FirstExtra>(q, t, S, C, mean, extra, w);
     }
 
@@ -257,9 +263,22 @@ class SolidShell : public ShellStrains<Nodes, Real> {
         }
     }
 
+    /// Geometric stiffness of all places, the same for the three directions.
+    void add_geometry(Workspace& w) const {
+        for (std::size_t k = 0; k < tables_.places.size(); ++k) add_geometry_of(static_cast<int>(k), w);
+        for (int k = 0; k < 3; ++k)
+            for (int a = 0; a < face; ++a)
+                for (int b = 0; b < face; ++b) {
+                    const int at = (k * face + a) * half + k * face + b, node = a * face + b;
+                    w.Kmm[at] += w.geometry_mm[node];
+                    w.Kdm[at] += w.geometry_dm[node];
+                    w.Kdd[at] += w.geometry_dd[node];
+                }
+    }
+
     /// Geometric stiffness of a place from its stress moments, once for all layers: int S^ij N_a,i N_b,j dV with the derivatives
     /// (N_,1, N_,2, 0) of the mean and (t N_,1, t N_,2, N) of the director. eqs. (2.5), (2.37)
-    void add_geometry(int index, Workspace& w) const {
+    void add_geometry_of(int index, Workspace& w) const {
         const auto& [N, N1, N2] = tables_.places[index].shape;
         const auto& moments = w.moments[index];
         const auto &s11 = moments[C11], &s22 = moments[C22], &s12 = moments[C12], &s13 = moments[C13],

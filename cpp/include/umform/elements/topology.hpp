@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 namespace umform {
 
@@ -29,9 +30,10 @@ inline FaceShape<4> quad4(double r, double s) {
 }
 
 inline FaceShape<9> quad9(double r, double s) {
-    // Lagrange polynomials on {-1, 0, 1} and their slopes.
-    const std::array<double, 3> Lr{0.5 * r * (r - 1), 1 - r * r, 0.5 * r * (r + 1)}, dLr{r - 0.5, -2 * r, r + 0.5};
-    const std::array<double, 3> Ls{0.5 * s * (s - 1), 1 - s * s, 0.5 * s * (s + 1)}, dLs{s - 0.5, -2 * s, s + 0.5};
+    // Lagrange polynomials on {-1, 0, 1} and their slopes; rounded once, so that all translation units have the same bits.
+    const double Nr = std::fma(-r, r, 1.0), Ns = std::fma(-s, s, 1.0);
+    const std::array<double, 3> Lr{0.5 * r * (r - 1), Nr, 0.5 * r * (r + 1)}, dLr{r - 0.5, -2 * r, r + 0.5};
+    const std::array<double, 3> Ls{0.5 * s * (s - 1), Ns, 0.5 * s * (s + 1)}, dLs{s - 0.5, -2 * s, s + 0.5};
     constexpr std::array<int, 9> ir{0, 2, 2, 0, 1, 2, 1, 0, 1}, is{0, 0, 2, 2, 0, 1, 2, 1, 1};
     FaceShape<9> shape{};
     for (int a = 0; a < 9; ++a) {

@@ -1,6 +1,7 @@
 // Follower pressure on element faces: its direction and area turn and stretch with the sheet.
 #pragma once
 
+#include "umform/assembly/colours.hpp"
 #include "umform/assembly/target.hpp"
 #include "umform/assembly/threads.hpp"
 #include "umform/elements/kinematics.hpp"
@@ -16,6 +17,8 @@ class PressureBlock {
     virtual std::size_t dofs() const = 0;  // length of u and f
     virtual Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) = 0;
     double pressure = 0.0;  // against the outward normal of the face
+    std::string name = "a follower pressure";
+    static constexpr bool symmetric = false;
 };
 
 /// Facets are numbered so that x,r x x,s points out of the body. f_a = p int N_a (x,r x x,s) dr ds as an internal force;
@@ -39,8 +42,8 @@ class PressureBlockOf final : public PressureBlock {
     std::size_t dofs() const override { return X_.size(); }
 
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
-        if (scatter.symmetric) throw std::invalid_argument("a follower pressure needs an unsymmetric pattern");
-        for_each_by_colour(colours_, part_.size(), [&](int e, int) { facet(e, u, scatter, target); });
+        if (target.values != nullptr) scatter.require(false, name);
+        for_each_by_colour(colours_, part_.size(), thread_count(), [&](int e, int) { facet(e, u, scatter, target); });
         Outcome outcome;
         for (const double scale : scale_) outcome.force_scale_squared += scale;
         return outcome;
@@ -62,6 +65,7 @@ class PressureBlockOf final : public PressureBlock {
             for (int a = 0; a < Nodes; ++a)
                 for (int k = 0; k < 3; ++k) {
                     f[k * Nodes + a] += p * shape.N[a] * normal[k];
+                    if (!target.wants_tangent()) continue;
                     // d(gr x gs) = -gs x du,r + gr x du,s
                     for (int b = 0; b < Nodes; ++b)
                         for (int l = 0; l < 3; ++l) {
@@ -76,17 +80,7 @@ class PressureBlockOf final : public PressureBlock {
         double sum = 0.0;
         for (const double value : f) sum += value * value;
         scale_[e] = sum;
-        const std::int32_t* ids = part_[e];
-        for (int a = 0; a < Nodes; ++a)
-            for (int k = 0; k < 3; ++k) target.f[3 * ids[a] + k] += f[k * Nodes + a];
-        if (target.du != nullptr) {
-            std::array<double, size> du;
-            gather<Nodes>(part_, e, target.du, du.data());
-            for (int a = 0; a < Nodes; ++a)
-                for (int k = 0; k < 3; ++k)
-                    for (int j = 0; j < size; ++j) target.Kdu[3 * ids[a] + k] += K[(k * Nodes + a) * size + j] * du[j];
-        }
-        scatter.add(e, K.data(), target.values);
+        scatter_element<Nodes>(part_, scatter, e, K.data(), f.data(), target, !symmetric);
     }
 
     Connectivity part_;

@@ -1,8 +1,10 @@
-"""Whether mesh, element and hardening curve can follow the bends that the tools ask for.
+"""Whether mesh, element, hardening curve, contact points and increments are fine enough for what the tools ask for.
 
 A sheet of thickness h on a radius R strains by h / (2 R + h) at its surfaces. Rules of thumb: an element should span
 some 10 degrees of the smallest radius, twice as much if it is curved itself, and the false moment of sharp-bend locking
-should stay below a few per cent of the plastic one (docs/theory, section 2.8).
+should stay below a few per cent of the plastic one (docs/theory, section 2.8). An increment of more than half a
+thickness may jump over contact; a facet with fewer contact points than its order asks for lets the force climb in stairs
+(docs/theory, section 4.5).
 """
 
 from __future__ import annotations
@@ -12,10 +14,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from umform.deck.controls import Displacement, Drive, MidLine
 from umform.deck.deck import Deck
 from umform.deck.findings import Finding, ok, warning
 from umform.deck.problem import Problem
+from umform.deck.steps import Move
 from umform.deck.tools import ToolPart, along, smallest_radius
+from umform.deck.units import first_yield
 from umform.elements.technology import Element
 from umform.materials import J2, Table
 from umform.model import Model
@@ -30,9 +35,20 @@ _LOCKING = 0.05
 _HIGHEST, _FOR_BENDS = 4, {"hex8": "BEND8", "hex18": "BEND18"}
 #: Points through the thickness that plastic bending needs, and sharp bends (strain above 0.1).
 _POINTS, _SHARP_POINTS, _SHARP = 5, 7, 0.1
+#: Way in an increment, in thicknesses.
+_WAY = 0.5
+#: Contact points per direction of a facet with 4 and with 9 nodes.
+_LEAST = {4: 2, 9: 3}
 
 
-def look(deck: Deck, problem: Problem) -> Iterator[Finding]:
+def resolution(deck: Deck, problem: Problem) -> Iterator[Finding]:
+    """Elements and thickness against the radii of the tools, contact points, increments."""
+    yield from bends(deck, problem)
+    yield from contact_points(problem)
+    yield from ways(deck, problem)
+
+
+def bends(deck: Deck, problem: Problem) -> Iterator[Finding]:
     """Element sizes on all tools, and the thickness on the sharpest one."""
     h = sheet_thickness(problem.model.mesh)
     sharpest: tuple[float, str] | None = None
@@ -116,11 +132,6 @@ def layers_of(model: Model, h: float) -> int:
     return max(1, round(h / float(np.median(np.linalg.norm(upper - lower, axis=-1)))))
 
 
-def first_yield(material: J2) -> float:
-    """Yield stress of the virgin material."""
-    return material.hardening.curve()(0.0)[0]
-
-
 def locking_moment(order: int, strain: float, stiffness: float, layers: int = 1) -> float:
     """False moment of sharp-bend locking over the plastic moment, eq. (2.29).
 
@@ -138,3 +149,39 @@ def locking_moment(order: int, strain: float, stiffness: float, layers: int = 1)
     m = order + 1
     beta = (m + 1) / 2 * 2.0**m * math.factorial(m) ** 2 / math.factorial(2 * m)
     return math.sqrt(3.0) * m * beta**2 / (2 * m + 1) * stiffness * strain ** (2 * m - 1) / float(layers) ** (2 * m)
+
+
+def contact_points(problem: Problem) -> Iterator[Finding]:
+    """Contact points of all contacts against the order of their facets."""
+    for name, contact in problem.contacts.items():
+        least = _LEAST[contact.facets.shape[1]]
+        if isinstance(contact.points, str) or contact.points < least:
+            points = "at the nodes only" if isinstance(contact.points, str) else f"{contact.points} x {contact.points}"
+            text = f"contact points {points}: the force climbs in stairs where the sheet slides"
+            yield warning(f"contact {name}", text, f"points = {least} or more, or auto")
+
+
+def ways(deck: Deck, problem: Problem) -> Iterator[Finding]:
+    """How far the controls that are lengths go, in all and in one increment."""
+    mesh = problem.model.mesh
+    thickness, span = sheet_thickness(mesh), float(np.ptp(mesh.points, axis=0).max())
+    stands = dict.fromkeys(deck.contents.controls, 0.0)
+    for number, step in enumerate(deck.contents.steps):
+        about = f"step {number + 1}"
+        if not isinstance(step, Move):  # where it ends is not known
+            for name in [step.control] if step.kind == "release" else step.to:
+                stands[name] = np.nan
+            continue
+        for name, to in step.to.items():
+            way, stands[name] = abs(to - stands[name]), to
+            if not isinstance(deck.contents.controls[name], Displacement | MidLine | Drive) or not np.isfinite(way):
+                continue
+            part = way / step.increments
+            text = f"{name} moves by {way:.4g}, {part:.3g} in an increment"
+            if way > span:
+                yield warning(about, f"{text}: farther than the sheet is long", "check the units and the target")
+            elif problem.contacts and part > _WAY * thickness:
+                least = int(np.ceil(way / (_WAY * thickness)))
+                yield warning(about, f"{text}: {part / thickness:.3g} thicknesses", f"increments = {least} or more")
+            else:
+                yield ok(about, text)

@@ -1,4 +1,4 @@
-"""A look at the physics of a problem before it is solved: motions, gaps, element sizes, thickness, units, effort."""
+"""What is checked of a problem before it is solved: supports, gaps, units, element sizes, thickness, effort."""
 
 from __future__ import annotations
 
@@ -7,34 +7,31 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from umform.deck import bends, fineness
 from umform.deck.contents import Contents
 from umform.deck.deck import Deck
 from umform.deck.findings import Finding, error, ok, warning
 from umform.deck.material import FromLibrary
 from umform.deck.problem import Problem
 from umform.deck.references import references
+from umform.deck.resolution import resolution
+from umform.deck.units import units
 from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallowsSheet
-from umform.materials import J2, Elastic
 from umform.mesh.quality import jacobians
 from umform.model import Model
 from umform.model.contact.encounter import sheet_thickness
 from umform.solution.newton import Newton
 
-#: An overlap of more than this part of the thickness at the start sends a jolt through the sheet.
-_OVERLAP = 0.02
+#: An overlap of more than this part of the thickness at the start sends a jolt through the sheet; of more than the
+#: second, the tool is not where it was meant to be.
+_OVERLAP, _DEEP = 0.02, 0.2
 #: Iterations of an increment, on an average.
 _ITERATIONS = 4
 #: Smallest Jacobian of a cell over its largest one.
 _DISTORTED = 0.2
-#: A penalty stiffer than the sheet across its thickness by more than this spoils the condition of the tangent.
-_STIFF = 100.0
-#: Strain at first yield of sheet metals, with some room on both sides.
-_YIELD_STRAIN = (1e-4, 3e-2)
 
 
-def look(deck: Deck, problem: Problem) -> Iterator[Finding]:
-    """Look at a problem without solving it.
+def check(deck: Deck, problem: Problem) -> Iterator[Finding]:
+    """Check a problem without solving it.
 
     Parameters
     ----------
@@ -46,24 +43,41 @@ def look(deck: Deck, problem: Problem) -> Iterator[Finding]:
     Yields
     ------
     Finding
-        Errors first refuse what `umform.solve` would refuse; warnings are rules of thumb.
+        Errors are what `umform.solve` would refuse, and what cannot be meant; warnings are rules of thumb.
     """
     with np.errstate(all="ignore"):
-        yield mesh(problem.model)
-        yield motions(problem.model)
-        yield from gaps(problem)
-        yield from bends.look(deck, problem)
-        yield from fineness.look(deck, problem)
-        yield from units(problem.model, deck.contents)
-        yield from idle(deck)
+        yield supports(problem.model)
+        yield from before_run(deck, problem)
         yield effort(deck.contents, problem)
+
+
+def before_run(deck: Deck, problem: Problem) -> Iterator[Finding]:
+    """All of :func:`check` but what takes time, and the supports, which `umform.solve` checks itself."""
+    with np.errstate(all="ignore"):
+        yield from of_model(problem.model, millimetres=isinstance(deck.contents.material, FromLibrary))
+        yield from resolution(deck, problem)
+        yield from idle(deck)
+
+
+def of_model(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
+    """Mesh, gaps and units of a model, wherever it comes from.
+
+    Parameters
+    ----------
+    model : Model
+        The model; it is left as it was.
+    millimetres : bool
+        Units are known to be mm, N and MPa.
+    """
+    yield mesh(model)
+    yield from gaps(model)
+    yield from units(model, millimetres=millimetres)
 
 
 def mesh(model: Model) -> Finding:
     """Size of the model, and its most distorted cell."""
     points, cells = model.mesh.points, model.mesh.connectivity
-    sizes = " x ".join(f"{size:.4g}" for size in np.ptp(points, axis=0))
-    text = f"{len(cells)} {model.mesh.cell}, {len(points)} nodes, {model.pattern.n} unknowns; the sheet spans {sizes}"
+    text = f"{len(cells)} {model.mesh.cell}, {len(points)} nodes, {model.unknown_count} unknowns"
     J = jacobians(points, cells)
     ratios = J.min(axis=1) / J.max(axis=1)
     worst = int(np.argmin(ratios))
@@ -73,7 +87,7 @@ def mesh(model: Model) -> Finding:
     return warning("mesh", text, "cells nearer to parallelograms, mid-side nodes nearer to the middle")
 
 
-def motions(model: Model) -> Finding:
+def supports(model: Model) -> Finding:
     """Whether supports and tools leave a rigid-body motion free, or a tool swallows the sheet."""
     try:
         model.check()
@@ -83,15 +97,12 @@ def motions(model: Model) -> Finding:
     return ok("supports", "no rigid-body motion is free")
 
 
-def gaps(problem: Problem) -> Iterator[Finding]:
+def gaps(model: Model) -> Iterator[Finding]:
     """Gap or overlap of each contact pair at the start."""
-    model = problem.model
-    thickness = sheet_thickness(model.mesh)
-    for name, contact in problem.contacts.items():
-        contact.place(model.time)
-        contact.block.locate(model.u)
-        gap = contact.at_points().gap
-        about = f"contact {name}"
+    thickness, size = sheet_thickness(model.mesh), float(np.ptp(model.mesh.points, axis=0).max())
+    for contact in model.contacts:
+        gap = contact.locate(model.u, contact.pose).gap
+        about = f"contact {contact.name}"
         if not np.isfinite(gap).all():
             remedy = "move the tool so that it just touches the sheet"
             yield error(about, "a contact point lies on the axis or the centre of the tool", remedy)
@@ -101,39 +112,14 @@ def gaps(problem: Problem) -> Iterator[Finding]:
             f"gap {deepest:.4g}" if deepest > 0 else f"{inside} of {gap.size} points touch, overlap {abs(deepest):.4g}"
         )
         if deepest < -_OVERLAP * thickness:
+            found = error if deepest < -_DEEP * thickness else warning
             remedy = "move the tool out of the sheet; an overlap is pressed out in the first increment"
-            yield warning(about, f"{text}: {-100 * deepest / thickness:.3g} % of the thickness", remedy)
-        elif deepest > float(np.ptp(model.mesh.points, axis=0).max()):
-            remedy = "look at the place of the tool and at the units"
+            yield found(about, f"{text}: {-100 * deepest / thickness:.3g} % of the thickness", remedy)
+        elif deepest > size:
+            remedy = "check the place of the tool and the units"
             yield warning(about, f"{text}: farther away than the sheet is long", remedy)
         else:
             yield ok(about, text)
-
-
-def units(model: Model, contents: Contents) -> Iterator[Finding]:
-    """Whether stiffness, lengths, yield stress and penalties are in the same units, as far as metals tell."""
-    material: object = model.material
-    if not isinstance(material, Elastic):
-        return
-    length, thickness = float(np.ptp(model.mesh.points, axis=0).max()), sheet_thickness(model.mesh)
-    text = f"E = {material.E:.4g}, thickness {thickness:.4g}, length {length:.4g}"
-    if material.E > 1e9 and length > 1.0:
-        yield warning("units", f"{text}: Pa with mm?", "with mm and N stresses are in MPa: E of steel is 210e3")
-    elif 1e3 < material.E < 1e7 and length < 0.05 and not isinstance(contents.material, FromLibrary):
-        yield warning("units", f"{text}: MPa with m?", "with m and N stresses are in Pa: E of steel is 210e9")
-    else:
-        yield ok("units", text)
-    if isinstance(material, J2):
-        first = bends.first_yield(material)
-        strain, (low, high) = first / material.E, _YIELD_STRAIN
-        if not low <= strain <= high:
-            remedy = "give yield stress and elastic constants in one unit"
-            yield warning("units", f"first yield at a strain of {strain:.3g}: yield stress {first:.4g}", remedy)
-    for contact in model.contacts:
-        ratio = contact.penalty * thickness / material.E
-        if ratio > _STIFF:
-            remedy = "a softer penalty: expected pressure / penetration that you allow"
-            yield warning(f"contact {contact.name}", f"the penalty is {ratio:.3g} times E / thickness", remedy)
 
 
 def idle(deck: Deck) -> Iterator[Finding]:
@@ -156,7 +142,7 @@ def effort(contents: Contents, problem: Problem) -> Finding:
         seconds = np.inf
         for _ in range(2):  # the first one is slow: memory is new, and libraries wake up
             start = clock.perf_counter()
-            solver.factor(model.evaluate(model.u).values)
+            solver.factor(model.evaluate(model.x))
             seconds = min(seconds, clock.perf_counter() - start)
     except (SingularMatrix, NotFinite) as refusal:
         remedy = "let tools touch the sheet at the start, or hold it"
@@ -165,7 +151,7 @@ def effort(contents: Contents, problem: Problem) -> Finding:
         model.revert()
     increments = sum(step.expected for step in contents.steps)
     text = (
-        f"about {increments} increments; {1e3 * seconds:.3g} ms an iteration with {solver.name}: "
+        f"about {increments} increments; {1e3 * seconds:.3g} ms an iteration with {solver.solver.name}: "
         f"about {_spell(seconds * increments * _ITERATIONS)}"
     )
     return ok("effort", text)

@@ -1,9 +1,8 @@
-"""Supports and loads: controls that a step moves, and consistent nodal forces of dead loads."""
+"""Consistent nodal forces of dead loads, and the rigid-body modes of points."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,47 +15,6 @@ Floats = NDArray[np.float64]
 Ids = NDArray[np.int32]
 
 DIRECTIONS = {"x": 0, "y": 1, "z": 2}
-
-
-@dataclass(eq=False)
-class Control:
-    """Something with one value that a step can move: a prescribed displacement, a load factor, a tool.
-
-    Attributes
-    ----------
-    name : str
-        Column of the history; the conjugate force is ``<name>_force``.
-    value : float
-        Present value: displacement or factor.
-    """
-
-    name: str
-    value: float = 0.0
-
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.name!r}, value={self.value:g})"
-
-
-@dataclass(eq=False, repr=False)
-class Prescribed(Control):
-    """Displacement of nodes in one direction; its force is the sum of the reactions on the sheet."""
-
-    dofs: Ids = field(default_factory=lambda: np.empty(0, dtype=np.int32))
-
-
-@dataclass(eq=False, repr=False)
-class Load(Control):
-    """A dead load: the factor ``value`` times a fixed vector of nodal forces."""
-
-    vector: Floats = field(default_factory=lambda: np.empty(0))
-
-
-@dataclass(eq=False, repr=False)
-class Pressure(Control):
-    """A follower pressure ``value`` against the outward normal of faces, rows (cell, face)."""
-
-    block: _core.PressureBlock | None = None
-    faces: Ids = field(default_factory=lambda: np.empty((0, 2), dtype=np.int32))
 
 
 def vector3(values: ArrayLike, where: str) -> Floats:

@@ -4,23 +4,12 @@ import numpy as np
 import pytest
 
 from umform.deck import Deck, deck_of
-from umform.deck.bends import locking_moment
+from umform.deck.resolution import locking_moment
 from umform.deck.findings import Level
-from umform.deck.look import look
+from umform.deck.check import check
 from umform.mesh import strip as strip_mesh
 from umform.model.contact.encounter import sheet_thickness
 from umform.processes.air_bending import AirBending
-
-
-@pytest.fixture
-def found():
-    """Findings of a text about something."""
-
-    def looked(text, about, **changes):
-        deck = Deck.read(text, changes={key.replace("__", "."): value for key, value in changes.items()})
-        return [finding for finding in look(deck, deck.build()) if finding.about == about]
-
-    return looked
 
 
 def levels(findings):
@@ -45,6 +34,9 @@ def test_gaps(texts, found):
     deeper = found(text.replace("-20.5]", "-20.4]"), "contact cylinder")[0]
     assert deeper.level is Level.WARNING
     assert "overlap 0.09" in deeper.text
+    half = found(text.replace("-20.5]", "-20.01]"), "contact cylinder")[0]
+    assert half.level is Level.ERROR
+    assert "48.3 % of the thickness" in half.text  # at the contact points
     away = found(text.replace("-20.5]", "-420.5]"), "contact cylinder")[0]
     assert away.level is Level.WARNING
     assert "gap 400" in away.text
@@ -73,7 +65,7 @@ def test_element_size_on_the_smallest_radius(texts, found):
 
 def test_the_default_bend_passes():
     deck = Deck.read(deck_of(AirBending(stroke=6.0)))
-    assert {finding.level for finding in look(deck, deck.build())} == {Level.OK}
+    assert {finding.level for finding in check(deck, deck.build())} == {Level.OK}
 
 
 def test_element_size_is_measured_across_the_tool(texts, found):
@@ -164,7 +156,7 @@ def test_distorted_cells(strip, found, tmp_path):
     deck = Deck.read(head + lines + tail[tail.index("[material]") :])
     problem = deck.build()
     problem.model.mesh.points[:2, 0] += 4.5
-    (bad,) = [finding for finding in look(deck, problem) if finding.about == "mesh"]
+    (bad,) = [finding for finding in check(deck, problem) if finding.about == "mesh"]
     assert bad.level is Level.WARNING
     assert "cell 0" in bad.text
 
@@ -192,21 +184,6 @@ def test_locking_moment_is_that_of_the_theory():
 
 def test_thickness_of_stacked_layers():
     assert sheet_thickness(strip_mesh(4.0, 1.0, 0.6, (3, 1), layers=3)) == pytest.approx(0.6)
-
-
-def test_units(strip, texts, found):
-    assert levels(found(strip, "units")) == OK
-    (pascal,) = found(strip, "units", material__E=210e9)
-    assert pascal.level is Level.WARNING
-    assert "Pa with mm" in pascal.text
-    small = {"mesh__length": 0.01, "mesh__width": 0.002, "mesh__thickness": 0.001}
-    (metres,) = found(strip, "units", **small)
-    assert "MPa with m?" in metres.text
-    assert levels(found(strip, "units", material__E=210e9, **small)) == OK
-    mixed = found(texts("free-bending"), "units", material__hardening__yield_stress=160e6)
-    assert levels(mixed) == [Level.OK, Level.WARNING]
-    stiff = found(texts("free-bending"), "contact cylinder", contacts__cylinder__penalty=1e9)
-    assert Level.WARNING in levels(stiff)
 
 
 def test_idle_tools_and_controls(texts, found):
