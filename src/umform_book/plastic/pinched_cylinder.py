@@ -159,8 +159,7 @@ intervals and 60 increments, given in the table below. 24 and 32 intervals of th
 of the last force away from it; if errors fall with the square of the mesh size, it is itself up to {100 * UNCERTAINTY:g} %
 off its limit. With both faces of the ends held in their plane, which is no diaphragm of a shell, its last force is
 2681 instead of 2565. Increments add to it: with 16 intervals, 120 increments instead of 48 change the force by up to
-INCR %. The
-curve of each mesh has waves of its own, as one row of cells after the other snaps into the fold.
+3 %. The curve of each mesh has waves of its own, as one row of cells after the other snaps into the fold.
 """,
     own="48 x 48 intervals of MI9K3DEAS with E_33 tied, umform itself; no numbers are published",
     run=run,
