@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 
-from umform.deck.source import DeckError
+from umform.deck.errors import DeckError
 from umform.errors import InvalidValue
 
 

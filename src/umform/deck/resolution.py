@@ -3,8 +3,8 @@
 A sheet of thickness h on a radius R strains by h / (2 R + h) at its surfaces. Rules of thumb: an element should span
 some 10 degrees of the smallest radius, twice as much if it is curved itself, and the false moment of sharp-bend locking
 should stay below a few per cent of the plastic one (docs/theory, section 2.8). An increment of more than half a
-thickness may jump over contact; a facet with fewer contact points than its order asks for lets the force climb in stairs
-(docs/theory, section 4.5).
+thickness may jump over contact; a facet with fewer contact points than its order asks for lets the force climb in
+stairs (docs/theory, section 4.5).
 """
 
 from __future__ import annotations

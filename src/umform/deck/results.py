@@ -38,7 +38,9 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging) -> list[
         draw_curve(problem, result, waiting / "curve.png")
         draw_shape(result, waiting / "shape.png")
     if wanted.report:
-        result.report(waiting / "report.html", deck=text)
+        from umform.report.page import write_report
+
+        write_report(result, waiting / "report.html", deck=text, title=deck.contents.title)
     return [*files, *stage.commit(["report.html", "curve.png", "shape.png"])]
 
 

@@ -1,8 +1,8 @@
 """Whether stresses, strains and lengths are in units that go together.
 
-umform knows no units, so all bounds are on ratios: first yield as a strain, the width over the thickness. Only a sheet
-metal of the library, and ``umform bend``, fix them to mm and MPa. What no metal sheet comes near to is an error, what is
-unusual a warning.
+umform knows no units, so all bounds are on ratios: first yield as a strain, the width over the thickness. Only a
+sheet metal of the library, and ``umform bend``, fix them to mm and MPa. What no metal sheet comes near to is an error,
+what is unusual a warning.
 """
 
 from __future__ import annotations

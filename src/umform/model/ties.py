@@ -7,7 +7,7 @@ may rotate about it. docs/theory, 5.10
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,16 +15,14 @@ from numpy.typing import NDArray
 from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh, Selector
 from umform.model.constraints import Rows
-from umform.model.control import Control
+from umform.model.control import OnDofs
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(eq=False, repr=False)
-class MidLine(Control):
+class MidLine(OnDofs):
     """Displacement of the mid-line of an edge in one direction; its force is the sum of the reactions on the sheet."""
-
-    dofs: Ids = field(default_factory=lambda: np.empty(0, dtype=np.int32))
 
 
 @dataclass(frozen=True)

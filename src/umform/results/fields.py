@@ -93,6 +93,14 @@ def point_fields(model: Model) -> PointFields:
     return PointFields(E, S, frame, F, volume, eqps)
 
 
+def von_mises(stress: Floats) -> Floats:
+    """Von Mises stress (...) of stresses (..., 6), Voigt order 11 22 33 12 23 13."""
+    normal, shear = stress[..., :3], stress[..., 3:]
+    differences = normal - np.roll(normal, 1, axis=-1)
+    size: Floats = np.sqrt(0.5 * (differences**2).sum(axis=-1) + 3.0 * (shear**2).sum(axis=-1))
+    return size
+
+
 def thickness(model: Model) -> Floats:
     """Thickness of the sheet at the nodes: distance of lower and upper node along the mid-surface normal, per layer.
 

@@ -143,11 +143,13 @@ class History:
     def _frame(self, evaluation: Evaluation) -> Frame:
         model, residual = self.model, evaluation.residual[: self.model.u.size]
         at = fields.point_fields(model)
+        local = at.stress("cauchy", "local")
         cells = {
             "stress_cauchy": at.cell_average(at.stress("cauchy", "global")),
-            "stress_cauchy_local": at.cell_average(at.stress("cauchy", "local")),
+            "stress_cauchy_local": at.cell_average(local),
             "stress_pk2": at.cell_average(at.stress("pk2", "global")),
             "stress_pk2_local": at.cell_average(at.stress("pk2", "local")),
+            "stress_von_mises": fields.von_mises(local).max(axis=1),
         }
         if at.eqps is not None:
             cells |= {"plastic_strain_mean": at.cell_average(at.eqps), "plastic_strain_max": at.eqps.max(axis=1)}

@@ -1,7 +1,7 @@
 """Orders of the equations that make the band of a symmetric matrix narrow.
 
-Reverse Cuthill-McKee, that of SciPy, finds the ends of a strip; moving each equation to the middle of its neighbours then
-takes an eighth to a quarter off the bandwidth.
+Reverse Cuthill-McKee, that of SciPy, finds the ends of a strip; moving each equation to the middle of its neighbours
+then takes an eighth to a quarter off the bandwidth.
 """
 
 from __future__ import annotations

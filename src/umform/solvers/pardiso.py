@@ -54,7 +54,7 @@ _CAUSES = {
 }
 # From so many equations on blocks are worth it: below, Cholesky factors take a few per cent less than those of blocks.
 _LARGE = 100_000
-# Below so many equations one thread: two gain up to 20 ms there, and on a busy machine take 2 to 5 times as long as one.
+# Below so many equations one thread: two gain up to 20 ms there, and take 2 to 5 times as long on a busy machine.
 _SMALL = 25_000
 
 
@@ -86,7 +86,7 @@ class Pardiso:
         with mkl.threads(self._threads):
             self._factorise()
             handle = self._handle
-            # PARDISO does not always give the pivots of unsymmetric matrices; there the residual of each solve is checked.
+            # Pivots of unsymmetric matrices are not always given; there the residual of each solve is checked.
             weakest = vanishing_pivot(*handle.pivots()) if self._pattern.symmetric else None
         if weakest is not None or handle.perturbed_pivots:
             raise singular(self.name, None if weakest is None else handle.equation(weakest))

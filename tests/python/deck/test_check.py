@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from umform.deck import Deck, deck_of
-from umform.deck.resolution import locking_moment
-from umform.deck.findings import Level
 from umform.deck.check import check
+from umform.deck.findings import Level
+from umform.deck.resolution import locking_moment
 from umform.mesh import strip as strip_mesh
 from umform.model.contact.encounter import sheet_thickness
 from umform.processes.air_bending import AirBending

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from umform.deck import Deck, deck_of, load
-from umform.deck.findings import Level
 from umform.deck.check import check
+from umform.deck.findings import Level
 from umform.deck.templates import template, template_file, templates, write_template
 from umform.errors import InvalidValue
 from umform.processes import FreeBending, free_bending

@@ -174,3 +174,19 @@ def test_a_bend_of_small_angles_is_smooth():
     quads = np.array([[2 * i, 2 * i + 1, 2 * i + 3, 2 * i + 2] for i in range(6)])
     assert smooth_groups(arc, quads).max() + 1 == len(arc)
     assert smooth_groups(arc[[0, 1, 12, 13, 6, 7]], np.array([[0, 1, 3, 2], [2, 3, 5, 4]])).max() + 1 == 8
+
+
+def test_a_tool_of_one_side_gets_an_image_and_one_of_both_a_larger_picture():
+    model = uf.Model(uf.mesh.strip(8, 4, 0.5, (4, 2)), "ANS3DEAS", material=uf.SVK(E=1000.0, nu=0.3))
+    model.symmetry("x0", "x")
+    model.fix([0], "y")
+    model.contact("lower", uf.Cylinder((5, 0, -2.25), "y", 2.0), penalty=10.0, name="bar")
+    model.contact("upper", uf.Plane((0, 0, 0.3), "-z"), penalty=10.0, name="lid")
+    push = model.prescribe("x0_lower", "z", name="push")
+    result = uf.solve(model, uf.Move(push, to=-0.5, steps=2), progress=False, frames=5)
+    head, arrays = unpacked(scene_of(result).data)
+    assert head["mirrors"] == [{"axis": 0, "at": 0.0}]
+    assert dict(zip(head["tools"], head["toolMirrors"], strict=True)) == {"bar": [0], "lid": []}
+    bar, lid = (arrays[f"tool {n} points"].reshape(-1, 3)[:, 0] for n in (0, 1))
+    assert bar.min() > 0.0
+    assert lid.min() == pytest.approx(-lid.max())

@@ -11,6 +11,7 @@ from typing import Any
 
 from umform.elements import element
 from umform.errors import InvalidValue
+from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.budget import Budget
 from umform.processes.air_bending.case import AirBend
@@ -19,7 +20,6 @@ from umform.processes.air_bending.formulas import shop_forces, tensile_strength
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.words import columns
-from umform.io.staging import staging
 from umform.report.versions import versions
 
 _DATA = ("curve.csv", "table.csv", "bend.json", "bend.vtkhdf", "bend.toml")

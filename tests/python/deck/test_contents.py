@@ -1,7 +1,7 @@
 import json
 from pathlib import Path
 
-from umform.deck.schema import json_schema
+from umform.deck.contents import json_schema
 
 PAGE = Path(__file__).parents[3] / "docs" / "deck-schema.json"
 
