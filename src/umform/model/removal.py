@@ -1,7 +1,7 @@
 """Take supports and tools away from a model; the forces that they exerted become a dead load, which may then fade.
 
 The load is what equilibrium asks for over the new unknowns, T T^T r with the residual r of the model without what was
-removed: its columns are orthonormal, so the present state is in equilibrium at the factor 1. docs/theory, 5.10, eq. (5.45)
+removed: the columns of T are orthonormal, so the present state is in equilibrium at the factor 1. eq. (5.45)
 """
 
 from __future__ import annotations
