@@ -21,7 +21,6 @@ NotNegative = Annotated[float, Field(ge=0)]
 Count = Annotated[int, Field(ge=1)]
 #: Names become columns of tables and labels of figures.
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=60)]
-Directions = Annotated[str, Field(pattern=r"^[xyz]{1,3}$")]
 Axis = Literal["x", "y", "z"]
 
 # TOML has arrays where Python has tuples; what is in them stays strict.
@@ -64,7 +63,6 @@ Way = Annotated[
 __all__ = [
     "Axis",
     "Count",
-    "Directions",
     "Name",
     "NotNegative",
     "Pair",
