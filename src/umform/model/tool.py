@@ -176,7 +176,7 @@ class Tool(Term):
         rotation, shift = self.pose(still, time)
         return rotation @ np.asarray(turn.axis), rotation @ np.asarray(turn.about) + shift
 
-    def moves_with(self, rates: Mapping[Control, float]) -> bool:
+    def moved_by(self, rates: Mapping[Control, float]) -> bool:
         """Whether one of its ways has a rate."""
         return any(rates.get(control, 0.0) != 0.0 for control in self.ways)
 
