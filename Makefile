@@ -64,7 +64,7 @@ $(VENV)/.dev: $(VENV)/.tools
 
 demo: env  ## bend a strip over a cylinder; pictures and report in results/free-bending
 	$(SAY) 'Running the demo'
-	@$(BIN)/umform demo free-bending --out results/free-bending
+	@$(BIN)/umform demo free-bending --out results/free-bending --overwrite
 
 bench: env  ## time kernels, a run and the sparse solvers; the numbers go to build/bench.json, or JSON=file
 	@$(BIN)/python benchmarks/kernels.py --json $(JSON) $(ARGS)

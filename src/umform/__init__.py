@@ -28,10 +28,11 @@ if TYPE_CHECKING:
     )
     from umform.mesh import Mesh
     from umform.model import Model
+    from umform.model.axes import cylindrical, turned
     from umform.results import fields
     from umform.run import Result, resume, solve
     from umform.solution.newton import NewtonOptions
-    from umform.steps import Arc, Move, Release
+    from umform.steps import Arc, Free, Move, Release
     from umform.surfaces import (
         Box,
         Cylinder,
@@ -72,9 +73,10 @@ _HOME = {
     ),
     "umform.mesh": ("Mesh",),
     "umform.model": ("Model",),
+    "umform.model.axes": ("cylindrical", "turned"),
     "umform.run": ("Result", "resume", "solve"),
     "umform.solution.newton": ("NewtonOptions",),
-    "umform.steps": ("Arc", "Move", "Release"),
+    "umform.steps": ("Arc", "Free", "Move", "Release"),
     "umform.surfaces": (
         "Box",
         "Cylinder",
@@ -111,6 +113,7 @@ __all__ = [
     "Cylinder",
     "Element",
     "Extruded",
+    "Free",
     "Linear",
     "LinearVoce",
     "Mesh",
@@ -141,6 +144,7 @@ __all__ = [
     "WipingDie",
     "check_law",
     "check_surface",
+    "cylindrical",
     "elements",
     "errors",
     "fields",
@@ -152,6 +156,7 @@ __all__ = [
     "solve",
     "surfaces",
     "threads",
+    "turned",
     "write_tool",
 ]
 

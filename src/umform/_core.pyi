@@ -50,11 +50,25 @@ class Material:
     @property
     def state_size(self) -> int: ...
 
+    @property
+    def state(self) -> dict[str, int]:
+        """Parts of the history of a point, in their order."""
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the tangent is symmetric at any strain."""
+
+    @property
+    def sees_points(self) -> bool:
+        """Whether the law asks for axes, size and step."""
+
     def initial(self) -> NDArray[float64]:
         """History of the virgin material."""
 
-    def respond(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
-        """S (n, 6), CC (n, 6, 6) and the new history at n points."""
+    def respond(self, E: NDArray[float64], state: NDArray[float64], axes: NDArray[float64] | None = None, size: float = 0.0, step: float = 0.0) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+        """
+        S (n, 6), CC (n, 6, 6) and the new history at n points with the same axes (3, 3), size and step.
+        """
 
     def energy(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
         """
@@ -69,9 +83,9 @@ def neo_hooke_power(mu: float, beta: float) -> Material: ...
 
 def j2(kappa: float, mu: float, hardening: Hardening) -> Material: ...
 
-def material_from_function(function: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float], energy: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64]]] | None) -> Material:
+def material_from_function(function: Callable[[NDArray[float64], NDArray[float64], int, tuple[NDArray[float64], float, float] | None], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float], state: Sequence[tuple[str, int]], energy: Callable[[NDArray[float64], NDArray[float64], int], tuple[NDArray[float64], NDArray[float64]]] | None, symmetric: bool, sees_points: bool) -> Material:
     """
-    A law from a function (E (n, 6), state (n, size)) -> (S (n, 6), CC (n, 6, 6), new state (n, size)); its energy -> (elastic (n,), plastic (n,)).
+    A law from a function (E (n, 6), state (n, size), cell, (axes (n, 3, 3), size, step) or None) -> (S (n, 6), CC (n, 6, 6), new state (n, size)); its energy (E, state, cell) -> (elastic (n,), plastic (n,)).
     """
 
 class Surface:
@@ -241,9 +255,13 @@ class ShellBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
-    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
+
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float, str]:
         """
-        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
+        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1), sum |f_e|^2 and why it has failed, in words that follow its number.
         """
 
     @property
@@ -255,9 +273,35 @@ class ShellBlock:
     @property
     def state_size(self) -> int: ...
 
+    @property
+    def state_names(self) -> dict[str, int]:
+        """Parts of the history of a point, in their order."""
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the tangent is symmetric."""
+
+    @property
+    def step(self) -> float:
+        """Increment of time, for laws that ask for it."""
+
+    @step.setter
+    def step(self, arg: float, /) -> None: ...
+
+    def set_numbers(self, numbers: NDArray[int32]) -> None:
+        """
+        Numbers of the cells for messages, where they are a part of a larger mesh.
+        """
+
     def recover(self, du: NDArray[float64], s: float, mixed: bool = False) -> None:
         """
         Update the enhanced parameters after u += s du; mixed: the geometric stiffness is of the foreseen stress.
+        """
+
+    @property
+    def keeps_blocks(self) -> bool:
+        """
+        Whether enhanced parameters can be recovered from the converged state without an evaluation there.
         """
 
     def undo_recover(self) -> None:
@@ -299,7 +343,10 @@ class ShellBlock:
     def element(self, e: int, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
         """Condensed K and f of one element."""
 
-def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64]) -> ShellBlock: ...
+def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64], rolling: NDArray[float64] | None = None) -> ShellBlock:
+    """
+    Solid-shells on the cells of a mesh; rolling: direction of e_1, one vector (3,) or one for each cell (cells, 3).
+    """
 
 class ContactFound:
     """
@@ -383,9 +430,13 @@ class ContactBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
-    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
+
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float, str]:
         """
-        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
+        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1), sum |f_e|^2 and why it has failed, in words that follow its number.
         """
 
     @property
@@ -502,9 +553,13 @@ class PressureBlock:
     @property
     def connectivity(self) -> Connectivity: ...
 
-    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+    @property
+    def dofs(self) -> int:
+        """Degrees of freedom of the model."""
+
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float, str]:
         """
-        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
+        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1), sum |f_e|^2 and why it has failed, in words that follow its number.
         """
 
     @property

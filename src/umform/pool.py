@@ -6,10 +6,11 @@ import logging
 import multiprocessing
 import os
 import signal
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import closing
+from functools import partial
 from typing import TypeVar
 
 from umform import _core
@@ -18,6 +19,8 @@ from umform.log import log_to_stderr
 
 Task = TypeVar("Task")
 Answer = TypeVar("Answer")
+#: Numbers of tasks, each with a call that returns its answer, or raises its exception.
+_Answers = Generator[tuple[int, Callable[[], Answer]], None, None]
 
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -57,37 +60,50 @@ def run_all(
     check_processes(processes)
     count = min(processes or _processors(), len(tasks))
     order = sorted(range(len(tasks)), key=lambda number: -costs[number])
+    calls = {number: partial(function, tasks[number]) for number in order}
     answers: dict[int, Answer] = {}
-    if count <= 1:
-        with _one_kernel_thread():
-            for number in order:
-                try:
-                    answers[number] = function(tasks[number])
-                except Exception as error:
-                    answers[number] = on_failure(tasks[number], error)
-                tick(sum(costs[done] for done in answers) / sum(costs))
-        return [answers[number] for number in range(len(tasks))]
-
-    level = logging.getLogger("umform").getEffectiveLevel()
-    spawn = multiprocessing.get_context("spawn")
-    with (
-        _environment(dict.fromkeys(_THREADS, "1")),
-        ProcessPoolExecutor(count, mp_context=spawn, initializer=_prepare, initargs=(level,)) as pool,
-    ):
-        futures = {pool.submit(function, tasks[number]): number for number in order}
-        try:
-            for future in as_completed(futures):
-                number = futures[future]
-                try:
-                    answers[number] = future.result()
-                except BrokenProcessPool:  # it takes along all tasks that are not done
-                    answers[number] = on_failure(tasks[number], _died())
-                except Exception as error:
-                    answers[number] = on_failure(tasks[number], error)
-                tick(sum(costs[done] for done in answers) / sum(costs))
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
+    with closing(_here(calls) if count <= 1 else _in_processes(calls, count)) as finished:
+        for number, answer in finished:
+            try:
+                answers[number] = answer()
+            except BrokenProcessPool:  # it takes along all tasks that are not done
+                answers[number] = on_failure(tasks[number], _died())
+            except Exception as error:
+                answers[number] = on_failure(tasks[number], error)
+            tick(sum(costs[done] for done in answers) / sum(costs))
     return [answers[number] for number in range(len(tasks))]
+
+
+def _here(calls: Mapping[int, Callable[[], Answer]]) -> _Answers[Answer]:
+    """The calls, to be made in this process."""
+    before = _core.threads()
+    _core.set_threads(1)
+    try:
+        yield from calls.items()
+    finally:
+        _core.set_threads(before)
+
+
+def _in_processes(calls: Mapping[int, Callable[[], Answer]], count: int) -> _Answers[Answer]:
+    """Calls that give the answers of other processes; these end at once if nobody waits for the answers any more."""
+    level, others = logging.getLogger("umform").getEffectiveLevel(), set(multiprocessing.active_children())
+    before = {name: os.environ.get(name) for name in _THREADS}
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
+    spawn = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(count, mp_context=spawn, initializer=_prepare, initargs=(level,)) as pool:
+        try:
+            futures = {pool.submit(call): number for number, call in calls.items()}
+            for future in as_completed(futures):
+                yield futures[future], future.result
+        except BaseException:
+            for process in set(multiprocessing.active_children()) - others:
+                process.terminate()
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+        finally:
+            for name, value in before.items():
+                os.environ.pop(name, None)
+                os.environ.update({} if value is None else {name: value})
 
 
 def check_processes(processes: int | None) -> None:
@@ -123,33 +139,13 @@ def _processors() -> int:
 
 
 def _prepare(level: int) -> None:
-    """Make a new process ready: one kernel thread, the log of its parent, silent on Ctrl-C."""
+    """Make a new process ready: one kernel thread, the log of its parent, silent on Ctrl-C.
+
+    Without a log, warnings come back with the answers and are not printed here too.
+    """
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     _core.set_threads(1)
     if level < logging.WARNING:
         log_to_stderr(level)
-
-
-@contextmanager
-def _one_kernel_thread() -> Iterator[None]:
-    before = _core.threads()
-    _core.set_threads(1)
-    try:
-        yield
-    finally:
-        _core.set_threads(before)
-
-
-@contextmanager
-def _environment(variables: dict[str, str]) -> Iterator[None]:
-    """Set environment variables for processes to be started."""
-    before = {name: os.environ.get(name) for name in variables}
-    os.environ.update(variables)
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
+    else:
+        logging.getLogger("umform").addHandler(logging.NullHandler())

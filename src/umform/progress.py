@@ -19,7 +19,7 @@ class Tick(Protocol):
 def progress_bar(show: bool | None = None) -> Iterator[Tick]:
     """Yield ``tick(name, fraction, detail)``; one bar a name, on a terminal only unless ``show`` says otherwise."""
     if show is None:
-        show = sys.stderr.isatty()
+        show = sys.stderr is not None and sys.stderr.isatty()
     if not show:
         yield silent
         return

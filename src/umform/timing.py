@@ -86,6 +86,11 @@ class Timing:
         """All parts of the run and the files, without the whole."""
         return [part for part in vars(self).values() if part is not self.run]
 
+    def of(self, name: str) -> Part:
+        """The part with the name of an attribute."""
+        part: Part = getattr(self, name)
+        return part
+
     @property
     def total(self) -> float:
         """Seconds of run and files."""

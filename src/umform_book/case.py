@@ -28,6 +28,8 @@ class Case:
         Computes, and enters into a :class:`Page` what came out.
     cost : float
         Seconds that the whole case takes on one core, about; the dearest cases start first.
+    own : str
+        What of the reference umform has computed itself; empty where nothing.
     """
 
     name: str
@@ -36,6 +38,7 @@ class Case:
     reference: str
     run: Callable[[Page], None]
     cost: float = 10.0
+    own: str = ""
 
 
 @dataclass(frozen=True)

@@ -62,6 +62,7 @@ def page_text(page: Page) -> str:
         case.problem.strip(),
         "## Reference",
         case.reference.strip(),
+        *own_reference(case),
         "## What came out",
         *page.blocks,
         "## Checks",
@@ -73,6 +74,11 @@ def page_text(page: Page) -> str:
     if page.balances:
         parts += ["## Balance", _BALANCE, balance_table(page.balances)]
     return "\n\n".join(parts) + "\n\n[All cases](README.md)\n"
+
+
+def own_reference(case: Case) -> list[str]:
+    """The sentence that says what of the reference is umform's own."""
+    return [f"**Own reference:** {case.own}."] if case.own else []
 
 
 def failed_text(case: Case, said: str) -> str:
@@ -144,14 +150,15 @@ _INTRODUCTION = """\
 Every number on these pages comes from a run: `make verification` runs all cases and writes all pages anew,
 `umform verify` lists the cases, `umform verify NAME` runs one. **Green**: all checks are within what is expected of the
 element on that mesh. **Amber**: a check misses by no more than is known, and the page says why. **Red**: it misses. An
-amber is not a green that was talked up: read the cause before you use that element there.
+amber is not a green that was talked up: read the cause before you use that element there. **Own reference**: umform has
+computed the reference, or a part of it, itself, on a finer mesh or with another element; the page says which part.
 
 [Which element should I take?](which-element.md) is drawn from these tables, [known defects](errata.md) are kept
 honest."""
 
 
 def _summary_row(case: Case, outcome: Outcome) -> tuple[str, ...]:
-    name = f"[{case.title}]({case.name}.md)"
+    name = f"[{case.title}]({case.name}.md)" + (" · own reference" if case.own else "")
     if outcome.failure:
         return name, Verdict.RED.mark, "-", outcome.failure.splitlines()[0]
     green = sum(check.verdict is Verdict.GREEN for check in outcome.checks)

@@ -43,6 +43,7 @@ def failing(page):
 
 
 STRETCHED = Case("bar-stretched", "A bar under tension", "A bar.", "Hooke.", stretched)
+OWN = Case("bar-own", "A bar of our own", "A bar.", "Finer bars.", stretched, own="a finer bar, umform itself")
 FAILING = Case("bar-failing", "A bar that fails", "A bar.", "Nobody.", failing)
 
 
@@ -66,6 +67,25 @@ def test_pages_and_what_is_drawn_from_them(small_book, tmp_path):
     assert "| 1 / 1 | 1 / 1 |" in (folder / "which-element.md").read_text()
     assert outcomes["bar-failing"].verdict is Verdict.RED
     assert not list(folder.glob(".*"))
+
+
+def test_a_reference_of_umform_itself_is_marked_on_its_page_and_in_the_summary(monkeypatch, tmp_path):
+    monkeypatch.setattr(book, "chapters", lambda: (Chapter("Bars", "Simple things.", (STRETCHED, OWN)),))
+    book.run_cases(["bar-stretched", "bar-own"], tmp_path, processes=1)
+    assert "**Own reference:** a finer bar, umform itself." in (tmp_path / "bar-own.md").read_text()
+    assert "Own reference" not in (tmp_path / "bar-stretched.md").read_text()
+    summary = (tmp_path / "README.md").read_text()
+    assert "[A bar of our own](bar-own.md) · own reference |" in summary
+    assert "(bar-stretched.md) · own" not in summary
+
+
+def test_cases_whose_reference_says_that_it_is_our_own_are_marked():
+    """The words that such references are written with."""
+    words = ("our own", "own stack", "own computation", "stack of", "finest mesh", "stiffest penalty stands")
+    for chapter in book.chapters():
+        for case in chapter.cases:
+            if any(word in case.reference.lower() for word in words):
+                assert case.own, case.name
 
 
 def test_the_summary_is_written_for_the_whole_book_only(small_book, tmp_path):

@@ -6,12 +6,14 @@ one of `text` shows what the block of `sh` before it prints. `console` shows com
 
 from __future__ import annotations
 
+import ast
 import math
 import os
 import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -86,6 +88,28 @@ def test_every_block_says_what_it_is(page: Path) -> None:
     for kind, text in blocks(page):
         assert kind in KINDS, (page.name, kind)
         assert kind or not re.search(r"^umform \w+", text, flags=re.M), f"{page.name}: commands without a kind: {text}"
+
+
+@pytest.mark.parametrize("page", WITH_BLOCKS, ids=lambda page: str(page.relative_to(ROOT)))
+def test_pages_import_what_is_installed_with_umform_or_name_the_extra(page: Path) -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    known = {"umform", "umform_book", *sys.stdlib_module_names, *_names(project["dependencies"])}
+    for extra, requirements in project["optional-dependencies"].items():
+        if f"umform[{extra}]" in page.read_text():
+            known |= _names(requirements)
+    code = "\n".join(text for kind, text in blocks(page) if kind == "python")
+    imported = {
+        (node.module or "" if isinstance(node, ast.ImportFrom) else alias.name).split(".")[0]
+        for node in ast.walk(ast.parse(code))
+        if isinstance(node, ast.Import | ast.ImportFrom)
+        for alias in node.names
+    }
+    assert imported <= known, imported - known
+
+
+def _names(requirements: list[str]) -> set[str]:
+    """Modules of the packages that are required."""
+    return {re.match(r"[\w-]+", requirement)[0].replace("-", "_") for requirement in requirements}
 
 
 def test_the_numbers_of_the_readme_are_those_of_the_verification_book() -> None:

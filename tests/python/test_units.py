@@ -28,7 +28,14 @@ DIMENSIONS = {
     ("punch", "penetration", "displacement", "gap"): (0, 1),
     ("_force", "_fx", "_fy", "_fz", "reaction"): (1, 0),
     ("_mx", "_my", "_mz", "_work", "_energy"): (1, 1),
-    ("stress_cauchy", "stress_cauchy_local", "stress_pk2", "stress_pk2_local", "contact_pressure"): (1, -2),
+    (
+        "stress_cauchy",
+        "stress_cauchy_local",
+        "stress_pk2",
+        "stress_pk2_local",
+        "stress_von_mises",
+        "contact_pressure",
+    ): (1, -2),
 }
 
 

@@ -6,19 +6,24 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.check import Force
 from umform.cli.metal import law_of, numbers
-from umform.cli.root import Debug, Verbose, app, console
+from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
+from umform.cli.warnings import echo_warnings, print_warnings_once
+from umform.errors import UmformError
 
 if TYPE_CHECKING:
     from umform.processes.air_bending.budget import Budget
     from umform.processes.air_bending.case import AirBend
     from umform.processes.air_bending.measures import Measures
+    from umform.processes.air_bending.parameters import AirBending
     from umform.run import Result
 
 
@@ -34,8 +39,9 @@ _MOST_ROWS = 1000
 @app.command()
 def bend(
     out: Annotated[
-        str, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")
-    ] = "results/bend",
+        str | None,
+        typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/bend."),
+    ] = None,
     angle: Annotated[float | None, _option("Find the stroke that leaves this angle in degrees.", _GOAL)] = None,
     stroke: Annotated[float | None, _option("Bend to this stroke in mm.", _GOAL)] = None,
     table: Annotated[str | None, _option("Strokes of a bending table: first:last:step, as 4:6:0.5.", _GOAL)] = None,
@@ -72,6 +78,8 @@ def bend(
     print_deck: Annotated[
         bool, typer.Option("--print-deck", help="Print the bend as a deck for `umform run`, and run nothing else.")
     ] = False,
+    overwrite: Overwrite = False,
+    force: Force = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -80,15 +88,18 @@ def bend(
 
     Give the stroke, or the angle that is wanted after springback. Each number is defined in docs/air-bending.md.
     """
+    from umform.io.folders import folder_for
+    from umform.io.staging import staging
     from umform.pool import check_processes
     from umform.processes.air_bending.budget import error_budget
     from umform.processes.air_bending.case import air_bending
     from umform.processes.air_bending.checks import check_tolerance
-    from umform.processes.air_bending.files import check_folder, write_files
+    from umform.processes.air_bending.files import FILES, RESULTS, write_files
     from umform.processes.air_bending.parameters import AirBending
     from umform.processes.air_bending.search import bending_table, find_stroke
     from umform.timing import Timing, timings
 
+    print_warnings_once()
     _check_goal(angle, stroke)
     check_tolerance(tolerance)
     check_processes(processes)
@@ -116,40 +127,72 @@ def bend(
     strokes = [] if table is None else _strokes(table)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
-    if not print_deck:
-        check_folder(out)
-    with timings() as spent, _what_was_reached(Path(out)):
-        if angle is not None:
-            case = find_stroke(case, angle, tolerance=tolerance).case
-        if print_deck:
-            from umform.deck import deck_of
+    if print_deck:
+        from umform.deck import deck_of
 
-            typer.echo(deck_of(case), nl=False)
-            return
-        rows = bending_table(case, strokes) if strokes else []
-        done = air_bending(case)
-    errors = error_budget(case, done.measures, processes=processes) if budget else None
-    try:
-        _show(done, rows, errors, note)
-    finally:  # also if nobody reads the table
-        with done.result.timing.files:
-            files = write_files(out, done, rows, errors, note=note)
-    console().print(f"Written to {out}: {', '.join(file.name for file in files)}", soft_wrap=True)
+        typer.echo(deck_of(case if angle is None else find_stroke(case, angle, tolerance=tolerance).case), nl=False)
+        return
+    _refuse_implausible(case, force=force)
+    say = partial(typer.echo, err=True)
+    place = folder_for(out, Path("results/bend"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    with staging(place, FILES):
+        with timings() as spent, _what_was_reached(place) as rows:
+            if angle is not None:
+                case = find_stroke(case, angle, tolerance=tolerance).case
+            rows += bending_table(case, strokes) if strokes else []
+            done = air_bending(case)
+        errors = None
+        try:
+            errors = error_budget(case, done.measures, processes=processes) if budget else None
+            with printing(f"the files of the bend are in {place}"):
+                _show(done, rows, errors, note)
+        except KeyboardInterrupt as stop:
+            stop.add_note(f"  what was reached is in {place}: all but the budget")
+            raise
+        finally:  # also if nobody reads the table
+            with done.result.timing.files:
+                files = write_files(place, done, rows, errors, note=note)
+    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
 
 
+def _refuse_implausible(case: AirBending, *, force: bool) -> None:
+    """Refuse numbers that cannot be meant, and warn of those that are unusual, before time is spent on a run."""
+    from umform.deck.check import of_model
+    from umform.deck.findings import accept
+    from umform.processes.air_bending.brake import build
+
+    model, _ = build(case)
+    for warning in accept(of_model(model, millimetres=True), force=force):
+        typer.echo(f"umform: {warning}", err=True)
+
+
 @contextmanager
-def _what_was_reached(out: Path) -> Iterator[None]:
-    """Write history and states of the run that Ctrl-C ends; the increment under way is finished before."""
+def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
+    """Write the history of a run that is ended early, its states, and the rows of the table before it.
+
+    Yields
+    ------
+    list of Measures
+        Takes the rows of the table once all are there.
+    """
+    rows: list[Measures] = []
     try:
-        yield
-    except KeyboardInterrupt as stop:
+        yield rows
+    except (UmformError, KeyboardInterrupt) as stop:
+        from umform.io.tables import write_csv
+        from umform.processes.air_bending.words import columns
+
         reached: Result | None = getattr(stop, "result", None)
+        rows = rows or getattr(stop, "rows", rows)
+        files = [out / "table.csv"] if rows else []
+        if rows:
+            write_csv(out / "table.csv", columns(rows))
         if reached is not None and reached.frames:
-            out.mkdir(parents=True, exist_ok=True)
-            files = [reached.write(out / name) for name in ("history.csv", "bend.vtkhdf")]
-            typer.echo(f"what was reached is in {out}: {', '.join(file.name for file in files)}", err=True)
+            files += [reached.write(out / name) for name in ("history.csv", "bend.vtkhdf")]
+        if files:
+            stop.add_note(f"  what was reached is in {out}: {', '.join(file.name for file in files)}")
         raise
 
 
@@ -193,7 +236,6 @@ def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str)
     """Print measures, bending table, and what is to be said of them."""
     from umform.processes.air_bending.formulas import shop_forces
     from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
-    from umform.report.repeats import counted
     from umform.results.penetration import penetrations
 
     screen = console()
@@ -206,8 +248,7 @@ def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str)
         screen.print(f"contact {name}: {said}", soft_wrap=True)
     if note:
         screen.print(note, soft_wrap=True)
-    for warning in counted(done.warnings):
-        typer.echo(f"umform: {warning}", err=True)
+    echo_warnings(done.warnings)
     for name, why in (errors.failures if errors else {}).items():
         typer.echo(f"umform: {name}: {why}", err=True)
 

@@ -1,4 +1,4 @@
-"""``umform check``: what a deck says, and a look at its physics, without solving."""
+"""``umform check``: whether a deck can be read, built, and meant, without solving it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.root import Debug, Verbose, app, console
+from umform.cli.root import Debug, Verbose, app, console, say_of
 from umform.errors import InvalidValue, UmformError
 
 if TYPE_CHECKING:
@@ -23,20 +23,24 @@ Changes = Annotated[
     typer.Option("--set", metavar="KEY=VALUE", help="Another value of a key, as steps.0.increments=5; repeatable."),
 ]
 
+Force = Annotated[
+    bool, typer.Option("--force", help="Run in spite of numbers that cannot be meant; they become warnings.")
+]
 
-@app.command()
-def check(deck: DeckFile, changes: Changes = None, verbose: Verbose = 0, debug: Debug = False) -> None:
-    """Look at a deck without solving it: keys, names, gaps, supports, element sizes, units, effort.
+
+@app.command("check")
+def check_deck(deck: DeckFile, changes: Changes = None, verbose: Verbose = 0, debug: Debug = False) -> None:
+    """Check a deck without solving it: keys, names, gaps, supports, element sizes, units, effort.
 
     An error ends with exit code 1; warnings do not.
     """
+    from umform.deck.check import check
     from umform.deck.findings import Level
-    from umform.deck.look import look
 
     with told():
         loaded = read(deck, changes or ())
         problem = loaded.build()
-        findings = list(look(loaded, problem))
+        findings = list(check(loaded, problem))
     _show(findings)
     if any(finding.level is Level.ERROR for finding in findings):
         raise typer.Exit(1)
@@ -55,7 +59,7 @@ def told() -> Iterator[None]:
     try:
         yield
     except UmformError as error:
-        typer.echo(f"umform: {error}", err=True)
+        say_of(error)
         raise typer.Exit(1) from error
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import logging
+from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.root import Debug, Verbose, app, console
+from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
 from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
 
@@ -28,8 +31,11 @@ Default = FreeBending
 @demos.command("free-bending", epilog=RECONSTRUCTION)
 def free_bending(
     out: Annotated[
-        str, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")
-    ] = "results/free-bending",
+        str | None,
+        typer.Option(
+            metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/free-bending."
+        ),
+    ] = None,
     mesh: Annotated[list[str] | None, _option("Elements along and across, as 24x1; may be repeated.", _RUNS)] = None,
     element: Annotated[list[str] | None, _option("Element of the catalogue; may be repeated.", _RUNS)] = None,
     contact: Annotated[
@@ -61,6 +67,7 @@ def free_bending(
     print_deck: Annotated[
         bool, typer.Option("--print-deck", help="Print the first run as a deck, and run none.")
     ] = False,
+    overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -72,8 +79,10 @@ def free_bending(
     What is said of mesh, element and contact selects runs; a thickness option replaces the cubic ones; all other
     options hold for all runs.
     """
+    logging.getLogger("umform").addHandler(logging.NullHandler())  # warnings are printed with the name of their run
+    from umform.io.folders import folder_for
     from umform.processes.bending.options import read_contact, read_mesh
-    from umform.processes.bending.showcase import Selection, demo
+    from umform.processes.bending.showcase import FILES, Selection, demo
 
     selection = Selection(
         meshes=tuple(read_mesh(text) for text in mesh or ()),
@@ -112,10 +121,16 @@ def free_bending(
 
         typer.echo(deck_of(runs[0]), nl=False)
         return
-    _show(demo(out, runs, processes=processes), out, timing=timing)
+    say = partial(typer.echo, err=True)
+    place = folder_for(
+        out, Path("results/free-bending"), FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}")
+    )
+    outcome = demo(place, runs, processes=processes)
+    with printing(f"the files of the runs are in {place}"):
+        _show(outcome, place, timing=timing)
 
 
-def _show(outcome: Outcome, out: str, *, timing: bool) -> None:
+def _show(outcome: Outcome, out: Path, *, timing: bool) -> None:
     """Print the table, where the files are, and what went wrong."""
     from rich import box
     from rich.table import Table

@@ -9,8 +9,9 @@ import typer
 
 from umform.cli.check import told
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
-from umform.cli.root import Debug, Verbose, app
-from umform.cli.run import Every, end, show
+from umform.cli.root import Debug, Overwrite, Verbose, app
+from umform.cli.run import Every, finish
+from umform.cli.warnings import print_warnings_once
 
 
 @app.command(cls=WithPetscOptions)
@@ -21,6 +22,7 @@ def resume(
         str | None, typer.Option(metavar="FOLDER", help="Folder for what comes out; default: that of the run.")
     ] = None,
     every: Every = 60.0,
+    overwrite: Overwrite = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
@@ -33,9 +35,9 @@ def resume(
     from umform.deck.kept import Kept
 
     let_the_first_talk()
+    print_warnings_once()
     with told():
         kept = Kept.read(checkpoint)
         with on_all_ranks(kept.chosen_solver, petsc_options(ctx)):
-            outcome = running.resume(checkpoint, kept, out, every=every)
-    show(outcome)
-    end(outcome)
+            outcome = running.resume(checkpoint, kept, out, every=every, overwrite=overwrite)
+    finish(outcome)

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import logging
+import os
 import sys
 import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from typer.core import TyperGroup
 
 import umform
-from umform.errors import UmformError
-
-INTERRUPTED = 130
-_GIVEN_UP = """
-umform: interrupted; the runs are given up, files of before stay as they were
-  remedy: for long runs print the deck with --print-deck; umform run keeps what was reached, umform resume goes on"""
+from umform.cli import INTERRUPTED
+from umform.errors import FileProblem, UmformError
+from umform.io.atomic import write_problem
 
 
 class Commands(TyperGroup):
@@ -25,25 +26,82 @@ class Commands(TyperGroup):
     def invoke(self, ctx: Any) -> Any:
         """Run a command; print what goes wrong on standard error, and a traceback only with ``--debug``."""
         try:
-            return super().invoke(ctx)
+            with printing():
+                return super().invoke(ctx)
         except UmformError as error:
             _show_traceback(ctx)
             from umform.processes.bending.options import message
 
-            typer.echo(f"umform: {message(error, _options(self, ctx.invoked_subcommand))}", err=True)
+            say_of(error, message(error, _options(self, ctx.invoked_subcommand)))
             raise typer.Exit(1) from error
         except KeyboardInterrupt as error:
-            typer.echo(_GIVEN_UP, err=True)
+            say_of(error, "interrupted; what was not finished is given up")
             raise typer.Exit(INTERRUPTED) from error
         except BrokenPipeError:
             raise  # nobody reads on: `main` ends without a word
+        except OSError as error:
+            _show_traceback(ctx)
+            say_of(error, str(write_problem(Path(error.filename or "a file"), error)))
+            raise typer.Exit(1) from error
         except Exception as error:
             if type(error).__module__.split(".")[0] in ("typer", "click"):
                 raise  # usage errors and regular exits
             _show_traceback(ctx)
-            typer.echo(f"umform: an error that nobody expected: {type(error).__name__}: {error}", err=True)
+            say_of(error, f"an error that nobody expected: {type(error).__name__}: {error}")
             typer.echo("  remedy: report it, with the command and what it prints with --debug", err=True)
             raise typer.Exit(1) from error
+
+
+def say_of(error: BaseException, text: str = "") -> None:
+    """Print an error on standard error, and what was noted with it: what is kept, and how to go on."""
+    typer.echo("\n".join([f"umform: {text or error}", *getattr(error, "__notes__", ())]), err=True)
+
+
+@contextmanager
+def printing(kept: str = "") -> Iterator[None]:
+    """Tell by one error if standard output is closed, or its disk is full.
+
+    Parameters
+    ----------
+    kept : str
+        What there is nevertheless.
+
+    Raises
+    ------
+    FileProblem
+    """
+    try:
+        yield
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        if isinstance(error, UmformError) or error.filename is not None or not _output_fails():
+            raise
+        raise FileProblem(
+            "standard output takes no text",
+            where="standard output",
+            cause=(error.strerror or str(error)).lower(),
+            remedy=f"lead it to a terminal, a file or /dev/null{'; ' if kept else ''}{kept}",
+        ) from error
+
+
+def _output_fails() -> bool:
+    """Whether standard output cannot be written, now that something could not; then it is led to nowhere."""
+    try:
+        sys.stdout.write(" ")
+        sys.stdout.flush()
+    except OSError:
+        sys.stdout = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115  (to the end)
+        _forget(sys.__stdout__)
+        return True
+    return False
+
+
+def _forget(stream: Any) -> None:
+    """Lead what a stream still has in its buffers to nowhere, lest Python complain at its end that nobody takes it."""
+    if stream is not None and not stream.closed:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _options(group: TyperGroup, command: str | None) -> dict[str, str]:
@@ -91,6 +149,7 @@ Verbose = Annotated[
     int, typer.Option("--verbose", "-v", count=True, callback=_log, help="Log each increment; -vv each iteration.")
 ]
 Debug = Annotated[bool, typer.Option("--debug", callback=_remember_debug, help="Show the traceback of an error.")]
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Write over the results of another run.")]
 Version = Annotated[
     bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Show the version and exit.")
 ]

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import shlex
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from umform.cli.check import Changes, DeckFile, read, told
+from umform.cli import INTERRUPTED
+from umform.cli.check import Changes, DeckFile, Force, read, told
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
-from umform.cli.root import INTERRUPTED, Debug, Verbose, app, console
+from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say_of
 from umform.cli.timing import Timed, show_timing
-from umform.errors import UmformError
+from umform.cli.warnings import echo_warnings, print_warnings_once
+from umform.errors import FileProblem, UmformError
 
 if TYPE_CHECKING:
     from umform.deck.running import Outcome
@@ -37,6 +40,8 @@ def run(
         typer.Option(metavar="FILE", help="Keep the state of the run here; default: checkpoint.h5 beside the results."),
     ] = None,
     every: Every = 60.0,
+    overwrite: Overwrite = False,
+    force: Force = False,
     timing: Timed = False,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -44,7 +49,8 @@ def run(
     """Solve a deck: history, fields, report, pictures, and a copy of the deck.
 
     What was reached is written even if Newton's method gives up (exit code 1) or Ctrl-C ends the run (130). A run that
-    was stopped goes on with `umform resume`.
+    was stopped goes on with `umform resume`. Results of another run are not overwritten: the default folder gets a
+    number, a folder of `--out` is refused.
 
     On many ranks: `mpiexec -n 4 umform run deck.toml --solver petsc`, with options of PETSc by their prefix, such as
     `-umform_ksp_type cg -umform_pc_type gamg` (docs/parallel.md).
@@ -52,21 +58,35 @@ def run(
     from umform.deck import running
 
     let_the_first_talk()
+    print_warnings_once()
     with told():
         loaded = read(deck, changes or ())
         chosen = solver or loaded.contents.solution.solver
         with on_all_ranks(chosen, petsc_options(ctx)):
-            problem = running.prepared(loaded, chosen)
-            outcome = running.run(loaded, problem, out, solver=solver, checkpoint=checkpoint, every=every)
-    show(outcome)
-    if timing:
-        show_timing(outcome.result.timing)
+            problem = running.prepared(loaded, chosen, partial(running.refuse_implausible, loaded, force=force))
+            outcome = running.run(
+                loaded, problem, out, solver=solver, checkpoint=checkpoint, every=every, overwrite=overwrite
+            )
+    finish(outcome, timing=timing)
+
+
+def finish(outcome: Outcome, *, timing: bool = False) -> None:
+    """Print what came of a run; end with the exit code of one that has ended early, or that cannot be printed."""
+    kept = f"the files of the run are in {outcome.files[0].parent}" if outcome.files else ""
+    try:
+        with printing(kept):
+            show(outcome)
+            if timing:
+                show_timing(outcome.result.timing)
+    except FileProblem as problem:
+        say_of(problem)
+        end(outcome)
+        raise typer.Exit(1) from problem
     end(outcome)
 
 
 def show(outcome: Outcome) -> None:
     """The table, what happened, and where the files are."""
-    from umform.report.repeats import counted
     from umform.results.penetration import penetrations
 
     screen = console()
@@ -78,8 +98,7 @@ def show(outcome: Outcome) -> None:
     if outcome.files:
         names = ", ".join(file.name for file in outcome.files)
         screen.print(f"Written to {outcome.files[0].parent}: {names}", soft_wrap=True, markup=False)
-    for warning in counted(outcome.result.warnings):
-        typer.echo(f"umform: {warning}", err=True)
+    echo_warnings(outcome.result.warnings)
 
 
 def _table(result: Result) -> object:
@@ -106,10 +125,10 @@ def end(outcome: Outcome) -> None:
     error = outcome.ended_by
     if error is None:
         return
+    if outcome.checkpoint:
+        error.add_note(f"  go on with: umform resume {shlex.quote(str(outcome.checkpoint))}")
     if isinstance(error, KeyboardInterrupt):
-        typer.echo("\numform: interrupted; what was reached is written", err=True)
-        if outcome.checkpoint:
-            typer.echo(f"  go on with: umform resume {shlex.quote(str(outcome.checkpoint))}", err=True)
+        say_of(error, "interrupted; what was reached is written")
         raise typer.Exit(INTERRUPTED)
     if isinstance(error, UmformError):
         typer.echo(f"umform: {error}", err=True)

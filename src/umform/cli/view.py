@@ -30,7 +30,7 @@ _BAR = {
 
 @app.command()
 def view(
-    file: Annotated[Path, typer.Argument(metavar="FILE.vtkhdf", help="Fields of a run.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE.vtkhdf", help="Fields of a run, or the folder of a run.")],
     field: Annotated[str | None, typer.Option(help="Field to colour by; of a vector, its length.")] = None,
     frame: Annotated[int, typer.Option(help="Frame: 0 is the first, -1 the last.")] = -1,
     png: Annotated[Path | None, typer.Option(metavar="OUT.png", help="Write a picture, open no window.")] = None,
@@ -40,6 +40,7 @@ def view(
 
     Needs PyVista: `pip install "umform[view]"`.
     """
+    file = _file_of(file)
     _check_names(file, png)
     pv = _pyvista(off_screen=png is not None)
     grid = _read(pv, file, frame)
@@ -65,6 +66,23 @@ def view(
         plotter.screenshot(temporary)
     plotter.close()
     typer.echo(f"Written to {png}")
+
+
+def _file_of(path: Path) -> Path:
+    """The file itself, or the one file of fields in a folder."""
+    from umform.errors import FileProblem
+
+    if not path.is_dir():
+        return path
+    files = sorted(path.glob("*.vtkhdf"))
+    if len(files) == 1:
+        return files[0]
+    raise FileProblem(
+        "this is a folder with several files of fields" if files else "this is a folder without a file of fields",
+        where=str(path),
+        cause="it has " + ", ".join(file.name for file in files) if files else "no name in it ends in .vtkhdf",
+        remedy=f"umform view {files[0]}" if files else "`umform run` writes fields.vtkhdf, unless [output] says no",
+    )
 
 
 def _check_names(file: Path, png: Path | None) -> None:

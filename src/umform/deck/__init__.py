@@ -11,18 +11,18 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from umform.deck.contents import Contents
     from umform.deck.deck import Deck, load
+    from umform.deck.errors import DeckError
     from umform.deck.problem import Problem
-    from umform.deck.source import DeckError
-    from umform.deck.writing import deck_of
+    from umform.deck.templates import deck_of
 
 __all__ = ["Contents", "Deck", "DeckError", "Problem", "deck_of", "load"]
 
 _HOME = {
     "Contents": "contents",
     "Deck": "deck",
-    "DeckError": "source",
+    "DeckError": "errors",
     "Problem": "problem",
-    "deck_of": "writing",
+    "deck_of": "templates",
     "load": "deck",
 }
 

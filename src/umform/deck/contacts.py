@@ -14,7 +14,8 @@ from pydantic_core import PydanticCustomError
 from umform.deck.parts import Name, Part, Positive, Vector
 from umform.deck.selection import Selection, faces_of
 from umform.model import Model
-from umform.model.contact import Contact, Motion
+from umform.model.contact import Contact
+from umform.model.tool import Motion
 from umform.surfaces import Tool
 
 Floats = NDArray[np.float64]

@@ -1,7 +1,8 @@
-"""What stands in a deck: all its tables."""
+"""What stands in a deck: all its tables, and their JSON schema for editors."""
 
 from __future__ import annotations
 
+import json
 from typing import Annotated
 
 from pydantic import Field
@@ -41,3 +42,15 @@ class Contents(Part):
     """Sparse solver and Newton's method."""
     output: Output = Output()
     """What is written."""
+
+
+def json_schema() -> str:
+    """JSON schema (draft 2020-12) of all that may stand in a deck."""
+    schema = Contents.model_json_schema()
+    head = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Deck of umform",
+        "description": schema.pop("description"),
+    }
+    schema.pop("title")
+    return json.dumps(head | schema, indent=1) + "\n"

@@ -10,8 +10,8 @@ from pydantic import Field
 from umform.deck.parts import Axis, Directions, Name, Part, Vector, Way
 from umform.deck.selection import Selection, faces_of, nodes_of
 from umform.model import Model
-from umform.model.boundary import Control
 from umform.model.contact import Contact
+from umform.model.control import Control
 
 Contacts = Mapping[str, Contact]
 

@@ -1,9 +1,19 @@
-"""What a look at a problem finds: how bad it is, about what, in which words."""
+"""What a check of a problem finds: how bad it is, about what, in which words."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
+
+from umform.deck.errors import DeckError
+from umform.errors import InvalidValue
+
+
+class Implausible(InvalidValue):
+    """Numbers that cannot be meant: units that do not go together, a tool deep in the sheet."""
+
+    id = "check"
 
 
 class Level(Enum):
@@ -23,7 +33,7 @@ class Finding:
     level : Level
         How bad it is.
     about : str
-        What was looked at: a contact, the element, the units.
+        What was checked: a contact, the element, the units.
     text : str
         What was found.
     remedy : str
@@ -42,10 +52,45 @@ def ok(about: str, text: str) -> Finding:
 
 
 def warning(about: str, text: str, remedy: str) -> Finding:
-    """Look at it once more."""
+    """Unusual: check it."""
     return Finding(Level.WARNING, about, text, remedy)
 
 
 def error(about: str, text: str, remedy: str) -> Finding:
-    """It cannot be solved."""
+    """It cannot be solved, or cannot be meant."""
     return Finding(Level.ERROR, about, text, remedy)
+
+
+def accept(findings: Iterable[Finding], *, force: bool = False) -> list[str]:
+    """Warnings of findings, as text; an error among them is refused.
+
+    Parameters
+    ----------
+    findings : iterable of Finding
+        What a check has found.
+    force : bool
+        Take errors as warnings.
+
+    Returns
+    -------
+    list of str
+        One line a warning.
+
+    Raises
+    ------
+    DeckError
+        With all errors that were found.
+    """
+    found = [finding for finding in findings if finding.level is not Level.OK]
+    errors = [finding for finding in found if finding.level is Level.ERROR]
+    if errors and not force:
+        raise DeckError(
+            Implausible(
+                finding.text,
+                where=finding.about,
+                cause="another unit, or a slip of the pen",
+                remedy=f"{finding.remedy}; --force runs it all the same",
+            )
+            for finding in errors
+        )
+    return [f"{finding.about}: {finding.text}; remedy: {finding.remedy}" for finding in found]

@@ -46,6 +46,14 @@ def lines_of(text: str) -> dict[Path, int]:
     return scanner.lines
 
 
+def repeated(text: str) -> list[tuple[Path, int, int]]:
+    """Keys and tables that a TOML text gives twice: the path, the line of the first and that of the second."""
+    scanner = _Scanner(text)
+    with suppress(Exception):
+        scanner.run()
+    return scanner.repeated
+
+
 def nearest_line(lines: Mapping[Path, int], path: Path) -> int | None:
     """Line of a path, or of the innermost table around it that has one."""
     for end in range(len(path), 0, -1):
@@ -59,6 +67,8 @@ class _Scanner:
         self.text = text
         self.at = 0
         self.lines: dict[Path, int] = {}
+        self.repeated: list[tuple[Path, int, int]] = []
+        self._given: dict[Path, int] = {}
         self._starts = [0, *(match.end() for match in re.finditer("\n", text))]
         self._counts: dict[Path, int] = {}
 
@@ -88,6 +98,8 @@ class _Scanner:
             if path in self._counts:
                 path = (*path, self._counts[path] - 1)
             self._enter(path, start)
+        if not array and keys:
+            self._give(path, start)
         self._skip(_REST)
         return path
 
@@ -101,6 +113,7 @@ class _Scanner:
         if not keys or not self._take("="):
             return False
         self._skip(_SPACE)
+        self._give((*table, *keys), start)
         self._value((*table, *keys), depth + 1)
         return True
 
@@ -170,6 +183,13 @@ class _Scanner:
 
     def _enter(self, path: Path, at: int) -> None:
         self.lines.setdefault(path, bisect_right(self._starts, at))
+
+    def _give(self, path: Path, at: int) -> None:
+        """Remember where a key gets its value, or a table its header, and whether it had one before."""
+        line = bisect_right(self._starts, at)
+        if path in self._given:
+            self.repeated.append((path, self._given[path], line))
+        self._given.setdefault(path, line)
 
 
 def _unescaped(match: re.Match[str]) -> str:

@@ -11,8 +11,9 @@ from pydantic import BaseModel, Tag, ValidationError
 from pydantic.fields import FieldInfo
 
 from umform.deck.contents import Contents
+from umform.deck.errors import ANY_CAUSE, ANY_REMEDY, DeckKey, nearest, shortened, slip
 from umform.deck.lines import Path
-from umform.deck.source import ANY_CAUSE, ANY_REMEDY, DeckKey, Source, nearest, shortened, slip
+from umform.deck.source import Source
 
 _UNIONS = (Union, types.UnionType)
 _BEYOND = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
@@ -22,6 +23,7 @@ _CAUSES = dict.fromkeys(_BEYOND, "a sign, another unit, or a slip of the pen") |
     "finite_number": "inf or nan",
     "string_type": "a value without quotes",
     "string_pattern_mismatch": "a letter that does not belong there",
+    "too_long": "a decimal comma, which makes two numbers of one, or an entry too many",
 }
 _REMEDIES = dict.fromkeys(_BEYOND, "write a number within the bound") | {
     "float_type": "write a number, without quotes",
@@ -36,6 +38,7 @@ _REMEDIES = dict.fromkeys(_BEYOND, "write a number within the bound") | {
     "model_type": "write a table: a header, or keys between braces",
     "model_attributes_type": "write a table: a header, or keys between braces",
     "finite_number": "write a finite number",
+    "too_long": "numbers have a decimal point, entries a comma between them: [25.0, 0.5]",
 }
 
 

@@ -8,8 +8,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from umform.deck.problem import Problem
-from umform.model.boundary import Control, Load, Pressure
+from umform.model.control import Control
+from umform.model.dead_load import Load
+from umform.model.pressure import Pressure
 from umform.plotting import house_style, plot_shape, save
+from umform.report.symmetry import mirrors, whole
+from umform.results.shape import Shape
 from umform.run import Result
 from umform.steps import Release
 
@@ -24,8 +28,8 @@ def draw_curve(problem: Problem, result: Result, path: Path) -> None:
 
 
 def draw_shape(result: Result, path: Path) -> None:
-    """The sheet in its last state."""
-    plot_shape(result, path=path)
+    """The whole part in its last state, with the mirror images of what is modelled."""
+    plot_shape(whole(Shape.of(result), mirrors(result.model)), path=path)
 
 
 def main_control(problem: Problem) -> Control:

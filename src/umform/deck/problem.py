@@ -9,16 +9,17 @@ from typing import Any
 import numpy as np
 
 from umform.deck.contents import Contents
+from umform.deck.errors import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey
 from umform.deck.lines import Path
 from umform.deck.material import J2
-from umform.deck.source import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey, Source
+from umform.deck.source import Source
 from umform.deck.tools import Profiled
 from umform.elements.technology import Element
 from umform.errors import UmformError
 from umform.materials import Material
 from umform.model import Model
-from umform.model.boundary import Control
 from umform.model.contact import Contact
+from umform.model.control import Control
 from umform.run import Result, resume, solve
 from umform.solution.newton import Newton, NewtonOptions
 from umform.steps import Step

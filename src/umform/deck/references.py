@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from umform.deck.errors import DeckKey, shortened, slip
 from umform.deck.lines import Path
-from umform.deck.source import DeckKey, Source, shortened, slip
+from umform.deck.source import Source
 
 
 def unknown_names(source: Source) -> Iterator[DeckKey]:

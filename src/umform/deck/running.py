@@ -5,21 +5,24 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
+from umform.deck.check import before_run
 from umform.deck.deck import Deck
+from umform.deck.findings import accept
 from umform.deck.kept import Kept
 from umform.deck.problem import Problem, Solving
-from umform.processes.bending.staging import Staging, staging
+from umform.deck.results import CHECKPOINT, FILES, RESULTS, says_what_is_kept, write, written_at
+from umform.errors import UmformError
+from umform.io.atomic import remove_left_behind
+from umform.io.folders import chosen_folder, folder_for
+from umform.io.staging import staging
 from umform.run import Result
 
+_Answer = TypeVar("_Answer")
 log = logging.getLogger("umform")
-
-#: The deck as it was run, beside what came of it.
-COPY = "as-run.toml"
-#: Where the state of a run is kept unless another file is asked for; taken away when the run has ended by itself.
-CHECKPOINT = "checkpoint.h5"
-_FILES = ("history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", COPY)
 
 
 @dataclass(frozen=True)
@@ -50,7 +53,7 @@ def folder_of(deck: Deck) -> Path:
     return Path(folder) if folder else Path("results") / Path(deck.source.name).stem
 
 
-def prepared(deck: Deck, solver: str) -> Solving:
+def prepared(deck: Deck, solver: str, check: Callable[[Problem], None] = lambda problem: None) -> Solving:
     """Build what a deck describes; on many ranks the first one does so, and the others get their shares from it.
 
     Parameters
@@ -59,6 +62,8 @@ def prepared(deck: Deck, solver: str) -> Solving:
         The deck.
     solver : str
         The sparse solver that will be used.
+    check : callable
+        May refuse what was built, :func:`refuse_implausible` for one; called in one process only.
 
     Returns
     -------
@@ -70,14 +75,46 @@ def prepared(deck: Deck, solver: str) -> Solving:
     UmformError
         On all ranks, with all that does not fit.
     """
-    if solver != "petsc":
-        return deck.build(solver)
-    from umform.parallel.mpi_ranks import world
 
-    problem = world().on_first(lambda: deck.build(solver))
+    def built() -> Problem:
+        problem = deck.build(solver)
+        check(problem)
+        return problem
+
+    problem = _on_first(solver, built)
     if problem is not None:
         return problem
     return Solving(options=deck.contents.solution.build(), solver=solver, frames=deck.contents.output.frames)
+
+
+def _on_first(solver: str, work: Callable[[], _Answer]) -> _Answer | None:
+    """Do something in this process, or on the first of many ranks; None on the others."""
+    if solver != "petsc":
+        return work()
+    from umform.parallel.mpi_ranks import world
+
+    return world().on_first(work)
+
+
+def refuse_implausible(deck: Deck, problem: Problem, *, force: bool = False) -> None:
+    """Refuse numbers that cannot be meant, and log warnings of what is unusual, before time is spent on a run.
+
+    Parameters
+    ----------
+    deck : Deck
+        The deck.
+    problem : Problem
+        What was built from it; its model is left as it was.
+    force : bool
+        Warn only.
+
+    Raises
+    ------
+    DeckError
+        With all that a check calls an error.
+    """
+    for message in accept(before_run(deck, problem), force=force):
+        log.warning(message)
 
 
 def run(
@@ -89,6 +126,7 @@ def run(
     progress: bool | None = None,
     checkpoint: str | Path | None = None,
     every: float = 60.0,
+    overwrite: bool = False,
 ) -> Outcome:
     """Solve the problem of a deck and write its files, each of them whole or not at all.
 
@@ -99,7 +137,7 @@ def run(
     problem : Solving
         What was :func:`prepared` from it.
     out : str or Path, optional
-        Folder; default that of the deck.
+        Folder; default that of the deck, with a number if that one holds the results of another run.
     solver : str, optional
         Another sparse solver than that of the deck.
     progress : bool, optional
@@ -109,6 +147,8 @@ def run(
         away when the run has ended by itself.
     every : float
         Seconds between two checkpoints, at least; 0 writes one after each increment.
+    overwrite : bool
+        Whether results of another run, and its checkpoint, may be overwritten.
 
     Returns
     -------
@@ -118,10 +158,12 @@ def run(
     Raises
     ------
     UmformError
-        If the model cannot be solved as it stands, or the folder cannot be written.
+        If the model cannot be solved as it stands, or the folder cannot be written, or holds other results.
     """
-    place = out if out is not None else folder_of(deck)
-    kept = Kept(deck, Path(place), solver)
+    default = folder_of(deck)
+    choose = partial(folder_for, out, default, RESULTS, overwrite=overwrite, say=log.warning)
+    place = _on_first(solver or problem.solver, choose) or default
+    kept = Kept(deck, place, solver)
     path = Path(checkpoint) if checkpoint is not None else kept.out / CHECKPOINT
     if path.is_file():
         log.warning("a run was stopped here, and %s will be written over; umform resume would go on with it", path)
@@ -140,6 +182,7 @@ def resume(
     *,
     progress: bool | None = None,
     every: float = 60.0,
+    overwrite: bool = False,
 ) -> Outcome:
     """Take up the run of a deck from its checkpoint, and write its files as if it had never been stopped.
 
@@ -151,8 +194,8 @@ def resume(
         What it keeps of the deck.
     out : str or Path, optional
         Folder; default that of the run.
-    progress, every
-        See :func:`run`.
+    progress, every, overwrite
+        See :func:`run`; the folder of the run itself is always written to.
 
     Returns
     -------
@@ -172,12 +215,14 @@ def resume(
     def solve() -> Result:
         return problem.resume(path, solver=kept.solver, progress=progress, every=every)
 
-    place = out if out is not None else kept.out
+    place = kept.out if out is None else Path(out)
+    if place.resolve() != kept.out.resolve():
+        _on_first(kept.chosen_solver, lambda: chosen_folder(place, RESULTS, overwrite=overwrite))
     return _finish(kept, problem, place, path, solve, kept.solver or problem.solver)
 
 
 def _finish(
-    kept: Kept, problem: Solving, out: str | Path, checkpoint: Path, solve: Callable[[], Result], solver: str
+    kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: Callable[[], Result], solver: str
 ) -> Outcome:
     """Solve, and write what came of it; on many ranks the first one writes for all."""
     if solver != "petsc":
@@ -193,17 +238,21 @@ def _finish(
         return Outcome(result, [], ended_by)
 
 
-def _written(kept: Kept, problem: Solving, out: str | Path, checkpoint: Path, solve: Callable[[], Result]) -> Outcome:
+def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: Callable[[], Result]) -> Outcome:
     """Solve, write what came of it, and take the checkpoint away if nobody has asked for it or needs it."""
     assert isinstance(problem, Problem)  # one process, or the first of many
-    with staging(out, _FILES) as stage:
+    before = written_at(checkpoint)
+    with staging(out, FILES) as stage:
+        remove_left_behind(checkpoint)
         result, ended_by = _solved(solve)
-        with result.timing.files:
+        with result.timing.files, says_what_is_kept(stage, checkpoint, before):
+            if stage.make_again():
+                result.warn(f"the folder {out} was removed during the run; it was made again")
             files = write(kept.deck, problem, result, stage)
-        stopped = isinstance(ended_by, KeyboardInterrupt)
-        if not stopped and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():
+        over = ended_by is None or isinstance(ended_by, UmformError)
+        if over and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():
             checkpoint.unlink(missing_ok=True)
-    return Outcome(result, files, ended_by, checkpoint if stopped and checkpoint.exists() else None)
+    return Outcome(result, files, ended_by, None if over or not checkpoint.exists() else checkpoint)
 
 
 def _solved(solve: Callable[[], Result]) -> tuple[Result, BaseException | None]:
@@ -215,28 +264,3 @@ def _solved(solve: Callable[[], Result]) -> tuple[Result, BaseException | None]:
         if reached is None or not reached.rows:
             raise
         return reached, error
-
-
-def write(deck: Deck, problem: Problem, result: Result, stage: Staging) -> list[Path]:
-    """Write the files that the deck asks for; numbers get their names before pictures are drawn."""
-    wanted, waiting, text = deck.contents.output, stage.waiting, as_run(deck)
-    (waiting / COPY).write_text(text, encoding="utf-8")
-    if wanted.csv:
-        result.write(waiting / "history.csv")
-    if wanted.vtkhdf:
-        result.write(waiting / "fields.vtkhdf")
-    files = stage.commit([COPY, "history.csv", "fields.vtkhdf"])
-    if wanted.pictures:
-        from umform.deck.pictures import draw_curve, draw_shape  # matplotlib takes time to load
-
-        draw_curve(problem, result, waiting / "curve.png")
-        draw_shape(result, waiting / "shape.png")
-    if wanted.report:
-        result.report(waiting / "report.html", deck=text)
-    return [*files, *stage.commit(["report.html", "curve.png", "shape.png"])]
-
-
-def as_run(deck: Deck) -> str:
-    """Text of a deck, after lines that say which keys had other values."""
-    changes = (f"# run with --set {key}={value}\n" for key, value in deck.source.changes.items())
-    return "".join([*changes, deck.source.text])

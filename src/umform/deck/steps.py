@@ -9,7 +9,7 @@ from pydantic import Field
 
 from umform import steps
 from umform.deck.parts import Count, Name, Part, Positive
-from umform.model.boundary import Control
+from umform.model.control import Control
 from umform.solution.newton import NewtonOptions
 
 Controls = Mapping[str, Control]

@@ -5,11 +5,13 @@ from __future__ import annotations
 import errno
 import io
 import os
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
 from umform.errors import FileProblem
+from umform.io.owner import is_left_behind, mark
 
 
 class PendingFile:
@@ -44,7 +46,8 @@ class PendingFile:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path).resolve()
-        self.temporary = self.path.with_name(f".{self.path.stem}.{os.urandom(4).hex()}{self.path.suffix}")
+        name = f"{_before(self.path)}{mark()}.{os.urandom(4).hex()}{self.path.suffix}"
+        self.temporary = self.path.with_name(name)
 
     def __enter__(self) -> Path:
         try:
@@ -87,6 +90,30 @@ class PendingFile:
     def discard(self) -> None:
         """Remove the temporary file; the target stays as it was."""
         self.temporary.unlink(missing_ok=True)
+
+
+def remove_left_behind(path: str | os.PathLike[str]) -> None:
+    """Remove the temporary files of a target that processes of this machine have left which were killed.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        The target; it stays.
+    """
+    target = Path(path).resolve()
+    before, after = _before(target), target.suffix
+    with suppress(OSError):  # no folder, or none to look into
+        for file in target.parent.iterdir():
+            if not (file.name.startswith(before) and file.name.endswith(after)):
+                continue
+            owner = file.name[len(before) : len(file.name) - len(after)].rpartition(".")[0]
+            if owner and owner != mark() and is_left_behind(file, owner):
+                file.unlink(missing_ok=True)
+
+
+def _before(target: Path) -> str:
+    """How the names of the temporary files of a target begin."""
+    return f".{target.stem}."
 
 
 #: What an operating system says that is no matter of the path alone: cause and remedy.

@@ -1,6 +1,9 @@
-"""What is solved: mesh, element, material, supports, loads and tools; residual and tangent at a displacement."""
+"""What is solved: mesh, bodies, supports, loads and tools; residual and tangent at a displacement."""
 
-from umform.model.assembly import Evaluation, Snapshot
+from umform.model.body import Body
+from umform.model.evaluation import Evaluation
 from umform.model.model import Model
+from umform.model.state import Snapshot
+from umform.model.tool import Tool
 
-__all__ = ["Evaluation", "Model", "Snapshot"]
+__all__ = ["Body", "Evaluation", "Model", "Snapshot", "Tool"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
 from umform.mesh import Mesh
-from umform.model import boundary
+from umform.model import forces
 
 if TYPE_CHECKING:
     from umform.model import Model
@@ -44,35 +44,81 @@ def check_nodes(mesh: Mesh) -> None:
         )
 
 
-def middle(model: Model) -> tuple[Floats, float]:
-    """Mean of the nodes, and the largest distance from it along an axis."""
-    points, ranks = model.mesh.points, model.ranks
+def middle(model: Model, points: Floats | None = None) -> tuple[Floats, float]:
+    """Mean of the nodes of the undeformed mesh, or of other points, and the largest distance from it along an axis."""
+    points, ranks = model.mesh.points if points is None else points, model.ranks
     centre = ranks.sum(points.sum(axis=0)) / ranks.sum(float(len(points)))
     return centre, max(ranks.max(float(np.abs(points - centre).max())), 1e-300)
 
 
 def check_held(model: Model) -> None:
     """Refuse supports that leave a rigid-body motion free, and tools that swallow the sheet."""
-    centre, size = middle(model)
-    modes = boundary.rigid_body_modes(model.mesh.points, centre, size)
-    rows = [modes[:, np.flatnonzero(model.constrained())].T]
-    rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.ties]
     problem = None
     try:
-        rows += [_motion_along(x, n, centre, size) for x, n in _touching(model)]
+        touched = list(_touching(model))
     except ModelError as error:
-        problem = error
+        touched, problem = [], error
     model.ranks.agree(problem)
-    matrix = model.ranks.rows(np.concatenate([np.zeros((1, 6)), *rows]))
-    _, singular, directions = np.linalg.svd(matrix, full_matrices=True)
-    rank = int((singular > 1e-8 * max(singular.max(), 1e-300)).sum())
-    if rank < 6:
+    free = free_motions(model, touched)
+    if free:
         raise RigidBodyMotion(
-            f"the sheet can move as a rigid whole in {6 - rank} way{'s' if rank < 5 else ''}",
-            value="free: " + "; ".join(_describe_motion(motion) for motion in directions[rank:]),
+            f"the sheet can move as a rigid whole in {len(free)} way{'s' if len(free) > 1 else ''}",
+            value="free: " + "; ".join(free),
             cause="too few supports, or a tool that does not touch the sheet yet",
             remedy="hold the sheet with fix(), symmetry(), hinge() or prescribe(), or let a tool overlap it by a hair",
         )
+
+
+def free_motions(model: Model, touched: Sequence[tuple[Floats, Floats]] = ()) -> list[str]:
+    """Rigid-body motions that supports and tools leave free at the present displacement of the model, in words.
+
+    Parameters
+    ----------
+    model : Model
+        The model at ``model.u``.
+    touched : sequence of (positions, normals)
+        Points that tools hold, and the directions in which they do.
+    """
+    points = model.mesh.points + model.u.reshape(-1, 3)
+    centre, size = middle(model, points)
+    modes = forces.rigid_body_modes(points, centre, size)
+    rows = [modes[:, np.flatnonzero(model.constrained())].T]
+    rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.ties]
+    rows += [np.einsum("mkd,kd->km", modes[:, part.dofs], part.weights) for part in model.rows]
+    rows += [_motion_along(x, n, centre, size) for x, n in touched]
+    matrix = model.ranks.rows(np.concatenate([np.zeros((1, 6)), *rows]))
+    _, singular, directions = np.linalg.svd(matrix, full_matrices=True)
+    rank = int((singular > 1e-8 * max(singular.max(), 1e-300)).sum())
+    return [_describe_motion(motion) for motion in directions[rank:]]
+
+
+def diagnosis(model: Model) -> tuple[str, str] | None:
+    """Cause and remedy where a rigid-body motion of the model is free at its present state, or held by tools alone.
+
+    Asked when an increment has failed; None where supports hold the sheet.
+    """
+    without = free_motions(model)
+    if not without:
+        return None
+    try:
+        free = free_motions(model, list(_in_touch(model)))
+    except ModelError:
+        free = without
+    hold = "hold it there with fix(), symmetry() or hinge() (three points hold a sheet), or take the step in reverse"
+    if free:
+        return f"nothing holds the sheet: {'; '.join(free)} free", hold
+    return (
+        f"tools alone hold the sheet against {'; '.join(without)}, and let it go in this increment",
+        f"{hold}, or stop the tool while it still touches",
+    )
+
+
+def _in_touch(model: Model) -> Iterator[tuple[Floats, Floats]]:
+    """Positions and normals of the points that each tool holds at the present state."""
+    for contact in model.contacts:
+        if len(contact.facets) > 0:
+            at = contact.locate(model.u, contact.pose)
+            yield at.x[at.active], at.normal[at.active]
 
 
 def _touching(model: Model) -> Iterator[tuple[Floats, Floats]]:
@@ -84,9 +130,7 @@ def _touching(model: Model) -> Iterator[tuple[Floats, Floats]]:
     for contact in model.contacts:
         if len(contact.facets) == 0:
             continue
-        contact.place(model.time)
-        contact.block.locate(model.u)
-        at = contact.at_points()
+        at = contact.locate(model.u, contact.pose)
         undefined = ~(np.isfinite(at.gap) & np.isfinite(at.normal).all(axis=1))
         if undefined.any():
             raise ToolSwallowsSheet(
@@ -105,7 +149,7 @@ def _touching(model: Model) -> Iterator[tuple[Floats, Floats]]:
                 cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
                 remedy="move the tool so that it just touches the sheet, or turn its normal",
             )
-        touching = contact.active()
+        touching = at.active
         yield at.x[touching], at.normal[touching]
 
 

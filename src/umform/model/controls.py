@@ -1,38 +1,84 @@
-"""The list of controls of a model, which its supports, its loads and its tools add to."""
+"""The list of controls of a model, which its supports, its loads and its tools add to, and the register of names."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeVar
+from collections.abc import Iterable
+from typing import Any, TypeVar
 
 from umform.errors import InvalidValue
-from umform.model.boundary import Control
-
-if TYPE_CHECKING:
-    from umform.model.assembly import Assembly
+from umform.model.control import Control
+from umform.model.term import Term
 
 #: Columns of every history.
-_COLUMNS = ("step", "time", "iterations", "external_work", "elastic_energy", "plastic_work", "contact_energy")
+COLUMNS = ("step", "time", "iterations", "external_work", "elastic_energy", "plastic_work", "contact_energy")
 _C = TypeVar("_C", bound=Control)
+_T = TypeVar("_T")
+
+
+def columns_of(thing: Any) -> list[str]:
+    """Columns of the history that a control or a term writes."""
+    if isinstance(thing, Term) and not isinstance(thing, Control):
+        return list(thing.column_names())
+    return [thing.name, f"{thing.name}_force"]
 
 
 class Controlled:
-    """Something with controls of different names."""
+    """Something with controls, and with one register of the names of all columns of its history."""
 
     def __init__(self) -> None:
         self.controls: list[Control] = []
-        self._assembled: Assembly | None = None  # made anew when supports, ties, pressures or contacts change
+        self._assembled: Any = None  # made again when supports, ties, pressures or contacts change
 
-    def of_kind(self, kind: type[_C]) -> list[_C]:
+    def of_kind(self, kind: type[_T]) -> list[_T]:
         """Controls of a kind, in the order in which they were made."""
         return [control for control in self.controls if isinstance(control, kind)]
 
+    def _named(self) -> Iterable[Any]:
+        """Controls and terms: all that has columns in the history."""
+        return self.controls
+
+    def _columns(self) -> dict[str, str]:
+        """Each column of the history, and whose it is."""
+        taken = dict.fromkeys(COLUMNS, "the history itself")
+        for thing in self._named():
+            taken |= {column: f"{type(thing).__name__} {thing.name!r}" for column in columns_of(thing)}
+        return taken
+
+    def _refuse_taken(self, columns: Iterable[str], name: str) -> None:
+        """Refuse a name whose columns another thing writes.
+
+        Raises
+        ------
+        InvalidValue
+            If a column is taken.
+        """
+        taken = self._columns()
+        for column in columns:
+            if column in taken:
+                raise InvalidValue(
+                    "the name is taken: two columns of the history would collide",
+                    where=f"name {name!r}",
+                    value=f"column {column!r} of {taken[column]}",
+                    cause="two things of a model have the same name, or one is named like a column of another",
+                    remedy="give it another name",
+                )
+
+    def forget_assembly(self) -> None:
+        """Build pattern and maps again at the next evaluation."""
+        self._assembled = None
+
+    def free_name(self, base: str) -> str:
+        """A name that no control has: the given one, or with a number."""
+        return self._name(base)
+
     def _add(self, control: _C) -> _C:
-        if any(other.name == control.name for other in self.controls) or control.name in _COLUMNS:
-            raise InvalidValue("the name of a control is taken", value=control.name, remedy="give it another name")
+        self._refuse_taken(columns_of(control), control.name)
         self.controls.append(control)
         self._assembled = None
         return control
 
     def _name(self, base: str) -> str:
-        taken = {control.name for control in self.controls}
-        return base if base not in taken else next(f"{base}{k}" for k in range(2, 10**6) if f"{base}{k}" not in taken)
+        """A name that no control has, and whose columns are free."""
+        taken = self._columns()
+        free = (name for name in (base, *(f"{base}{k}" for k in range(2, 10**6))))
+        return next(name for name in free if name not in taken and f"{name}_force" not in taken)

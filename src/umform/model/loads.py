@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from umform import _core
 from umform.mesh import Mesh, Selector
-from umform.model import boundary
-from umform.model.boundary import Load, Pressure
+from umform.model import forces
 from umform.model.controls import Controlled
+from umform.model.dead_load import Load
+from umform.model.pressure import Pressure
 
 Floats = NDArray[np.float64]
 
@@ -36,7 +36,7 @@ class Loaded(Controlled):
         Load
             The control whose value steps move.
         """
-        return self._load(boundary.nodal_forces(self.mesh, nodes, force), name or self._name("force"))
+        return self._load(forces.nodal_forces(self.mesh, nodes, force), name or self._name("force"))
 
     def traction(self, faces: Selector, traction: ArrayLike, name: str = "") -> Load:
         """Dead traction on faces of the cells, lateral ones too.
@@ -55,7 +55,7 @@ class Loaded(Controlled):
         Load
             The control whose value steps move.
         """
-        return self._load(boundary.traction_forces(self.mesh, faces, traction), name or self._name("traction"))
+        return self._load(forces.traction_forces(self.mesh, faces, traction), name or self._name("traction"))
 
     def line_load(self, faces: Selector, side: str, load: ArrayLike, name: str = "") -> Load:
         """Dead load on the lower or upper edge of lateral faces.
@@ -76,7 +76,7 @@ class Loaded(Controlled):
         Load
             The control whose value steps move.
         """
-        return self._load(boundary.edge_forces(self.mesh, faces, side, load), name or self._name("line_load"))
+        return self._load(forces.edge_forces(self.mesh, faces, side, load), name or self._name("line_load"))
 
     def body_force(self, force: ArrayLike, name: str = "") -> Load:
         """Dead force in the volume.
@@ -93,7 +93,7 @@ class Loaded(Controlled):
         Load
             The control whose value steps move.
         """
-        return self._load(boundary.body_forces(self.mesh, force), name or self._name("body_force"))
+        return self._load(forces.body_forces(self.mesh, force), name or self._name("body_force"))
 
     def pressure(self, faces: Selector, name: str = "") -> Pressure:
         """Follower pressure on lower or upper faces, against their outward normal; the tangent becomes unsymmetric.
@@ -110,9 +110,11 @@ class Loaded(Controlled):
         Pressure
             The control whose value (force per current area) steps move.
         """
-        rows = self.mesh.face_set(faces)
-        block = _core.pressure_block(self.mesh.facets(rows), self.mesh.points)
-        return self._add(Pressure(name or self._name("pressure"), block=block, faces=rows))
+        return self._add(Pressure.on(name or self._name("pressure"), self.mesh, self.mesh.face_set(faces)))
+
+    def add_load(self, load: Load) -> Load:
+        """Add a load that has been made elsewhere."""
+        return self._add(load)
 
     def _load(self, vector: Floats, name: str) -> Load:
         return self._add(Load(name, vector=vector))

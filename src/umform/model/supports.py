@@ -1,66 +1,73 @@
-"""Supports of a model: nodes that are held or prescribed, and mid-lines that are hinged or prescribed."""
+"""Supports of a model: nodes, directors and mid-lines that are held or prescribed, along x, y, z or local axes."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from umform.errors import InvalidValue
-from umform.mesh import Ids, Mesh, Selector
-from umform.model.boundary import DIRECTIONS, Control, Prescribed
-from umform.model.controls import Controlled
-from umform.model.ties import MidLine, Tie, node_pairs
+from umform.mesh import Selector
+from umform.model.axes import GLOBAL, Axes
+from umform.model.control import Prescribed
+from umform.model.held import HELD, Held, refuse_twice
+from umform.model.support import Support, direction_number, directions_of, rows_of_nodes, rows_of_pairs, tie_of
+from umform.model.ties import MidLine, node_pairs
 
 Floats = NDArray[np.float64]
 
-_HELD = "fix or symmetry"
 
+class Supported(Held):
+    """Supports of the nodes of a mesh."""
 
-class Supported(Controlled):
-    """Supports of the nodes of a mesh.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        Points and cells.
-    """
-
-    def __init__(self, mesh: Mesh) -> None:
-        super().__init__()
-        self.mesh = mesh
-        self.ties: list[Tie] = []
-        self._fixed = np.zeros(3 * len(mesh.points), dtype=bool)
-
-    def fix(self, nodes: Selector, directions: str = "xyz") -> None:
-        """Hold nodes in one or more of the directions x, y, z; both nodes of a hinge may be held, it then has no say.
+    def fix(
+        self,
+        nodes: Selector,
+        directions: str | None = None,
+        *,
+        axes: Axes | None = None,
+        normals: ArrayLike | None = None,
+        here: bool = False,
+        name: str = "",
+    ) -> Support:
+        """Hold nodes in one or more directions; both nodes of a hinge may be held, which then does nothing.
 
         Parameters
         ----------
         nodes : str, callable or array_like
             Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
-        directions : str
-            Letters of the directions, "xz" for instance.
+        directions : str, optional
+            Letters of the directions, "xz" for instance; all three by default.
+        axes : Axes, optional
+            Local axes instead of x, y, z: :func:`umform.cylindrical` or :func:`umform.turned`.
+        normals : array_like, shape (3,) or (n, 3), optional
+            Hold the displacement along these vectors instead, one for all nodes or one for each in the order of their
+            numbers.
+        here : bool
+            Hold the nodes where they are now, not where they were in the undeformed mesh.
+        name : str, optional
+            Name of the support.
+
+        Returns
+        -------
+        Support
+            What :meth:`umform.Model.remove` takes away again.
 
         Raises
         ------
         InvalidValue
-            If a direction is unknown, or a displacement is prescribed or tied already.
+            If a direction is unknown, a displacement is prescribed or tied already, or the name is taken.
         """
         ids = self.mesh.nodes(nodes)
-        for direction in directions:
-            dofs = 3 * ids + _direction_number(direction)
-            held = self._fixed.copy()
-            held[dofs] = True
-            ties = [_without_held(tie, held) for tie in self.ties]
-            taken = self._taken(ties)
-            del taken[_HELD]  # to hold a node twice does no harm
-            _refuse_twice(dofs, direction, taken, _HELD)
-            self._fixed, self.ties = held, ties
-        self._assembled = None
+        support = self._new(HELD, directions, ids, here, name)
+        if axes is None and normals is None:
+            support.directions = letters = "xyz" if directions is None else directions
+            dofs = [3 * ids + direction_number(letter) for letter in letters]
+            support.held = np.concatenate([support.held, *dofs]).astype(np.int32)
+        else:
+            support.directions, vectors = directions_of(axes or GLOBAL, directions, normals, self.mesh.points[ids])
+            support.rows = [rows_of_nodes(ids, vector, support.name, None, support.base) for vector in vectors]
+        return self._hold(support)
 
-    def symmetry(self, nodes: Selector, normal: str) -> None:
+    def symmetry(self, nodes: Selector, normal: str) -> Support:
         """Symmetry plane: nodes stay in the plane with the normal x, y or z.
 
         Parameters
@@ -70,35 +77,17 @@ class Supported(Controlled):
         normal : {"x", "y", "z"}
             Normal of the plane.
         """
-        self.fix(nodes, normal)
+        return self.fix(nodes, normal)
 
-    def prescribe(self, nodes: Selector, direction: str, name: str = "") -> Prescribed:
-        """Prescribe the displacement of nodes in a direction.
-
-        Parameters
-        ----------
-        nodes : str, callable or array_like
-            Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
-        direction : {"x", "y", "z"}
-            Direction.
-        name : str, optional
-            Column of the history.
-
-        Returns
-        -------
-        Prescribed
-            The control whose value (a length) steps move; its force is the sum of the reactions on the sheet.
-
-        Raises
-        ------
-        InvalidValue
-            If a displacement is held, prescribed or tied already.
-        """
-        dofs = (3 * self.mesh.nodes(nodes) + _direction_number(direction)).astype(np.int32)
-        _refuse_twice(dofs, direction, self._taken(self.ties), name or "this one")
-        return self._add(Prescribed(name or self._name("displacement"), dofs=dofs))
-
-    def hinge(self, nodes: Selector, directions: str = "xyz") -> None:
+    def hinge(
+        self,
+        nodes: Selector,
+        directions: str | None = None,
+        *,
+        axes: Axes | None = None,
+        here: bool = False,
+        name: str = "",
+    ) -> Support:
         """Hold the mid-line of the sheet at an edge, about which its section may rotate.
 
         The mean of the displacements of the lower and the upper node of each pair is zero. eq. (5.16) Where both are
@@ -108,8 +97,15 @@ class Supported(Controlled):
         ----------
         nodes : str, callable or array_like
             Lower and upper nodes, "x0" for instance; through a stack of cells the outermost two nodes make the pair.
-        directions : str
-            Letters of the directions in which the mid-line is held; "xz" lets it move along y.
+        directions : str, optional
+            Letters of the directions in which the mid-line is held; "xz" lets it move along y. Default: all three.
+        axes, here, name
+            As for :meth:`fix`.
+
+        Returns
+        -------
+        Support
+            What :meth:`umform.Model.remove` takes away again.
 
         Raises
         ------
@@ -122,12 +118,106 @@ class Supported(Controlled):
         >>> from umform import SVK, Model
         >>> from umform.mesh import strip
         >>> model = Model(strip(10.0, 1.0, 0.1, (8, 1)), material=SVK(E=210e3, nu=0.3))
-        >>> model.hinge("x0", "xz")
+        >>> hinge = model.hinge("x0", "xz")
         """
-        for direction in directions:
-            self._tie(nodes, direction, None, "hinge")
+        pairs = node_pairs(self.mesh, nodes)
+        support = self._new("hinge", directions, np.unique(pairs), here, name)
+        if axes is None:
+            support.directions = letters = "xyz" if directions is None else directions
+            support.ties = [tie_of(pairs, direction_number(letter), None, support.base) for letter in letters]
+        else:
+            middle = self.mesh.points[pairs].mean(axis=1)
+            support.directions, vectors = directions_of(axes, directions, None, middle)
+            support.rows = [rows_of_pairs(pairs, vector, "hinge", None, support.base) for vector in vectors]
+        return self._hold(support)
 
-    def prescribe_midline(self, nodes: Selector, direction: str, name: str = "") -> MidLine:
+    def hold_director(
+        self,
+        nodes: Selector,
+        directions: str | None = None,
+        *,
+        axes: Axes | None = None,
+        here: bool = False,
+        name: str = "",
+    ) -> Support:
+        """Hold the director of the sheet at an edge: upper and lower node of each pair keep together.
+
+        The difference of their displacements in the directions is zero, their mean is free: held along one direction,
+        the director stays in the plane normal to it, where it may tilt and stretch. eq. (5.44)
+
+        Parameters
+        ----------
+        nodes : str, callable or array_like
+            Lower and upper nodes, "x0" for instance; through a stack of cells the outermost two nodes make the pair.
+        directions : str, optional
+            Letters of the directions. Default: all three.
+        axes, here, name
+            As for :meth:`fix`.
+
+        Returns
+        -------
+        Support
+            What :meth:`umform.Model.remove` takes away again.
+
+        Raises
+        ------
+        InvalidValue
+            If a node has no partner in the set, or the support contradicts another one.
+
+        Examples
+        --------
+        A rigid diaphragm at the end of a cylinder about y. It holds the mid-line in its plane and the section against
+        a rotation about the axis.
+
+        >>> from umform import SVK, Model, cylindrical
+        >>> from umform.mesh import strip
+        >>> model = Model(strip(10.0, 1.0, 0.1, (8, 1)), material=SVK(E=210e3, nu=0.3))
+        >>> ends = model.hinge("y1", "xz"), model.hold_director("y1", "t", axes=cylindrical((0, 0, -50), "y"))
+        """
+        pairs = node_pairs(self.mesh, nodes)
+        support = self._new("director", directions, np.unique(pairs), here, name)
+        middle = self.mesh.points[pairs].mean(axis=1)
+        support.directions, vectors = directions_of(axes or GLOBAL, directions, None, middle)
+        support.rows = [rows_of_pairs(pairs, v, support.name, None, support.base, turn=True) for v in vectors]
+        return self._hold(support)
+
+    def prescribe(self, nodes: Selector, direction: str, name: str = "", *, axes: Axes | None = None) -> Prescribed:
+        """Prescribe the displacement of nodes in a direction.
+
+        Parameters
+        ----------
+        nodes : str, callable or array_like
+            Name of a set, predicate of x, y, z, node ids or a mask, see :meth:`umform.Mesh.nodes`.
+        direction : {"x", "y", "z"}
+            Direction, or a letter of the axes.
+        name : str, optional
+            Column of the history.
+        axes : Axes, optional
+            Local axes instead of x, y, z.
+
+        Returns
+        -------
+        Prescribed
+            The control whose value (a length) steps move; its force is the sum of the reactions on the sheet.
+
+        Raises
+        ------
+        InvalidValue
+            If a displacement is held, prescribed or tied already, or the name is taken.
+        """
+        ids = self.mesh.nodes(nodes)
+        control = Prescribed(name or self._name("displacement"))
+        if axes is not None:
+            _, vectors = directions_of(axes, direction, None, self.mesh.points[ids])
+            rows = [rows_of_nodes(ids, vector, control.name, control, None) for vector in vectors]
+            return self._drive(control, Support(control.name, control.name, direction, ids, rows=rows, control=control))
+        control.dofs = (3 * ids + direction_number(direction)).astype(np.int32)
+        refuse_twice(control.dofs, direction, self._taken(self.ties), name or "this one")
+        return self._drive(control, None)
+
+    def prescribe_midline(
+        self, nodes: Selector, direction: str, name: str = "", *, axes: Axes | None = None
+    ) -> MidLine:
         """Prescribe the displacement of the mid-line of the sheet at an edge, about which its section may rotate.
 
         Parameters
@@ -135,9 +225,11 @@ class Supported(Controlled):
         nodes : str, callable or array_like
             Lower and upper nodes, "x1" for instance; through a stack of cells the outermost two nodes make the pair.
         direction : {"x", "y", "z"}
-            Direction.
+            Direction, or a letter of the axes.
         name : str, optional
             Column of the history.
+        axes : Axes, optional
+            Local axes instead of x, y, z.
 
         Returns
         -------
@@ -148,98 +240,24 @@ class Supported(Controlled):
         Raises
         ------
         InvalidValue
-            If a node has no partner in the set, or is held, prescribed or tied already.
+            If a node has no partner in the set, is held, prescribed or tied already, or the name is taken.
 
         Examples
         --------
         >>> from umform import SVK, Model, Move, solve
         >>> from umform.mesh import strip
         >>> model = Model(strip(10.0, 1.0, 0.1, (8, 1)), material=SVK(E=210e3, nu=0.3))
-        >>> model.fix("x0")
+        >>> clamp = model.fix("x0")
         >>> lift = model.prescribe_midline("x1", "z", "lift")
         >>> result = solve(model, Move(lift, 0.5, steps=2))
         """
-        control = MidLine(name or self._name("midline"))
-        control.dofs = self._tie(nodes, direction, control, control.name)
-        return self._add(control)
-
-    def _tie(self, nodes: Selector, direction: str, control: MidLine | None, by: str) -> Ids:
-        dofs = (3 * node_pairs(self.mesh, nodes) + _direction_number(direction)).astype(np.int32)
-        tie = _without_held(Tie(dofs, control), self._fixed)
-        _refuse_twice(tie.dofs.ravel(), direction, self._taken(self.ties), by)
-        self.ties.append(tie)
-        self._assembled = None
-        return tie.dofs.ravel()
-
-    def constrained(self) -> NDArray[np.bool_]:
-        """Which degrees of freedom are held or prescribed; tied ones are not."""
-        constrained = self._fixed.copy()
-        for control in self.of_kind(Prescribed):
-            constrained[control.dofs] = True
-        return constrained
-
-    @property
-    def unknown_count(self) -> int:
-        """Number of unknowns: degrees of freedom that are neither held nor prescribed; two that are tied make one."""
-        return int((~self.constrained()).sum()) - sum(len(tie.dofs) for tie in self.ties)
-
-    def displacement_of_supports(self, values: Mapping[Control, float]) -> Floats:
-        """Displacement that supports prescribe if their controls have these values (others zero); zero elsewhere.
-
-        Parameters
-        ----------
-        values : mapping of Control to float
-            Displacements, or their rates.
-
-        Returns
-        -------
-        ndarray, shape (3 n,)
-        """
-        u = np.zeros(self._fixed.size)
-        for control in self.controls:
-            if isinstance(control, Prescribed | MidLine):
-                u[control.dofs] = values.get(control, 0.0)
-        return u
-
-    def prescribed_displacement(self) -> Floats:
-        """Displacement that supports prescribe at the present values of the controls; zero elsewhere."""
-        return self.displacement_of_supports({control: control.value for control in self.controls})
-
-    def _taken(self, ties: Sequence[Tie]) -> dict[str, Ids]:
-        """Degrees of freedom that are spoken for, and by whom."""
-        taken = {_HELD: np.flatnonzero(self._fixed).astype(np.int32)}
-        taken |= {control.name: control.dofs for control in self.of_kind(Prescribed)}
-        for tie in ties:
-            by = "hinge" if tie.control is None else tie.control.name
-            taken[by] = np.concatenate([taken.get(by, np.empty(0, dtype=np.int32)), tie.dofs.ravel()])
-        return taken
-
-
-def _without_held(tie: Tie, held: NDArray[np.bool_]) -> Tie:
-    """A hinge without the pairs whose nodes are both held: their mean is zero as it is."""
-    return tie if tie.control is not None else Tie(tie.dofs[~held[tie.dofs].all(axis=1)], None)
-
-
-def _direction_number(name: str) -> int:
-    if name not in DIRECTIONS:
-        raise InvalidValue(
-            "a direction is x, y or z",
-            where="supports",
-            value=name,
-            cause="another letter, or a vector",
-            remedy="fix takes letters such as xz; all others take one of x, y, z",
-        )
-    return DIRECTIONS[name]
-
-
-def _refuse_twice(dofs: Ids, direction: str, taken: Mapping[str, Ids], by: str) -> None:
-    for other, theirs in taken.items():
-        shared = np.intersect1d(dofs, theirs)
-        if len(shared):
-            raise InvalidValue(
-                "a displacement is prescribed twice",
-                where=f"node {shared[0] // 3}, direction {direction}",
-                value=f"by {other} and by {by}",
-                cause="two supports ask for it",
-                remedy="take the node out of one of the sets; a hinge bears a node that is held if its partner is too",
-            )
+        control, pairs = MidLine(name or self._name("midline")), node_pairs(self.mesh, nodes)
+        holder = Support(control.name, control.name, direction, np.unique(pairs), control=control)
+        if axes is not None:
+            _, vectors = directions_of(axes, direction, None, self.mesh.points[pairs].mean(axis=1))
+            holder.rows = [rows_of_pairs(pairs, vector, control.name, control, None) for vector in vectors]
+            return self._drive(control, holder)
+        tie = tie_of(pairs, direction_number(direction), control, None)
+        refuse_twice(tie.dofs.ravel(), direction, self._taken(self.ties), control.name)
+        control.dofs, holder.ties = tie.dofs.ravel(), [tie]
+        return self._drive(control, holder)

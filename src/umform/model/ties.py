@@ -6,32 +6,69 @@ may rotate about it. docs/theory, 5.10
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh, Selector
-from umform.model.boundary import Control
-from umform.solvers import Pattern
+from umform.model.constraints import Rows
+from umform.model.control import OnDofs
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(eq=False, repr=False)
-class MidLine(Control):
+class MidLine(OnDofs):
     """Displacement of the mid-line of an edge in one direction; its force is the sum of the reactions on the sheet."""
-
-    dofs: Ids = field(default_factory=lambda: np.empty(0, dtype=np.int32))
 
 
 @dataclass(frozen=True)
 class Tie:
-    """Pairs of degrees of freedom (lower, upper), shape (k, 2), whose mean is held or the value of a control."""
+    """Pairs of degrees of freedom (lower, upper), shape (k, 2), whose mean is held or the value of a control.
+
+    Where there are offsets, shape (k,), the mean is held there instead of at zero.
+    """
 
     dofs: Ids
     control: MidLine | None
+    offsets: Floats | None = None
+
+    def without_held(self, held: NDArray[np.bool_]) -> Tie:
+        """A hinge without the pairs whose nodes are both held: their mean is given as it is."""
+        if self.control is not None:
+            return self
+        left = ~held[self.dofs].all(axis=1)
+        return Tie(self.dofs[left], None, None if self.offsets is None else self.offsets[left])
+
+
+def split_ties(ties: Sequence[Tie], rows: Sequence[Rows], constrained: NDArray[np.bool_]) -> tuple[Ids, list[Rows]]:
+    """Pairs that stand alone, and the rows with those pairs that share a degree of freedom with one of them.
+
+    Parameters
+    ----------
+    ties : sequence of Tie
+        All ties.
+    rows : sequence of Rows
+        Constraints in local axes.
+    constrained : ndarray of bool, shape (3 n,)
+        Degrees of freedom that are held or prescribed by themselves.
+    """
+    local = np.zeros(len(constrained), dtype=bool)
+    for part in rows:
+        local[part.dofs[part.weights != 0.0]] = True
+    local &= ~constrained
+    pairs, joined = [np.empty((0, 2), dtype=np.int32)], list(rows)
+    for tie in ties:
+        touched = local[tie.dofs].any(axis=1)
+        pairs.append(tie.dofs[~touched])
+        if touched.any():
+            by = "hinge" if tie.control is None else tie.control.name
+            offsets = None if tie.offsets is None else tie.offsets[touched]
+            joined.append(Rows(tie.dofs[touched], np.full((int(touched.sum()), 2), 0.5), tie.control, by, offsets))
+    return np.concatenate(pairs), joined
 
 
 def node_pairs(mesh: Mesh, nodes: Selector) -> Ids:
@@ -85,83 +122,3 @@ def node_pairs(mesh: Mesh, nodes: Selector) -> Ids:
             remedy="take the set of the whole edge, x0 instead of x0_lower",
         )
     return np.stack([bottoms[touched], tops[touched]], axis=1).astype(np.int32)
-
-
-@dataclass(frozen=True)
-class Reduction:
-    """The entries of T^T K T as sums of entries of K. eq. (5.19)
-
-    Attributes
-    ----------
-    target : ndarray of int
-        Entry of T^T K T that each entry of K goes to; each of them occurs.
-    factor : ndarray
-        What the entry of K is multiplied by.
-    """
-
-    target: NDArray[np.intp]
-    factor: Floats
-
-    def __call__(self, values: Floats) -> Floats:
-        """Values of T^T K T from those of K."""
-        return np.asarray(np.bincount(self.target, weights=self.factor * values), dtype=np.float64)
-
-
-class Unknowns:
-    """What the solver solves for: free degrees of freedom and half the differences of tied ones, u = T q + c.
-
-    The columns of T are orthonormal: one entry 1, or the entries -1/sqrt(2) and 1/sqrt(2) of a tie. eq. (5.17)
-
-    Parameters
-    ----------
-    free : ndarray of int
-        Degrees of freedom that are neither held nor prescribed nor tied.
-    pairs : ndarray of int, shape (k, 2)
-        Tied ones.
-    size : int
-        All of them.
-    """
-
-    def __init__(self, free: NDArray[np.int64], pairs: Ids, size: int) -> None:
-        self.free, self.pairs, self.size = free, pairs, size
-
-    def restrict(self, r: Floats) -> Floats:
-        """T^T r. eq. (5.18)"""
-        if len(self.pairs) == 0:
-            return r[self.free]
-        lower, upper = self.pairs.T
-        return np.concatenate([r[self.free], (r[upper] - r[lower]) * np.sqrt(0.5)])
-
-    def extend(self, x: Floats) -> Floats:
-        """T x. eq. (5.17)"""
-        u = np.zeros(self.size)
-        u[self.free] = x[: len(self.free)]
-        if len(self.pairs):
-            half = x[len(self.free) :] * np.sqrt(0.5)
-            u[self.pairs[:, 0]], u[self.pairs[:, 1]] = -half, half
-        return u
-
-    def reduction(self, rows: Ids, columns: Ids, symmetric: bool) -> tuple[Pattern, Reduction]:
-        """Pattern of T^T K T, and the map from the entries of K to its entries. eq. (5.19)
-
-        Parameters
-        ----------
-        rows, columns : ndarray of int
-            Place of each entry of K, which has an equation for each free degree of freedom, in their order, then one
-            for each lower and then one for each upper tied one.
-        symmetric : bool
-            Whether only upper triangles are stored.
-        """
-        free, ties = len(self.free), len(self.pairs)
-        unknown = np.concatenate([np.arange(free + ties), np.arange(free, free + ties)])
-        weight = np.concatenate([np.ones(free), np.full(ties, -np.sqrt(0.5)), np.full(ties, np.sqrt(0.5))])
-        i, j = unknown[rows], unknown[columns]
-        factor = weight[rows] * weight[columns]
-        if symmetric:
-            factor = np.where((i == j) & (rows != columns), 2.0 * factor, factor)  # stands for two entries of K
-            i, j = np.minimum(i, j), np.maximum(i, j)
-        n = free + ties
-        places, target = np.unique(i.astype(np.int64) * n + j, return_inverse=True)
-        indptr = np.searchsorted(places, np.arange(n + 1, dtype=np.int64) * n).astype(np.int32)
-        pattern = Pattern(n, indptr, (places % n).astype(np.int32), symmetric)
-        return pattern, Reduction(target, factor)

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.model.contact import ContactPoints
+from umform.model.contact import Contact, ContactPoints
+from umform.model.frame import Frame
+from umform.model.term import Tree
 from umform.parallel.places import Places
 
 if TYPE_CHECKING:
-    from umform.model.frame import Frame
     from umform.parallel.share import Share
 
 Floats = NDArray[np.float64]
@@ -34,7 +35,8 @@ class Gathering:
         self.known_nodes = Places(share.nodes, ranks)
         self.own_nodes = Places(share.nodes[share.owned], ranks)
         self.cells = Places(share.cells, ranks)
-        self.facets = [Places(here, ranks) for here in share.facets_here]
+        #: Rows of the state of each term that has some, by its key.
+        self.rows = {term.key: Places(term.rows, ranks) for term in (*share.bodies, *share.contacts)}
 
     # Whole arrays --------------------------------------------------------------------------------------------
 
@@ -43,21 +45,21 @@ class Gathering:
         whole = self.own_nodes.collect(u.reshape(-1, 3)[self.share.owned])
         return None if whole is None else whole.ravel()
 
-    def points(self, number: int, values: Floats) -> Floats | None:
+    def points(self, contact: Contact, values: Floats) -> Floats | None:
         """Values at the contact points (points here, ...) of a contact, at all of its points."""
-        contact = self.share.contacts[number]
         per_facet = len(contact.block.shape_values)
-        whole = self.facets[number].collect(values.reshape(len(contact.facets), per_facet, *values.shape[1:]))
+        rows = values.reshape(len(contact.facets), per_facet, *values.shape[1:])
+        whole = self.rows[contact.key].collect(rows)
         return None if whole is None else whole.reshape(-1, *values.shape[1:])
 
     def frame(self, frame: Frame) -> Frame | None:
         """The frame over the whole model, on the first rank."""
-        owned = self.share.owned
+        owned, by_name = self.share.owned, {contact.name: contact for contact in self.share.contacts}
         points: dict[str, Any] = {name: self.own_nodes.collect(values[owned]) for name, values in frame.points.items()}
         cells: dict[str, Any] = {name: self.cells.collect(values) for name, values in frame.cells.items()}
         contacts: dict[str, dict[str, Any]] = {
-            name: {key: self.points(number, values) for key, values in vars(at).items()}
-            for number, (name, at) in enumerate(frame.contacts.items())
+            name: {key: self.points(by_name[name], values) for key, values in vars(at).items()}
+            for name, at in frame.contacts.items()
         }
         if self.ranks.rank > 0:
             return None
@@ -68,22 +70,28 @@ class Gathering:
 
     def state(self, tree: dict[str, Any]) -> dict[str, Any]:
         """The tree of a checkpoint over the whole model, on the first rank."""
-        model, work = tree["model"], tree["result"]["work"]
-        residual = self.share.sum_at_nodes(work["residual"].reshape(-1, 3)).ravel()
-        multipliers = [self.points(number, values) for number, values in enumerate(model["multipliers"])]
+        model = tree["model"]
         return {
             **tree,
             "model": {
                 **model,
                 "u": self.displacement(model["u"]),
-                "state": self.cells.collect(model["state"]),
-                "alpha": self.cells.collect(model["alpha"]),
-                "multipliers": multipliers,
+                "terms": {key: self._collected(key, state) for key, state in model["terms"].items()},
             },
-            "history": self.cells.collect(tree["history"]),
-            "last_du": None if tree["last_du"] is None else self.displacement(tree["last_du"]),
-            "result": {**tree["result"], "work": {**work, "residual": self.displacement(residual)}},
+            "before": {key: self.rows[key].collect(values) for key, values in tree["before"].items()},
+            "last_dx": None if tree["last_dx"] is None else self._collected_x(tree["last_dx"]),
         }
+
+    def _collected(self, key: str, state: Tree) -> Tree:
+        """State of a term over the whole model; one without rows is the same on all ranks."""
+        if key not in self.rows:
+            return state
+        return {name: self.rows[key].collect(values) for name, values in state.items()}
+
+    def _collected_x(self, x: Floats) -> Floats | None:
+        dofs = self.share.u.size
+        whole = self.displacement(x[:dofs])
+        return None if whole is None else np.concatenate([whole, x[dofs:]])
 
     def own_state(self, read: Callable[[], dict[str, Any]]) -> dict[str, Any]:
         """What this rank has of the tree of a checkpoint, which the first rank reads.
@@ -94,34 +102,32 @@ class Gathering:
             On all ranks, if the first one cannot read it.
         """
         tree = self.ranks.on_first(read)
-        outline = self.ranks.comm.bcast(None if tree is None else _outline(tree))
-        whole = tree or {"model": {}, "result": {"work": {}}}
-        model, work = whole["model"], whole["result"]["work"]
-
-        def at_nodes(values: Floats | None) -> Floats:
-            return self.known_nodes.hand_out(None if values is None else values.reshape(-1, 3)).ravel()
-
-        multipliers = [self._multipliers(k, model.get("multipliers")) for k in range(len(self.facets))]
-        reactions = at_nodes(work.get("residual")).reshape(-1, 3)
-        residual = np.zeros_like(reactions)  # the sum counts for the owner
-        residual[self.share.owned] = reactions[self.share.owned]
-        arrays = {name: self.cells.hand_out(model.get(name)) for name in ("state", "alpha")}
-        outline["model"] |= {"u": at_nodes(model.get("u")), **arrays, "multipliers": multipliers}
-        outline["history"] = self.cells.hand_out(whole.get("history"))
-        outline["last_du"] = at_nodes(whole.get("last_du")) if outline["last_du"] else None
-        outline["result"]["work"]["residual"] = residual.ravel()
+        outline: dict[str, Any] = self.ranks.comm.bcast(None if tree is None else self._outline(tree))
+        model = outline["model"]
+        whole: Any = tree or {"model": {"u": None, "terms": {}}, "before": {}, "last_dx": None, "result": {}}
+        model["u"] = self._at_nodes(whole["model"]["u"])
+        for key, names in model["rows"].items():
+            state = whole["model"]["terms"].get(key, {})
+            model["terms"][key] = {name: self.rows[key].hand_out(state.get(name)) for name in names}
+        del model["rows"]
+        outline["before"] = {key: self.rows[key].hand_out(whole["before"].get(key)) for key in outline["before"]}
+        if outline["last_dx"] is not None:
+            dofs = None if whole["last_dx"] is None else whole["last_dx"][: whole["model"]["u"].size]
+            outline["last_dx"] = np.concatenate([self._at_nodes(dofs), outline["last_dx"]])
         outline["result"]["frames"] = None if tree is None else tree["result"]["frames"]
-        return outline  # type: ignore[no-any-return]
+        return outline
 
-    def _multipliers(self, number: int, whole: list[Floats] | None) -> Floats:
-        places = self.facets[number]
-        return places.hand_out(None if whole is None else whole[number].reshape(places.count, -1)).ravel()
+    def _at_nodes(self, values: Floats | None) -> Floats:
+        return self.known_nodes.hand_out(None if values is None else values.reshape(-1, 3)).ravel()
 
-
-def _outline(tree: dict[str, Any]) -> dict[str, Any]:
-    """The tree without what each rank has a part of."""
-    model = {key: tree["model"][key] for key in ("controls", "time")}
-    work = {key: value for key, value in tree["result"]["work"].items() if key != "residual"}
-    result = {key: value for key, value in tree["result"].items() if key not in ("work", "frames")}
-    small = {key: tree[key] for key in ("fingerprint", "note", "number", "factors", "loop")}
-    return {**small, "model": model, "last_du": tree["last_du"] is not None, "result": {**result, "work": work}}
+    def _outline(self, tree: dict[str, Any]) -> dict[str, Any]:
+        """The tree without what each rank has a part of, and the names of what it has."""
+        model = {key: tree["model"][key] for key in ("controls", "unknowns", "time")}
+        terms = tree["model"]["terms"]
+        model["terms"] = {key: state for key, state in terms.items() if key not in self.rows}
+        model["rows"] = {key: list(state) for key, state in terms.items() if key in self.rows}
+        result = {key: value for key, value in tree["result"].items() if key != "frames"}
+        small = {key: tree[key] for key in ("fingerprint", "note", "number", "factors", "loop")}
+        last = tree["last_dx"]
+        scalars = None if last is None else last[tree["model"]["u"].size :]
+        return {**small, "model": model, "before": list(tree["before"]), "last_dx": scalars, "result": result}

@@ -1,76 +1,61 @@
-"""A model without what grows with its mesh: element, law, tools, controls and steps, which all ranks have."""
+"""A model without what grows with its mesh: bodies, tools, controls, terms and steps, which all ranks have."""
 
 from __future__ import annotations
 
-import copy
 import pickle
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
-from umform.elements import Element
 from umform.errors import InvalidValue
-from umform.materials import Material
-from umform.model import Model
-from umform.model.boundary import Control, Load, Prescribed, Pressure
+from umform.model import Body, Model, Tool
 from umform.model.contact import Contact
+from umform.model.control import Control, Twins
+from umform.model.now import Now
+from umform.model.term import Term
 from umform.model.ties import MidLine
 from umform.parallel.mpi_ranks import MpiRanks
-from umform.steps.arc_length.arc import Arc
-from umform.steps.move import Move
-from umform.steps.release import Release
-
-Step = Move | Release | Arc
+from umform.steps import Free, Step
 
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """What a rank has to know of a model beside its own nodes and cells; its controls are copies without a mesh.
+    """What a rank has to know of a model beside its own nodes and cells: copies without a mesh.
 
     Attributes
     ----------
-    element, material, thickness_points, thickness_rule, time
-        As in :class:`umform.Model`.
-    controls : list of Control
+    now : Now
+        Time.
+    bodies, controls, tools, contacts, others : list
         In the order of the model.
-    contacts : list of Contact
-        Without faces.
     tied : list of MidLine or None
         The control of each tie.
     steps : list of Step
         What happens to these controls.
     """
 
-    element: Element
-    material: Material
-    thickness_points: int
-    thickness_rule: str
-    time: float
+    now: Now
+    bodies: list[Body]
     controls: list[Control]
+    tools: list[Tool]
     contacts: list[Contact]
+    others: list[Term]
     tied: list[MidLine | None]
     steps: list[Step]
 
     @classmethod
     def of(cls, model: Model, steps: Sequence[Step] = ()) -> Outline:
         """Leave out of a model all that grows with its mesh."""
-        twin: dict[Control, Any] = {control: _bare(control) for control in model.controls}
-        contacts = []
-        for contact in model.contacts:
-            contacts.append(contact.bare())
-            contacts[-1].translations = [twin[motion] for motion in contact.translations]
+        twins = Twins()
         return cls(
-            model.element,
-            model.material,
-            model.thickness_points,
-            model.thickness_rule,
-            model.time,
-            list(twin.values()),
-            contacts,
-            [None if tie.control is None else twin[tie.control] for tie in model.ties],
-            [_moving(step, twin) for step in steps],
+            twins.of(model.now),
+            [twins.of(body) for body in model.bodies],
+            [twins.of(control) for control in model.controls],
+            [twins.of(tool) for tool in model.tools],
+            [twins.of(contact) for contact in model.contacts],
+            [twins.of(term) for term in model.others],
+            [None if tie.control is None else twins.of(tie.control) for tie in model.ties],
+            [_moving(step, twins) for step in steps],
         )
 
     @classmethod
@@ -89,23 +74,16 @@ class Outline:
         received: Outline = pickle.loads(text)
         return received
 
-
-def _bare(control: Control) -> Control:
-    """A copy of a control without what it has of the mesh."""
-    bare: Any = copy.copy(control)
-    if isinstance(control, Prescribed | MidLine):
-        bare.dofs = np.empty(0, dtype=np.int32)
-    elif isinstance(control, Load):
-        bare.vector = np.empty(0)
-    elif isinstance(control, Pressure):
-        bare.block, bare.faces = None, np.empty((0, 2), dtype=np.int32)
-    return bare  # type: ignore[no-any-return]
+    def pieces_for(self) -> list[Any]:
+        """All that gets a piece of the mesh, in the order of the pieces of a parcel."""
+        return [*self.bodies, *self.controls, *self.tools, *self.contacts, *self.others]
 
 
-def _moving(step: Step, twin: dict[Control, Any]) -> Step:
+def _moving(step: Step, twins: Twins) -> Step:
     """The same step of the controls of an outline."""
+    assert not isinstance(step, Free)  # refused before
     moved = step.control
-    own: Any = twin[moved] if isinstance(moved, Control) else [twin[control] for control in moved]
+    own: Any = twins.of(moved) if isinstance(moved, Control) else [twins.of(control) for control in moved]
     return replace(step, control=own)
 
 

@@ -11,19 +11,19 @@ import numpy as np
 from umform.digest import digest
 from umform.errors import InvalidValue, UmformError
 from umform.model import Model
-from umform.model.boundary import Load
 from umform.model.checks import check_nodes
+from umform.model.dead_load import Load
 from umform.model.whole import not_here
 from umform.parallel.cutting import Cutting
 from umform.parallel.mpi_ranks import MpiRanks, world
-from umform.parallel.outline import Outline, Step
+from umform.parallel.outline import Outline
 from umform.parallel.partition import partition
 from umform.parallel.share import Share
 from umform.parallel.solver import Petsc
 from umform.parallel.together import together
 from umform.results.history import History
 from umform.solvers import register
-from umform.steps.arc_length.arc import Arc
+from umform.steps import Arc, Free, Step
 
 _H = TypeVar("_H", bound=History)
 
@@ -94,6 +94,21 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
                 cause="the load is one more unknown, and critical points are looked for in the whole tangent",
                 remedy="another solver in one process, or Move and Release",
             )
+        if isinstance(step, Free):
+            raise InvalidValue(
+                "a support cannot be freed with the solver petsc",
+                where=f"step {number}",
+                cause="the unknowns of all ranks would have to be numbered again",
+                remedy="another solver in one process; or remove() between two calls of solve()",
+            )
+    if model.rows or any(support.base is not None for support in model.supports):
+        raise InvalidValue(
+            "supports in local axes, and those that hold nodes where they are now, do not go with the solver petsc",
+            where="supports",
+            value="; ".join(str(support) for support in model.supports if support.rows or support.base is not None),
+            cause="ranks share out single degrees of freedom and pairs of them",
+            remedy="another solver in one process, or supports along x, y and z of the undeformed mesh",
+        )
     if model.elsewhere:
         raise not_here("the history of the elements")
     if ranks.rank == 0:
@@ -138,11 +153,12 @@ def _give_back(share: Share, result: History | None) -> None:
     whole.time = share.time
     for control, own in zip(whole.controls, share.controls, strict=True):
         control.value = own.value
+    for unknown, own_unknown in zip(whole.unknowns, share.unknowns, strict=True):
+        unknown.value = own_unknown.value
     whole.elsewhere = True
-    vars(whole).pop("block", None)
-    for contact, part in zip(whole.contacts, share.contacts, strict=True):
-        contact.elsewhere = True
-        vars(contact).pop("block", None)
-        contact.put(part.pose)
+    for thing in (*whole.bodies, *whole.contacts):
+        thing.elsewhere = True
+        for made in ("block", "_areas", "_no_multipliers"):
+            vars(thing).pop(made, None)
     if result is not None:
         result.model = whole

@@ -7,7 +7,7 @@ A share is a model like any other. Only where sums over all ranks are wanted it 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from umform import _core
 from umform.errors import UmformError
 from umform.mesh import Mesh
-from umform.model import Model
-from umform.model.assembly import Evaluation
-from umform.model.boundary import Control, Load, Prescribed, Pressure, rigid_body_modes
+from umform.model import Body, Model
 from umform.model.checks import check_held, middle
-from umform.model.ties import MidLine, Tie
+from umform.model.control import Control
+from umform.model.evaluation import Evaluation
+from umform.model.forces import rigid_body_modes
+from umform.model.ties import Tie
 from umform.parallel.cutting import Parcel
 from umform.parallel.exchange import Exchange
 from umform.parallel.gathering import Gathering
@@ -57,8 +57,6 @@ class Share(Model):
         The model.
     cells, nodes : ndarray of int
         Numbers in the whole mesh of the cells and nodes that are here. A node may be on several ranks.
-    facets_here : list of ndarray of int
-        For each contact, which of its facets are here.
     """
 
     ranks: MpiRanks
@@ -66,29 +64,20 @@ class Share(Model):
 
     def __init__(self, outline: Outline, parcel: Parcel, ranks: MpiRanks, whole: Model | None = None) -> None:
         mesh = Mesh(parcel.points, {parcel.cell: parcel.connectivity})
-        through = {"thickness_points": outline.thickness_points, "thickness_rule": outline.thickness_rule}
-        super().__init__(mesh, outline.element, material=outline.material, **through)  # type: ignore[arg-type]
+        for thing, piece in zip(outline.pieces_for(), parcel.pieces, strict=True):
+            thing.fill(piece, mesh)
+        super().__init__(mesh, bodies=outline.bodies)
         self.whole, self.ranks = whole, ranks
         self.cells, self.nodes, self.owned = parcel.cells, parcel.nodes, parcel.owned
-        self.controls, self._fixed = outline.controls, parcel.fixed
-        for control, here in zip(self.controls, parcel.controls, strict=True):
-            self._fill(control, here)
-        self.facets_here = parcel.facets
-        pairs = zip(outline.contacts, parcel.faces, strict=True)
-        self.contacts = [contact.part(mesh, faces) for contact, faces in pairs]
+        self.now, self.tools, self.contacts = outline.now, outline.tools, outline.contacts
+        self.controls, self.others, self._fixed = outline.controls, outline.others, parcel.fixed
         self.ties = [Tie(dofs, control) for dofs, control in zip(parcel.ties, outline.tied, strict=True)]
         self._number(parcel)
-        self._stand(outline.time, parcel)
+        self.u = parcel.u
 
-    def _fill(self, control: Control, here: NDArray[Any]) -> None:
-        """Give a control what it has here."""
-        if isinstance(control, Prescribed | MidLine):
-            control.dofs = here
-        elif isinstance(control, Load):
-            control.vector = here
-        elif isinstance(control, Pressure):
-            control.faces = here
-            control.block = _core.pressure_block(self.mesh.facets_of(here), self.mesh.points)
+    def _embody(self, bodies: Sequence[Body]) -> None:
+        """Take the bodies as they are: they stand on the cells of this rank."""
+        self.bodies = list(bodies)
 
     def _number(self, parcel: Parcel) -> None:
         """Global numbers of the unknowns and nodes that are here, and the ways to sum shares of them up."""
@@ -99,16 +88,6 @@ class Share(Model):
         self._owned_places = np.flatnonzero((number >= 0) & (number < parcel.own))
         self._owned_numbers = number[self._owned_places]
         self._shared: SharedPattern | None = None
-
-    def _stand(self, time: float, parcel: Parcel) -> None:
-        """Begin in the state that the whole model is in."""
-        self.u, self.time = parcel.u, time
-        if parcel.history is not None:
-            self.block.restore(*parcel.history)
-        for contact, multipliers in zip(self.contacts, parcel.multipliers, strict=True):
-            if multipliers is not None:
-                contact.multipliers = multipliers
-                contact.revert()
 
     # What all ranks have together ----------------------------------------------------------------------------
 
@@ -162,19 +141,19 @@ class Share(Model):
         modes = rigid_body_modes(self.mesh.points, *middle(self))
         return np.stack([self.coefficients(mode) for mode in modes])
 
-    def restrict(self, r: Floats) -> Floats:
+    def _restrict_nodes(self, r: Floats) -> Floats:
         """Forces at the unknowns that this rank owns, summed over the ranks. eq. (5.18)"""
-        return self._unknowns.sum(super().restrict(r))
+        return self._unknowns.sum(super()._restrict_nodes(r))
 
-    def coefficients(self, u: Floats) -> Floats:
+    def _coefficients_nodes(self, u: Floats) -> Floats:
         """Unknowns that this rank owns in a displacement."""
         found = np.empty(self._own)
-        found[self._owned_numbers] = super().coefficients(u)[self._owned_places]
+        found[self._owned_numbers] = super()._coefficients_nodes(u)[self._owned_places]
         return found
 
-    def extend(self, x: Floats) -> Floats:
+    def _extend_nodes(self, x: Floats) -> Floats:
         """Displacement of the nodes that are here, from the unknowns that each rank owns. eq. (5.17)"""
-        return super().extend(self._unknowns.spread(x))
+        return super()._extend_nodes(self._unknowns.spread(x))
 
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry; the diagonal ones, among which it is, are summed over the ranks."""
@@ -184,20 +163,27 @@ class Share(Model):
 
     def evaluate(
         self,
-        u: Floats,
+        x: Floats,
         du: Floats | None = None,
         rates: Mapping[Control, float] | None = None,
         until: float | None = None,
+        *,
+        tangent: bool = True,
     ) -> Evaluation:
         """Shares of residual and tangent; scale, round-off, failed cell and errors are those of all ranks."""
         problem, found = None, None
         try:
-            found = super().evaluate(u, du, rates, until)
+            found = super().evaluate(x, du, rates, until, tangent=tangent)
         except UmformError as error:
             problem = error
         self.ranks.agree(problem)
         assert found is not None
         first = -self.ranks.max(-float(self.cells[found.failed]) if found.failed >= 0 else -np.inf)
         scale, round_off = np.sqrt(self.ranks.sum(np.array([found.force_scale, found.round_off]) ** 2))
-        failed = int(first) if np.isfinite(first) else -1
-        return replace(found, force_scale=float(scale), round_off=float(round_off), failed=failed)
+        failed, failure = -1, ""
+        if np.isfinite(first):
+            failed = int(first)
+            mine = found.failed >= 0 and self.cells[found.failed] == failed
+            failure = self.ranks.text(found.failure if mine else "")
+        scale, round_off = float(scale), float(round_off)
+        return replace(found, force_scale=scale, round_off=round_off, failed=failed, failure=failure)

@@ -17,6 +17,8 @@ from umform.plotting import COLOURS, plot_history, plot_shape
 from umform.report import parts
 from umform.report.packing import compressed
 from umform.report.scene import Scene, scene_of
+from umform.report.symmetry import whole
+from umform.results.shape import Shape
 
 if TYPE_CHECKING:
     from umform.results.history import History
@@ -70,9 +72,13 @@ def _scripts(scene: Scene) -> str:
 def _shape(result: History, scene: Scene) -> str:
     """The picture in space, or a still of the last state where it cannot be drawn."""
     options = "".join(f"<option>{escape(name)}</option>" for name in scene.fields)
-    still = parts.figure(plot_shape(result), "The sheet in its last state, in true proportion.")
-    without_tools = "" if scene.tools else " hidden"
-    return _filled("shape.html", still=still, fields=options, last=str(scene.frames - 1), without_tools=without_tools)
+    caption = "The sheet in its last state, in true proportion" + ("; one part is modelled." if scene.mirrors else ".")
+    still = parts.figure(plot_shape(whole(Shape.of(result), scene.mirrors)), caption)
+    hidden = {
+        "without_tools": "" if scene.tools else " hidden",
+        "without_mirrors": "" if scene.mirrors else " hidden",
+    }
+    return _filled("shape.html", still=still, fields=options, last=str(scene.frames - 1), **hidden)
 
 
 def _curves(result: History) -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from umform.report import parts
 from umform.report.live import Live, style
+from umform.report.materials import material_text
 from umform.report.repeats import counted
 from umform.report.versions import versions
 from umform.results.penetration import penetrations
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from umform.results.history import History
 
 
-def write_report(result: History, path: str | Path, *, deck: str = "") -> Path:
+def write_report(result: History, path: str | Path, *, deck: str = "", title: str = "") -> Path:
     """Write one self-contained page about a result.
 
     Parameters
@@ -27,6 +28,8 @@ def write_report(result: History, path: str | Path, *, deck: str = "") -> Path:
         The page to write, ending in .html.
     deck : str, optional
         The input that the result comes from, to be kept in the page.
+    title : str, optional
+        Heading of the page; without it, element and increments are.
 
     Returns
     -------
@@ -40,10 +43,11 @@ def write_report(result: History, path: str | Path, *, deck: str = "") -> Path:
     """
     parts.check_name(path)
     model = result.model
-    title = f"{model.element.name}: {len(model.mesh.connectivity)} elements, {len(result) - 1} increments"
-    lead = (
+    size = f"{model.element.name}: {len(model.mesh.connectivity)} elements, {len(result) - 1} increments"
+    effort = (
         f"{result.summary()['iterations']} Newton iterations in {result.seconds:.1f} s, sparse solver {result.solver}"
     )
+    title, lead = (title, f"{size}; {effort}") if title else (size, effort)
     live = Live.of(result)
     content = _parts(result, live, deck)
     return parts.write_html(path, title, lead, content, style=style(), scripts=live.scripts)
@@ -99,8 +103,8 @@ def settings(result: History) -> dict[str, object]:
         "mesh": model.mesh,
         "element": f"{model.element.name} ({options})" if options else model.element.name,
         "thickness points": f"{model.thickness_points} {model.thickness_rule}",
-        "material": model.material,
+        "material": material_text(model.material),
         "degrees of freedom": f"{model.unknown_count} unknown of {model.u.size}",
     }
     reached = penetrations(model, result)
-    return rows | {f"contact {pair.name}": f"{pair.tool}, {reached[pair.name]}" for pair in model.contacts}
+    return rows | {f"contact {pair.name}": f"{pair.tool.surface}, {reached[pair.name]}" for pair in model.contacts}

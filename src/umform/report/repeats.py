@@ -24,8 +24,13 @@ def counted(warnings: Iterable[str]) -> list[str]:
     """
     groups: dict[str, list[str]] = {}
     for warning in warnings:
-        groups.setdefault(_PLACE.sub("", warning), []).append(warning)
+        groups.setdefault(without_place(warning), []).append(warning)
     return [_line(text, group) for text, group in groups.items()]
+
+
+def without_place(warning: str) -> str:
+    """What a warning says, without the step and time at which it was given."""
+    return _PLACE.sub("", warning)
 
 
 def _line(text: str, group: list[str]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -15,20 +14,23 @@ from numpy.typing import NDArray
 from umform.errors import UmformError
 from umform.report.facets import smooth_groups
 from umform.report.packing import Quantised, pack
+from umform.report.symmetry import Mirror, is_symmetric, mirrors
 from umform.results.shape import outer_quads
 from umform.surfaces import Tool
 from umform.surfaces.sampled import sampled
 from umform.surfaces.triangles import Box3, Triangles, inside_of
 
 if TYPE_CHECKING:
-    from umform.model.contact import Contact
     from umform.model.frame import Frame
+    from umform.model.tool import Tool as RigidTool
     from umform.results.history import History
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int64]
 #: Places of a tool, one for each frame: rotations (frames, 3, 3) and shifts (frames, 3).
 Poses = tuple[Floats, Floats]
+#: Lowest and highest corner.
+Box = tuple[Floats, Floats]
 
 #: Tools are drawn as far as this share of the diagonal of the sheet around its path.
 _MARGIN = 0.12
@@ -37,7 +39,14 @@ _CHORD = 5e-4
 #: A field has two signs if the smaller extreme is more than this share of the larger one.
 _TWO_SIGNS = 0.02
 #: Fields in the order in which they are offered; others follow.
-_ORDER = ("plastic_strain_max", "plastic_strain_mean", "thickness_change", "displacement", "contact_pressure")
+_ORDER = (
+    "plastic_strain_max",
+    "plastic_strain_mean",
+    "thickness_change",
+    "stress_von_mises",
+    "displacement",
+    "contact_pressure",
+)
 
 
 @dataclass(frozen=True)
@@ -53,9 +62,11 @@ class Scene:
     fields : list of str
         Names of the fields for people.
     tools : list of str
-        Names of the contacts whose tools are drawn.
+        Names of the tools that are drawn.
     notes : list of str
         What could not be drawn.
+    mirrors : list of Mirror
+        Planes of symmetry: the browser draws the mirror images.
     """
 
     data: str
@@ -63,6 +74,7 @@ class Scene:
     fields: list[str]
     tools: list[str]
     notes: list[str]
+    mirrors: list[Mirror]
 
 
 def scene_of(result: History) -> Scene:
@@ -85,19 +97,67 @@ def scene_of(result: History) -> Scene:
     for name, place, values in _fields(result.frames, shifts, nodes, cells):
         arrays[f"field {name}"] = Quantised.of(values)
         fields.append({"name": name, "label": name.replace("_", " "), "on": place, **_scale(values)})
-    tools, notes = [], []
-    box = _around(X + shifts)
-    for contact, poses in zip(result.model.contacts, _poses(result), strict=True):
+    planes = mirrors(result.model)
+    bodies, notes = _tools(result, _around(X + shifts), planes)
+    for number, body in enumerate(bodies):
+        arrays |= _tool_arrays(f"tool {number}", body.surface, body.poses)
+    tools = [body.name for body in bodies]
+    head = {
+        "frames": _marks(result),
+        "fields": fields,
+        "tools": tools,
+        "maps": _maps(fields),
+        "mirrors": [{"axis": plane.axis, "at": plane.at} for plane in planes],
+        "toolMirrors": [[planes.index(plane) for plane in body.mirrored] for body in bodies],
+    }
+    return Scene(pack(head, arrays), len(shifts), [field["label"] for field in fields], tools, notes, planes)
+
+
+@dataclass(frozen=True)
+class _Body:
+    """A tool to be drawn, and the planes at which it has a mirror image of its own."""
+
+    name: str
+    surface: Triangles
+    poses: Poses
+    mirrored: list[Mirror]
+
+
+def _tools(result: History, box: Box, planes: list[Mirror]) -> tuple[list[_Body], list[str]]:
+    """The tools that can be drawn, and what is said of the others."""
+    bodies, notes = [], []
+    for tool, poses in zip(result.model.tools, _poses(result), strict=True):
         try:
-            surface = _surface(contact, poses, box)
+            mirrored = [plane for plane in planes if not _goes_through(tool, poses, plane, box)]
+            drawn = box
+            for plane in planes:
+                drawn = drawn if plane in mirrored else _both_sides(drawn, plane)
+            surface = _surface(tool, poses, drawn)
         except UmformError as error:
-            notes.append(f"The tool of contact {contact.name} is not drawn: {error.what}.")
+            notes.append(f"The tool {tool.name} is not drawn: {error.what}.")
             continue
         if len(surface.triangles):
-            tools.append(contact.name)
-            arrays |= _tool_arrays(f"tool {len(tools) - 1}", surface, poses)
-    head = {"frames": _marks(result), "fields": fields, "tools": tools, "maps": _maps(fields)}
-    return Scene(pack(head, arrays), len(shifts), [field["label"] for field in fields], tools, notes)
+            bodies.append(_Body(tool.name, surface, poses, mirrored))
+    return bodies, notes
+
+
+def _goes_through(tool: RigidTool, poses: Poses, plane: Mirror, box: Box) -> bool:
+    """Whether a tool is its own mirror image at the first and at the last frame."""
+    rotations, shifts = poses
+    return all(is_symmetric(partial(_gap, tool, rotations[n], shifts[n]), plane, box) for n in (0, -1))
+
+
+def _gap(tool: RigidTool, rotation: Floats, shift: Floats, x: Floats) -> Floats:
+    """Distances of positions to a tool in some place."""
+    gaps: Floats = np.asarray(tool.kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0])
+    return gaps
+
+
+def _both_sides(box: Box, plane: Mirror) -> Box:
+    """The box of a box and its mirror image."""
+    corners = np.stack(box)
+    both = np.concatenate([corners, plane.image(corners)])
+    return both.min(axis=0), both.max(axis=0)
 
 
 def _displacements(result: History) -> Floats:
@@ -141,7 +201,7 @@ def _maps(fields: list[dict[str, Any]]) -> dict[str, str]:
     return {name: (mpl.colormaps[name](steps, bytes=True)[:, :3]).tobytes().hex() for name in names}
 
 
-def _around(x: Floats) -> tuple[Floats, Floats]:
+def _around(x: Floats) -> Box:
     """Lowest and highest corner of a box around the sheet on its whole path."""
     low, high = x.min(axis=(0, 1)), x.max(axis=(0, 1))
     margin = _MARGIN * np.linalg.norm(high - low)
@@ -149,42 +209,29 @@ def _around(x: Floats) -> tuple[Floats, Floats]:
 
 
 def _poses(result: History) -> Iterator[Poses]:
-    """Places of the tool of each contact at the frames."""
-    for contact in result.model.contacts:
+    """Places of each tool at the frames."""
+    for tool in result.model.tools:
         if not result.frames:
-            yield contact.pose[0][None], contact.pose[1][None]
+            rotation, shift = tool.pose_now
+            yield rotation[None], shift[None]
             continue
-        with _put_back(contact):
-            places = []
-            for frame in result.frames:
-                for control in contact.translations:
-                    control.value = result.rows[frame.number][control.name]
-                contact.place(frame.time)
-                places.append(contact.pose)
+        rows = [result.rows[frame.number] for frame in result.frames]
+        places = [
+            tool.pose({way: row[way.name] for way in tool.ways}, frame.time)
+            for row, frame in zip(rows, result.frames, strict=True)
+        ]
         rotations, shifts = zip(*places, strict=True)
         yield np.stack(rotations), np.stack(shifts)
 
 
-@contextmanager
-def _put_back(contact: Contact) -> Iterator[None]:
-    """Leave the tool where it was found."""
-    values, pose = [control.value for control in contact.translations], contact.pose
-    try:
-        yield
-    finally:
-        for control, value in zip(contact.translations, values, strict=True):
-            control.value = value
-        contact.put(pose)
-
-
-def _surface(contact: Contact, poses: Poses, box: tuple[Floats, Floats]) -> Triangles:
+def _surface(tool: RigidTool, poses: Poses, box: Box) -> Triangles:
     """Triangles of a tool, in its own frame, that come into the box at one frame at least."""
     low, high = box
     corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
     own = np.concatenate([(corners - shift) @ rotation for rotation, shift in zip(*poses, strict=True)])
     inner: Box3 = (tuple(own.min(axis=0)), tuple(own.max(axis=0)))
-    tool = contact.tool
-    facets = tool.facets if isinstance(tool, Tool) else partial(sampled, tool.kernel().gap)
+    surface = tool.surface
+    facets = surface.facets if isinstance(surface, Tool) else partial(sampled, tool.kernel.gap)
     return inside_of(facets, inner, _CHORD * float(np.linalg.norm(high - low)))
 
 

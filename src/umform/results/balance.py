@@ -15,57 +15,29 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from umform import _core
-from umform.model import Model
-from umform.model.boundary import Load, Pressure
-from umform.model.contact import Contact
+from umform.model import Evaluation, Model, Tool
+from umform.model.contact import ContactFound
+from umform.model.term import At, Energies
 from umform.ranks import Ranks
 
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Energies:
-    """Energies of a model.
-
-    Attributes
-    ----------
-    elastic : float
-        Stored in elastic strains; NaN if the law does not know it.
-    plastic : float
-        Work of the yield stress on the plastic strains so far: heat, and what hardening keeps. NaN if not known.
-    contact : float
-        Held by penalty and multipliers of all contacts.
-    """
-
-    elastic: float
-    plastic: float
-    contact: float
-
-    @property
-    def total(self) -> float:
-        """Their sum."""
-        return self.elastic + self.plastic + self.contact
-
-
-def energies(model: Model) -> Energies:
-    """Energies of the converged state of a model, that of contact at its last evaluation. eq. (5.30)
+def energies(model: Model, evaluation: Evaluation) -> Energies:
+    """Energies of the converged state of a model. eq. (5.30)
 
     Parameters
     ----------
     model : Model
-        A model that has been evaluated at its converged state.
+        A model at its converged state.
+    evaluation : Evaluation
+        The evaluation there.
     """
-    elastic, plastic = model.block.energy(model.u)
-    parts = [elastic, plastic, sum(_contact_energy(contact) for contact in model.contacts)]
-    return Energies(*(model.ranks.sum(part) for part in parts))
-
-
-def _contact_energy(contact: Contact) -> float:
-    """Potential of penalty and multipliers, (p^2 - lambda^2) / (2 penalty) over the reference area. eq. (4.32)"""
-    at, multiplier = contact.at_points(), contact.block.multipliers
-    # (p - lambda)(p + lambda): a point that its multiplier alone holds has no energy, to the last digit.
-    return 0.5 / contact.penalty * float(((at.pressure - multiplier) * at.area) @ (at.pressure + multiplier))
+    elastic = plastic = contact = 0.0
+    for term in model.terms:
+        own = term.energies(evaluation.found[term], model.u)
+        elastic, plastic, contact = elastic + own.elastic, plastic + own.plastic, contact + own.contact
+    return Energies(*(model.ranks.sum(part) for part in (elastic, plastic, contact)))
 
 
 @dataclass(frozen=True)
@@ -125,14 +97,16 @@ class _Tool:
     magnitude: float
 
     @classmethod
-    def of(cls, contact: Contact, ranks: Ranks) -> _Tool:
-        rotation, shift = contact.pose
-        point = rotation @ contact.reference_point + shift
-        at = contact.at_points()
-        magnitudes = at.pressure * at.area
-        forces = -magnitudes[:, None] * at.normal
-        force, moment = ranks.sum(forces.sum(axis=0)), ranks.sum(_moment(at.x - point, forces))
-        return cls(point, rotation, force, moment, ranks.sum(float(magnitudes.sum())))
+    def of(cls, tool: Tool, evaluation: Evaluation, ranks: Ranks) -> _Tool:
+        rotation, shift = tool.pose(evaluation.controls, evaluation.time)
+        point = rotation @ tool.reference_point + shift
+        force, moment, magnitude = np.zeros(3), np.zeros(3), 0.0
+        for pair in tool.pairs:
+            found: ContactFound = evaluation.found[pair]
+            force = force + found.forces.sum(axis=0)
+            moment = moment + _moment(found.held.x - point, found.held.force)
+            magnitude += float((found.pressure * found.area).sum())
+        return cls(point, rotation, ranks.sum(force), ranks.sum(moment), ranks.sum(magnitude))
 
     def work_since(self, before: _Tool) -> float:
         """Work that moves the tool against the sheet, from a state before. eq. (5.32)"""
@@ -179,24 +153,13 @@ class ExternalWork:
         self._largest = 0.0  # sum of the magnitudes of the external forces
         distances = np.linalg.norm(model.mesh.points + model.u.reshape(-1, 3), axis=1)
         self._length = model.ranks.max(float(distances.max()))
-        self._pressures = [control for control in model.controls if isinstance(control, Pressure)]
-        blocks = [control.block for control in self._pressures if control.block is not None]
-        # Facets add their forces but no tangent: in this pattern no degree of freedom is free.
-        nothing = _core.Pattern(np.full(model.u.size, -1, dtype=np.int32), [b.connectivity for b in blocks], False)
-        self._facets = [(block, nothing.scatter(block.connectivity)) for block in blocks]
 
-    def advance(self, residual: Floats) -> None:
-        """Go on to the converged state of the model.
-
-        Parameters
-        ----------
-        residual : ndarray, shape (3 n,)
-            Residual of the last evaluation, which was at this state; reactions where it is held, prescribed or tied.
-        """
+    def advance(self, evaluation: Evaluation) -> None:
+        """Go on to the converged state of the model, which the evaluation was made at."""
         model = self.model
-        tools = [_Tool.of(contact, model.ranks) for contact in model.contacts]
-        state = _State(model.u.copy(), self._nodal_forces(residual), tools)
-        self.energies = energies(model)
+        tools = [_Tool.of(tool, evaluation, model.ranks) for tool in model.tools]
+        state = _State(model.u.copy(), self._nodal_forces(evaluation), tools)
+        self.energies = energies(model, evaluation)
         if self._before is None:
             self.value = 0.0 if np.isnan(self.energies.total) else self.energies.total
         else:
@@ -209,33 +172,30 @@ class ExternalWork:
         imbalances = np.array(self.imbalances)
         return {"value": self.value, "imbalances": imbalances, "largest": self._largest, "length": self._length}
 
-    def recall(self, memory: Mapping[str, Any], residual: Floats) -> None:
-        """Go on with the work of a run that was kept; the model has been evaluated at its last state.
+    def recall(self, memory: Mapping[str, Any], evaluation: Evaluation) -> None:
+        """Go on with the work of a run that was kept.
 
         Parameters
         ----------
         memory : mapping
             What `memory` has given.
-        residual : ndarray, shape (3 n,)
-            Residual of that state.
+        evaluation : Evaluation
+            That of its last state.
         """
-        self.advance(residual)
+        self.advance(evaluation)
         self.imbalances = [(force, moment) for force, moment in memory["imbalances"].tolist()]
         self.value, self._largest, self._length = memory["value"], memory["largest"], memory["length"]
 
-    def _nodal_forces(self, residual: Floats) -> Floats:
+    def _nodal_forces(self, evaluation: Evaluation) -> Floats:
         """Dead loads, pressures and reactions on the nodes."""
         model = self.model
-        forces = residual.copy()  # reactions and hinge forces
+        forces = evaluation.residual[: model.u.size].copy()  # reactions and hinge forces
         forces[model.free] = 0.0
-        for control in model.controls:
-            if isinstance(control, Load):
-                forces += control.value * control.vector
-        for control, (block, scatter) in zip(self._pressures, self._facets, strict=True):
-            inward = np.zeros_like(forces)
-            block.pressure = control.value
-            block.evaluate(model.u, scatter, inward, np.empty(0), None, None)
-            forces -= inward
+        at = At(model.u, evaluation.time, evaluation.controls)
+        for term in model.terms:
+            own = term.external_forces(at)
+            if own is not None:
+                forces += own
         return forces
 
     def _work(self, before: _State, state: _State) -> float:

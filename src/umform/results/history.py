@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
-from umform.model import Model
+from umform.model import Evaluation, Model
 from umform.model.frame import Frame
 from umform.results import fields
 from umform.results.balance import Balance, ExternalWork, drift
@@ -48,29 +48,21 @@ class History:
         self.seconds = 0.0
         self._work = ExternalWork(model)
         self._writes = model.ranks.rank == 0  # one rank writes for all
-        self._residual: Floats = np.empty(0)
 
-    def add(self, residual: Floats, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
-        """Add the converged state of the model (of its last evaluation) to the history."""
+    def add(self, evaluation: Evaluation, iterations: list[Iteration], *, step: int = 0, frame: bool = True) -> None:
+        """Add the converged state of the model, which the evaluation was made at, to the history."""
         with self.timing.output:
-            self._add(residual, iterations, step, frame)
+            self._add(evaluation, iterations, step, frame)
 
-    def _add(self, residual: Floats, iterations: list[Iteration], step: int, frame: bool) -> None:
+    def _add(self, evaluation: Evaluation, iterations: list[Iteration], step: int, frame: bool) -> None:
         model = self.model
         row: dict[str, float] = {"step": step, "time": model.time}
         for control in model.controls:
             row[control.name] = control.value
-            row[f"{control.name}_force"] = model.conjugate_force(control, residual)
-        for contact in model.contacts:
-            force, moment = (model.ranks.sum(part) for part in contact.resultant())
-            row |= {f"{contact.name}_f{axis}": float(value) for axis, value in zip("xyz", force, strict=True)}
-            row |= {f"{contact.name}_m{axis}": float(value) for axis, value in zip("xyz", moment, strict=True)}
-            gaps = contact.block.gaps
-            row[f"{contact.name}_penetration"] = model.ranks.max(float(max(0.0, -gaps.min(initial=np.inf))))
-            row[f"{contact.name}_active"] = int(model.ranks.sum(float(contact.active().sum())))
-        row |= self._energy_columns(residual)
+            row[f"{control.name}_force"] = control.force(evaluation, model.ranks)
+        row |= self._term_columns(evaluation)
+        row |= self._energy_columns(evaluation)
         row["iterations"] = len(iterations)
-        self._residual = residual
         self.rows.append(row)
         self.iterations.append(iterations)
         log.info(
@@ -81,12 +73,24 @@ class History:
             len(iterations),
         )
         if frame:
-            whole = model.whole_frame(self._frame(residual))
+            whole = model.whole_frame(self._frame(evaluation))
             if whole is not None:
                 self.frames.append(whole)
 
-    def _energy_columns(self, residual: Floats) -> dict[str, float]:
-        self._work.advance(residual)
+    def _term_columns(self, evaluation: Evaluation) -> dict[str, float]:
+        """Columns of tools and of the pairs that touch them, then of all other terms."""
+        model, row = self.model, dict[str, float]()
+        for tool in model.tools:
+            row |= tool.resultant_columns(evaluation.found, model.ranks)
+            for pair in tool.pairs:
+                row |= pair.columns(evaluation.found[pair], model.ranks)
+        for term in model.terms:
+            if term not in model.contacts:
+                row |= term.columns(evaluation.found[term], model.ranks)
+        return row
+
+    def _energy_columns(self, evaluation: Evaluation) -> dict[str, float]:
+        self._work.advance(evaluation)
         energies = self._work.energies
         return {
             "external_work": self._work.value,
@@ -119,13 +123,12 @@ class History:
         )
 
     def work_memory(self) -> dict[str, Any]:
-        """All that the external work of later states follows from, beside the model itself."""
-        return {"residual": self._residual, **self._work.memory()}
+        """All that the external work of later states follows from, beside the model and its last evaluation."""
+        return self._work.memory()
 
-    def recall_work(self, memory: dict[str, Any]) -> None:
-        """Go on with the external work of a run that was kept; the model has been evaluated at its last state."""
-        self._residual = memory["residual"]
-        self._work.recall(memory, self._residual)
+    def recall_work(self, memory: dict[str, Any], evaluation: Evaluation) -> None:
+        """Go on with the external work of a run that was kept, from the evaluation of its last state."""
+        self._work.recall(memory, evaluation)
 
     def note(self, message: str) -> None:
         """Keep an event, lift-off for instance, and log it."""
@@ -137,17 +140,8 @@ class History:
         self.warnings.append(message)
         log.warning(message)
 
-    def _frame(self, residual: Floats) -> Frame:
-        model = self.model
-        at = fields.point_fields(model)
-        cells = {
-            "stress_cauchy": at.cell_average(at.stress("cauchy", "global")),
-            "stress_cauchy_local": at.cell_average(at.stress("cauchy", "local")),
-            "stress_pk2": at.cell_average(at.stress("pk2", "global")),
-            "stress_pk2_local": at.cell_average(at.stress("pk2", "local")),
-        }
-        if at.eqps is not None:
-            cells |= {"plastic_strain_mean": at.cell_average(at.eqps), "plastic_strain_max": at.eqps.max(axis=1)}
+    def _frame(self, evaluation: Evaluation) -> Frame:
+        model, residual = self.model, evaluation.residual[: self.model.u.size]
         reaction = model.sum_at_nodes(residual.reshape(-1, 3)).copy()
         reaction.ravel()[model.free] = 0.0
         points = {
@@ -156,9 +150,9 @@ class History:
             "thickness_change": fields.thickness_change(model),
         }
         if model.contacts:
-            points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model)
-        contacts = {contact.name: contact.at_points() for contact in model.contacts}
-        return Frame(len(self.rows) - 1, model.time, points, cells, contacts)
+            points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model, evaluation)
+        contacts = {contact.name: evaluation.found[contact].points() for contact in model.contacts}
+        return Frame(len(self.rows) - 1, model.time, points, fields.cell_fields(model), contacts)
 
     def __len__(self) -> int:
         return len(self.rows)

@@ -17,7 +17,7 @@ import numpy as np
 from umform.errors import FileProblem, InvalidValue
 from umform.io.atomic import PendingFile
 from umform.io.trees import read_tree, write_tree
-from umform.model import Snapshot
+from umform.model import Evaluation, Snapshot
 from umform.model.contact import ContactPoints
 from umform.model.frame import Frame
 from umform.ranks import ONE, Ranks
@@ -164,31 +164,28 @@ def take_up(run: Run, checkpoints: Checkpoints) -> dict[str, Any] | None:
 
     tree = run.model.own_state(read)
     checkpoints.note = tree["note"]
-    model, snapshot = run.model, Snapshot(**tree["model"])
-    model.restore(snapshot)
-    model.block.restore(tree["history"], snapshot.alpha)
-    model.evaluate(model.u)
-    model.block.restore(snapshot.state, snapshot.alpha)
-    run.number, run.last_du, run.history = tree["number"], tree["last_du"], tree["history"]
-    solver = run.newton.ready_solver().solver
+    run.model.restore(Snapshot(**tree["model"]))
+    run.evaluation = run.model.repeat(tree["before"])
+    run.number, run.last_dx = tree["number"], tree["last_dx"]
+    solver = run.newton.ready_solver().solver.solver
     if isinstance(solver, Pardiso):
         solver.recall(tree["factors"])
-    _recall_result(run.result, tree["result"])
+    _recall_result(run.result, tree["result"], run.evaluation)
     memory: dict[str, Any] | None = tree["loop"]
     return memory
 
 
 def _tree(run: Run) -> dict[str, Any]:
-    solver = run.newton.ready_solver().solver
-    return run.model.whole_state(
+    model, solver = run.model, run.newton.ready_solver().solver.solver
+    return model.whole_state(
         {
             "number": run.number,
             # The one solver with a memory: once it needs the factors of an indefinite matrix, it stays with them.
             "factors": solver.memory() if isinstance(solver, Pardiso) else None,
             "loop": None if run.loop is None else run.loop.memory(),
-            "model": vars(run.model.snapshot()),
-            "history": run.history,
-            "last_du": run.last_du,
+            "model": vars(model.snapshot()),
+            "before": {body.key: body.before for body in model.bodies if body.before.size},
+            "last_dx": run.last_dx,
             "result": _result_tree(run.result),
         }
     )
@@ -239,14 +236,14 @@ def _result_tree(result: History) -> dict[str, Any]:
     }
 
 
-def _recall_result(result: History, tree: dict[str, Any]) -> None:
+def _recall_result(result: History, tree: dict[str, Any], evaluation: Evaluation) -> None:
     columns = [column.tolist() for column in tree["history"]]
     result.rows = [dict(zip(tree["columns"], row, strict=True)) for row in zip(*columns, strict=True)]
     records = iter(tree["iterations"]["records"])
     result.iterations = [[Iteration(*next(records)) for _ in range(count)] for count in tree["iterations"]["counts"]]
     result.frames = [_frame(one) for one in _unstacked(tree["frames"])]
     result.events, result.warnings, result.seconds = tree["events"], tree["warnings"], tree["seconds"]
-    result.recall_work(tree["work"])
+    result.recall_work(tree["work"], evaluation)
 
 
 def _frame_tree(frame: Frame) -> dict[str, Any]:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from umform.errors import InvalidValue
 from umform.model import Model
+from umform.model.removal import fading
+from umform.model.support import Support
 from umform.progress import progress_bar
 from umform.results.penetration import warn_of_penetration
 from umform.run.interrupt import Interrupt, gentle_interrupt
@@ -18,6 +20,7 @@ from umform.solution.newton import Newton, NewtonOptions
 from umform.steps import Step
 from umform.steps.arc_length.arc import Arc, Following
 from umform.steps.arc_length.checks import refuse_on_an_arc
+from umform.steps.free import Free, Freeing
 from umform.steps.loop import Run
 from umform.steps.move import Move, Moving
 from umform.steps.release import Release, Releasing
@@ -27,7 +30,7 @@ if TYPE_CHECKING:
     from umform.run.checkpoint import Checkpoints
 
 _Work = Callable[[Model, Sequence[Step]], Result]
-_LOOPS: dict[type, Any] = {Move: Moving, Release: Releasing, Arc: Following}
+_LOOPS: dict[type, Any] = {Move: Moving, Release: Releasing, Arc: Following, Free: Freeing}
 
 
 def solve(
@@ -93,8 +96,7 @@ def solve(
             result = Result(model, timing)
             run = _ready(result, solver, options, frames)
             checkpoints = _checkpoints(run, steps, checkpoint, every, note)
-            run.history = model.block.state
-            run.result.add(model.evaluate(model.u).residual, [], frame=frames > 0)
+            result.add(run.evaluation, [], frame=frames > 0)
             _go_on(run, steps, progress, checkpoints)
             return result
 
@@ -186,7 +188,10 @@ def _checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
         if isinstance(step, Arc):
             refuse_on_an_arc(model, f"step {number}")
         if not isinstance(step, Step):
-            raise InvalidValue("a step is a Move, a Release or an Arc", where=f"step {number}", value=step)
+            raise InvalidValue("a step is a Move, a Release, an Arc or a Free", where=f"step {number}", value=step)
+        if isinstance(step, Free):
+            _refuse_to_free(model, step.support, sequence[: number - 1], f"step {number}")
+            continue
         for control in [step.control] if isinstance(step, Release) else step.moved():
             if control not in model.controls:
                 raise InvalidValue(
@@ -196,7 +201,23 @@ def _checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
                     cause="it belongs to another model",
                     remedy="use what prescribe(), force(), pressure() or drive() of this model returned",
                 )
+    for step in sequence:
+        if isinstance(step, Free):
+            fading(model, step.support)  # the history has the columns of its forces from the beginning on
     return sequence
+
+
+def _refuse_to_free(model: Model, support: Support, earlier: Sequence[Step], where: str) -> None:
+    """Refuse to free a support that does not act when its step begins."""
+    freed = [step.support for step in earlier if isinstance(step, Free)]
+    if support not in model.all_supports or support in freed:
+        raise InvalidValue(
+            "a step frees a support that the model does not have then",
+            where=where,
+            value=support,
+            cause="it belongs to another model, or an earlier step has freed it",
+            remedy="use what fix(), symmetry(), hinge() or hold_director() of this model returned, once",
+        )
 
 
 def _ready(result: Result, solver: str, options: NewtonOptions | None, frames: int) -> Run:
@@ -204,7 +225,9 @@ def _ready(result: Result, solver: str, options: NewtonOptions | None, frames: i
     model, timing = result.model, result.timing
     model.timing = timing
     model.check()
-    run = Run(model, Newton(model, options, solver, timing), result, frames)
+    evaluation = model.evaluate(model.x)
+    model.stand(evaluation)
+    run = Run(model, Newton(model, options, solver, timing), result, evaluation, frames)
     run.result.solver = run.newton.solver
     return run
 

@@ -18,9 +18,9 @@ import numpy as np
 
 import umform
 from umform.digest import digest
-from umform.model import Model
-from umform.model.boundary import Control
+from umform.model import Model, Tool
 from umform.model.contact import Contact
+from umform.model.control import Control
 from umform.solution.newton import Newton
 
 _DEEPEST = 8
@@ -41,15 +41,23 @@ def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: i
         How many states are kept for pictures.
     """
     mesh = model.mesh
-    supports = [np.flatnonzero(model.constrained()), [(tie.dofs, tie.control) for tie in model.ties]]
+    supports = [
+        np.flatnonzero(model.constrained()),
+        [(tie.dofs, tie.control) for tie in model.ties],
+        [(part.dofs, part.weights, part.control, part.offsets) for part in model.rows],
+        [(support.name, support.base) for support in model.supports if support.base is not None],
+    ]
     return {
         "version of umform": umform.__version__,
         "mesh": f"{mesh.cell}, {len(mesh.points)} points, {len(mesh.connectivity)} cells, "
         + digest(mesh.points, mesh.connectivity),
-        "element": text([model.element, model.thickness_points, model.thickness_rule]),
-        "material": text(model.material),
+        "element": text([[body.element, body.thickness_points, body.thickness_rule] for body in model.bodies]),
+        "material": text([[body.name, body.material, body.rolling] for body in model.bodies]),
+        "bodies": text([None if body.whole else body.cells for body in model.bodies]),
         "supports and loads": text([supports, [_control(control) for control in model.controls]]),
         "contacts": text([_contact(contact) for contact in model.contacts]),
+        "tools": text([_tool(tool) for tool in model.tools]),
+        "other terms": text(model.others),
         "steps": text(list(steps)),
         "options": text(newton.options),
         "solver": newton.solver,
@@ -90,9 +98,23 @@ def _control(control: Control) -> str:
 
 
 def _contact(contact: Contact) -> str:
-    where = [contact.facets, contact.points, contact.translations]
-    how = [contact.penalty, contact.allowed, contact.augmented]
-    return text([contact.name, contact.tool, *where, *how, contact.motion, contact.reference_point])
+    return text(
+        [
+            contact.name,
+            contact.tool.name,
+            contact.facets,
+            contact.points,
+            contact.penalty,
+            contact.allowed,
+            contact.augmented,
+        ]
+    )
+
+
+def _tool(tool: Tool) -> str:
+    moved = [tool.ways, tool.motion, tool.reference_point]
+    presses = [[press.way, press.forces, press.stiffness, press.free] for press in tool.presses]
+    return text([tool.name, tool.surface, *moved, presses])
 
 
 def _function(function: Any, depth: int) -> str:

@@ -1,4 +1,4 @@
-"""Ctrl-C twice: the first one asks a run to end after its increment, the second one ends it at once."""
+"""Ctrl-C or SIGTERM twice: the first one asks a run to end after its increment, the second one ends it at once."""
 
 from __future__ import annotations
 
@@ -12,6 +12,12 @@ from types import FrameType
 
 log = logging.getLogger("umform")
 
+#: Signals that ask a run to end, and what a program that leaves them alone has for them.
+_USUAL = {
+    signal.SIGINT: (signal.default_int_handler,),
+    signal.SIGTERM: (signal.default_int_handler, signal.SIG_DFL),
+}
+
 
 @dataclass
 class Interrupt:
@@ -22,13 +28,12 @@ class Interrupt:
 
 @contextmanager
 def gentle_interrupt() -> Iterator[Interrupt]:
-    """Turn the first Ctrl-C into a question that the block may look at when it suits.
+    """Turn the first Ctrl-C or SIGTERM into a question that the block may look at when it suits.
 
-    Nothing changes outside of the main thread, or where a program has its own way with Ctrl-C.
+    Nothing changes outside of the main thread, or for a signal that a program handles in its own way.
     """
     stop = Interrupt()
-    ours = threading.current_thread() is threading.main_thread()
-    if not ours or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+    if threading.current_thread() is not threading.main_thread():
         yield stop
         return
 
@@ -38,8 +43,11 @@ def gentle_interrupt() -> Iterator[Interrupt]:
         stop.asked = True
         log.warning("interrupted: the run ends after this increment; Ctrl-C once more ends it at once")
 
-    signal.signal(signal.SIGINT, ask)
+    before = {number: signal.getsignal(number) for number, usual in _USUAL.items() if signal.getsignal(number) in usual}
+    for number in before:
+        signal.signal(number, ask)
     try:
         yield stop
     finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        for number, handler in before.items():
+            signal.signal(number, handler)

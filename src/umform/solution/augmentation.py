@@ -34,14 +34,15 @@ def augmented(model: Model, newton: Newton, converged: Converged) -> Converged:
         If a pass does not converge; the model is reverted, with its multipliers.
     """
     for number in range(1, _PASSES + 1):
+        found = converged.evaluation.found
         pairs = [
-            contact for contact in model.contacts if contact.augmented and _anywhere(model, contact.active().any())
+            contact for contact in model.contacts if contact.augmented and _anywhere(model, found[contact].active.any())
         ]
-        if not pairs or (number > 1 and not _anywhere(model, any(contact.loose() for contact in pairs))):
+        if not pairs or (number > 1 and not _anywhere(model, any(contact.loose(found[contact]) for contact in pairs))):
             break
-        change = np.zeros_like(converged.u)
+        change = np.zeros_like(converged.x)
         for contact in pairs:
-            contact.augment(change)
+            contact.augment(found[contact], change[: model.u.size])
         again = newton.go_on(converged, change)
         converged = replace(again, iterations=converged.iterations, passes=converged.passes + again.iterations)
         log.debug("    pass %d of the multipliers, %d iterations", number, len(again.iterations))

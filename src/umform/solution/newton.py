@@ -13,17 +13,18 @@ import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue, NotFinite, SingularMatrix
+from umform.solution.bordered import Bordered
 from umform.solution.criteria import Chatter, Criteria, largest
 from umform.solution.factor_reuse import Reuse
 from umform.solution.system import Evaluation, System
 from umform.solution.timed_solver import TimedSolver
-from umform.solvers import Pattern, SparseSolver, make_solver
+from umform.solvers import Pattern, make_solver
 from umform.timing import Timing
 
 log = logging.getLogger("umform.newton")
@@ -115,26 +116,33 @@ class Iteration:
 class Failed(Exception):
     """A step that did not converge: why, and the iterations so far. Steps turn it into a cut or an error."""
 
-    def __init__(self, reason: str, iterations: list[Iteration], *, chattering: bool = False) -> None:
+    def __init__(
+        self, reason: str, iterations: list[Iteration], *, chattering: bool = False, singular: bool = False
+    ) -> None:
         super().__init__(reason)
         self.reason = reason
         self.iterations = iterations
         self.chattering = chattering
+        self.singular = singular
 
 
 @dataclass(frozen=True)
 class Converged:
-    """A converged step: displacement, the evaluation there, the iterations, those of more passes at the same loads."""
+    """A converged step: the evaluation there, the iterations, those of more passes at the same loads."""
 
-    u: Floats
-    evaluation: Evaluation
+    evaluation: Any
     iterations: list[Iteration]
     passes: list[Iteration] = field(default_factory=list)
 
     @property
+    def x(self) -> Floats:
+        """Displacement and scalar unknowns."""
+        return self.evaluation.x  # type: ignore[no-any-return]
+
+    @property
     def residual(self) -> Floats:
         """Residual, reactions at the degrees of freedom that are held, prescribed or tied."""
-        return self.evaluation.residual
+        return self.evaluation.residual  # type: ignore[no-any-return]
 
 
 class Corrector(Protocol):
@@ -155,7 +163,7 @@ class Corrector(Protocol):
     def evaluate(self, u: Floats) -> Evaluation:
         """Residual and tangent."""
 
-    def direction(self, solver: SparseSolver, u: Floats, evaluation: Evaluation) -> Floats:
+    def direction(self, solver: Bordered, u: Floats, evaluation: Evaluation) -> Floats:
         """Increment of all degrees of freedom; the solver holds the factors of the tangent."""
 
 
@@ -170,7 +178,7 @@ class _FixedLoads:
     def evaluate(self, u: Floats) -> Evaluation:
         return self.system.evaluate(u)
 
-    def direction(self, solver: SparseSolver, u: Floats, evaluation: Evaluation) -> Floats:
+    def direction(self, solver: Bordered, u: Floats, evaluation: Evaluation) -> Floats:
         return self.system.extend(solver.solve(-self.system.restrict(evaluation.residual)))
 
 
@@ -188,7 +196,7 @@ class Newton:
         self.timing = timing or Timing()
         self.options = options or NewtonOptions()
         self.solver_name = solver
-        self._solver: TimedSolver | None = None
+        self._solver: Bordered | None = None
         self._pattern: Pattern | None = None
         self.callbacks: list[Callable[[Iteration], None]] = []
         self._flowing: NDArray[np.uint8] | None = None  # in the iteration before
@@ -196,14 +204,14 @@ class Newton:
     @property
     def solver(self) -> str:
         """Name of the sparse solver that the system gets."""
-        return self.ready_solver().name
+        return self.ready_solver().solver.name
 
     @cached_property
     def mixed(self) -> bool:
         """Whether tangents have the geometric stiffness of the stress that the last increment foresaw. eq. (5.39)"""
         if self.options.mixed is not None:
             return self.options.mixed
-        return not self.system.ranks.any(self.system.flowing().size + self.system.active_set().size > 0)
+        return self.system.smooth
 
     def solve(
         self, extrapolation: Floats | None = None, *, line_search: bool = False, consistent: bool = False
@@ -247,9 +255,9 @@ class Newton:
 
         def work() -> Converged:
             solver = self.ready_solver()
-            solver.factor(converged.evaluation.values)
+            solver.factor(converged.evaluation)
             du = self.system.extend(solver.solve(-self.system.restrict(change)))
-            return self.correct(converged.u, du, _FixedLoads(self.system, self.options.line_search, self.mixed))
+            return self.correct(converged.x, du, _FixedLoads(self.system, self.options.line_search, self.mixed))
 
         return self.guarded(work)
 
@@ -265,7 +273,8 @@ class Newton:
             return work()
         except (SingularMatrix, NotFinite) as error:
             self.system.revert()
-            raise Failed(error.what, []) from error
+            what = ", ".join(filter(None, (error.what, error.where)))
+            raise Failed(what, [], singular=isinstance(error, SingularMatrix)) from error
         except BaseException:  # an error of a user's function or an interrupt too leaves no trace
             self.system.revert()
             raise
@@ -275,20 +284,22 @@ class Newton:
         system = self.system
         solver = self.ready_solver()
         start = clock.perf_counter()
-        u = system.u.copy()
+        u = system.x.copy()
         du = self.prescribed_increment(u)
         if extrapolation is not None:
             du += system.extend(system.coefficients(extrapolation))
         else:
             first = system.evaluate(u, du)
             self.check_domain(first, [])
-            solver.factor(first.values)
+            solver.factor(first)
             du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
         return self.correct(u, du, loads, start)
 
     def prescribed_increment(self, u: Floats) -> Floats:
         """What takes the supports from ``u`` to where they are prescribed; nothing of it is left to the unknowns."""
-        gap = self.system.prescribed_displacement() - u
+        gap = np.zeros_like(u)
+        prescribed = self.system.prescribed_displacement()
+        gap[: prescribed.size] = prescribed - u[: prescribed.size]
         return gap - self.system.extend(self.system.coefficients(gap))
 
     def correct(self, u: Floats, du: Floats, corrector: Corrector, start: float | None = None) -> Converged:
@@ -301,12 +312,11 @@ class Newton:
         u = u + du
         increment, step_length, pivots = self._relative(du, u), 1.0, None
         evaluation = corrector.evaluate(u)
-        active = system.active_set()
-        previous_active = active
+        active = previous_active = evaluation.active
         criteria, chatter = Criteria(system, options.residual, options.increment), Chatter(system)
         reuse = Reuse(options, system.pattern.n, system.effort)
 
-        for number in range(1, options.max_iterations + 1):
+        for _ in range(options.max_iterations):
             self.check_domain(evaluation, iterations)
             r = system.restrict(evaluation.residual)
             norm = math.sqrt(system.ranks.dot(r, r))
@@ -317,21 +327,23 @@ class Newton:
             moved = bool(entered or left)
             if criteria.met(norm, increment, u, evaluation, moved=moved):
                 self._record(
-                    iterations, number, norm / scale, increment, 0.0, entered, left, step_length, pivots, start
+                    iterations, evaluation, norm / scale, increment, 0.0, entered, left, step_length, pivots, start
                 )
-                return Converged(u, evaluation, iterations)
+                return Converged(evaluation, iterations)
             if states := chatter.states(active, [record.residual for record in iterations]):
                 reason = f"the active set of contact chatters between {states} states"
                 raise Failed(reason, iterations, chattering=True)
 
             if not reuse.factors_will_do(norm / scale, increment, settled=corrector.reuses and not moved):
-                pivots = reuse.remember(solver.factor(evaluation.values))
+                pivots = reuse.remember(solver.factor(evaluation))
             du = corrector.direction(solver, u, evaluation)
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
-            self._record(iterations, number, norm / scale, increment, energy, entered, left, step_length, pivots, start)
+            self._record(
+                iterations, evaluation, norm / scale, increment, energy, entered, left, step_length, pivots, start
+            )
             u, evaluation, step_length = self._advance(u, du, r, corrector)
             increment = step_length * self._relative(du, u)
-            previous_active, active = active, system.active_set()
+            previous_active, active = active, evaluation.active
         raise Failed(f"no convergence in {options.max_iterations} iterations", iterations)
 
     def _advance(self, u: Floats, du: Floats, r: Floats, corrector: Corrector) -> tuple[Floats, Evaluation, float]:
@@ -360,19 +372,20 @@ class Newton:
             evaluation = corrector.evaluate(trial)
         return trial, evaluation, s
 
-    def ready_solver(self) -> TimedSolver:
+    def ready_solver(self) -> Bordered:
         """Return the solver that has analysed the present pattern."""
         pattern = self.system.pattern
         if self._solver is None or self._pattern is not pattern:
             with self.timing.analysis:
-                self._solver = TimedSolver(make_solver(pattern, self.solver_name), self.timing)
+                solver = TimedSolver(make_solver(pattern, self.solver_name), self.timing)
+                self._solver = Bordered(self.system, solver)
             self._pattern = pattern
         return self._solver
 
     def _record(
         self,
         iterations: list[Iteration],
-        number: int,
+        evaluation: Evaluation,
         residual: float,
         increment: float,
         energy: float,
@@ -382,7 +395,8 @@ class Newton:
         pivots: int | None,
         start: float,
     ) -> None:
-        flowing, before = self.system.flowing(), self._flowing
+        number = len(iterations) + 1
+        flowing, before = evaluation.flowing, self._flowing
         switched = 0 if number == 1 or before is None else self._count(flowing != before)
         self._flowing = flowing
         seconds = clock.perf_counter() - start
@@ -403,13 +417,9 @@ class Newton:
 
     @staticmethod
     def check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:
-        """Fail where a cell is strained too far for its law."""
+        """Fail where a cell has no residual: it is turned inside out, or its law has no answer."""
         if evaluation.failed >= 0:
-            raise Failed(
-                f"cell {evaluation.failed} is strained beyond the domain of its material law "
-                "(or so far that its enhanced parameters cannot be eliminated)",
-                iterations,
-            )
+            raise Failed(f"cell {evaluation.failed} {evaluation.failure}", iterations)
 
     def _count(self, points: NDArray[np.bool_]) -> int:
         return int(self.system.ranks.sum(float(points.sum())))

@@ -26,7 +26,7 @@ def softened(model: Model, newton: Newton, start: NDArray[np.float64] | None) ->
     Parameters
     ----------
     model : Model
-        With the controls and the time of the increment, and contacts; its last evaluation was at ``model.u``.
+        With the controls and the time of the increment, and contacts.
     newton : Newton
         Method.
     start : ndarray, shape (3 n,), optional
@@ -44,18 +44,18 @@ def softened(model: Model, newton: Newton, start: NDArray[np.float64] | None) ->
         reverted, with its penalties.
     """
     soft, softest = _SOFTER
-    before = [contact.block.normals.copy() for contact in model.contacts]
     try:
-        return _same_side(model, before, _stiffened(model, newton, start, soft))
+        return _same_side(model, _stiffened(model, newton, start, soft))
     except Failed:
-        model.evaluate(model.u)  # the enhanced parameters of the next try are recovered with the blocks of this state
-    return _same_side(model, before, _stiffened(model, newton, start, softest))
+        model.prepare()
+        return _same_side(model, _stiffened(model, newton, start, softest))
 
 
-def _same_side(model: Model, before: list[NDArray[np.float64]], converged: Converged) -> Converged:
+def _same_side(model: Model, converged: Converged) -> Converged:
     """Refuse an equilibrium for which the sheet went through a tool while that was soft: normals have turned round."""
-    pairs = zip(before, model.contacts, strict=True)
-    if model.ranks.any(any((np.einsum("qk,qk->q", old, contact.block.normals) < 0.0).any() for old, contact in pairs)):
+    found = converged.evaluation.found
+    pairs = [(contact.found.normal, found[contact].normal) for contact in model.contacts]
+    if model.ranks.any(any((np.einsum("qk,qk->q", before, now) < 0.0).any() for before, now in pairs)):
         model.revert()
         raise Failed("with a softer penalty the sheet goes through a tool", converged.iterations)
     return converged
@@ -68,9 +68,9 @@ def _stiffened(model: Model, newton: Newton, start: NDArray[np.float64] | None, 
             contact.penalty = 10.0**-powers * penalty
         converged = newton.solve(start)
         for power in range(powers - 1, -1, -1):
-            change = np.zeros_like(converged.u)
+            change, found = np.zeros_like(converged.x), converged.evaluation.found
             for contact, penalty in penalties.items():
-                contact.stiffen(10.0**-power * penalty, change)
+                contact.stiffen(found[contact], 10.0**-power * penalty, change[: model.u.size])
             again = newton.go_on(converged, change)
             converged = replace(again, iterations=converged.iterations + again.iterations)
     log.debug("    by way of softer penalties, %d iterations", len(converged.iterations))

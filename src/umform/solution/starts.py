@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.model import Model
-from umform.model.boundary import Control
+from umform.model.control import Control
 from umform.solution.newton import Converged, Failed, Newton
 from umform.solution.softening import softened
 
@@ -42,6 +42,7 @@ def equilibrium(
             return newton.solve(start, line_search=search, consistent=consistent)
         except Failed as failure:
             failures.append(failure)
+    failures[-1].singular = any(failure.singular for failure in failures)
     if not touches:
         raise failures[-1]
     try:
@@ -59,10 +60,10 @@ def _tangent(model: Model, newton: Newton, before: Mapping[Control, float], time
     rates = {control: after[control] - value for control, value in before.items()}
 
     def increment() -> Floats:
-        evaluation = model.evaluate(model.u, rates=rates, until=time_after)
+        evaluation = model.evaluate(model.x, rates=rates, until=time_after)
         newton.check_domain(evaluation, [])
         solver = newton.ready_solver()
-        solver.factor(evaluation.values)
+        solver.factor(evaluation)
         return model.extend(solver.solve(-model.restrict(evaluation.residual + evaluation.predictor)))
 
     _put(before, time, model)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from collections.abc import Mapping
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,20 +14,48 @@ from umform.solvers import Pattern
 Floats = NDArray[np.float64]
 
 
+class Border(Protocol):
+    """Rows and columns of scalar unknowns, see :class:`umform.model.term.Border`."""
+
+    @property
+    def unknowns(self) -> tuple[Any, ...]:
+        """The scalar unknowns."""
+
+    @property
+    def columns(self) -> Floats:
+        """Rates of the residual with each of them, shape (k, 3 n)."""
+
+    @property
+    def rows(self) -> Floats:
+        """Derivatives of their equations with the displacement, shape (k, 3 n)."""
+
+    @property
+    def corner(self) -> Floats:
+        """Derivatives of their equations with them, shape (k, k)."""
+
+
 class Evaluation(Protocol):
     """What Newton reads of an evaluation."""
 
     @property
+    def x(self) -> Floats:
+        """Where it was made."""
+
+    @property
     def residual(self) -> Floats:
-        """Residual at all degrees of freedom, reactions at the prescribed ones."""
+        """Residual at all degrees of freedom, reactions at the prescribed ones; then those of scalar unknowns."""
 
     @property
     def values(self) -> Floats:
-        """Entries of the tangent."""
+        """Entries of the tangent; empty of forces alone."""
 
     @property
     def predictor(self) -> Floats:
         """Tangent times the increment of the prescribed degrees of freedom."""
+
+    @property
+    def border(self) -> Border:
+        """Rows and columns of the scalar unknowns."""
 
     @property
     def force_scale(self) -> float:
@@ -38,13 +67,27 @@ class Evaluation(Protocol):
 
     @property
     def failed(self) -> int:
-        """First cell outside of the domain of its law, or -1."""
+        """First cell without an answer, or -1."""
+
+    @property
+    def failure(self) -> str:
+        """Why it has none."""
+
+    @property
+    def active(self) -> NDArray[np.bool_]:
+        """Which contact points tools hold."""
+
+    @property
+    def flowing(self) -> NDArray[np.uint8]:
+        """1 for each point of the material whose history the evaluation has changed, else 0."""
 
 
 class System(Protocol):
     """What Newton asks of a model."""
 
-    u: Floats
+    @property
+    def x(self) -> Floats:
+        """Displacement and scalar unknowns of the converged state."""
 
     @property
     def ranks(self) -> Ranks:
@@ -52,7 +95,7 @@ class System(Protocol):
 
     @property
     def pattern(self) -> Pattern:
-        """Sparse pattern of the tangent."""
+        """Sparse pattern of the tangent at the nodes."""
 
     @property
     def effort(self) -> float:
@@ -62,22 +105,29 @@ class System(Protocol):
     def extent(self) -> float:
         """Largest extent of the undeformed body along an axis."""
 
+    @property
+    def smooth(self) -> bool:
+        """Whether there is neither contact nor a law with a history."""
+
     def restrict(self, r: Floats) -> Floats:
-        """Unknowns' share of forces at all degrees of freedom, summed over the ranks. eq. (5.18)"""
+        """Unknowns' share of forces, summed over the ranks; on the first rank scalar ones follow. eq. (5.18)"""
 
     def coefficients(self, u: Floats) -> Floats:
-        """Unknowns in a displacement of all degrees of freedom. eq. (5.18)"""
+        """Unknowns in a displacement of all degrees of freedom and scalar unknowns. eq. (5.18)"""
 
     def extend(self, x: Floats) -> Floats:
-        """Displacement of all degrees of freedom that the unknowns make. eq. (5.17)"""
+        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eq. (5.17)"""
 
     def prescribed_displacement(self) -> Floats:
-        """Displacement that the supports prescribe, zero elsewhere."""
+        """Displacement that the supports prescribe, zero elsewhere, shape (3 n,)."""
+
+    def displacement_of_supports(self, values: Mapping[Any, float]) -> Floats:
+        """Displacement that supports prescribe if their controls have these values, shape (3 n,)."""
 
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry of the tangent."""
 
-    def evaluate(self, u: Floats, du: Floats | None = None) -> Evaluation:
+    def evaluate(self, x: Floats, du: Floats | None = None) -> Evaluation:
         """Residual and tangent."""
 
     def recover(self, du: Floats, s: float, mixed: bool = False) -> None:
@@ -86,14 +136,5 @@ class System(Protocol):
     def undo_recover(self) -> None:
         """Take the last update back."""
 
-    def active_set(self) -> NDArray[np.bool_]:
-        """Contact points that penetrate."""
-
-    def flowing(self) -> NDArray[np.uint8]:
-        """1 for each point of the material whose history the last evaluation has changed, else 0."""
-
-    def commit(self, u: Floats) -> None:
-        """Accept."""
-
     def revert(self) -> None:
-        """Forget."""
+        """Forget everything since the last commit."""

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import InvalidValue
-from . import lapack
 from .band_order import bandwidth, orders
 from .protocol import Factorisation, FloatArray, Pattern, not_factored, singular, vanishing_pivot
 
@@ -46,12 +45,14 @@ class Banded:
         """Factorise by Cholesky, or by SuperLU if a pivot is not positive."""
         self._back_substitute = None
         values = self._pattern.checked(values)
-        band = np.zeros((self._pattern.n, self.bandwidth + 1))
+        from scipy.linalg import lapack  # slow to import
+
+        band = np.zeros((self._pattern.n, self.bandwidth + 1))  # each row holds a column of the lower triangle
         band.reshape(-1)[self._scatter] = values
-        self._band, first_bad = lapack.factorise(band)
+        self._band, first_bad = lapack.dpbtrf(band.T, lower=1, overwrite_ab=1)
         if first_bad:
             return self._factor_indefinite(values)
-        weakest = vanishing_pivot(self._band[self._places, 0] ** 2, values[self._diagonal])
+        weakest = vanishing_pivot(self._band[0, self._places] ** 2, values[self._diagonal])
         if weakest is not None:
             raise singular(self.name, weakest)
         self._back_substitute = self._solve_band
@@ -74,7 +75,9 @@ class Banded:
         return factorisation
 
     def _solve_band(self, rhs: FloatArray) -> FloatArray:
+        from scipy.linalg import lapack
+
         rhs = self._pattern.checked_rhs(rhs)
         b = np.empty(rhs.shape, order="F")
         b[self._places] = rhs
-        return np.asarray(lapack.solve(self._band, b)[self._places])
+        return np.asarray(lapack.dpbtrs(self._band, b, lower=1, overwrite_b=1)[0][self._places])

@@ -10,6 +10,7 @@ import ctypes
 import os
 import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 
@@ -45,6 +46,19 @@ def library() -> ctypes.CDLL:
     if sys.platform == "linux" and "MKL_THREADING_LAYER" not in os.environ:
         loaded.MKL_Set_Threading_Layer(_GNU_THREADS)
     return loaded
+
+
+@contextmanager
+def threads(count: int | None) -> Iterator[None]:
+    """Let MKL take at most so many threads for what this thread asks of it; None leaves it as it is."""
+    if count is None:
+        yield
+        return
+    before = library().MKL_Set_Num_Threads_Local(count)
+    try:
+        yield
+    finally:
+        library().MKL_Set_Num_Threads_Local(before)
 
 
 def _candidates() -> Iterator[Path]:

@@ -72,6 +72,21 @@ class Pattern:
         """Row of each stored entry."""
         return np.repeat(np.arange(self.n, dtype=np.int32), np.diff(self.indptr))
 
+    def upper(self) -> tuple[IntArray, IntArray] | None:
+        """Starts and columns of the rows of the upper triangle; None if entries have none opposite to them."""
+        if self.symmetric:
+            return np.ascontiguousarray(self.indptr, np.int32), np.ascontiguousarray(self.indices, np.int32)
+        from scipy import sparse  # slow to import
+
+        shape = (self.n, self.n)
+        mirrored = sparse.csr_matrix((np.empty(self.nnz, np.int8), self.indices, self.indptr), shape=shape).tocsc()
+        if not (np.array_equal(mirrored.indptr, self.indptr) and np.array_equal(mirrored.indices, self.indices)):
+            return None
+        rows = self.rows
+        above = self.indices >= rows
+        indptr = np.concatenate([[0], np.cumsum(np.bincount(rows[above], minlength=self.n))])
+        return indptr.astype(np.int32), self.indices[above].astype(np.int32)
+
     def positions(self) -> sparse.csr_matrix:
         """Return the full matrix whose entries say where the value is stored, counted from 1."""
         from scipy import sparse  # slow to import

@@ -1,18 +1,18 @@
-"""The matrix of a sheet in square blocks, one for two neighbouring fibres, where PARDISO reads it."""
+"""Sheets: the order of elimination of their equations, and their matrix in square blocks, where PARDISO reads it."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from .. import _core
-from .protocol import FloatArray, IntArray
+from .protocol import FloatArray, IntArray, Pattern
 
 # A block row has to take at most so many more equations than there are: those of supported nodes are few.
 _FILLING = 1.1
 
 
 class SheetBlocks:
-    """Upper triangle of the blocks by rows; they are filled up with equations x = 0 to one size.
+    """Upper triangle of the blocks by rows, one for two neighbouring fibres; equations x = 0 fill them up to one size.
 
     Parameters
     ----------
@@ -50,6 +50,15 @@ class SheetBlocks:
     def gather(self, x: FloatArray) -> FloatArray:
         """Return the rows of the equations."""
         return np.asarray(x[self._place], order="F")
+
+
+def sheet_of(pattern: Pattern) -> _core.SheetOrder | None:
+    """Return the order of elimination of a sheet; None if the matrix is not that of one."""
+    upper = pattern.upper()
+    if upper is None:
+        return None
+    sheet = _core.SheetOrder(*upper)
+    return sheet if len(sheet.vertices) else None
 
 
 def worth_blocks(sheet: _core.SheetOrder, n: int) -> bool:

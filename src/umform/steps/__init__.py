@@ -1,9 +1,10 @@
-"""What a run does: move controls, release them, follow a path of equilibria."""
+"""What a run does: move controls, release them, free supports, follow a path of equilibria."""
 
 from umform.steps.arc_length.arc import Arc
+from umform.steps.free import Free
 from umform.steps.move import Move
 from umform.steps.release import Release
 
-Step = Move | Release | Arc
+Step = Move | Release | Arc | Free
 
-__all__ = ["Arc", "Move", "Release", "Step"]
+__all__ = ["Arc", "Free", "Move", "Release", "Step"]

@@ -6,7 +6,8 @@ import logging
 from collections.abc import Sequence
 
 from umform.errors import NoConvergence
-from umform.model.boundary import Control
+from umform.model.checks import diagnosis
+from umform.model.control import Control
 from umform.solution.augmentation import augmented
 from umform.solution.newton import Converged, Failed, Iteration
 from umform.solution.starts import equilibrium
@@ -24,10 +25,10 @@ def take_increment(
     for control, value in zip(controls, values, strict=True):
         control.value = float(value)
     model.time = time
-    u_before, history = model.u.copy(), model.block.state
+    x_before = model.x.copy()
     try:
         starts = dict(zip(controls, before, strict=True))
-        guess = None if extrapolation is None or run.last_du is None else extrapolation * run.last_du
+        guess = None if extrapolation is None or run.last_dx is None else extrapolation * run.last_dx
         converged = equilibrium(model, run.newton, starts, time_before, guess)
         try:
             converged = augmented(model, run.newton, converged)
@@ -40,21 +41,30 @@ def take_increment(
         model.time = time_before
         model.revert()
         raise
-    model.commit(converged.u)
-    run.last_du, run.history = model.u - u_before, history
+    model.commit(converged.evaluation)
+    run.last_dx, run.evaluation = model.x - x_before, converged.evaluation
     return converged
 
 
-def no_convergence(failure: Failed, number: int, controls: Sequence[Control], values: Sequence[float]) -> NoConvergence:
-    """Error for step ``number`` that could not bring the controls to the values."""
+def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], values: Sequence[float]) -> NoConvergence:
+    """Error for the step under way, which could not bring the controls to the values."""
     goal = ", ".join(f"{c.name} = {v:.6g}" for c, v in zip(controls, values, strict=True))
+    cause, remedy = (
+        failure.reason,
+        (
+            "look at the last converged state (it is kept): buckling, a pinched sheet, folded elements; "
+            "else take more steps, fewer contact jumps (more contact points), a softer penalty or line_search=True"
+        ),
+    )
+    loose = diagnosis(run.model) if failure.singular else None
+    if loose is not None:
+        cause, remedy = f"{cause}: {loose[0]}", loose[1]
     return NoConvergence(
         "Newton's method did not converge at the smallest increment",
-        where=f"step {number}, on the way to {goal}",
+        where=f"step {run.number}, on the way to {goal}",
         value=last_residuals(failure.iterations),
-        cause=failure.reason,
-        remedy="look at the last converged state (it is kept): buckling, a pinched sheet, folded elements; "
-        "else take more steps, fewer contact jumps (more contact points), a softer penalty or line_search=True",
+        cause=cause,
+        remedy=remedy,
     )
 
 

@@ -13,8 +13,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.model import Model
-from umform.model.boundary import Control
+from umform.model import Evaluation, Model
+from umform.model.control import Control
 from umform.progress import Tick, silent
 from umform.results.history import History
 from umform.solution.newton import Converged, Newton
@@ -50,11 +50,10 @@ class Run:
         The step under way, counted from 1.
     loop : Loop, optional
         Where it stands; None before it begins.
-    last_du : ndarray, shape (3 n,), optional
-        The last increment of displacement, for the extrapolation.
-    history : ndarray
-        History of the material that the last evaluation at ``model.u`` has read: with it that evaluation can be made
-        again, to the last bit, and with it the blocks that the next enhanced parameters are recovered with.
+    last_dx : ndarray, shape (3 n + k,), optional
+        The last increment of displacement and scalar unknowns, for the extrapolation.
+    evaluation : Evaluation
+        That of the converged state.
     tick, pause : callable
         Shows where the run stands; writes checkpoints and stops the run, between increments.
     """
@@ -62,11 +61,11 @@ class Run:
     model: Model
     newton: Newton
     result: History
+    evaluation: Evaluation
     frames: int = 60
     number: int = 1
     loop: Loop | None = None
-    last_du: Floats | None = None
-    history: Floats = field(default_factory=lambda: np.empty(0))
+    last_dx: Floats | None = None
     tick: Tick = silent
     pause: Callable[[], None] = field(default=lambda: None)
 
@@ -74,7 +73,7 @@ class Run:
         self, converged: Converged, controls: Sequence[Control], *, name: str, fraction: float, frame: bool
     ) -> None:
         """Add a converged increment of the step to the result and show how far the step ``name`` has come."""
-        self.result.add(converged.residual, converged.iterations + converged.passes, step=self.number, frame=frame)
+        self.result.add(converged.evaluation, converged.iterations + converged.passes, step=self.number, frame=frame)
         row = self.result.rows[-1]
         forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
         self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))

@@ -11,7 +11,7 @@ from typing import Any, Self
 import numpy as np
 
 from umform.errors import InvalidValue, NotFinite
-from umform.model.boundary import Control
+from umform.model.control import Control
 from umform.solution.newton import Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
@@ -171,4 +171,4 @@ class Moving:
         log.info("step %d: %s; increment cut to %.3g", run.number, failure.reason, self.size)
         if self.size < 1.0 / step.steps / 2**step.cuts:
             values = step.values(target, self.starts)
-            raise no_convergence(failure, run.number, step.moved(), values) from None
+            raise no_convergence(run, failure, step.moved(), values) from None

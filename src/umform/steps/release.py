@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from umform.errors import InvalidValue
-from umform.model import Snapshot
-from umform.model.boundary import Control
+from umform.model import Evaluation, Snapshot
+from umform.model.control import Control
 from umform.solution.newton import Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
@@ -82,9 +82,8 @@ class Releasing:
     def begin(cls, run: Run, step: Release) -> Self:
         """The loop at the beginning of the step; done if there is nothing to release."""
         model, value = run.model, step.control.value
-        evaluation = model.evaluate(model.u)
-        run.history = model.block.state
-        force = model.conjugate_force(step.control, evaluation.residual)
+        evaluation = run.evaluation
+        force = step.control.force(evaluation, model.ranks)
         size = -math.copysign(step.increment or abs(value) / 1000.0, value)
         loop = cls(model.time, value, abs(force), force, size, finest=1e-6 * abs(value))
         if value == 0.0 or loop.scale <= 1e-9 * evaluation.force_scale:
@@ -104,7 +103,8 @@ class Releasing:
     def advance(self, run: Run, step: Release) -> None:
         """Try one increment."""
         model, control = run.model, step.control
-        saved, value, touching = model.snapshot(), control.value, model.touching()
+        before, value = run.evaluation, control.value
+        saved, touching = model.snapshot(), before.touching(model.ranks)
         target = _next_release(value, self.force, self.before, self.bound, self.size, self.finest)
         if self.failures and self.bound is None and target != value:
             target = _short_of_zero(value, self.force, self.before, target)
@@ -112,7 +112,7 @@ class Releasing:
             target = 0.0
         if target == value or self.attempts > 50:  # the force jumps over zero
             jump = Failed("the zero of the force cannot be closed in", [])
-            raise no_convergence(jump, run.number, [control], [target])
+            raise no_convergence(run, jump, [control], [target])
         time = self.start_time + 1.0 - target / self.start_value
         try:
             converged = take_increment(
@@ -121,16 +121,14 @@ class Releasing:
         except Failed as failure:
             self.size, self.taken, self.failures = 0.25 * self.size, None, self.failures + 1
             if self.failures > 20:
-                raise no_convergence(failure, run.number, [control], [target]) from None
-            model.evaluate(model.u)  # what touches is asked of this state, not of the one that did not converge
-            run.history = saved.state
+                raise no_convergence(run, failure, [control], [target]) from None
             return
-        force = model.conjugate_force(control, converged.residual)
+        force = control.force(converged.evaluation, model.ranks)
         zero = abs(force) <= step.tolerance * self.scale
-        lifted = touching and zero and not model.touching()
+        lifted = touching and zero and not converged.evaluation.touching(model.ranks)
         resolution = 1e-6 * abs(self.start_value)
         if (force * self.force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
-            self._go_back(run, saved, target, resolution if lifted else 0.0)
+            self._go_back(run, saved, before, target, resolution if lifted else 0.0)
             if not lifted:
                 self.size, self.before = (target - value) * self.force / (self.force - force), None
             return
@@ -145,13 +143,11 @@ class Releasing:
             how = "contact has lifted off" if lifted else "the force is zero" if zero else "the way back is complete"
             run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
 
-    def _go_back(self, run: Run, saved: Snapshot, target: float, finest: float) -> None:
+    def _go_back(self, run: Run, saved: Snapshot, before: Evaluation, target: float, finest: float) -> None:
         """Restore the state before an increment that went too far; its end is the new bound."""
-        model = run.model
         self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
-        model.restore(saved)
-        model.evaluate(model.u)
-        run.last_du, run.history, self.taken = None, saved.state, None
+        run.model.restore(saved)
+        run.evaluation, run.last_dx, self.taken = before, None, None
 
 
 def _short_of_zero(value: float, force: float, before: Sequence[float] | None, target: float) -> float:

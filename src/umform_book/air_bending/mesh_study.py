@@ -261,6 +261,7 @@ Stack of eight layers of EAS3DEAS of order 2, E_33 tied, twelve elements per thi
 checked against it. Pure bending: a stack of eight layers bent between two sections of an arc as in
 [bend-moment](bend-moment.md), the same metal.
 """,
+    own="eight layers of EAS3DEAS of order 2, umform itself",
     run=run,
     cost=60.0,
 )

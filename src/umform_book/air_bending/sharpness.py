@@ -197,6 +197,7 @@ Stack of four layers of EAS3DEAS of order 2, E_33 tied, twice as many elements a
 assumptions. Its own uncertainty at R/h = 1, seen from eight layers on twice as many elements (an earlier run): 0.3 %
 of the largest force, 1.5 % of the outer strain.
 """,
+    own="four layers of EAS3DEAS of order 2, umform itself",
     run=run,
     cost=50.0,
 )

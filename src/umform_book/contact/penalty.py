@@ -224,6 +224,7 @@ the contact is short against the strip and long against the distance of the poin
 of the tool, of which the penetration takes its part: relative error of the force = penetration / travel, but for the
 stiffness which the spread of the contact adds. The stiffest penalty stands for the exact force.
 """,
+    own="for the force, the stiffest penalty of umform itself; the penetration is a closed form",
     run=run,
     cost=15.0,
 )

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from umform.materials import SVK
 from umform.mesh import Mesh
 from umform.model import Model
-from umform.model.boundary import traction_forces
+from umform.model.forces import traction_forces
 from umform.results.shape import Shape
 from umform_book.case import Case
 from umform_book.convergence import normalised, show, study
@@ -77,6 +77,7 @@ displacement of the middle of the loaded side. n x n intervals between nodes.
 23.96: a converged solution of our own, with biquadratic compatible membrane strains (DISP9K3DEAS) on 64 x 64 intervals,
 0.2 % of uncertainty; the value usually quoted for this panel is the same within that. There is no closed form.
 """,
+    own="64 x 64 intervals of DISP9K3DEAS, umform itself; the value usually quoted, 23.96, is the same",
     run=run,
     cost=6.0,
 )

@@ -128,6 +128,7 @@ constant in pure bending. Elements that do not lock, without and with tying of E
 The finest mesh of MI9K3DEAS with E_33 tied, one for each thickness: our own solution. That three different elements
 agree on the finest mesh, and the coarser meshes in the table, show its uncertainty, about 1 %.
 """,
+    own="the finest mesh of MI9K3DEAS with E_33 tied, umform itself",
     run=run,
     cost=8.0,
 )

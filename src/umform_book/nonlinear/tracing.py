@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from umform.mesh import Ids
 from umform.model import Model
-from umform.model.boundary import Load
+from umform.model.dead_load import Load
 from umform.run import Result
 from umform.steps import Move
 from umform.steps.arc_length.arc import Arc

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from umform import mesh
 from umform.materials import J2
 from umform.model import Model
-from umform.model.boundary import Prescribed
+from umform.model.control import Prescribed
 from umform.run import Result
 from umform.steps import Move
 from umform_book.page import Page

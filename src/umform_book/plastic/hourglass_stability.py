@@ -68,7 +68,7 @@ def softest(variant: Variant, aspect: float, strain: float) -> tuple[Floats, Flo
         before = model.snapshot()
         solve(model, Move(end, aspect * float(np.expm1(value)), steps=1), progress=False, frames=0)
         # The history of the state before with the displacement of this one: the tangent of a point that flows.
-        free.restore(Snapshot(before.u, before.state, before.alpha, (), 0.0))
+        free.restore(Snapshot(before.u, terms=before.terms))
         K = stiffness(free, free.evaluate(model.u))
         found.append(np.linalg.eigvalsh(modes @ (K @ modes.T))[0] / LAW.mu)
     return strains, np.array(found)

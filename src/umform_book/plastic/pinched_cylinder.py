@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from umform import mesh
 from umform.materials import J2, Linear
 from umform.model import Model
-from umform.model.boundary import Prescribed
+from umform.model.control import Prescribed
 from umform.results.shape import Shape
 from umform.run import Result
 from umform.steps import Move
 from umform_book.case import Case
+from umform_book.diaphragm import rigid_diaphragm
 from umform_book.page import Page
 from umform_book.plastic.curves import lines_figure
 from umform_book.references import table
@@ -49,9 +50,7 @@ def eighth(variant: Variant, divisions: int) -> tuple[Model, Prescribed]:
     model.symmetry("x0", "x")
     model.symmetry("x1", "z")
     model.symmetry("y0", "y")
-    diaphragm = model.mesh.nodes("y1")
-    model.fix(np.setdiff1d(diaphragm, model.mesh.nodes("x0")), "x")
-    model.fix(np.setdiff1d(diaphragm, model.mesh.nodes("x1")), "z")
+    rigid_diaphragm(model, "y1")
     loaded = np.intersect1d(model.mesh.nodes("x0"), model.mesh.nodes("y0"))
     return model, model.prescribe(loaded, "z", "way")
 
@@ -148,10 +147,10 @@ CASE = Case(
     title="Pinched cylinder in the plastic range",
     problem=f"""
 A cylinder of radius {RADIUS:g}, length {2 * HALF_LENGTH:g} and thickness {THICKNESS:g} with rigid diaphragms at its
-ends (displacements in their plane are held, those along the axis are free), pinched by two opposite forces in its
-middle. E = {LAW.E:g}, nu = {LAW.nu:g}, yield stress 24.3 + 300 e. An eighth is meshed. The point of the force, its
-lower and its upper node, is pushed in by {DEPTH:g} in {STEPS} increments. Measured: the whole force. 5 thickness
-points (Gauss).
+ends, pinched by two opposite forces in its middle. A diaphragm holds the mid-surface in its plane and the director
+against rotation about the axis; motion along the axis, tilt and stretch of the director are free.
+E = {LAW.E:g}, nu = {LAW.nu:g}, yield stress 24.3 + 300 e. An eighth is meshed. The point of the force, its lower and
+its upper node, is pushed in by {DEPTH:g} in {STEPS} increments. Measured: the whole force. 5 thickness points (Gauss).
 """,
     reference=f"""
 The problem is that of Simo & Kennedy (Comput. Meth. Appl. Mech. Engng. 96 (1992) 133-171), taken up in many works on
@@ -161,6 +160,7 @@ of the last force away from it; if errors fall with the square of the mesh size,
 off its limit. Increments add to it: with 16 intervals, 120 increments instead of 48 change the force by up to 2 %. The
 curve of each mesh has waves of its own, as one row of cells after the other snaps into the fold.
 """,
+    own="48 x 48 intervals of MI9K3DEAS with E_33 tied, umform itself; no numbers are published",
     run=run,
     cost=50.0,
 )

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from umform import mesh
 from umform.materials import J2, Perfect
 from umform.model import Model
-from umform.model.boundary import Prescribed
+from umform.model.control import Prescribed
 from umform.run import Result
 from umform.steps import Move
 from umform_book.case import Case

@@ -13,7 +13,7 @@ from umform.elements.technology import Element
 from umform.materials import SVK
 from umform.mesh import Mesh
 from umform.model import Model
-from umform.model.boundary import body_forces, rigid_body_modes
+from umform.model.forces import body_forces, rigid_body_modes
 from umform_book.linear_algebra import linear_solution
 from umform_book.references import record
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import SolveError
+from umform.model import Evaluation
 from umform_book.linear_algebra import stiffness
 from umform_book.sharp_bends.bending import Bending
 from umform_book.sharp_bends.candidates import Candidate
@@ -78,7 +79,7 @@ class ArcBending(Bending):
                 break
             residual = directions.T @ evaluation.residual
             if iteration > 0 and np.linalg.norm(residual) < _TOLERANCE * evaluation.force_scale:
-                self._accept(curvature, w, u, evaluation.residual)
+                self._accept(curvature, w, evaluation)
                 return
             K = directions.T @ (stiffness(model, evaluation) @ directions)
             # Without hardening the neutral line may lie anywhere between two points: the shortest step then.
@@ -89,14 +90,14 @@ class ArcBending(Bending):
                 break
         raise SolveError("no equilibrium of the bent element", where=f"curvature {curvature:.4g}")
 
-    def _accept(self, curvature: float, w: Floats, u: Floats, forces: Floats) -> None:
-        self.model.commit(u)
+    def _accept(self, curvature: float, w: Floats, evaluation: Evaluation) -> None:
+        self.model.commit(evaluation)
         self.rate = (w - self.w) / (curvature - self.curvature)
         self.w, self.curvature = w, curvature
         along = self.X[:, 0]
         radius, angle = 1.0 / curvature + self.X[:, 2] + self.shape @ w, curvature * along
         arm = radius * along / self.length
-        f = forces.reshape(-1, 3)
+        f = evaluation.residual.reshape(-1, 3)
         self.moment = float(arm @ (f[:, 0] * np.cos(angle) - f[:, 2] * np.sin(angle)))
 
     def _directions(self, curvature: float) -> Floats:

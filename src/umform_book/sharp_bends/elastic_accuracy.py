@@ -130,6 +130,7 @@ tied: the [straight cantilever](straight-beam.md) with rectangles, trapezoids an
     reference="""
 Those of the pages of the problems; and the element that each is made of, which order 4 shall not change.
 """,
+    own="the element that each is made of, umform itself, beside the references of the problems",
     run=run,
     cost=20.0,
 )

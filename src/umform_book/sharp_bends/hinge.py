@@ -198,6 +198,7 @@ Continuum meshes: CalculiX 2.20, C3D20R, six layers, 1/6 x 1/6 mm in the hinge (
 layers: 1.2 %); run anew where `{calculix.VARIABLE}` is set and `ccx` is found, else stored. And stacks of four EAS3DEAS
 and DISP9K3DEAS of order 2 (stacks of ANS3DEAS lock in their own plane and are no reference).
 """,
+    own="beside CalculiX, four layers of EAS3DEAS and DISP9K3DEAS of order 2, umform itself",
     run=run,
     cost=80.0,
 )

@@ -124,6 +124,7 @@ rules. Order p needs p + 1 points at least.
 (a) The same section with 60 points. (b) The same mesh with 14 split points, the rule that errs least in (a), so that
 only the rule differs; what order and mesh do is on the other pages. Uncertainty of (b): what 14 points err by in (a).
 """,
+    own="for (b), 14 split points on the same mesh, umform itself; (a) is a section integrated in numpy",
     run=run,
     cost=35.0,
 )

@@ -185,6 +185,7 @@ lean to the left and to the right in turns by up to a quarter of the length over
 (a) The same element of length h/20, and eq. (2.33). (b), (c) CalculiX, six layers, 1.2 % from four layers, see the page
 of the [hinge](bend-hinge.md); in (c) also the same element as rectangles.
 """,
+    own="for (a), the same element of length h/20, umform itself; (b) and (c) are CalculiX",
     run=run,
     cost=60.0,
 )

@@ -143,6 +143,7 @@ CalculiX 2.20 with C3D20R and contact of surfaces, six layers, 1/6 mm in the hin
 1.3 % away at the end. It is made in two steps, the first of 0.01 mm: in its first step CalculiX takes a penetration for
 one of the mesh and removes it in proportion to the time. Beside it an own stack of four layers of EAS3DEAS of order 2.
 """,
+    own="beside CalculiX, four layers of EAS3DEAS of order 2, umform itself",
     run=run,
     cost=75.0,
 )

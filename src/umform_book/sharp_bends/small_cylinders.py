@@ -153,6 +153,7 @@ Own stack of four layers of EAS3DEAS of order 2 with elements of length h/4 (lar
 beside it over the smallest. Over the largest also CalculiX: four layers of C3D20R of length h/2 with contact of
 surfaces and the same penalty. Uncertainty: the difference of four and eight layers, which the checks show.
 """,
+    own="four layers of EAS3DEAS of order 2, umform itself; CalculiX beside it over the largest cylinder",
     run=run,
     cost=60.0,
 )

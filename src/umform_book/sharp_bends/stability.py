@@ -255,6 +255,7 @@ of. The alternating mode of tied or enhanced elements in large compression is kn
 Appl. Mech. Engng. 135 (1996) 201-209. (b) A strip of given width does not know how many elements stand across it.
 (c) Order 1. (d) The base element with E_33 tied.
 """,
+    own="for (a), two layers of DISP9K3DEAS of order 2, umform itself",
     run=run,
     cost=70.0,
 )

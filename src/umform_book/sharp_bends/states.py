@@ -111,7 +111,7 @@ def stretch(model: Model, stretches: Floats, path: Sequence[float]) -> Evaluatio
                 raise SolveError("an element failed in a homogeneous state", value=stretches)
             model.recover(np.zeros(u.size), 1.0)
         evaluation = model.evaluate(u)
-        model.commit(u)
+        model.commit(evaluation)
     return evaluation
 
 

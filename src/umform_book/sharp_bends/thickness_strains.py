@@ -231,6 +231,7 @@ Perfect plasticity: Hill, The Mathematical Theory of Plasticity (1950), exact fo
 of 16 layers is 1.3 % below at 0.2, see [moment](bend-moment.md). Hardening: a stack of 32 layers, 0.4 % from one of 16
 (same page). For elements above order 4: modes P_5 ... P_11 of E_33 added to BEND8 as data.
 """,
+    own="with hardening, 32 layers, umform itself; Hill's closed form without",
     run=run,
     cost=15.0,
 )

@@ -66,7 +66,6 @@ SMALL_RUN = """
 import sys
 from pathlib import Path
 import umform as uf
-from umform.solvers import mkl
 def run(cells, width, folder):
     mesh = uf.mesh.strip(length=60, width=width, thickness=1, cells=cells)
     model = uf.Model(mesh, material=uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(160.0, 500.0)))
@@ -81,19 +80,17 @@ def run(cells, width, folder):
 """
 
 
-@pytest.mark.parametrize(("cells", "solver"), [((24, 1), "banded"), ((24, 24), "pardiso")])
 @pytest.mark.skipif(not pardiso.available(), reason="without MKL the factors are SciPy's")
-def test_a_small_run_loads_no_scipy_where_mkl_is(cells, solver, tmp_path):
-    loaded = loaded_by(f"exec({SMALL_RUN!r}); run({cells}, {2.5 * cells[1]}, {str(tmp_path)!r})")
-    assert solver in loaded  # the line before the list
-    assert "umform.run.execute" in loaded
+def test_a_sheet_loads_no_scipy_where_mkl_is(tmp_path):
+    loaded = loaded_by(f"exec({SMALL_RUN!r}); run((24, 24), 60.0, {str(tmp_path)!r})")
+    assert {"pardiso", "umform.run.execute"} <= loaded  # the solver stands in the line before the list
     assert not loaded & {"scipy", "importlib.metadata", "matplotlib", "h5py", "meshio", "rich"}
 
 
-def test_a_small_run_without_mkl_loads_lapack_alone_of_scipy(tmp_path):
-    loaded = loaded_by(f"exec({SMALL_RUN!r}); mkl.find = lambda: None; run((24, 1), 2.5, {str(tmp_path)!r})")
-    assert {"banded", "scipy.linalg.lapack"} <= loaded
-    assert not loaded & {"scipy.sparse", "scipy.spatial", "scipy.optimize", "matplotlib", "h5py", "meshio", "rich"}
+def test_a_strip_loads_lapack_and_the_graphs_of_scipy(tmp_path):
+    loaded = loaded_by(f"exec({SMALL_RUN!r}); run((24, 1), 2.5, {str(tmp_path)!r})")
+    assert {"banded", "scipy.linalg.lapack", "scipy.sparse.csgraph"} <= loaded
+    assert not loaded & {"scipy.spatial", "scipy.optimize", "matplotlib", "h5py", "meshio", "rich"}
 
 
 @pytest.mark.parametrize("words", [["new", "cantilever"], ["new"]])
@@ -103,17 +100,16 @@ def test_a_template_is_printed_without_loading_what_computes(words):
     assert not loaded & (HEAVY - {"pydantic", "rich"})  # which typer loads for its own, and the list is a table
 
 
-@pytest.mark.parametrize(
-    "code",
-    [
-        "import umform as uf; uf.Result; uf.solve; from umform.io import write_csv",
-        f"from umform.cli import main; sys.argv = ['umform', 'check', {str(template_file('cantilever'))!r}]; main()",
-    ],
-)
-def test_solving_and_looking_load_nothing_for_files_and_pictures(code):
+SOLVING = "import umform as uf; uf.Result; uf.solve; from umform.io import write_csv"
+CHECKING = f"from umform.cli import main; sys.argv = ['umform', 'check', {str(template_file('cantilever'))!r}]; main()"
+
+
+@pytest.mark.parametrize(("code", "graphs"), [(SOLVING, set()), (CHECKING, {"scipy.sparse"})])
+def test_solving_and_checking_load_nothing_for_files_and_pictures(code, graphs):
+    """The check of a strip looks for a narrow band."""
     loaded = loaded_by(code)
     assert "umform.run.execute" in loaded
-    assert not loaded & {"meshio", "h5py", "matplotlib", "scipy.sparse", "scipy.optimize", "scipy.spatial"}
+    assert not loaded & ({"meshio", "h5py", "matplotlib", "scipy.sparse", "scipy.optimize", "scipy.spatial"} - graphs)
 
 
 def run_unread(*words, stderr):

@@ -149,8 +149,14 @@ def stopped(tmp_path, monkeypatch):
     return folder / "results" / "checkpoint.h5"
 
 
-def test_a_run_that_begins_anew_says_that_it_writes_over_a_checkpoint(stopped, caplog):
-    answer = umform("run", stopped.parents[1] / "deck.toml", "--out", stopped.parent, "--set", "steps.0.increments=6")
+def test_a_run_that_begins_anew_writes_over_a_checkpoint_only_if_that_is_asked_for(stopped, caplog):
+    words = ["run", stopped.parents[1] / "deck.toml", "--out", stopped.parent, "--set", "steps.0.increments=6"]
+    refused = umform(*words)
+    assert refused.exit_code == 1
+    assert "the folder holds the results of another run" in refused.output
+    assert f"umform resume {stopped} goes on with that run" in refused.output
+    assert stopped.exists()
+    answer = umform(*words, "--overwrite")
     assert answer.exit_code == 0, answer.output
     assert f"{stopped} will be written over; umform resume would go on with it" in caplog.text
     assert not stopped.exists()

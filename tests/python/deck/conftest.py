@@ -1,6 +1,7 @@
 import pytest
 
 from umform.deck import Deck, DeckError
+from umform.deck.check import check
 from umform.deck.templates import template
 
 STRIP = """
@@ -50,3 +51,14 @@ def errors():
 def texts():
     """The template of a name."""
     return template
+
+
+@pytest.fixture
+def found():
+    """Findings of a text about something."""
+
+    def checked(text, about, **changes):
+        deck = Deck.read(text, changes={key.replace("__", "."): value for key, value in changes.items()})
+        return [finding for finding in check(deck, deck.build()) if finding.about == about]
+
+    return checked

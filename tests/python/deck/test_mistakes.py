@@ -8,7 +8,7 @@ from pathlib import Path
 from hypothesis import HealthCheck, Phase, given, settings
 
 from umform.deck import Deck, DeckError
-from umform.deck.look import look
+from umform.deck.check import check as check_problem
 from umform.deck.running import run
 from umform.errors import UmformError
 
@@ -55,7 +55,7 @@ def built(deck):
                 assert told.cause, str(told)
                 assert told.remedy, str(told)
             return None
-        for finding in look(deck, problem):
+        for finding in check_problem(deck, problem):
             assert finding.text
             assert finding.remedy or finding.level.value == "ok"
         return problem

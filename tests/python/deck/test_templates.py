@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from umform.deck import Deck, deck_of, load
+from umform.deck.check import check
 from umform.deck.findings import Level
-from umform.deck.look import look
 from umform.deck.templates import template, template_file, templates, write_template
 from umform.errors import InvalidValue
 from umform.processes import FreeBending, free_bending
@@ -28,7 +28,7 @@ def test_the_list_is_whole():
 @pytest.mark.parametrize("name", SHORT)
 def test_each_template_passes_check(name):
     deck = load(template_file(name))
-    findings = list(look(deck, deck.build()))
+    findings = list(check(deck, deck.build()))
     assert {finding.level for finding in findings} == {Level.OK}
     assert "#:schema deck-schema.json" in template(name).splitlines()[0]
 

@@ -143,6 +143,6 @@ def test_points_are_neither_too_few_nor_too_many(cell, least):
 
 
 def test_the_choice_is_logged(caplog):
-    with caplog.at_level(logging.INFO, logger="umform.model.contact"):
+    with caplog.at_level(logging.INFO, logger="umform.contact"):
         sheet().contact("lower", roller(), points="auto", name="die")
     assert "contact die: thickness 1, tool radius 10" in caplog.text

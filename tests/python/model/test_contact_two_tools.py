@@ -8,10 +8,11 @@ import pytest
 from umform import materials as mt
 from umform.mesh import strip
 from umform.model import Model
-from umform.run import Result, resume, solve
-from umform.solution import increment
+from umform.run import resume, solve
+from umform.solution import starts
 from umform.solution.newton import Newton
 from umform.steps import Move, Release
+from umform.steps.loop import Run
 from umform.surfaces import Cylinder, Punch, VDie
 
 ELEMENT = {"hex8": "ANS3DEAS", "hex18": "MI9K3DEAS"}
@@ -89,9 +90,9 @@ def test_the_tangent_goes_with_a_driven_tool():
     for way in ways:
         model.restore(saved)
         model.evaluate(model.u)
-        run = increment.Run(model, Newton(model), Result(model))
+        newton = Newton(model)
         stroke.value = 2.0 - way
-        du = increment._tangent(run, {stroke: 2.0}, model.time)
+        du = starts._tangent(model, newton, {stroke: 2.0}, model.time)
         assert stroke.value == 2.0 - way  # to the last bit
         model.recover(du, 1.0)
         norms.append(np.linalg.norm(model.restrict(model.evaluate(model.u + du).residual)))
@@ -136,7 +137,7 @@ def test_a_run_with_multipliers_goes_on_from_its_checkpoint(tmp_path, monkeypatc
         return model, [Move(stroke, 0.6, steps=6), Move(stroke, 0.58, steps=4)]
 
     whole = solve(*case(), frames=0)
-    keep, calls = increment.Run.keep, []
+    keep, calls = Run.keep, []
 
     def power_cut(self, *args, **options):
         calls.append(self.number)
@@ -146,7 +147,7 @@ def test_a_run_with_multipliers_goes_on_from_its_checkpoint(tmp_path, monkeypatc
 
     path = tmp_path / "run.checkpoint"
     with monkeypatch.context() as patch:
-        patch.setattr(increment.Run, "keep", power_cut)
+        patch.setattr(Run, "keep", power_cut)
         with pytest.raises(RuntimeError, match="power cut"):
             solve(*case(), frames=0, checkpoint=path, every=0)
     model, steps = case()

@@ -150,3 +150,22 @@ def test_a_wrong_parameter_is_named(field, value):
     assert caught.value.where == field
     assert caught.value.cause
     assert caught.value.remedy
+
+
+@pytest.mark.parametrize(
+    ("setting", "room"),
+    [({"radius": 30.0}, "12.67"), ({"tool_x": 5.0}, "0.6039"), ({"tool_x": 0.0, "tool_z": -22.5}, "2")],
+)
+def test_a_cylinder_that_leaves_no_room_is_refused(setting, room):
+    with pytest.raises(InvalidValue, match="no room for the stroke") as caught:
+        FreeBending(**setting)
+    assert caught.value.where == "stroke"
+    assert caught.value.value == 15.0
+    assert f"can go down by {room} at most" in caught.value.cause
+    FreeBending(**setting, stroke=0.99 * float(room))
+
+
+def test_beside_the_cylinder_there_is_room_for_any_stroke():
+    FreeBending(tool_x=21.0, stroke=40.0)
+    with pytest.raises(InvalidValue, match="no room"):
+        FreeBending(tool_x=20.9, stroke=40.0)

@@ -13,6 +13,7 @@ import umform as uf
 from umform.processes import FreeBending, demo
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending.files import write_files
+from umform.report.page import write_report
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 pytestmark = pytest.mark.skipif(BROWSER is None, reason="no Chromium on this machine")
@@ -239,7 +240,7 @@ def test_all_controls_are_reached_by_keys_and_named(visit):
     for _ in range(30):
         page.keyboard.press("Tab")
         reached.append(page.evaluate("document.activeElement.id || document.activeElement.dataset.view || ''"))
-    ids = ["shape-field", "shape-scale", "shape-tools", "shape-lines", "oblique", "top", "shape-canvas"]
+    ids = ["shape-field", "shape-scale", "shape-tools", "shape-lines", "shape-whole", "oblique", "top", "shape-canvas"]
     ids += ["shape-play", "shape-frame", "curves-x", "curves-y", "curves-plot", "history-csv"]
     assert [name for name in reached if name in ids][: len(ids)] == ids
     for selector in ("#shape-canvas", "#shape-frame", "#curves-plot", "#shape-play"):
@@ -310,3 +311,51 @@ def test_a_small_screen_needs_no_scrolling_to_the_side(browser, path):
     visit.page.wait_for_selector(READY, state="attached")
     assert visit.page.evaluate("document.documentElement.scrollWidth") <= 390
     visit.context.close()
+
+
+LONG = "Linux-6.18.44-fc-v595-x86_64-with-glibc2.36" * 3
+
+
+def test_on_a_small_screen_no_value_is_cut(browser, result, tmp_path):
+    """All but the table of all rows fits; the long word stands for names of tools, paths and platforms."""
+    path = write_report(result, tmp_path / "run.html", deck=LONG, title=f"A title of {LONG}")
+    visit = Visit(browser, path)
+    visit.page.set_viewport_size({"width": 390, "height": 800})
+    visit.page.wait_for_selector(READY, state="attached")
+    visit.page.locator("table.pairs td").last.evaluate(f"(cell) => (cell.textContent = '{LONG}')")
+    visit.page.locator("details:not(#history-all) summary").click()
+    cut = "(all) => all.filter((e) => e.scrollWidth > e.clientWidth).map((e) => e.innerText.slice(0, 40))"
+    assert visit.page.eval_on_selector_all(".wide:not(.tall), h1, pre, main", cut) == []
+    visit.context.close()
+
+
+def test_the_whole_part_is_drawn_and_can_be_switched_off(visit):
+    page = visit.page
+    page.get_by_role("button", name="Front").click()
+    page.locator("#shape-tools").select_option("hidden")
+
+    def share(side):
+        picture = visit.picture()[:, : int(0.85 * visit.picture().shape[1])]
+        half = picture.shape[1] // 2
+        part = picture[:, :half] if side == "left" else picture[:, half:]
+        return (np.abs(part - part[:1, :1]).max(axis=2) > 0.15).mean()
+
+    assert share("left") == pytest.approx(share("right"), rel=0.1)
+    assert page.evaluate("window.umform.shape.images.visible")
+    whole = visit.picture()
+    page.locator("#shape-whole").uncheck()
+    assert not page.evaluate("window.umform.shape.images.visible")
+    assert differing(whole, visit.picture()) > 0.02
+    page.locator("#shape-field").select_option("stress von mises")
+    assert visit.text("#legend-name") == "stress von mises"
+
+
+def test_a_mirror_image_tells_its_values_too(visit):
+    page = visit.page
+    page.get_by_role("button", name="Top").click()
+    page.locator("#shape-tools").select_option("hidden")
+    visit.picture()
+    box = page.locator("#shape-canvas").bounding_box()
+    for part in (0.2, 0.6):
+        page.mouse.move(box["x"] + part * box["width"], box["y"] + 0.5 * box["height"])
+        assert visit.text("#shape-probe").startswith("plastic strain max ")

@@ -105,3 +105,11 @@ def test_other_names_are_refused(name, result, tmp_path):
     with pytest.raises(InvalidValue, match="html"):
         result.report(tmp_path / name)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_title_is_the_heading_and_the_material_has_six_digits(result, tmp_path):
+    page = write_report(result, tmp_path / "r.html", title="A strip & a <cylinder>").read_text(encoding="utf-8")
+    assert "<h1>A strip &amp; a &lt;cylinder&gt;</h1>" in page
+    assert "ANS3DEAS: 8 elements" in page
+    assert "J2: E = 210002, nu = 0.299998, yield stress 160, perfectly plastic" in page
+    assert "kappa=" not in page

@@ -69,6 +69,19 @@ def test_other_files_are_refused(file, tmp_path):
     assert "end it in .png" in view(file, "--png", tmp_path / "a.bmp").stderr
 
 
+def test_a_folder_stands_for_the_one_file_in_it(file, tmp_path):
+    assert "no such field" in view(file.parent, "--png", tmp_path / "a.png", "--field", "thicknes").stderr
+    empty = view(tmp_path, "--png", tmp_path / "a.png")
+    assert empty.exit_code == 1
+    assert "a folder without a file of fields" in empty.stderr
+    for name in ("bend.vtkhdf", "fields.vtkhdf"):
+        (tmp_path / name).write_bytes(file.read_bytes())
+    several = view(tmp_path, "--png", tmp_path / "a.png")
+    assert several.exit_code == 1
+    assert "bend.vtkhdf, fields.vtkhdf" in several.stderr
+    assert f"umform view {tmp_path / 'bend.vtkhdf'}" in several.stderr
+
+
 def test_without_pyvista_the_remedy_is_told(file, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyvista", None)
     run = view(file, "--png", tmp_path / "a.png")

@@ -41,8 +41,9 @@ def uniform(build, element, gradient, layers=2):
         made = build.jittered(made, 0.15)
     model = Model(made, element, material=LAW)
     u = (made.points @ gradient.T - made.points).ravel()
-    assert model.evaluate(u).failed == -1
-    model.commit(u)
+    evaluation = model.evaluate(u)
+    assert evaluation.failed == -1
+    model.commit(evaluation)
     return model
 
 
@@ -144,3 +145,21 @@ def test_frames_hold_reactions_and_fields(build):
     np.testing.assert_allclose(total[2], result["punch_force"][-1], rtol=1e-9)
     free = frame.points["reaction"].ravel()[case.model.free]
     assert (free == 0).all()
+
+
+def test_von_mises_stress_is_that_of_the_deviator(rotation):
+    stress = np.random.default_rng(3).normal(size=(5, 4, 6))
+    sigma = stress[..., [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
+    deviator = sigma - np.trace(sigma, axis1=-2, axis2=-1)[..., None, None] / 3 * np.eye(3)
+    expected = np.sqrt(1.5 * (deviator**2).sum(axis=(-2, -1)))
+    np.testing.assert_allclose(fields.von_mises(stress), expected, rtol=1e-13)
+    np.testing.assert_allclose(fields.von_mises(np.array([7.0, 7.0, 7.0, 0.0, 0.0, 0.0])), 0.0, atol=1e-13)
+
+
+def test_a_plastic_frame_has_the_yield_stress_as_its_von_mises_stress(build):
+    """Cauchy and Kirchhoff stress differ by det F, which is that of a small elastic strain."""
+    material = mt.J2(kappa=175000.0, mu=80770.0, hardening=mt.Linear(160.0, 500.0))
+    model, pull = build.bar(material=material)
+    frame = solve(model, Move(pull, 0.2, steps=10), frames=1).frames[-1]
+    flow = 160.0 + 500.0 * frame.cells["plastic_strain_max"]
+    np.testing.assert_allclose(frame.cells["stress_von_mises"], flow, rtol=2e-3)

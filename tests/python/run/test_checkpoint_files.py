@@ -110,7 +110,7 @@ def test_other_files_are_refused(tmp_path, build):
         ("mesh, contacts", {"cells": (7, 1)}),
         ("material", {"material": mt.J2(kappa=175001.0, mu=80.77e3, hardening=mt.Linear(160.0, 500.0))}),
         ("contacts", {"penalty": 2e4}),
-        ("contacts", {"radius": 21.0}),
+        ("tools", {"radius": 21.0}),
         ("steps", {"stroke": -3.5}),
     ],
 )

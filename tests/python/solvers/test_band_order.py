@@ -1,4 +1,4 @@
-"""The walk that spares wide matrices the search for a narrow band, and the one that finds it."""
+"""The walk that spares wide matrices the search for a narrow band."""
 
 from __future__ import annotations
 
@@ -6,12 +6,11 @@ import logging
 
 import numpy as np
 import pytest
-from scipy.sparse import csgraph
 
 import umform as uf
 from umform import solvers
 from umform.solvers import Pattern
-from umform.solvers.band_order import bandwidth, cuthill_mckee, orders, wider_than
+from umform.solvers.band_order import bandwidth, orders, wider_than
 from umform.solvers.banded import Banded
 
 
@@ -54,14 +53,6 @@ def test_a_wide_matrix_is_not_searched_for_a_band(monkeypatch, caplog):
     with caplog.at_level(logging.INFO, logger="umform.solvers"):
         solver = solvers.make_solver(pattern)
     assert solver.name in ("pardiso", "superlu")
-
-
-@pytest.mark.parametrize("cells", [(24, 1), (48, 2), (10, 4), (9, 9), (8, 1, "hex18")])
-def test_the_walk_is_that_of_scipy(cells):
-    """In the order of the mesh both begin at the same equation, and then go the same way."""
-    graph = pattern_of(*cells).positions()
-    theirs = csgraph.reverse_cuthill_mckee(graph, symmetric_mode=True)
-    np.testing.assert_array_equal(cuthill_mckee(graph.indptr, graph.indices)[::-1], theirs)
 
 
 @pytest.mark.parametrize("seed", range(3))

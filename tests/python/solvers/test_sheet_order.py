@@ -119,7 +119,7 @@ def test_others_are_solved(monkeypatch):
     solver = make_solver(pattern, "pardiso")
     solver.factor(values)
     np.testing.assert_allclose(matrix @ solver.solve(np.ones(900)), 1.0, rtol=1e-9)
-    assert solver.memory() == pardiso._CHOLESKY
+    assert solver.memory() == pardiso.CHOLESKY
 
 
 def test_blocks_are_left_out_where_they_would_be_half_empty():
@@ -177,7 +177,7 @@ def solver_of(request, monkeypatch):
     def made(matrix):
         pattern, values = stored(matrix)
         solver = make_solver(pattern, "pardiso")
-        assert (solver.memory() == pardiso._IN_BLOCKS) == (request.param == "blocks")
+        assert (solver.memory() == pardiso.IN_BLOCKS) == (request.param == "blocks")
         return solver, values
 
     return made
@@ -210,7 +210,7 @@ def test_inertia_and_the_kind_of_factors_that_is_kept(solver_of):
     x = solver.solve(np.ones(matrix.shape[0]))
     np.testing.assert_allclose(shifted @ x, 1.0, rtol=1e-8)
     later = solver.memory()
-    assert later not in (first, pardiso._CHOLESKY)
+    assert later not in (first, pardiso.CHOLESKY)
     again, _ = solver_of(matrix)
     again.recall(later)
     again.factor(stored(shifted)[1])
@@ -261,5 +261,5 @@ def test_less_to_factorise_than_with_the_order_of_pardiso(monkeypatch):
     matrix = fibres(neighbours(40, 40), 6)
     pattern, values = stored(matrix)
     own = make_solver(pattern, "pardiso").factor(values).fill
-    monkeypatch.setattr(pardiso._Handle, "eliminate_in", lambda self, order: None)
+    monkeypatch.setattr(pardiso.Handle, "eliminate_in", lambda self, order: None)
     assert own < 0.97 * make_solver(pattern, "pardiso").factor(values).fill

@@ -1,12 +1,17 @@
-"""Templates: decks to start from, and the files that they need."""
+"""Decks to start from: templates with the files that they need, and the decks of ready processes."""
 
 from __future__ import annotations
 
 import tomllib
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from umform.deck.source import slip
+from umform.deck.errors import slip
 from umform.errors import InvalidValue
+
+if TYPE_CHECKING:
+    from umform.processes.air_bending import AirBending
+    from umform.processes.bending.parameters import FreeBending
 
 _FOLDER = Path(__file__).parent
 #: Files beside a deck that it reads.
@@ -84,3 +89,24 @@ def write_template(name: str, path: str | Path) -> list[Path]:
         with PendingFile(target) as temporary:
             temporary.write_text(text, encoding="utf-8")
     return list(texts)
+
+
+def deck_of(case: FreeBending | AirBending) -> str:
+    """Deck of a case of a ready process, as TOML.
+
+    Parameters
+    ----------
+    case : FreeBending or AirBending
+        The case; a bend needs its stroke.
+
+    Returns
+    -------
+    str
+        What it builds gives the same numbers as :func:`umform.processes.free_bending` and
+        :func:`umform.processes.air_bending.air_bending`.
+    """
+    from umform.processes.air_bending import deck as air_bending
+    from umform.processes.air_bending.parameters import AirBending
+    from umform.processes.bending import deck as free_bending
+
+    return air_bending.deck_of(case) if isinstance(case, AirBending) else free_bending.deck_of(case)

@@ -1,6 +1,7 @@
-"""Contact of the sheet with rigid tools: pairs, what they are set to, and multipliers against penetration."""
+"""Contact of the sheet with rigid tools: pairs, what they are set to, and what is found at their points."""
 
-from umform.model.contact.pair import Contact, ContactPoints, Motion, ToolMotion
+from umform.model.contact.found import ContactFound, ContactPoints
+from umform.model.contact.pair import Contact
 from umform.model.contact.settings import ContactSettings, contact_settings
 
-__all__ = ["Contact", "ContactPoints", "ContactSettings", "Motion", "ToolMotion", "contact_settings"]
+__all__ = ["Contact", "ContactFound", "ContactPoints", "ContactSettings", "contact_settings"]

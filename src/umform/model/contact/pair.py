@@ -1,63 +1,31 @@
-"""A contact pair: faces of the sheet against one rigid tool, its motion, resultants, pressure and gap."""
+"""A contact pair: faces of the sheet against one rigid tool."""
 
 from __future__ import annotations
 
-import copy
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property
-from typing import Self
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property, partial
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
+from umform.errors import ModelError
 from umform.mesh import FACE_NODES, Ids, Mesh, Selector
-from umform.model.boundary import Control, vector3
+from umform.model.contact.found import ContactFound, ContactPoints
 from umform.model.contact.settings import ContactSettings
+from umform.model.control import Control, Twins
+from umform.model.cut import Cut
+from umform.model.term import At, Energies, Found, Into, Term, Tree
+from umform.model.tool import Pose, Tool
 from umform.model.whole import not_here
-from umform.surfaces import Surface
-from umform.surfaces.directions import rotation_matrix
+from umform.ranks import Ranks
 
 Floats = NDArray[np.float64]
 
-#: time -> translation (3,), or (translation (3,), rotation vector (3,)) about the tool's reference point.
-Motion = Callable[[float], Floats | tuple[Floats, Floats]]
 
-
-@dataclass(eq=False, repr=False)
-class ToolMotion(Control):
-    """Translation of a tool along a direction; its force is that of the sheet on the tool along it."""
-
-    direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
-
-
-@dataclass(frozen=True)
-class ContactPoints:
-    """What is known at the contact points of a pair.
-
-    Attributes
-    ----------
-    x : ndarray, shape (n, 3)
-        Current positions.
-    gap : ndarray, shape (n,)
-        Signed distance, negative in penetration.
-    pressure : ndarray, shape (n,)
-        Contact pressure on the reference area, zero without contact.
-    normal : ndarray, shape (n, 3)
-        Unit normal out of the tool.
-    area : ndarray, shape (n,)
-        Reference area that belongs to the point.
-    """
-
-    x: Floats
-    gap: Floats
-    pressure: Floats
-    normal: Floats
-    area: Floats
-
-
-class Contact:
+class Contact(Term):
     """Frictionless contact of faces with one tool, held by a penalty and, where wanted, multipliers.
 
     docs/theory, chapter 4. Made by :meth:`umform.Model.contact`.
@@ -68,7 +36,7 @@ class Contact:
         The sheet.
     faces : Selector
         Lower or upper faces.
-    tool : Surface
+    tool : Tool
         The tool.
     settings : ContactSettings
         Penalty, points, penetration that is allowed, multipliers or not; they are attributes of the pair.
@@ -76,17 +44,16 @@ class Contact:
         For the history.
     """
 
-    def __init__(self, mesh: Mesh, faces: Selector, tool: Surface, settings: ContactSettings, name: str) -> None:
+    timed_as = "contact"
+    within_bodies = True
+
+    def __init__(self, mesh: Mesh, faces: Selector, tool: Tool, settings: ContactSettings, name: str) -> None:
         self.name = name
         self.tool = tool
-        self.penalty, self.points = settings.penalty, settings.points
-        self.allowed, self.augmented = settings.allowed, settings.augmented
+        self._settings, self._penalty = settings, settings.penalty
         self._meet(mesh, mesh.face_set(faces))
-        self.pose: tuple[Floats, Floats] = (np.eye(3), np.zeros(3))
-        self.translations: list[ToolMotion] = []
-        self.motion: Motion | None = None
-        self.reference_point = np.zeros(3)
         self.elsewhere = False
+        self._last: ContactFound | None = None
 
     def _meet(self, mesh: Mesh, faces: Ids) -> None:
         #: Rows (cell, number of the face), and the nodes of these facets.
@@ -94,72 +61,28 @@ class Contact:
         self.facets: Ids = mesh.facets_of(faces)
         #: Nodes of all cells that bear a facet, those of the far face too.
         self.nodes: Ids = np.unique(mesh.connectivity[faces[:, 0]])
-        self._kernel, self._mesh_points = self.tool.kernel(), mesh.points
+        self._mesh_points = mesh.points
 
-    @cached_property
-    def block(self) -> _core.ContactBlock:
-        """The contact points: made when first asked for.
-
-        Raises
-        ------
-        ModelError
-            If the model was solved on many ranks: each had the points of its own facets.
-        """
-        if self.elsewhere:
-            raise not_here(f"the state of contact {self.name}")
-        at_nodes = isinstance(self.points, str)
-        per_side = 1 if isinstance(self.points, str) else self.points
-        law = _core.penalty_law(self.penalty)
-        block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self._kernel, law)
-        block.name = f"contact {self.name}"
-        block.set_pose(*self.pose)
-        return block
+    # Settings ------------------------------------------------------------------------------------------------
 
     @property
-    def multipliers(self) -> Floats:
-        """Multipliers of the converged state at the contact points; zero without augmentation."""
-        return self.block.state[:, 0]
+    def points(self) -> int | str:
+        """Gauss points per direction and facet, or "nodes"; fixed when the pair is made."""
+        return self._settings.points
 
-    @multipliers.setter
-    def multipliers(self, values: Floats) -> None:
-        self.block.restore(np.ascontiguousarray(values, dtype=float))
+    @property
+    def allowed(self) -> float | None:
+        """Penetration that is allowed; None where only a penalty was given."""
+        return self._settings.allowed
 
-    def bare(self) -> Self:
-        """The same contact without its faces, which :meth:`part` gives it anew."""
-        bare = copy.copy(self)
-        for made in ("block", "faces", "facets", "nodes", "_mesh_points", "_kernel"):
-            bare.__dict__.pop(made, None)
-        return bare
+    @allowed.setter
+    def allowed(self, value: float | None) -> None:
+        self._settings = replace(self._settings, allowed=value)
 
-    def part(self, mesh: Mesh, faces: Ids) -> Self:
-        """The same contact on some faces of a part of the mesh, rows (cell, face) there, which may be none."""
-        part = self.bare()
-        part._meet(mesh, faces)
-        return part
-
-    def place(self, time: float) -> None:
-        """Put the tool where its motions have it at ``time``. eq. (4.18)"""
-        self.put(self._pose_at(time))
-
-    def put(self, pose: tuple[Floats, Floats]) -> None:
-        """Put the tool into a pose: rotation and shift."""
-        self.pose = pose
-        if "block" in vars(self):
-            self.block.set_pose(*pose)
-
-    def _pose_at(self, time: float) -> tuple[Floats, Floats]:
-        """Rotation and shift of the tool at ``time``, at the present values of the controls."""
-        shift, rotation = np.zeros(3), np.eye(3)
-        for control in self.translations:
-            shift += control.value * np.asarray(control.direction)
-        if self.motion is not None:
-            answer = self.motion(time)
-            translation, turn = answer if isinstance(answer, tuple) and len(answer) == 2 else (answer, np.zeros(3))
-            where = f"motion of contact {self.name} at time {time:g}"
-            shift += vector3(translation, where)
-            rotation = rotation_matrix(vector3(turn, where))
-        centre = self.reference_point
-        return np.ascontiguousarray(rotation), centre + shift - rotation @ centre
+    @property
+    def augmented(self) -> bool:
+        """Whether multipliers take the penetration away that is not allowed."""
+        return self._settings.augmented
 
     @property
     def penalty(self) -> float:
@@ -172,44 +95,231 @@ class Contact:
         if "block" in vars(self):
             self.block.penalty = value
 
-    def active(self) -> NDArray[np.bool_]:
-        """Which points are held by the tool, of the last evaluation."""
-        return self.block.active.astype(bool)
+    @cached_property
+    def block(self) -> _core.ContactBlock:
+        """The contact points: made when first asked for.
 
-    def loose(self) -> bool:
+        Raises
+        ------
+        ModelError
+            If the model was solved on many ranks: each had the points of its own facets.
+        """
+        if self.elsewhere:
+            raise self._not_here()
+        at_nodes = isinstance(self.points, str)
+        per_side = 1 if isinstance(self.points, str) else self.points
+        law = _core.penalty_law(self.penalty)
+        block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self.tool.kernel, law)
+        block.name = f"contact {self.name}"
+        return block
+
+    @property
+    def symmetric(self) -> bool:  # type: ignore[override]
+        """Whether the tangent of its law is."""
+        return self.block.symmetric
+
+    @property
+    def multipliers(self) -> Floats:
+        """Multipliers of the converged state at the contact points; zero without augmentation."""
+        return self.block.state[:, 0]
+
+    def _not_here(self) -> ModelError:
+        return not_here(f"the state of contact {self.name}")
+
+    # Term ----------------------------------------------------------------------------------------------------
+
+    def couples(self) -> Sequence[_core.Connectivity]:
+        """The nodes of each facet."""
+        return (self.block.connectivity,)
+
+    def moves_with(self, rates: Mapping[Control, float]) -> bool:
+        """Whether its tool does."""
+        return self.tool.moves_with(rates)
+
+    def evaluate(self, at: At, into: Into) -> ContactFound:
+        """Add the forces and tangents of all facets that the tool holds. eqs. (4.9), (4.10)"""
+        pose = self.tool.pose(at.values, at.time)
+        self.block.set_pose(*pose)
+        way = self._relative_way(at, into, pose)
+        product = None if way is None else into.predictor
+        scatter = into.scatters[self][0]
+        scale = self.block.evaluate(at.u, scatter, into.residual, into.values, way, product)[1]
+        found = self._found(scale, at.u, pose)
+        if at.until is not None and self.tool.motion is not None:
+            turned = self.tool.pose(at.values, at.until)[0] @ pose[0].T
+            self._spread(
+                -(found.pressure * found.area)[:, None] * found.normal @ (turned - np.eye(3)).T, into.predictor
+            )
+        for spin, _ in self.tool.spins(at.rates, at):
+            self._spread(np.cross(spin, found.forces), into.predictor)
+        return found
+
+    def _relative_way(self, at: At, into: Into, pose: Pose) -> Floats | None:
+        """Way of the nodes less that of the tool at their places, shape (3 n,), for the predictor. eq. (4.37)"""
+        if at.du is None:
+            return None
+        way = at.du.reshape(-1, 3) - self.tool.shift_rate(at.rates)
+        for spin, point in self.tool.spins(at.rates, at):
+            way = way - np.cross(spin, (into.positions + at.u).reshape(-1, 3) - point)
+        if at.until is not None:
+            way = way - self._carried((into.positions + at.u).reshape(-1, 3), at, pose)
+        return np.ascontiguousarray(way).ravel()
+
+    def _carried(self, x: Floats, at: At, pose: Pose) -> Floats:
+        """Way of places (n, 3) of the tool by its motion, from where it stands to where it will be. eq. (4.37)"""
+        if self.tool.motion is None or at.until is None:
+            return np.zeros_like(x)
+        (rotation, shift), (rotation_then, shift_then) = pose, self.tool.pose(at.values, at.until)
+        return (x - shift) @ rotation @ rotation_then.T + shift_then - x
+
+    def _found(self, scale: float, u: Floats, pose: Pose) -> ContactFound:
+        """What the kernel knows now of the points that are held, copied; the rest is measured when it is asked for."""
+        block = self.block
+        held = block.found()
+        multiplier = block.multipliers if self.augmented else self._no_multipliers
+        measure = partial(self._measured, u, pose)
+        return ContactFound(
+            scale,
+            held.round_off_squared,
+            held=held,
+            measure=measure,
+            area=self._areas,
+            multiplier=multiplier,
+            penalty=self.penalty,
+        )
+
+    @cached_property
+    def _areas(self) -> Floats:
+        return self.block.areas
+
+    @cached_property
+    def _no_multipliers(self) -> Floats:
+        return np.zeros(self._areas.size)
+
+    def _measured(self, u: Floats, pose: Pose) -> tuple[Floats, Floats, Floats]:
+        """Positions, gaps and normals of all points at a displacement, with the tool in a pose."""
+        self.block.set_pose(*pose)
+        self.block.locate(u)
+        return self.block.positions, self.block.gaps, self.block.normals
+
+    def locate(self, u: Floats, pose: Pose) -> ContactFound:
+        """What would be found at a displacement, with the tool in a pose; no force and no tangent."""
+        self.block.set_pose(*pose)
+        self.block.locate(u)
+        return self._found(0.0, u, pose)
+
+    def stand(self, found: ContactFound) -> None:
+        """Keep what was found at the converged state."""
+        self._last = found
+
+    def commit(self, found: Found) -> None:
+        """Make the trial history, multipliers too, and what was found those of the converged state."""
+        self.block.commit()
+        assert isinstance(found, ContactFound)
+        self.stand(found)
+
+    def revert(self) -> None:
+        """Go back to the converged history."""
+        self.block.revert()
+
+    def state(self) -> Tree:
+        """History of the points, a row for each facet."""
+        state = self.block.state
+        return {"history": state.reshape(len(self.facets), -1, state.shape[1])}
+
+    def restore(self, tree: Tree) -> None:
+        """Put a history back."""
+        history = np.ascontiguousarray(tree["history"], dtype=float)
+        self.block.restore(history.reshape(-1, history.shape[-1]))
+        self._last = None
+
+    def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
+        """Largest penetration and number of points that are held."""
+        assert isinstance(found, ContactFound)
+        return {
+            f"{self.name}_penetration": ranks.max(found.penetration),
+            f"{self.name}_active": int(ranks.sum(float(found.active.sum()))),
+        }
+
+    def column_names(self) -> Iterable[str]:
+        """Largest penetration and number of points that are held."""
+        return [f"{self.name}_penetration", f"{self.name}_active"]
+
+    def energies(self, found: Found, u: Floats) -> Energies:
+        """What penalty and multipliers hold. eq. (4.32)"""
+        assert isinstance(found, ContactFound)
+        return Energies(0.0, 0.0, found.energy())
+
+    # The converged state -------------------------------------------------------------------------------------
+
+    @property
+    def found(self) -> ContactFound:
+        """What was found at the converged state.
+
+        Raises
+        ------
+        ModelError
+            If the model has not been solved yet; ask ``model.evaluate(u).found[contact]`` then. If it was solved on
+            many ranks: each had the points of its own facets.
+        """
+        if self.elsewhere:
+            raise self._not_here()
+        if self._last is None:
+            raise ModelError(
+                f"nothing is known of contact {self.name} yet",
+                cause="the model has not been solved since it was made or put back",
+                remedy="model.evaluate(model.u).found[contact]",
+            )
+        return self._last
+
+    def active(self) -> NDArray[np.bool_]:
+        """Which points are held by the tool in the converged state."""
+        return self.found.active
+
+    def at_points(self) -> ContactPoints:
+        """Gap, pressure and the rest at the contact points of the converged state. eqs. (4.6), (4.33)"""
+        return self.found.points()
+
+    def resultant(self, about: Floats | None = None) -> tuple[Floats, Floats]:
+        """Resultant of the contact pressure in the converged state, see :meth:`ContactFound.resultant`. eq. (4.17)"""
+        return self.found.resultant(about)
+
+    # Multipliers and penalties -------------------------------------------------------------------------------
+
+    def loose(self, found: ContactFound) -> bool:
         """Whether multipliers are wanted and a point that the tool holds is further from it than allowed."""
         if not self.augmented or self.allowed is None:
             return False
-        return bool((np.abs(self.block.gaps[self.active()]) > self.allowed).any())
+        return bool((np.abs(found.held.gap) > self.allowed).any())
 
-    def augment(self, change: Floats) -> None:
-        """Let the multipliers carry the pressure of the last evaluation, and add what that changes in the residual.
+    def augment(self, found: ContactFound, change: Floats) -> None:
+        """Let the multipliers carry the pressure that was found, and add what that changes in the residual.
 
         The points that are held now stay so to first order, and close their gaps: where the tool goes back, new
         multipliers on old gaps would let go of points that bear a pressure. eqs. (4.34), (4.35)
         """
-        at = self.at_points()
-        self._close(at.gap, change)
-        self.block.multipliers = at.pressure
+        self._close(found, found.held_gap, change)
+        self.block.multipliers = found.pressure
 
-    def stiffen(self, penalty: float, change: Floats) -> None:
+    def stiffen(self, found: ContactFound, penalty: float, change: Floats) -> None:
         """Take another penalty, and add to the residual what lets the points that are held keep their pressure.
 
         Parameters
         ----------
+        found : ContactFound
+            Equilibrium with the present penalty.
         penalty : float
             The new penalty.
         change : ndarray, shape (3 n,)
             Gets what the first increment with the tangent of before has to answer. eq. (4.39)
         """
-        self._close((1.0 - self.penalty / penalty) * self.block.gaps, change)
+        self._close(found, (1.0 - self.penalty / penalty) * found.held_gap, change)
         self.penalty = penalty
 
-    def _close(self, way: Floats, change: Floats) -> None:
+    def _close(self, found: ContactFound, way: Floats, change: Floats) -> None:
         """Add the forces by which the points that are held now go a way (points,) against their gaps."""
-        at = self.at_points()
-        weight = self.penalty * np.where(self.active(), way, 0.0) * at.area
-        self._spread(weight[:, None] * at.normal, change)
+        weight = self.penalty * np.where(found.active, way, 0.0) * found.area
+        self._spread(weight[:, None] * found.held_normal, change)
 
     def _spread(self, forces: Floats, change: Floats) -> None:
         """Add forces (points, 3) at the contact points to their nodes. eq. (4.9)"""
@@ -217,54 +327,7 @@ class Contact:
         nodal = np.einsum("qa,eqk->eak", N, forces.reshape(len(self.facets), len(N), 3))
         np.add.at(change.reshape(-1, 3), self.facets, nodal)
 
-    def carried(self, x: Floats, time: float) -> Floats:
-        """Way of places (n, 3) of the tool, from where it stands to where it will be at ``time``. eq. (4.37)"""
-        if self.motion is None:
-            return np.zeros_like(x)
-        (rotation, shift), (rotation_then, shift_then) = self.pose, self._pose_at(time)
-        return (x - shift) @ rotation @ rotation_then.T + shift_then - x
-
-    def turn(self, time: float, change: Floats) -> None:
-        """Add what the forces of the last evaluation change by as they turn with the tool until ``time``. eq. (4.37)"""
-        if self.motion is not None:
-            at, turned = self.at_points(), self._pose_at(time)[0] @ self.pose[0].T
-            self._spread(-(at.pressure * at.area)[:, None] * at.normal @ (turned - np.eye(3)).T, change)
-
-    def commit(self) -> None:
-        """Make the multipliers those of the converged state."""
-        self.block.commit()
-
-    def revert(self) -> None:
-        """Go back to the multipliers of the converged state."""
-        self.block.revert()
-
-    def at_points(self) -> ContactPoints:
-        """Gap, pressure and the rest at the contact points, of the last evaluation. eqs. (4.6), (4.33)"""
-        return ContactPoints(
-            x=self.block.positions,
-            gap=self.block.gaps,
-            pressure=self.block.pressures,
-            normal=self.block.normals,
-            area=self.block.areas,
-        )
-
-    def resultant(self, about: Floats | None = None) -> tuple[Floats, Floats]:
-        """Resultant of the contact pressure. eq. (4.17)
-
-        Parameters
-        ----------
-        about : array_like, shape (3,), optional
-            Point that the moment is about; default the origin.
-
-        Returns
-        -------
-        force, moment : ndarray, shape (3,)
-            Of the sheet on the tool, at the last evaluation.
-        """
-        at = self.at_points()
-        forces = -(at.pressure * at.area)[:, None] * at.normal
-        arm = at.x - (np.zeros(3) if about is None else np.asarray(about, dtype=float))
-        return forces.sum(axis=0), np.cross(arm, forces).sum(axis=0)
+    # Output --------------------------------------------------------------------------------------------------
 
     def at_nodes(
         self, u: Floats, mesh: Mesh, add: Callable[[Floats], Floats] = lambda shares: shares
@@ -275,7 +338,12 @@ class Contact:
         nodes, which are not negative and have the sum one. eq. (4.38). The gap is measured at the nodes themselves.
         ``add`` sums values at nodes, shape (nodes, k), over all that share the mesh.
         """
-        at = self.at_points()
+        return self.found_at_nodes(self.found, u, mesh, add)
+
+    def found_at_nodes(
+        self, at: ContactFound, u: Floats, mesh: Mesh, add: Callable[[Floats], Floats] = lambda shares: shares
+    ) -> tuple[Floats, Floats]:
+        """The same of any evaluation at ``u``."""
         hats = hat_functions(self.block.shape_values)
         places = len(self.facets), len(hats)
         weight = hats * at.area.reshape(*places, 1)  # [facet][point][node]
@@ -285,15 +353,42 @@ class Contact:
         np.add.at(shares[:, 0], self.facets.ravel(), share.ravel())
         np.add.at(shares[:, 1], self.facets.ravel(), weight.sum(axis=1).ravel())
         nodes = np.unique(self.facets)
-        shares[nodes, 2], shares[nodes, 3] = self.gap((mesh.points + u.reshape(-1, 3))[nodes]), 1.0
+        shares[nodes, 2], shares[nodes, 3] = self.gap((mesh.points + u.reshape(-1, 3))[nodes], self.pose), 1.0
         total, area, gap, known = add(shares).T
         pressure = np.divide(total, area, out=np.zeros(count), where=area > 0)
         return pressure, np.divide(gap, known, out=np.full(count, np.nan), where=known > 0)
 
-    def gap(self, x: Floats) -> Floats:
-        """Signed distance of positions (n, 3) to the tool where it stands now; shape (n,)."""
-        rotation, shift = self.pose
-        return self._kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0]
+    @property
+    def pose(self) -> Pose:
+        """Where its tool stands now: rotation and shift."""
+        return self.tool.pose_now
+
+    def gap(self, x: Floats, pose: Pose | None = None) -> Floats:
+        """Signed distance of positions (n, 3) to the tool, where it stands now or in a pose; shape (n,)."""
+        rotation, shift = self.pose if pose is None else pose
+        return self.tool.kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0]
+
+    # Ranks ---------------------------------------------------------------------------------------------------
+
+    def strip(self, bare: Self, twins: Twins) -> None:
+        """Without faces and points, of the twin of its tool."""
+        for made in ("block", "_areas", "_no_multipliers", "faces", "facets", "nodes", "_mesh_points", "_last"):
+            bare.__dict__.pop(made, None)
+        bare.tool = twins.of(self.tool)
+
+    def piece(self, cut: Cut) -> tuple[Ids, NDArray[np.int64], Tree | None]:
+        """Faces of the rank, which rows of this contact they are, and their history if there is any yet."""
+        faces, rows = cut.faces_of(self.faces)
+        history = {name: values[rows] for name, values in self.state().items()} if "block" in vars(self) else None
+        return faces, rows, history
+
+    def fill(self, piece: tuple[Ids, NDArray[np.int64], Tree | None], mesh: Any) -> None:
+        """Take faces and history."""
+        faces, self.rows, history = piece
+        self._last = None
+        self._meet(mesh, faces)
+        if history is not None:
+            self.restore(history)
 
 
 def hat_functions(N: Floats) -> Floats:

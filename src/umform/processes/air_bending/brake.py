@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.model import Model
-from umform.model.assembly import Snapshot
-from umform.model.boundary import Control
 from umform.model.contact import ContactPoints
+from umform.model.control import Control
+from umform.model.state import Snapshot
 from umform.processes.air_bending.measures import Measures, measure
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.section import Section

@@ -11,6 +11,7 @@ from typing import Any
 
 from umform.elements import element
 from umform.errors import InvalidValue
+from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.budget import Budget
 from umform.processes.air_bending.case import AirBend
@@ -19,25 +20,13 @@ from umform.processes.air_bending.formulas import shop_forces, tensile_strength
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.words import columns
-from umform.processes.bending.staging import staging
 from umform.report.versions import versions
 
 _DATA = ("curve.csv", "table.csv", "bend.json", "bend.vtkhdf", "bend.toml")
 _PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "drawing.png", "drawing.svg", "report.html")
-
-
-def check_folder(out: str | Path) -> None:
-    """Refuse a folder that cannot take the files of a bend, before time is spent on it.
-
-    Raises
-    ------
-    InvalidValue
-        Its name is empty.
-    FileProblem
-        It cannot be made, or nothing can be written there.
-    """
-    with staging(out, [*_DATA, *_PAGE]):
-        pass
+#: Files of a bend; and what marks a folder as that of one, with what is written of a run that was ended early.
+FILES = (*_DATA, *_PAGE)
+RESULTS = (*FILES, "history.csv")
 
 
 def write_files(
@@ -75,7 +64,7 @@ def write_files(
     from umform.processes.air_bending.page import write_page
     from umform.processes.air_bending.pictures import curves, shapes
 
-    with staging(out, [*_DATA, *_PAGE]) as stage:
+    with staging(out, FILES) as stage:
         here = stage.waiting
         write_csv(here / "curve.csv", {"step": bend.step, "stroke": bend.stroke, "force": bend.force})
         if table:

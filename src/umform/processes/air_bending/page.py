@@ -7,13 +7,16 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from umform.elements import element
 from umform.processes.air_bending.budget import Budget
 from umform.processes.air_bending.case import AirBend
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
 from umform.report import parts
 from umform.report.live import Live, style
+from umform.report.materials import material_text
 from umform.report.page import settings
 from umform.report.repeats import counted
 from umform.report.versions import versions
@@ -98,12 +101,7 @@ def _parts(
     yield parts.heading("Parameters")
     if note:
         yield parts.paragraph(note)
-    yield parts.pairs(
-        {
-            name: "plane strain" if value is None and name == "width" else value
-            for name, value in bend.case.record().items()
-        }
-    )
+    yield parts.pairs(_parameters(bend.case))
     yield parts.heading("Model")
     yield parts.pairs(settings(bend.result))
     if deck:
@@ -111,3 +109,10 @@ def _parts(
         yield parts.folded("The input of this bend, for umform run", deck)
     yield parts.heading("Versions")
     yield parts.pairs(versions())
+
+
+def _parameters(case: AirBending) -> dict[str, object]:
+    """The parameters of a bend, for people; those that follow from others are left out."""
+    words = {"material": material_text(case.material), "element": element(case.element).name}
+    record = case.record() | words | {"width": "plane strain" if case.width is None else case.width}
+    return {name.replace("_", " "): value for name, value in record.items() if value is not None}

@@ -110,17 +110,25 @@ def bending_table(
     -------
     list of Measures
         In the order of growing strokes.
+
+    Notes
+    -----
+    An exception that ends it early has the rows before as its attribute ``rows``.
     """
-    rows = []
+    rows: list[Measures] = []
     ordered = sorted(strokes)
     for stroke in ordered:
         replace(case, stroke=stroke)  # refuses a stroke beyond air bending
     with progress_bar(progress) as tick:
         brake = Brake(case, solver)
-        for number, stroke in enumerate(ordered, start=1):
-            brake.load(stroke)
-            rows.append(brake.unload())
-            tick("table", number / len(ordered))
+        try:
+            for number, stroke in enumerate(ordered, start=1):
+                brake.load(stroke)
+                rows.append(brake.unload())
+                tick("table", number / len(ordered))
+        except BaseException as error:
+            error.rows = rows  # type: ignore[attr-defined]
+            raise
     return rows
 
 

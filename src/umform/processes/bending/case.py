@@ -14,7 +14,7 @@ from umform.elements import element as catalogue_element
 from umform.errors import UmformError
 from umform.materials import J2, Linear, Perfect
 from umform.model import Model
-from umform.model.boundary import Prescribed
+from umform.model.control import Prescribed
 from umform.processes.bending.measures import at_marks, jump, roughness
 from umform.processes.bending.parameters import FreeBending
 from umform.report.repeats import counted

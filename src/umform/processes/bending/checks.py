@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -116,6 +117,29 @@ def check_parameters(values: Mapping[str, Any]) -> None:
     """
     check_rules(values, RULES)
     _check_thickness(values["thickness_points"], values["thickness_order"], values["thickness_rule"])
+    _check_room(values)
+
+
+def _check_room(values: Mapping[str, Any]) -> None:
+    """Refuse a stroke that the cylinder and its mirror image leave no room for.
+
+    The sheet can at most be folded about its upper face: its lower face is then an arc of radius t about a point of
+    x = 0, which goes down with the stroke and must stay clear of the cylinder.
+    """
+    t, R, x, stroke = (values[name] for name in ("thickness", "radius", "tool_x", "stroke"))
+    z = -(R + 0.5 * t) if values["tool_z"] is None else values["tool_z"]
+    if not 0.0 <= x < R + t or z >= 0.5 * t:
+        return
+    room = 0.5 * t - z - math.sqrt((R + t) ** 2 - x**2)
+    if 0.0 <= room < stroke:
+        raise InvalidValue(
+            "the cylinder leaves no room for the stroke",
+            where="stroke",
+            value=stroke,
+            cause=f"between it, with radius {R:g} at x = {x:g}, and its mirror image a sheet of {t:g} can go down by "
+            f"{room:.4g} at most",
+            remedy=f"a smaller stroke, a smaller radius, or tool_x={R + t:g} or more",
+        )
 
 
 def _check_thickness(points: int, order: int, rule: str) -> None:

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from umform.errors import InvalidValue, UmformError
+from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.pool import check_processes, run_all
 from umform.processes.bending.case import Bending, cell_of, check, failed, failure_text, free_bending
 from umform.processes.bending.deck import deck_of
 from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
-from umform.processes.bending.staging import staging
 from umform.progress import progress_bar
 from umform.report.versions import versions
 
@@ -33,6 +33,7 @@ _FRAMES_WRITTEN, _FRAMES_KEPT = 60, 10
 
 _DATA = ("free_bending.csv", "free_bending.json", "free_bending.vtkhdf", "free_bending.toml")
 _PAGE = ("free_bending.png", "free_bending.svg", "report.html")
+FILES = (*_DATA, *_PAGE)
 
 log = logging.getLogger("umform.processes")
 
@@ -134,7 +135,7 @@ def demo(
         check(case)
     pictured = cases.index(_most_telling(cases))
     alone = len(cases) == 1
-    with staging(out, [*_DATA, *_PAGE]) as stage:
+    with staging(out, FILES) as stage:
         fields = stage.waiting / "free_bending.vtkhdf"
         with progress_bar(False if alone else progress) as bar:
             name = f"{len(cases)} runs"

@@ -11,9 +11,12 @@ class ShapeView {
     this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.sheet = new Sheet(scene);
-    this.tools = scene.head.tools.map((_, number) => new ToolBody(scene.arrays, number));
+    this.tools = scene.head.tools.map((_, number) => new ToolBody(scene, number));
     this.world = new THREE.Scene();
     this.world.add(this.sheet.mesh, this.sheet.lines, ...this.tools.map((tool) => tool.group));
+    this.images = new THREE.Group();
+    this.images.add(...[this.sheet, ...this.tools].flatMap((body) => body.images));
+    this.world.add(this.images);
     this.camera = new THREE.OrthographicCamera();
     this.camera.up.set(0, 0, 1);
     this.orbit = new THREE.OrbitControls(this.camera, this.canvas);
@@ -28,7 +31,11 @@ class ShapeView {
     this.show();
   }
 
-  // Corners of a box around the sheet in all frames.
+  get whole() {
+    return element("shape-whole").checked;
+  }
+
+  // Corners of a box around the sheet in all frames, with its mirror images if they are shown.
   cornersOfPath() {
     const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
     for (let frame = 0; frame < this.count; frame += 1) {
@@ -36,6 +43,9 @@ class ShapeView {
         low[i % 3] = Math.min(low[i % 3], x);
         high[i % 3] = Math.max(high[i % 3], x);
       });
+    }
+    for (const { axis, at } of this.whole ? this.head.mirrors : []) {
+      [low[axis], high[axis]] = [Math.min(low[axis], 2 * at - high[axis]), Math.max(high[axis], 2 * at - low[axis])];
     }
     return [0, 1, 2, 3, 4, 5, 6, 7].map((n) => new THREE.Vector3(...low.map((x, i) => ((n >> i) & 1 ? high[i] : x))));
   }
@@ -49,6 +59,11 @@ class ShapeView {
     on("shape-scale", "change", () => this.show());
     on("shape-lines", "change", () => this.show());
     on("shape-tools", "change", () => this.show());
+    on("shape-whole", "change", () => {
+      this.corners = this.cornersOfPath();
+      this.look("oblique");
+      this.show();
+    });
     on("shape-frame", "input", (event) => {
       this.pause();
       this.goto(Number(event.target.value));
@@ -174,7 +189,8 @@ class ShapeView {
   show() {
     const range = this.sheet.range(this.field, element("shape-scale").value === "all" ? undefined : this.frame);
     this.sheet.show(this.frame, this.field, range);
-    this.sheet.lines.visible = element("shape-lines").checked;
+    this.sheet.lined(element("shape-lines").checked);
+    this.images.visible = this.whole;
     for (const tool of this.tools) {
       tool.place(this.frame);
       tool.look(element("shape-tools").value);
@@ -209,7 +225,8 @@ class ShapeView {
     const [x, y] = [event.clientX - box.left, event.clientY - box.top];
     const ray = new THREE.Raycaster();
     ray.setFromCamera(new THREE.Vector2((2 * x) / box.width - 1, 1 - (2 * y) / box.height), this.camera);
-    const [hit] = ray.intersectObject(this.sheet.mesh);
+    const images = this.whole ? this.sheet.images.map((image) => image.children[0].children[0]) : [];
+    const [hit] = ray.intersectObjects([this.sheet.mesh, ...images], false);
     if (!hit) return;
     const { array } = this.sheet.faces.geometry.getAttribute("value");
     const weights = hit.barycoord.toArray();

@@ -24,6 +24,22 @@ const FRAGMENT = `
     result = vec4(own * (0.62 + 0.42 * lamp), opacity);
   }`;
 
+// Products of mirrors at some planes, as groups that hold the images of a body; the body itself is not among them.
+function images(mirrors, body) {
+  return Array.from({ length: 2 ** mirrors.length - 1 }, (_, n) => {
+    const rows = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]];
+    mirrors.forEach(({ axis, at }, bit) => {
+      if (((n + 1) >> bit) & 1) Object.assign(rows[axis], { [axis]: -1, 3: 2 * at });
+    });
+    const group = new THREE.Group();
+    group.matrixAutoUpdate = false;
+    group.matrix.set(...rows.flat(), 0, 0, 0, 1);
+    group.matrixWorldNeedsUpdate = true;
+    group.add(body());
+    return group;
+  });
+}
+
 function material(options, uniforms) {
   return new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3, vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide, ...options,
@@ -120,7 +136,14 @@ class Sheet {
     const ink = new THREE.LineBasicMaterial({ color: 0x87919b, transparent: true, opacity: 0.5 });
     this.lines = new THREE.LineSegments(this.faces.lines(), ink);
     this.mesh.frustumCulled = this.lines.frustumCulled = false;
+    this.images = images(head.mirrors, () => new THREE.Group().add(this.mesh.clone(), this.lines.clone()));
     this.maps = Object.fromEntries(Object.entries(head.maps).map(([name, hex]) => [name, texture(hex)]));
+  }
+
+  // Whether edges are drawn.
+  lined(visible) {
+    this.lines.visible = visible;
+    for (const image of this.images) image.children[0].children[1].visible = visible;
   }
 
   points(frame) {
@@ -151,7 +174,7 @@ class Sheet {
 }
 
 class ToolBody {
-  constructor(arrays, number) {
+  constructor({ head, arrays }, number) {
     this.poses = arrays[`tool ${number} poses`];
     const faces = new Faces(arrays[`tool ${number} faces`], arrays[`tool ${number} groups`], 3);
     faces.move(arrays[`tool ${number} points`]);
@@ -161,18 +184,22 @@ class ToolBody {
     this.group.add(new THREE.Mesh(faces.geometry, this.material));
     this.group.add(new THREE.LineSegments(new THREE.EdgesGeometry(faces.geometry, 25), ink));
     this.group.matrixAutoUpdate = false;
+    this.images = images(head.toolMirrors[number].map((plane) => head.mirrors[plane]), () => this.group.clone());
+    this.bodies = [this.group, ...this.images.map((image) => image.children[0])];
   }
 
   place(frame) {
     const pose = this.poses.subarray(12 * frame, 12 * frame + 12);
-    this.group.matrix.set(...pose, 0, 0, 0, 1);
-    this.group.matrixWorldNeedsUpdate = true;
+    for (const body of this.bodies) {
+      body.matrix.set(...pose, 0, 0, 0, 1);
+      body.matrixWorldNeedsUpdate = true;
+    }
   }
 
   // Seen through, a tool does not hide the sheet behind it.
   look(how) {
     const clear = how === "clear";
-    this.group.visible = how !== "hidden";
+    for (const body of this.bodies) body.visible = how !== "hidden";
     this.material.uniforms.opacity.value = clear ? 0.32 : 1;
     this.material.depthWrite = !clear;
   }

@@ -15,7 +15,7 @@ import numpy as np
 
 from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model
-from umform.model.boundary import Control
+from umform.model.control import Control
 from umform.solution.newton import Failed
 from umform.steps.arc_length.critical import CriticalPoints, PathState
 from umform.steps.arc_length.path import Line, Path
@@ -149,7 +149,6 @@ class Following:
     def begin(cls, run: Run, step: Arc) -> Self:
         """The loop at the beginning of the step."""
         path = _started(run, step, run.number)
-        run.history = run.model.block.state
         critical = CriticalPoints(run.result, path.line.text, f"step {run.number}")
         critical.advance(path.state)
         return cls(path, critical, path.first)
@@ -183,12 +182,12 @@ class Following:
         """Try one increment."""
         path = self.path
         tried = path.shortened(self.length)
-        run.history = run.model.block.state
         try:
             converged = path.advance(tried)
         except Failed as failure:
             self._cut(run, step, failure, tried)
             return
+        run.evaluation = converged.evaluation
         self.count += 1
         fraction = path.state.fraction
         ended = True

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.model import Model
-from umform.model.boundary import Control
+from umform.model.control import Control
+from umform.solution.bordered import Bordered
 from umform.solution.newton import Converged, Failed, Newton
 from umform.solution.system import Evaluation
-from umform.solvers import SparseSolver
 from umform.steps.arc_length.critical import PathState
 from umform.steps.loop import Run
 
@@ -79,7 +79,7 @@ class OnArc:
         """Residual, tangent and rate of the residual with the load parameter. eq. (5.21)"""
         return self.model.evaluate(u, rates=self.line.rates)
 
-    def direction(self, solver: SparseSolver, u: Floats, evaluation: Evaluation) -> Floats:
+    def direction(self, solver: Bordered, u: Floats, evaluation: Evaluation) -> Floats:
         """Increment of the displacement; the load parameter takes its own at once. eq. (5.24)"""
         model, line = self.model, self.line
         sides = np.stack([model.restrict(evaluation.residual), model.restrict(evaluation.predictor)], axis=1)
@@ -138,7 +138,7 @@ class Path:
         """Rate of the displacement with the load parameter, and the negative pivots. eq. (5.25)"""
         self.newton.check_domain(evaluation, [])
         solver = self.newton.ready_solver()
-        pivots = solver.factor(evaluation.values).negative_pivots
+        pivots = solver.factor(evaluation).negative_pivots
         along = -solver.solve(self.model.restrict(evaluation.predictor))
         return self.model.extend(along) + self.model.displacement_of_supports(self.line.rates), pivots
 
@@ -152,14 +152,13 @@ class Path:
         model, state, time_before = self.model, self.state, self.model.time
         try:
             converged, new = self.newton.guarded(lambda: self._correct(length))
-        except BaseException as error:  # no convergence, Ctrl-C, a user's function: the last converged state stands
+        except BaseException:  # no convergence, Ctrl-C, a user's function: the last converged state stands
             self.line.move(state.fraction)
             model.time = time_before
             model.revert()
-            if isinstance(error, Failed):
-                model.evaluate(model.u)  # the parameters of the next try are recovered with the blocks of this state
+            model.prepare()
             raise
-        model.commit(converged.u)
+        model.commit(converged.evaluation)
         self.state = new
         return converged
 
@@ -173,7 +172,7 @@ class Path:
         along = model.extend(model.restrict(predicted * state.tangent))
         converged = self.newton.correct(model.u, along + self.newton.prescribed_increment(model.u), corrector)
         if (
-            float((converged.u - model.u) @ state.tangent) * predicted
+            float((converged.x - model.u) @ state.tangent) * predicted
             + self.load_weight * predicted * (line.fraction - state.fraction)
             <= 0.0
         ):
@@ -181,7 +180,7 @@ class Path:
         if line.fraction >= 1.0:
             converged = self._land(converged, length)
         tangent, pivots = self._tangent(converged.evaluation)
-        du, change = converged.u - model.u, line.fraction - state.fraction
+        du, change = converged.x - model.u, line.fraction - state.fraction
         ahead = float(du @ tangent) + self.load_weight * change
         arc = math.sqrt(float(du @ du) + self.load_weight * change**2)
         slope = math.copysign(1.0 / self._speed(tangent), ahead)
@@ -193,12 +192,12 @@ class Path:
         part = (1.0 - state.fraction) / (line.fraction - state.fraction)
         self._set_time(state.arc + part * length)
         line.move(1.0)
-        back = model.extend(model.restrict((part - 1.0) * (beyond.u - model.u)))
+        back = model.extend(model.restrict((part - 1.0) * (beyond.x - model.u)))
         corrector = OnArc(self.newton, model, line, self.load_weight, None)
-        landed = self.newton.correct(beyond.u, back + self.newton.prescribed_increment(beyond.u), corrector)
-        if float(np.linalg.norm(landed.u - model.u)) > 1.5 * length:
+        landed = self.newton.correct(beyond.x, back + self.newton.prescribed_increment(beyond.x), corrector)
+        if float(np.linalg.norm(landed.x - model.u)) > 1.5 * length:
             raise Failed("the last increment jumps off the path", landed.iterations)
-        return Converged(landed.u, landed.evaluation, beyond.iterations + landed.iterations)
+        return Converged(landed.evaluation, beyond.iterations + landed.iterations)
 
     def _set_time(self, arc: float) -> None:
         self.model.time = self.start_time + self.increment * arc / self.first

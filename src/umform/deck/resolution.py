@@ -1,0 +1,187 @@
+"""Whether mesh, element, hardening curve, contact points and increments are fine enough for what the tools ask for.
+
+A sheet of thickness h on a radius R strains by h / (2 R + h) at its surfaces. Rules of thumb: an element should span
+some 10 degrees of the smallest radius, twice as much if it is curved itself, and the false moment of sharp-bend locking
+should stay below a few per cent of the plastic one (docs/theory, section 2.8). An increment of more than half a
+thickness may jump over contact; a facet with fewer contact points than its order asks for lets the force climb in
+stairs (docs/theory, section 4.5).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from umform.deck.controls import Displacement, Drive, MidLine
+from umform.deck.deck import Deck
+from umform.deck.findings import Finding, ok, warning
+from umform.deck.problem import Problem
+from umform.deck.steps import Move
+from umform.deck.tools import ToolPart, along, smallest_radius
+from umform.deck.units import first_yield
+from umform.elements.technology import Element
+from umform.materials import J2, Table
+from umform.model import Model
+from umform.model.contact import Contact
+from umform.model.contact.encounter import sheet_thickness
+
+#: Degrees of a tool radius that one element may span: with 4 nodes a face, and with 9, which follow an arc.
+_ARC = {4: 12.0, 9: 24.0}
+#: False moment over the plastic one that is borne.
+_LOCKING = 0.05
+#: Highest order of the thickness strain, and the elements that have it, with E_33 tied.
+_HIGHEST, _FOR_BENDS = 4, {"hex8": "BEND8", "hex18": "BEND18"}
+#: Points through the thickness that plastic bending needs, and sharp bends (strain above 0.1).
+_POINTS, _SHARP_POINTS, _SHARP = 5, 7, 0.1
+#: Way in an increment, in thicknesses.
+_WAY = 0.5
+#: Contact points per direction of a facet with 4 and with 9 nodes.
+_LEAST = {4: 2, 9: 3}
+
+
+def resolution(deck: Deck, problem: Problem) -> Iterator[Finding]:
+    """Elements and thickness against the radii of the tools, contact points, increments."""
+    yield from bends(deck, problem)
+    yield from contact_points(problem)
+    yield from ways(deck, problem)
+
+
+def bends(deck: Deck, problem: Problem) -> Iterator[Finding]:
+    """Element sizes on all tools, and the thickness on the sharpest one."""
+    h = sheet_thickness(problem.model.mesh)
+    sharpest: tuple[float, str] | None = None
+    for name, part in deck.contents.contacts.items():
+        tool = deck.contents.tools[part.tool]
+        radius = smallest_radius(tool)
+        if radius is None:
+            continue
+        yield element_size(problem.contacts[name], problem.model, tool, radius)
+        if radius > 0 and (sharpest is None or radius < sharpest[0]):
+            sharpest = (radius, part.tool)
+    if sharpest is not None and isinstance(problem.model.material, J2):
+        yield from through_thickness(problem.model, problem.model.material, h, *sharpest)
+
+
+def element_size(contact: Contact, model: Model, tool: ToolPart, radius: float) -> Finding:
+    """Angle of the smallest radius of a tool that an element spans where the tool is nearest."""
+    about = f"contact {contact.name}"
+    size = _size_near(contact, model, along(tool))
+    if radius == 0.0:
+        remedy = "round it: the finer the mesh, the deeper an edge cuts into the sheet"
+        return warning(about, "the tool has a sharp edge", remedy)
+    degrees = math.degrees(size / radius)
+    text = f"an element is {size:.3g} long and spans {degrees:.3g} degrees of the radius {radius:.4g}"
+    most = _ARC[contact.facets.shape[1]]
+    if degrees <= most:
+        return ok(about, text)
+    remedy = f"elements of {math.radians(most / 1.2) * radius:.2g} or less where this radius bends the sheet"
+    return warning(about, text, remedy)
+
+
+def _size_near(contact: Contact, model: Model, axis: np.ndarray[tuple[int, ...], np.dtype[np.float64]] | None) -> float:
+    """Size of the facets nearest to the tool: across it if it has one section, else their shorter side."""
+    corners = model.mesh.points[contact.facets[:, :4]]
+    gaps = contact.gap(corners.mean(axis=1))
+    near = corners[gaps <= np.nanmin(gaps) + 1e-9 * float(np.ptp(model.mesh.points, axis=0).max())]
+    sides = np.roll(near, -1, axis=1) - near
+    lengths = np.linalg.norm(sides, axis=-1)
+    if axis is None:
+        return float(lengths.min(axis=1).min())
+    lateral = np.linalg.norm(sides - (sides @ axis)[..., None] * axis, axis=-1)
+    return float(lateral.max(axis=1).min())
+
+
+def through_thickness(model: Model, material: J2, h: float, radius: float, tool: str) -> Iterator[Finding]:
+    """Thickness points and thickness order against the strain that the smallest radius asks for."""
+    strain, layers = h / (2.0 * radius + h), layers_of(model, h)
+    order, stiffness = max(model.element.thickness_order, 1), material.kappa / first_yield(material)
+    text = f"the radius {radius:.4g} of {tool} strains a sheet of {h:.4g} by {100 * strain:.3g} %"
+    if locking_moment(order, strain, stiffness, layers) > _LOCKING:
+        remedy = against_locking(model.element, strain, stiffness, layers)
+        yield warning("element", f"{text}: at thickness order {order} it locks", remedy)
+    else:
+        yield ok("element", f"{text}: thickness order {order} can follow")
+    least = _SHARP_POINTS if strain > _SHARP else _POINTS
+    points = layers * model.thickness_points
+    if points < least and strain > first_yield(material) / material.E:
+        remedy = f"take {math.ceil(least / layers)}" + (" in each layer" if layers > 1 else "")
+        yield warning("element", f"{points} thickness points for a strain of {100 * strain:.3g} %", remedy)
+    curve = material.hardening
+    if isinstance(curve, Table) and curve.eqps[-1] < strain:
+        text = f"the hardening curve ends at a plastic strain of {curve.eqps[-1]:.3g}, the bend asks for {strain:.3g}"
+        yield warning("material", text, "go on with the curve: behind its end the yield stress stays as it is")
+
+
+def against_locking(element: Element, strain: float, stiffness: float, layers: int) -> str:
+    """What helps: a higher order of the thickness strain if one can follow, else layers."""
+    for order in range(max(element.thickness_order, 1) + 1, _HIGHEST + 1):
+        if locking_moment(order, strain, stiffness, layers) <= _LOCKING:
+            tied = any(row.component == "33" for row in element.tying)
+            tie = "" if tied else " and tie_E33 = true"
+            return f"name = '{_FOR_BENDS[element.cell]}', or thickness_order = {order}{tie}"
+    while locking_moment(_HIGHEST, strain, stiffness, layers) > _LOCKING:
+        layers += 1
+    return f"{layers} layers of BEND18: no order follows so sharp a bend in fewer"
+
+
+def layers_of(model: Model, h: float) -> int:
+    """Cells that lie on each other in a sheet of a thickness."""
+    lower, upper = np.split(model.mesh.points[model.mesh.connectivity], 2, axis=1)
+    return max(1, round(h / float(np.median(np.linalg.norm(upper - lower, axis=-1)))))
+
+
+def locking_moment(order: int, strain: float, stiffness: float, layers: int = 1) -> float:
+    """False moment of sharp-bend locking over the plastic moment, eq. (2.29).
+
+    Parameters
+    ----------
+    order : int
+        Order of the thickness strain.
+    strain : float
+        x_s, the strain at the surface.
+    stiffness : float
+        Bulk modulus over yield stress.
+    layers : int
+        Elements on each other: each bends about its own middle, so that x_s of (2.27) is that of a layer.
+    """
+    m = order + 1
+    beta = (m + 1) / 2 * 2.0**m * math.factorial(m) ** 2 / math.factorial(2 * m)
+    return math.sqrt(3.0) * m * beta**2 / (2 * m + 1) * stiffness * strain ** (2 * m - 1) / float(layers) ** (2 * m)
+
+
+def contact_points(problem: Problem) -> Iterator[Finding]:
+    """Contact points of all contacts against the order of their facets."""
+    for name, contact in problem.contacts.items():
+        least = _LEAST[contact.facets.shape[1]]
+        if isinstance(contact.points, str) or contact.points < least:
+            points = "at the nodes only" if isinstance(contact.points, str) else f"{contact.points} x {contact.points}"
+            text = f"contact points {points}: the force climbs in stairs where the sheet slides"
+            yield warning(f"contact {name}", text, f"points = {least} or more, or auto")
+
+
+def ways(deck: Deck, problem: Problem) -> Iterator[Finding]:
+    """How far the controls that are lengths go, in all and in one increment."""
+    mesh = problem.model.mesh
+    thickness, span = sheet_thickness(mesh), float(np.ptp(mesh.points, axis=0).max())
+    stands = dict.fromkeys(deck.contents.controls, 0.0)
+    for number, step in enumerate(deck.contents.steps):
+        about = f"step {number + 1}"
+        if not isinstance(step, Move):  # where it ends is not known
+            for name in [step.control] if step.kind == "release" else step.to:
+                stands[name] = np.nan
+            continue
+        for name, to in step.to.items():
+            way, stands[name] = abs(to - stands[name]), to
+            if not isinstance(deck.contents.controls[name], Displacement | MidLine | Drive) or not np.isfinite(way):
+                continue
+            part = way / step.increments
+            text = f"{name} moves by {way:.4g}, {part:.3g} in an increment"
+            if way > span:
+                yield warning(about, f"{text}: farther than the sheet is long", "check the units and the target")
+            elif problem.contacts and part > _WAY * thickness:
+                least = int(np.ceil(way / (_WAY * thickness)))
+                yield warning(about, f"{text}: {part / thickness:.3g} thicknesses", f"increments = {least} or more")
+            else:
+                yield ok(about, text)

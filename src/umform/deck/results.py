@@ -1,0 +1,78 @@
+"""The files of a run of a deck: writing them, and what is kept of the run where that fails."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from umform.deck.deck import Deck
+from umform.deck.problem import Problem
+from umform.errors import UmformError
+from umform.io.atomic import write_problem
+from umform.io.staging import Staging
+from umform.run import Result
+
+#: The deck as it was run, beside what came of it.
+COPY = "as-run.toml"
+#: Where the state of a run is kept unless another file is asked for; taken away when the run has ended by itself.
+CHECKPOINT = "checkpoint.h5"
+FILES = ("history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", COPY)
+#: What marks a folder as that of a run.
+RESULTS = (*FILES, CHECKPOINT)
+
+
+def write(deck: Deck, problem: Problem, result: Result, stage: Staging) -> list[Path]:
+    """Write the files that the deck asks for; numbers get their names before pictures are drawn."""
+    wanted, waiting, text = deck.contents.output, stage.waiting, as_run(deck)
+    (waiting / COPY).write_text(text, encoding="utf-8")
+    if wanted.csv:
+        result.write(waiting / "history.csv")
+    if wanted.vtkhdf:
+        result.write(waiting / "fields.vtkhdf")
+    files = stage.commit([COPY, "history.csv", "fields.vtkhdf"])
+    if wanted.pictures:
+        from umform.deck.pictures import draw_curve, draw_shape  # matplotlib takes time to load
+
+        draw_curve(problem, result, waiting / "curve.png")
+        draw_shape(result, waiting / "shape.png")
+    if wanted.report:
+        from umform.report.page import write_report
+
+        write_report(result, waiting / "report.html", deck=text, title=deck.contents.title)
+    return [*files, *stage.commit(["report.html", "curve.png", "shape.png"])]
+
+
+def as_run(deck: Deck) -> str:
+    """Text of a deck, after lines that say which keys had other values."""
+    changes = (f"# run with --set {key}={value}\n" for key, value in deck.source.changes.items())
+    return "".join([*changes, deck.source.text])
+
+
+@contextmanager
+def says_what_is_kept(stage: Staging, checkpoint: Path, before: float) -> Iterator[None]:
+    """Add to whatever keeps files from being written what there is, and how the run goes on."""
+    try:
+        try:
+            yield
+        except UmformError:
+            raise
+        except OSError as error:
+            raise write_problem(stage.folder / (Path(error.filename or "").name or COPY), error) from error
+    except BaseException as error:
+        if stage.named:
+            error.add_note(f"  kept:   {', '.join(file.name for file in stage.named)} in {stage.folder}")
+        if checkpoint.is_file() and written_at(checkpoint) != before:
+            error.add_note(f"  go on with: umform resume {shlex.quote(str(checkpoint))}")
+        elif not stage.named:
+            error.add_note("  nothing of this run could be kept")
+        raise
+
+
+def written_at(file: Path) -> float:
+    """When a file was written last; 0 if there is none."""
+    try:
+        return file.stat().st_mtime
+    except OSError:
+        return 0.0

@@ -1,0 +1,279 @@
+"""A body: cells of the mesh, their element, their law, and the direction of rolling; a model has one or more."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform import _core
+from umform.elements import Element, rolling_directions
+from umform.elements import element as catalogue_element
+from umform.elements import thickness_rule as make_thickness_rule
+from umform.errors import EmptySet, InvalidValue, WrongCellType
+from umform.materials import Material
+from umform.mesh import Mesh
+from umform.model.control import Twins
+from umform.model.cut import Cut
+from umform.model.term import At, Energies, Found, Into, Term, Tree
+from umform.model.whole import not_here
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.int64]
+
+#: Cells: their numbers, a mask, or a predicate of the coordinates x, y, z of their centres.
+Cells = ArrayLike | Callable[[Floats, Floats, Floats], Any]
+
+
+@dataclass(frozen=True)
+class BodyFound(Found):
+    """What came out of the evaluation of a body.
+
+    Attributes
+    ----------
+    flows : ndarray of uint8, shape (points,)
+        1 for each point whose history the evaluation has changed, else 0.
+    """
+
+    flows: NDArray[np.uint8] | None = None
+
+    @property
+    def flowing(self) -> NDArray[np.uint8]:
+        """1 for each point whose history the evaluation has changed, else 0."""
+        return np.zeros(0, dtype=np.uint8) if self.flows is None else self.flows
+
+
+class Body(Term):
+    """Cells of one element and one law.
+
+    Parameters
+    ----------
+    element : str or Element
+        Name in the catalogue (:data:`umform.elements.CATALOGUE`) or an element of your own.
+    material : Material
+        SVK, NeoHooke, NeoHookePower, J2 or a law of your own.
+    cells : array_like or callable, optional
+        Numbers of the cells, a mask, or a predicate of the coordinates x, y, z of their centres; default all cells.
+    name : str
+        For messages and fields.
+    thickness_points : int, optional
+        Points through the thickness, 2 to 15, at least thickness_order + 1. Default: 2 with an elastic law; 5 with a
+        plastic one, but 12 with BEND8 and BEND18.
+    thickness_rule : {"gauss", "lobatto", "split"}, optional
+        Where they lie; default gauss, but split where the default of the points is 12.
+    rolling : array_like, shape (3,) or (cells, 3), optional
+        Rolling direction of the sheet: e_1 of the local axes is its projection onto the layer, eq. (1.13a). By default
+        e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic law does not see.
+    **options
+        Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
+        compatible_E12.
+
+    Raises
+    ------
+    InvalidValue
+        If an option does not fit.
+    """
+
+    timed_as = "elements"
+
+    def __init__(
+        self,
+        element: str | Element = "ANS3DEAS",
+        *,
+        material: Material,
+        cells: Cells | None = None,
+        name: str = "sheet",
+        thickness_points: int | None = None,
+        thickness_rule: str | None = None,
+        rolling: ArrayLike | None = None,
+        **options: int | bool | None,
+    ) -> None:
+        self.name = name
+        self.element = catalogue_element(element, **options)  # type: ignore[arg-type]
+        if not isinstance(material, Material) or isinstance(material, type):
+            raise InvalidValue(
+                "material must be a material law",
+                value=type(material).__name__,
+                remedy="SVK, NeoHooke, NeoHookePower or J2",
+            )
+        self.material = material
+        self.thickness_points, self.thickness_rule = self._through_thickness(thickness_points, thickness_rule)
+        least = self.element.thickness_order + 1
+        if self.thickness_points < least:
+            raise InvalidValue(
+                f"thickness order {least - 1} needs at least {least} thickness points",
+                value=self.thickness_points,
+                cause="fewer points cannot see the highest mode",
+                remedy=f"thickness_points={least} or more",
+            )
+        self._through = make_thickness_rule(self.thickness_points, self.thickness_rule)
+        self.element.check_modes(self._through[0])
+        self._selection, self._given_rolling = cells, rolling
+        self.elsewhere = False
+        #: History that the evaluation of the converged state had read: with it that evaluation can be repeated.
+        self.before: Floats = np.empty(0)
+
+    def _through_thickness(self, points: int | None, rule: str | None) -> tuple[int, str]:
+        """Points through the thickness and their rule: what is given, else what law and element want."""
+        plastic = self.material.thickness_points > 2
+        wanted, wanted_rule = self.element.plastic_points if plastic else (2, "gauss")
+        if points is not None:
+            return points, rule or "gauss"
+        return max(wanted, self.material.thickness_points, self.element.thickness_order + 1), rule or wanted_rule
+
+    def on(self, mesh: Mesh) -> Self:
+        """Stand on the cells of a mesh.
+
+        Raises
+        ------
+        WrongCellType
+            If the element does not stand on the cells of the mesh.
+        EmptySet
+            If no cell is selected.
+        """
+        if self.element.cell != mesh.cell:
+            raise WrongCellType(
+                f"{self.element.name} stands on {self.element.cell} cells, the mesh has {mesh.cell}",
+                remedy=f"make the mesh with cell={self.element.cell!r}, or take an element for {mesh.cell}",
+            )
+        self.mesh = mesh
+        #: Numbers of its cells in the mesh.
+        self.cells: Numbers = _cell_numbers(mesh, self._selection, self.name)
+        #: Rolling direction, or that of each of its cells.
+        self.rolling = rolling_directions(self._given_rolling, len(self.cells))
+        self._numbers = self.cells
+        return self
+
+    @property
+    def whole(self) -> bool:
+        """Whether it has all cells of the mesh."""
+        return len(self.cells) == len(self.mesh.connectivity)
+
+    @property
+    def connectivity(self) -> NDArray[np.int32]:
+        """Nodes of its cells, shape (cells, nodes)."""
+        return self.mesh.connectivity if self.whole else self.mesh.connectivity[self.cells]
+
+    @cached_property
+    def block(self) -> _core.ShellBlock:
+        """Its elements with their history: large, so made when first asked for.
+
+        Raises
+        ------
+        ModelError
+            If the model was solved on many ranks: they have its history.
+        InvalidValue
+            If the rolling direction stands on the sheet somewhere.
+        """
+        if self.elsewhere:
+            raise not_here("the history of the elements")
+        (t, w), technology, law = self._through, self.element.technology(), self.material.law()
+        points, cells, X = self.element.surface_points, self.connectivity, self.mesh.points
+        try:
+            block = _core.shell_block(technology, points, t, w, law, cells, X, self.rolling)
+        except ValueError as error:
+            if self.rolling is None:
+                raise
+            raise InvalidValue(str(error), remedy="a vector in the plane of the sheet, or one for each cell") from error
+        block.set_numbers(self._numbers.astype(np.int32))
+        return block
+
+    @property
+    def symmetric(self) -> bool:  # type: ignore[override]
+        """Whether the tangent of its law is."""
+        return self.block.symmetric
+
+    @property
+    def begun(self) -> bool:
+        """Whether its elements have been made, and may have a history."""
+        return "block" in vars(self)
+
+    # Term ----------------------------------------------------------------------------------------------------
+
+    def couples(self) -> Sequence[_core.Connectivity]:
+        """The nodes of each element."""
+        return (self.block.connectivity,)
+
+    def evaluate(self, at: At, into: Into) -> BodyFound:
+        """Add the forces and tangents of all elements. eqs. (2.16)-(2.18)"""
+        product = None if at.du is None else into.predictor
+        scatter, self.block.step = into.scatters[self][0], at.step
+        failed, scale, failure = self.block.evaluate(at.u, scatter, into.residual, into.values, at.du, product)
+        failed = failed if failed < 0 else int(self.cells[failed])
+        return BodyFound(scale, failed=failed, failure=failure, flows=self.block.flowing)
+
+    def recover(self, du: Floats, s: float, mixed: bool) -> None:
+        """Update the enhanced parameters. eq. (2.19)"""
+        self.block.recover(du, s, mixed)
+
+    def undo_recover(self) -> None:
+        """Take the last :meth:`recover` back."""
+        self.block.undo_recover()
+
+    def commit(self, found: Found) -> None:
+        """Make the trial history the converged one."""
+        self.before = self.block.state
+        self.block.commit()
+
+    def revert(self) -> None:
+        """Go back to the converged history."""
+        self.block.revert()
+
+    def state(self) -> Tree:
+        """History of the points and enhanced parameters, a row for each cell."""
+        return {"history": self.block.state, "alpha": self.block.alpha}
+
+    def restore(self, tree: Tree) -> None:
+        """Put a history back."""
+        self.block.restore(tree["history"], tree["alpha"])
+
+    def energies(self, found: Found, u: Floats) -> Energies:
+        """Elastic energy and plastic work of the converged state. eq. (5.30)"""
+        return Energies(*self.block.energy(u), 0.0)
+
+    # Ranks ---------------------------------------------------------------------------------------------------
+
+    def strip(self, bare: Self, twins: Twins) -> None:
+        """Without cells and history."""
+        for made in ("block", "mesh", "cells", "rolling", "_numbers"):
+            bare.__dict__.pop(made, None)
+
+    def piece(self, cut: Cut) -> dict[str, Any]:
+        """Cells of the rank: their numbers there, as rows of this body and in the whole model; their history."""
+        here, rows = cut.cells_of(self.cells)
+        history = {name: values[rows] for name, values in self.state().items()} if self.begun else None
+        each = self.rolling is not None and self.rolling.ndim == 2
+        rolling = self.rolling[rows] if each and self.rolling is not None else self.rolling
+        return {"cells": here, "rows": rows, "numbers": self.cells[rows], "rolling": rolling, "history": history}
+
+    def fill(self, piece: dict[str, Any], mesh: Mesh) -> None:
+        """Take cells, rolling directions and history."""
+        self.mesh, self.cells, self.rows = mesh, piece["cells"], piece["rows"]
+        self._numbers, self.rolling, history = piece["numbers"], piece["rolling"], piece["history"]
+        if history is not None:
+            self.restore(history)
+
+
+def _cell_numbers(mesh: Mesh, cells: Cells | None, name: str) -> Numbers:
+    """Numbers of selected cells, increasing."""
+    count = len(mesh.connectivity)
+    if cells is None:
+        return np.arange(count)
+    if callable(cells):
+        centres = mesh.points[mesh.connectivity].mean(axis=1)
+        cells = cells(*centres.T)
+    chosen = np.asarray(cells)
+    if chosen.dtype == bool and chosen.shape != (count,):
+        raise InvalidValue("a mask of cells has one entry for each cell", where=f"body {name}", value=chosen.shape)
+    numbers = np.flatnonzero(chosen) if chosen.dtype == bool else np.unique(chosen.astype(np.int64))
+    if len(numbers) == 0:
+        raise EmptySet("a body has no cell", where=f"body {name}", remedy="look at its predicate or its numbers")
+    if numbers[0] < 0 or numbers[-1] >= count:
+        raise InvalidValue(
+            "a cell of a body does not exist", where=f"body {name}", value=int(numbers[-1]), remedy=f"0 to {count - 1}"
+        )
+    return numbers

@@ -1,0 +1,155 @@
+"""What the evaluation of a contact has found at its points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model.term import Found
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ContactPoints:
+    """What is known at the contact points of a pair.
+
+    Attributes
+    ----------
+    x : ndarray, shape (n, 3)
+        Current positions.
+    gap : ndarray, shape (n,)
+        Signed distance, negative in penetration.
+    pressure : ndarray, shape (n,)
+        Contact pressure on the reference area, zero without contact.
+    normal : ndarray, shape (n, 3)
+        Unit normal out of the tool.
+    area : ndarray, shape (n,)
+        Reference area that belongs to the point.
+    """
+
+    x: Floats
+    gap: Floats
+    pressure: Floats
+    normal: Floats
+    area: Floats
+
+
+@dataclass(frozen=True)
+class ContactFound(Found):
+    """What the evaluation of a contact has found; it stays what it is when the model is evaluated again.
+
+    What belongs to the points that the tool holds is copied. Positions, gaps and normals of all points follow from the
+    displacement and the pose of the tool, and are measured on demand: most facets of a large sheet are far
+    from the tool.
+
+    Attributes
+    ----------
+    held : umform._core.ContactFound
+        What was found at the points that are held.
+    measure : callable
+        Returns positions (n, 3), gaps (n,) and normals (n, 3) of all points at the same displacement and pose.
+    area : ndarray, shape (n,)
+        Reference areas of all points.
+    multiplier : ndarray, shape (n,)
+        Pressures that are there without a penetration.
+    penalty : float
+        Pressure per penetration.
+    """
+
+    held: Any = None
+    measure: Callable[[], tuple[Floats, Floats, Floats]] = field(default=lambda: (np.empty(0),) * 3, repr=False)
+    area: Floats = field(default_factory=lambda: np.empty(0), repr=False)
+    multiplier: Floats = field(default_factory=lambda: np.empty(0), repr=False)
+    penalty: float = 0.0
+
+    @cached_property
+    def _measured(self) -> tuple[Floats, Floats, Floats]:
+        return self.measure()
+
+    @property
+    def x(self) -> Floats:
+        """Positions of all points, shape (n, 3)."""
+        return self._measured[0]
+
+    @property
+    def gap(self) -> Floats:
+        """Signed distances of all points, negative in penetration, shape (n,)."""
+        return self._measured[1]
+
+    @property
+    def normal(self) -> Floats:
+        """Unit normals out of the tool at all points, shape (n, 3)."""
+        return self._measured[2]
+
+    @cached_property
+    def active(self) -> NDArray[np.bool_]:
+        """Which points are held by the tool."""
+        return np.asarray(self.held.active, dtype=bool)
+
+    def _spread(self, values: Floats) -> Floats:
+        """Values at all points from those at the points that are held, zero elsewhere."""
+        full = np.zeros((self.area.size, *values.shape[1:]))
+        full[self.held.points] = values
+        return full
+
+    @cached_property
+    def pressure(self) -> Floats:
+        """Contact pressure on the reference area at all points, shape (n,). eqs. (4.6), (4.33)"""
+        return self._spread(self.held.pressure)
+
+    @cached_property
+    def traction(self) -> Floats:
+        """Traction of the tool on the sheet on the reference area at all points, shape (n, 3)."""
+        return self._spread(self.held.traction)
+
+    @cached_property
+    def forces(self) -> Floats:
+        """Forces of the sheet on the tool at all points, shape (n, 3)."""
+        return self._spread(self.held.force)
+
+    @cached_property
+    def held_gap(self) -> Floats:
+        """Gaps of the points that are held, zero elsewhere, shape (n,)."""
+        return self._spread(self.held.gap)
+
+    @cached_property
+    def held_normal(self) -> Floats:
+        """Normals at the points that are held, zero elsewhere, shape (n, 3)."""
+        return self._spread(self.held.normal)
+
+    @property
+    def penetration(self) -> float:
+        """Largest penetration."""
+        return float(self.held.penetration)
+
+    def points(self) -> ContactPoints:
+        """Positions, gap, pressure, normal and area of all points."""
+        return ContactPoints(self.x, self.gap, self.pressure, self.normal, self.area)
+
+    def resultant(self, about: Floats | None = None) -> tuple[Floats, Floats]:
+        """Resultant of the contact tractions. eq. (4.17)
+
+        Parameters
+        ----------
+        about : array_like, shape (3,), optional
+            Point that the moment is about; default the origin.
+
+        Returns
+        -------
+        force, moment : ndarray, shape (3,)
+            Of the sheet on the tool.
+        """
+        arm = self.held.x - (np.zeros(3) if about is None else np.asarray(about, dtype=float))
+        return self.forces.sum(axis=0), self._spread(np.cross(arm, self.held.force)).sum(axis=0)
+
+    def energy(self) -> float:
+        """Potential of penalty and multipliers, (p^2 - lambda^2) / (2 penalty) over the reference area. eq. (4.32)"""
+        # (p - lambda)(p + lambda): a point that its multiplier alone holds has no energy, to the last digit.
+        difference, total = self.pressure - self.multiplier, self.pressure + self.multiplier
+        return 0.5 / self.penalty * float((difference * self.area) @ total)

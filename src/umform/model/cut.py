@@ -1,0 +1,45 @@
+"""The part of a mesh that a rank gets: numbers of nodes, degrees of freedom, cells and faces there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Ids = NDArray[np.int32]
+Numbers = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Cut:
+    """Numbers of one rank for what the whole model has numbers for.
+
+    Attributes
+    ----------
+    nodes : ndarray of int
+        Nodes of the rank, in the numbers of the whole model.
+    owned : ndarray of int
+        Those of them that the rank owns, in its own numbers; a node that several ranks have counts for its owner.
+    node, cell : ndarray of int32
+        Number on the rank of each node and cell of the whole model, -1 where it is not there.
+    """
+
+    nodes: Numbers
+    owned: Numbers
+    node: Ids
+    cell: Ids
+
+    def dofs(self, dofs: Ids) -> Ids:
+        """Degrees of freedom on the rank; negative where it has none."""
+        return (3 * self.node[dofs // 3] + dofs % 3).astype(np.int32)
+
+    def cells_of(self, cells: Numbers) -> tuple[Numbers, Numbers]:
+        """Of some cells those on the rank, in its numbers, and which rows of ``cells`` they are."""
+        rows = np.flatnonzero(self.cell[cells] >= 0)
+        return self.cell[cells[rows]].astype(np.int64), rows
+
+    def faces_of(self, faces: Ids) -> tuple[Ids, Numbers]:
+        """Of some faces, rows (cell, face), those on the rank, in its numbers, and which rows they are."""
+        rows = np.flatnonzero(self.cell[faces[:, 0]] >= 0)
+        return np.stack([self.cell[faces[rows, 0]], faces[rows, 1]], axis=1), rows

@@ -1,0 +1,103 @@
+"""What an evaluation of a model gives; it owns what was found, so nothing depends on which evaluation was the last."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model.control import Control
+from umform.model.term import Border, Found, Term
+from umform.ranks import Ranks
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Residual and tangent at a displacement, and what each term found there.
+
+    Attributes
+    ----------
+    x : ndarray, shape (3 n + k,)
+        Displacement, and the scalar unknowns behind it.
+    time : float
+        Time.
+    controls : mapping of Control to float
+        Values of the controls.
+    residual : ndarray, shape (3 n + k,)
+        Internal and contact forces minus loads at all degrees of freedom; reactions at those that are held, prescribed
+        or tied; then the residuals of the equations of scalar unknowns.
+    values : ndarray
+        Entries of the tangent over the unknowns, in the order of :attr:`Model.pattern`; empty of forces alone.
+    predictor : ndarray, shape (3 n + k,)
+        Tangent times the increment of the prescribed degrees of freedom, or rate of the residual at held unknowns; zero
+        where neither was asked for.
+    force_scale : float
+        Root of the sum of squares of all element forces, the scale of a residual. eq. (5.8)
+    failed : int
+        First cell without an answer, or -1.
+    failure : str
+        Why it has none.
+    round_off : float
+        What a relative error of all positions makes of the residual of contact, over that error. eq. (5.36)
+    found : dict of Term to Found
+        What each term found: gaps, tractions, points that flow.
+    border : Border
+        Rows and columns of the scalar unknowns.
+    number : int
+        Counts the evaluations of the model.
+    """
+
+    x: Floats
+    time: float
+    controls: Mapping[Control, float]
+    residual: Floats
+    values: Floats
+    predictor: Floats
+    force_scale: float
+    failed: int
+    failure: str
+    round_off: float
+    found: dict[Term, Any]
+    border: Border
+    number: int
+
+    @property
+    def u(self) -> Floats:
+        """Displacement, shape (3 n,)."""
+        return self.x[: self.x.size - len(self.border.unknowns)]
+
+    @cached_property
+    def active(self) -> NDArray[np.bool_]:
+        """Which contact points tools hold, over all contacts."""
+        joined: NDArray[np.bool_] = _joined([found.active for found in self.found.values()], np.dtype(bool))
+        return joined
+
+    @cached_property
+    def flowing(self) -> NDArray[np.uint8]:
+        """1 for each point of the material whose history the evaluation has changed, else 0."""
+        joined: NDArray[np.uint8] = _joined([found.flowing for found in self.found.values()], np.dtype(np.uint8))
+        return joined
+
+    def touching(self, ranks: Ranks) -> bool:
+        """Whether a tool holds the sheet anywhere."""
+        return ranks.any(bool(self.active.any()))
+
+
+def _joined(parts: list[Any], kind: np.dtype[Any]) -> Any:
+    """Arrays behind each other; that of the only one that is not empty as it is."""
+    full = [part for part in parts if part.size]
+    if len(full) == 1:
+        return full[0]
+    return np.concatenate(full) if full else np.zeros(0, dtype=kind)
+
+
+def first_failure(found: Mapping[Term, Found]) -> tuple[int, str]:
+    """First cell without an answer and why, or -1."""
+    failed = [(one.failed, one.failure) for one in found.values() if one.failed >= 0]
+    return min(failed) if failed else (-1, "")

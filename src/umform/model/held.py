@@ -1,0 +1,231 @@
+"""What all supports of a model together hold, and the displacement that they prescribe; they may not contradict."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue
+from umform.mesh import Ids, Mesh
+from umform.model.constraints import Groups, Rows
+from umform.model.control import Control, OnDofs, Prescribed
+from umform.model.controls import Controlled
+from umform.model.support import Support
+from umform.model.ties import Tie, split_ties
+
+Floats = NDArray[np.float64]
+_C = TypeVar("_C", bound=Control)
+
+HELD = "fix or symmetry"
+
+
+class Held(Controlled):
+    """The supports of a model, as they were asked for and as they act together.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Points and cells.
+    """
+
+    u: Floats
+
+    def __init__(self, mesh: Mesh) -> None:
+        super().__init__()
+        self.mesh = mesh
+        self.ties: list[Tie] = []
+        #: Constraints in local axes.
+        self.rows: list[Rows] = []
+        self._fixed = np.zeros(3 * len(mesh.points), dtype=bool)
+        self._holders: list[Support] = []
+        self._split: tuple[Ids, Groups] | None = None
+
+    @property
+    def supports(self) -> list[Support]:
+        """Supports that act, in the order in which they were put in place; those of controls are not among them."""
+        return [support for support in self.all_supports if not support.removed]
+
+    @property
+    def all_supports(self) -> list[Support]:
+        """The supports, also those that have been removed and may be put back."""
+        return [holder for holder in self._holders if holder.control is None]
+
+    def hold_again(self) -> None:
+        """Let the supports act as they stand, after one of them has been removed, put back or moved."""
+        self._support(self._holders)
+
+    def constrained(self) -> NDArray[np.bool_]:
+        """Which degrees of freedom are held or prescribed; tied ones and those in local axes are not."""
+        return _constrained(self._fixed, self.of_kind(Prescribed))
+
+    @property
+    def pairs(self) -> Ids:
+        """Tied pairs of degrees of freedom, lower and upper, without those that are part of a group of constraints."""
+        return self._parts()[0]
+
+    @property
+    def groups(self) -> Groups:
+        """Constraints in local axes, and the ties that share a degree of freedom with them."""
+        return self._parts()[1]
+
+    @property
+    def unknown_count(self) -> int:
+        """Number of unknowns: degrees of freedom that are not held; two that are tied make one."""
+        groups = self.groups
+        return int((~self.constrained()).sum()) - len(self.pairs) - len(groups.dofs) + groups.count
+
+    def displacement_of_supports(self, values: Mapping[Control, float]) -> Floats:
+        """Displacement that supports prescribe if their controls have these values (others zero); zero elsewhere.
+
+        Parameters
+        ----------
+        values : mapping of Control to float
+            Displacements, or their rates.
+
+        Returns
+        -------
+        ndarray, shape (3 n,)
+        """
+        return self._displacement(values, self.controls, self.groups)
+
+    def prescribed_displacement(self) -> Floats:
+        """Displacement that supports prescribe at the present values of the controls; zero elsewhere."""
+        values = {control: control.value for control in self.controls}
+        return self._displacement(values, self.controls, self.groups, _acting(self._holders))
+
+    def _displacement(
+        self,
+        values: Mapping[Control, float],
+        controls: Iterable[Control],
+        groups: Groups,
+        holders: Sequence[Support] = (),
+    ) -> Floats:
+        """Displacement that controls prescribe; with holders, also where these hold the nodes."""
+        u = np.zeros(self._fixed.size)
+        for control in controls:
+            control.displace(u, values.get(control, 0.0))
+        for holder in holders:
+            if holder.base is not None:
+                u[holder.held] = holder.base[holder.held]
+                for tie in holder.ties:
+                    u[tie.dofs] = 0.0 if tie.offsets is None else tie.offsets[:, None]
+        groups.prescribe(values, u, offsets=bool(holders))
+        return u
+
+    # Inside --------------------------------------------------------------------------------------------------
+
+    def _parts(self) -> tuple[Ids, Groups]:
+        if self._split is None:
+            self._split = _split(self.constrained(), self.ties, self.rows)
+        return self._split
+
+    def _new(self, kind: str, directions: str | None, nodes: Ids, base: bool, name: str) -> Support:
+        """A support that does not act yet; a name that is taken is refused."""
+        taken = {support.name for support in self._holders} | {control.name for control in self.controls}
+        if name in taken:
+            raise InvalidValue("the name of a support is taken", value=name, remedy="give it another name")
+        free = next(text for k in range(1, 10**6) if (text := f"support{k}") not in taken)
+        return Support(name or free, kind, directions or "all", nodes, base=self.u.copy() if base else None)
+
+    def _hold(self, support: Support) -> Support:
+        """Let a support act beside the others."""
+        self.refuse_taken(support)
+        self._support([*self._holders, support])
+        return support
+
+    def refuse_taken(self, support: Support) -> None:
+        """Refuse a support that does not act yet, if another one holds its degrees of freedom."""
+        fixed = self._fixed.copy()
+        fixed[support.held] = True
+        taken = self._taken([tie.without_held(fixed) for tie in self.ties])
+        if support.kind == HELD:  # to hold a node twice does no harm
+            del taken[HELD]
+        for dofs in [support.held, *(tie.without_held(fixed).dofs.ravel() for tie in support.ties)]:
+            for number, letter in enumerate("xyz"):
+                refuse_twice(dofs[dofs % 3 == number], letter, taken, support.kind)
+
+    def _drive(self, control: _C, holder: Support | None) -> _C:
+        """Add a control and what it prescribes; neither if one of them is refused."""
+        before = self._holders
+        self._support(before if holder is None else [*before, holder], [control])
+        try:
+            return self._add(control)
+        except InvalidValue:
+            self._support(before)
+            raise
+
+    def _support(self, holders: list[Support], controls: Sequence[Control] = ()) -> None:
+        """Let these supports and those of new controls act, if they do not contradict each other."""
+        acting, fixed = _acting(holders), np.zeros_like(self._fixed)
+        for holder in acting:
+            fixed[holder.held] = True
+        ties = [tie.without_held(fixed) for holder in acting for tie in holder.ties]
+        rows = [part for holder in acting for part in holder.rows]
+        every = [*self.controls, *controls]
+        split = _split(_constrained(fixed, [c for c in every if isinstance(c, Prescribed)]), ties, rows)
+        self._refuse_contradictions(split[1], every, acting)
+        self._fixed, self.ties, self.rows, self._split, self._holders = fixed, ties, rows, split, holders
+        self._assembled = None
+        for control in every:
+            if isinstance(control, OnDofs):  # what moves with the control may be more than its own degrees of freedom
+                control.along = self._displacement({control: 1.0}, every, split[1]) if rows else None
+
+    def _refuse_contradictions(self, groups: Groups, controls: Sequence[Control], holders: list[Support]) -> None:
+        """Each control in turn moves alone, then none does: what the constraints ask for must be met each time."""
+        if not groups.rows:
+            return
+        moved = [control for control in controls if isinstance(control, OnDofs)]
+        for control in [*moved, None]:
+            values: dict[Control, float] = {} if control is None else {control: 1.0}
+            at = holders if control is None else []
+            missed = groups.missed(values, self._displacement(values, controls, groups, at), offsets=bool(at))
+            if missed is not None:
+                part, number = missed
+                other = "another support" if control is None or control is part.control else control.name
+                raise _twice(int(part.dofs[number, 0]) // 3, "of local axes", other, part.by)
+
+    def _taken(self, ties: Sequence[Tie]) -> dict[str, Ids]:
+        """Degrees of freedom that are held or prescribed already, and by whom."""
+        taken = {HELD: np.flatnonzero(self._fixed).astype(np.int32)}
+        taken |= {control.name: control.dofs for control in self.of_kind(Prescribed)}
+        for tie in ties:
+            by = "hinge" if tie.control is None else tie.control.name
+            taken[by] = np.concatenate([taken.get(by, np.empty(0, dtype=np.int32)), tie.dofs.ravel()])
+        return taken
+
+
+def refuse_twice(dofs: Ids, direction: str, taken: Mapping[str, Ids], by: str) -> None:
+    """Refuse degrees of freedom that another support holds already."""
+    for other, theirs in taken.items():
+        shared = np.intersect1d(dofs, theirs)
+        if len(shared):
+            raise _twice(int(shared[0]) // 3, direction, other, by)
+
+
+def _twice(node: int, direction: str, other: str, by: str) -> InvalidValue:
+    return InvalidValue(
+        "a displacement is prescribed twice",
+        where=f"node {node}, direction {direction}",
+        value=f"by {other} and by {by}",
+        cause="two supports ask for it",
+        remedy="take the node out of one of the sets; a hinge bears a node that is held if its partner is too",
+    )
+
+
+def _acting(holders: Iterable[Support]) -> list[Support]:
+    return [holder for holder in holders if not holder.removed]
+
+
+def _constrained(fixed: NDArray[np.bool_], prescribed: Iterable[Prescribed]) -> NDArray[np.bool_]:
+    constrained = fixed.copy()
+    for control in prescribed:
+        constrained[control.dofs] = True
+    return constrained
+
+
+def _split(constrained: NDArray[np.bool_], ties: Sequence[Tie], rows: Sequence[Rows]) -> tuple[Ids, Groups]:
+    pairs, joined = split_ties(ties, rows, constrained)
+    return pairs, Groups(constrained, joined)

@@ -1,0 +1,167 @@
+"""Take supports and tools away from a model; the forces that they exerted become a dead load, which may then fade.
+
+The load is what equilibrium asks for over the new unknowns, T T^T r with the residual r of the model without what was
+removed: its columns are orthonormal, so the present state is in equilibrium at the factor 1. docs/theory, 5.10
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue
+from umform.model.contact import Contact
+from umform.model.dead_load import Load
+from umform.model.support import Support
+
+if TYPE_CHECKING:
+    from umform.model import Model
+
+
+def remove(model: Model, thing: Support | Contact) -> Load:
+    """Take a support or a contact away; its forces stay as a load of factor 1.
+
+    Parameters
+    ----------
+    model : Model
+        The model at a converged state.
+    thing : Support or Contact
+        What goes.
+
+    Returns
+    -------
+    Load
+        The control of the forces.
+
+    Raises
+    ------
+    InvalidValue
+        If the model does not have it.
+    """
+    if isinstance(thing, Contact):
+        return _remove_contact(model, thing)
+    if thing not in model.supports:
+        raise InvalidValue(
+            "the model has no such support",
+            where="remove()",
+            value=thing,
+            cause="it has been removed already, or belongs to another model",
+            remedy="take what fix(), symmetry(), hinge() or hold_director() of this model returned",
+        )
+    load = fading(model, thing)
+    before, value = load.vector, load.value
+    load.value, thing.removed = 0.0, True
+    try:
+        model.hold_again()
+        load.vector = _unbalanced(model)
+    except BaseException:
+        load.vector, load.value, thing.removed = before, value, False
+        model.hold_again()
+        raise
+    load.value = 1.0
+    return load
+
+
+def put_back(model: Model, support: Support, *, here: bool = True) -> None:
+    """Let a support that was removed act again, where its nodes are now or where they were in the undeformed mesh.
+
+    Raises
+    ------
+    InvalidValue
+        If it acts already, or contradicts what has been put in place since.
+    """
+    if support not in model.all_supports or not support.removed:
+        raise InvalidValue(
+            "the support has not been removed",
+            where="put_back()",
+            value=support,
+            cause="it acts, or belongs to another model",
+            remedy="put back what remove() or a step Free has taken away",
+        )
+    model.refuse_taken(support)
+    before = support.base
+    support.hold_at(model.u.copy() if here else None)
+    support.removed = False
+    try:
+        model.hold_again()
+    except BaseException:
+        support.hold_at(before)
+        support.removed = True
+        raise
+    if support.load is not None:
+        support.load.value = 0.0
+
+
+def fading(model: Model, support: Support) -> Load:
+    """The control of the forces that take the place of a support once it is removed; zero until then."""
+    if support.load is None:
+        zero = np.zeros_like(model.u)
+        support.load = model.add_load(Load(model.free_name(support.name), vector=zero))
+    return support.load
+
+
+def states_of_supports(model: Model) -> dict[str, Any]:
+    """State of the supports that have been removed, or are to be: which act, where, and the forces of the others."""
+    return {
+        support.name: {
+            "removed": support.removed,
+            "base": None if support.base is None else support.base.copy(),
+            "vector": support.load.vector.copy(),
+        }
+        for support in model.all_supports
+        if support.load is not None
+    }
+
+
+def put_supports(model: Model, states: Mapping[str, Any]) -> None:
+    """Let the supports stand as they did in a state from :func:`states_of_supports`."""
+    changed = False
+    for support in model.all_supports:
+        if support.load is None or support.name not in states:
+            continue
+        state = states[support.name]
+        support.load.vector = np.array(state["vector"])
+        changed |= support.removed != state["removed"] or support.base is not state["base"]
+        support.removed = bool(state["removed"])
+        support.hold_at(state["base"])
+    if changed:
+        model.hold_again()
+
+
+def _remove_contact(model: Model, contact: Contact) -> Load:
+    if contact not in model.contacts:
+        raise InvalidValue(
+            "the model has no such contact",
+            where="remove()",
+            value=contact.name,
+            cause="it has been removed already, or belongs to another model",
+            remedy="take what contact() of this model returned",
+        )
+    contacts, tools, controls, tool = model.contacts, model.tools, model.controls, contact.tool
+    load = Load(model.free_name(contact.name), vector=np.zeros_like(model.u))
+    model.contacts = [other for other in contacts if other is not contact]
+    tool.pairs.remove(contact)
+    if not tool.pairs:
+        gone = [*tool.ways, *(force for press in tool.presses for force in press.forces)]
+        model.tools = [other for other in tools if other is not tool]
+        model.controls = [control for control in controls if control not in gone]
+    model.forget_assembly()
+    try:
+        load.vector = _unbalanced(model)
+        load = model.add_load(load)
+    except BaseException:
+        model.contacts, model.tools, model.controls = contacts, tools, controls
+        tool.pairs.append(contact)
+        model.forget_assembly()
+        raise
+    load.value = 1.0
+    return load
+
+
+def _unbalanced(model: Model) -> NDArray[np.float64]:
+    """Forces on the unknowns that nothing in the model balances at its present state."""
+    residual: NDArray[np.float64] = model.extend(model.restrict(model.evaluate(model.x).residual))
+    return residual[: model.u.size]

@@ -1,0 +1,130 @@
+"""A support as it was asked for: it can be removed from a model and put back. docs/theory, 5.10"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform.errors import InvalidValue
+from umform.mesh import Ids
+from umform.model.axes import Axes, directions_at, unit_normals
+from umform.model.constraints import Rows
+from umform.model.control import Control
+from umform.model.dead_load import Load
+from umform.model.forces import DIRECTIONS
+from umform.model.ties import MidLine, Tie
+
+Floats = NDArray[np.float64]
+
+
+def _no_dofs() -> Ids:
+    return np.empty(0, dtype=np.int32)
+
+
+@dataclass(eq=False)
+class Support:
+    """Something that holds nodes, directors or the mid-line of the sheet.
+
+    Attributes
+    ----------
+    name : str
+        Name in messages, and of the column of the history while the support is being freed.
+    kind : str
+        "fix or symmetry", "hinge", "director", or the name of the control that prescribes a mid-line.
+    directions : str
+        Letters of the directions, or "normals".
+    nodes : ndarray of int32
+        Its nodes.
+    held : ndarray of int32
+        Degrees of freedom that it holds along x, y or z.
+    ties : list of Tie
+        Pairs of lower and upper degrees of freedom whose mean it holds.
+    rows : list of Rows
+        Constraints in local axes.
+    base : ndarray, shape (3 n,), optional
+        Displacement of the model when the support was put in place, if it holds the nodes there.
+    control : Control, optional
+        What prescribes it; None for a support.
+    load : Load, optional
+        The forces that take its place once it is removed.
+    removed : bool
+        Whether it does not act.
+    """
+
+    name: str
+    kind: str
+    directions: str
+    nodes: Ids
+    held: Ids = field(default_factory=_no_dofs)
+    ties: Sequence[Tie] = ()
+    rows: Sequence[Rows] = ()
+    base: Floats | None = None
+    control: Control | None = None
+    load: Load | None = None
+    removed: bool = False
+
+    def hold_at(self, base: Floats | None) -> None:
+        """Hold the nodes at a displacement of the model, or where they are in the undeformed mesh."""
+        self.base = base
+        self.ties = [replace(tie, offsets=None if base is None else base[tie.dofs].mean(axis=1)) for tie in self.ties]
+        self.rows = [replace(part, offsets=_offsets(part.dofs, part.weights, base)) for part in self.rows]
+
+    def __repr__(self) -> str:
+        return f"Support({self.name!r}, {self.kind} {self.directions}, {len(self.nodes)} nodes)"
+
+    def __str__(self) -> str:
+        return self.name
+
+
+def direction_number(name: str) -> int:
+    """0, 1 or 2 for x, y or z."""
+    if name not in DIRECTIONS:
+        raise InvalidValue(
+            "a direction is x, y or z",
+            where="supports",
+            value=name,
+            cause="another letter, or a vector",
+            remedy="letters such as xz; other directions need axes= or normals=",
+        )
+    return DIRECTIONS[name]
+
+
+def directions_of(
+    axes: Axes, letters: str | None, normals: ArrayLike | None, points: Floats
+) -> tuple[str, list[Floats]]:
+    """Letters and unit vectors (n, 3) of the directions in which a support holds."""
+    if normals is not None:
+        return "normals", [unit_normals(normals, len(points))]
+    found = directions_at(axes, axes.letters if letters is None else letters, points)
+    return "".join(letter for letter, _ in found), [vectors for _, vectors in found]
+
+
+def tie_of(pairs: Ids, direction: int, control: MidLine | None, base: Floats | None) -> Tie:
+    """The mean of the displacements of each pair in one direction."""
+    dofs = (3 * pairs + direction).astype(np.int32)
+    return Tie(dofs, control, None if base is None else base[dofs].mean(axis=1))
+
+
+def rows_of_nodes(nodes: Ids, vectors: Floats, by: str, control: Control | None, base: Floats | None) -> Rows:
+    """The displacement of each node along its unit vector."""
+    return _rows((3 * nodes[:, None] + np.arange(3)).astype(np.int32), vectors, by, control, base)
+
+
+def rows_of_pairs(
+    pairs: Ids, vectors: Floats, by: str, control: Control | None, base: Floats | None, *, turn: bool = False
+) -> Rows:
+    """Mean of the displacements of lower and upper node along a unit vector; with ``turn`` half their difference."""
+    dofs = (3 * pairs[:, :, None] + np.arange(3)).reshape(-1, 6).astype(np.int32)
+    weights = 0.5 * np.concatenate([-vectors if turn else vectors, vectors], axis=1)
+    return _rows(dofs, weights, by, control, base)
+
+
+def _rows(dofs: Ids, weights: Floats, by: str, control: Control | None, base: Floats | None) -> Rows:
+    return Rows(dofs, weights, control, by, _offsets(dofs, weights, base))
+
+
+def _offsets(dofs: Ids, weights: Floats, base: Floats | None) -> Floats | None:
+    return None if base is None else (weights * base[dofs]).sum(axis=1)

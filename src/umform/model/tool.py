@@ -1,0 +1,326 @@
+"""A rigid tool: its surface, its pose, and what moves it: ways, turns, a motion in time, forces that press it.
+
+A tool is a thing of the model; several pairs of faces may touch the same one. docs/theory, 4.7
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform.errors import InvalidValue, NotFinite
+from umform.model.control import Control, Seen, Twins
+from umform.model.forces import vector3
+from umform.model.now import Now
+from umform.model.term import At, Found, Global, Into, Term, Tree
+from umform.ranks import Ranks
+from umform.surfaces import Direction, Surface, unit_vector
+from umform.surfaces.directions import rotation_matrix
+
+Floats = NDArray[np.float64]
+Pose = tuple[Floats, Floats]
+
+#: time -> translation (3,), or (translation (3,), rotation vector (3,)) about the tool's reference point.
+Motion = Callable[[float], Floats | tuple[Floats, Floats]]
+
+
+@dataclass(eq=False, repr=False)
+class ToolMotion(Control):
+    """Translation of a tool along a direction; its force is that of the sheet on the tool along it."""
+
+    direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    tool: Any = None
+
+    def force(self, evaluation: Seen, ranks: Ranks) -> float:
+        """Force of the sheet on the tool along the direction."""
+        force, _ = self.tool.resultant(evaluation.found, ranks)
+        return float(force @ np.asarray(self.direction))
+
+    def strip(self, bare: Any, twins: Twins) -> None:
+        """Of the twin of its tool."""
+        bare.tool = twins.of(self.tool)
+
+
+@dataclass(eq=False, repr=False)
+class ToolTurn(Control):
+    """Turn of a tool about an axis through a point, in radians; its force is the moment of the sheet on the tool."""
+
+    axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    about: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    tool: Any = None
+
+    def force(self, evaluation: Seen, ranks: Ranks) -> float:
+        """Moment of the sheet on the tool about the axis where it is now."""
+        axis, point = self.tool.axis_of(self, evaluation.controls, evaluation.time)
+        force, moment = self.tool.resultant(evaluation.found, ranks)
+        return float((moment - np.cross(point, force)) @ axis)
+
+    def strip(self, bare: Any, twins: Twins) -> None:
+        """Of the twin of its tool."""
+        bare.tool = twins.of(self.tool)
+
+
+@dataclass(eq=False, repr=False)
+class ToolForce(Control):
+    """A force (or moment) that presses a tool along one of its ways, which is an unknown then."""
+
+    way: Any = None
+
+    def strip(self, bare: Any, twins: Twins) -> None:
+        """On the twin of its way."""
+        bare.way = twins.of(self.way)
+
+
+@dataclass(eq=False)
+class Press:
+    """What presses a tool along a way: forces, and a spring.
+
+    Attributes
+    ----------
+    unknown : Global
+        The way that is found.
+    way : ToolMotion or ToolTurn
+        The control that it moves.
+    forces : list of ToolForce
+        Controls of the forces on the tool along the way.
+    stiffness, free : float
+        Of a spring that holds the tool, and the way at which the spring has no force.
+    """
+
+    unknown: Global
+    way: ToolMotion | ToolTurn
+    forces: list[ToolForce]
+    stiffness: float = 0.0
+    free: float = 0.0
+
+
+class Tool(Term):
+    """A rigid tool; made by :meth:`umform.Model.tool`, or by :meth:`umform.Model.contact` for one pair.
+
+    Parameters
+    ----------
+    name : str
+        Its columns of the history are ``<name>_fx`` ... ``<name>_mz``: force and moment of the sheet on it.
+    surface : Surface
+        A tool of :mod:`umform.surfaces`.
+    now : Now
+        The time of its model.
+
+    Attributes
+    ----------
+    pairs : list of Contact
+        The pairs of faces that touch it.
+    ways : list of ToolMotion or ToolTurn
+        Controls that move it.
+    motion : callable, optional
+        Motion in time, in addition.
+    reference_point : ndarray, shape (3,)
+        Point that the motion turns it about.
+    """
+
+    timed_as = "contact"
+
+    def __init__(self, name: str, surface: Surface, now: Now) -> None:
+        if not isinstance(surface, Surface):
+            raise InvalidValue(
+                "a tool must be a surface",
+                where=f"tool {name}",
+                value=type(surface).__name__,
+                remedy="a tool of umform.surfaces, VDie or Cylinder for instance, or UserSurface(function)",
+            )
+        self.name, self.surface = name, surface
+        self.kernel, self.now = surface.kernel(), now
+        self.pairs: list[Any] = []
+        self.ways: list[ToolMotion | ToolTurn] = []
+        self.presses: list[Press] = []
+        self.motion: Motion | None = None
+        self.reference_point = np.zeros(3)
+
+    # Where it is ---------------------------------------------------------------------------------------------
+
+    def pose(self, values: Mapping[Control, float], time: float) -> Pose:
+        """Rotation and shift: a point X of the tool's own frame lies at x = Q X + c. eq. (4.18)
+
+        The turns come first, in the order in which they were made, then ways and motion.
+        """
+        shift, rotation = np.zeros(3), np.eye(3)
+        for control in self.ways:
+            if isinstance(control, ToolMotion):
+                shift += values[control] * np.asarray(control.direction)
+        if self.motion is not None:
+            answer = self.motion(time)
+            translation, turn = answer if isinstance(answer, tuple) and len(answer) == 2 else (answer, np.zeros(3))
+            where = f"motion of tool {self.name} at time {time:g}"
+            shift += vector3(translation, where)
+            rotation = rotation_matrix(vector3(turn, where))
+        centre = self.reference_point
+        outer = np.ascontiguousarray(rotation), centre + shift - rotation @ centre
+        for control in reversed(self.ways):
+            if isinstance(control, ToolTurn):
+                outer = _after(outer, _turned(control, values[control]))
+        return outer
+
+    @property
+    def pose_now(self) -> Pose:
+        """Where it stands: its pose at the present values of its controls and the present time."""
+        return self.pose({way: way.value for way in self.ways}, self.now.time)
+
+    def axis_of(self, turn: ToolTurn, values: Mapping[Control, float], time: float) -> tuple[Floats, Floats]:
+        """Axis and point of a turn where the motions that come after it have taken them."""
+        inner = [control for control in self.ways[: self.ways.index(turn) + 1] if isinstance(control, ToolTurn)]
+        still = {control: 0.0 if control in inner else value for control, value in values.items()}
+        rotation, shift = self.pose(still, time)
+        return rotation @ np.asarray(turn.axis), rotation @ np.asarray(turn.about) + shift
+
+    def moves_with(self, rates: Mapping[Control, float]) -> bool:
+        """Whether one of its ways has a rate."""
+        return any(rates.get(control, 0.0) != 0.0 for control in self.ways)
+
+    def shift_rate(self, rates: Mapping[Control, float]) -> Floats | float:
+        """Rate of its translation."""
+        along = [control for control in self.ways if isinstance(control, ToolMotion)]
+        return sum(rates.get(control, 0.0) * np.asarray(control.direction) for control in along)
+
+    def spins(self, rates: Mapping[Control, float], at: At) -> list[tuple[Floats, Floats]]:
+        """Rotation vector per time and a point of its axis, for each turn that has a rate."""
+        found = []
+        for control in self.ways:
+            rate = rates.get(control, 0.0)
+            if isinstance(control, ToolTurn) and rate != 0.0:
+                axis, point = self.axis_of(control, at.values, at.time)
+                found.append((rate * axis, point))
+        return found
+
+    # What moves it -------------------------------------------------------------------------------------------
+
+    def add_way(self, way: ToolMotion | ToolTurn) -> None:
+        """Let a control move it."""
+        self.ways.append(way)
+
+    def add_press(self, press: Press) -> None:
+        """Let forces and a spring find its way."""
+        self.presses.append(press)
+
+    @property
+    def unknowns(self) -> tuple[Global, ...]:  # type: ignore[override]
+        """Ways that forces and springs find."""
+        return tuple(press.unknown for press in self.presses)
+
+    # Term ----------------------------------------------------------------------------------------------------
+
+    def evaluate(self, at: At, into: Into) -> Found:
+        """Add the equations of its unknown ways: forces of sheet, press and springs balance. eq. (4.40)"""
+        border = into.border
+        for press in self.presses:
+            k = border.number(press.unknown)
+            sheet = press.way.force(_Seen(into.residual, into.found, at.values, at.time), into.ranks)
+            pressing = sum(at.values[force] for force in press.forces)
+            border.residual[k] = press.stiffness * (at.values[press.way] - press.free) - sheet - pressing
+            # The potential of contact has one Hessian: its rows are its columns. eq. (4.41)
+            border.rows[k] = border.columns[k]
+            border.corner[k, k] += press.stiffness
+            for other, unknown in enumerate(border.unknowns):
+                for pair in self.pairs:
+                    if (pair, unknown) in into.moved:
+                        border.corner[k, other] -= self._along(press.way, into.moved[pair, unknown], at, into)
+            border.predictor[k] -= sum(at.rates.get(force, 0.0) for force in press.forces)
+            for pair in self.pairs:
+                if (pair, None) in into.moved:
+                    border.predictor[k] -= self._along(press.way, into.moved[pair, None], at, into)
+            if at.du is not None:
+                border.predictor[k] += into.ranks.sum(float(border.rows[k] @ at.du))
+        return Found()
+
+    def _along(self, way: ToolMotion | ToolTurn, column: Floats, at: At, into: Into) -> float:
+        """Sum of nodal forces (3 n,) along a way: their resultant or their moment."""
+        forces = column.reshape(-1, 3)
+        if isinstance(way, ToolMotion):
+            return into.ranks.sum(float(forces.sum(axis=0) @ np.asarray(way.direction)))
+        axis, point = self.axis_of(way, at.values, at.time)
+        arms = (into.positions + at.u).reshape(-1, 3) - point
+        return into.ranks.sum(float(np.cross(arms, forces).sum(axis=0) @ axis))
+
+    def resultant(self, found: Mapping[Term, Any], ranks: Ranks) -> tuple[Floats, Floats]:
+        """Force of the sheet on it and moment about the origin, over all pairs. eq. (4.17)"""
+        parts = [found[pair].resultant() for pair in self.pairs]
+        force, moment = (sum(part[k] for part in parts) for k in (0, 1))
+        return ranks.sum(np.asarray(force) + np.zeros(3)), ranks.sum(np.asarray(moment) + np.zeros(3))
+
+    def resultant_columns(self, found: Mapping[Term, Any], ranks: Ranks) -> dict[str, float]:
+        """Its columns of the history: force and moment of the sheet on it."""
+        force, moment = self.resultant(found, ranks)
+        return {name: float(value) for name, value in zip(self.column_names(), [*force, *moment], strict=True)}
+
+    def state(self) -> Tree:
+        """Unknown ways."""
+        return {press.unknown.name: press.unknown.value for press in self.presses}
+
+    def restore(self, tree: Tree) -> None:
+        """Put them back."""
+        for press in self.presses:
+            press.unknown.value = tree[press.unknown.name]
+
+    def column_names(self) -> Iterable[str]:
+        """Force and moment of the sheet on it."""
+        return [f"{self.name}_{kind}{axis}" for kind in "fm" for axis in "xyz"]
+
+    def strip(self, bare: Self, twins: Twins) -> None:
+        """With the twins of what touches and moves it."""
+        bare.now = twins.of(self.now)
+        bare.pairs = [twins.of(pair) for pair in self.pairs]
+        bare.ways = [twins.of(way) for way in self.ways]
+        bare.__dict__.pop("kernel", None)
+        bare.presses = [
+            Press(
+                Global(press.unknown.name, twins.rates(press.unknown.rates), press.unknown.value),
+                twins.of(press.way),
+                [twins.of(force) for force in press.forces],
+                press.stiffness,
+                press.free,
+            )
+            for press in self.presses
+        ]
+
+    def fill(self, piece: Any, mesh: Any) -> None:
+        """Make its kernel."""
+        self.kernel = self.surface.kernel()
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """What a way reads to say the force on it."""
+
+    residual: Floats
+    found: Mapping[Term, Any]
+    controls: Mapping[Control, float]
+    time: float
+
+
+def turn_of(name: str, tool: Tool, axis: Direction, about: ArrayLike) -> ToolTurn:
+    """A turn of a tool, checked."""
+    point = vector3(about, f"turn of tool {tool.name}")
+    return ToolTurn(name, axis=unit_vector(axis, "turn"), about=tuple(point.tolist()), tool=tool)
+
+
+def check_spring(stiffness: float, free: float, where: str) -> None:
+    """Refuse a spring that is none."""
+    if not np.isfinite([stiffness, free]).all():
+        raise NotFinite("a spring needs finite numbers", where=where, value=f"stiffness {stiffness}, free way {free}")
+    if not stiffness > 0.0:
+        raise InvalidValue("the stiffness of a spring must be positive", where=where, value=stiffness)
+
+
+def _turned(turn: ToolTurn, angle: float) -> Pose:
+    """Pose of a turn about its axis."""
+    rotation, point = rotation_matrix(angle * np.asarray(turn.axis)), np.asarray(turn.about)
+    return np.ascontiguousarray(rotation), point - rotation @ point
+
+
+def _after(outer: Pose, inner: Pose) -> Pose:
+    """The inner pose, then the outer one."""
+    (Q, c), (R, d) = outer, inner
+    return np.ascontiguousarray(Q @ R), Q @ d + c

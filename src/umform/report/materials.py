@@ -1,0 +1,45 @@
+"""Materials in words, with six digits."""
+
+from __future__ import annotations
+
+from umform.materials import J2, Elastic, LinearVoce, Swift, Table, UserLaw
+
+
+def material_text(material: object) -> str:
+    """Law and constants of a material, for people.
+
+    Parameters
+    ----------
+    material : object
+        A law of umform; of others, what ``str`` says.
+
+    Returns
+    -------
+    str
+        "J2: E = 210000, nu = 0.3, yield stress 160, linear hardening 500" for one.
+    """
+    if isinstance(material, UserLaw):
+        return f"user law: {material.name}"
+    if not isinstance(material, Elastic):
+        return str(material)
+    text = f"{type(material).__name__}: E = {material.E:.6g}, nu = {material.nu:.6g}"
+    return f"{text}, {hardening_text(material.hardening)}" if isinstance(material, J2) else text
+
+
+def hardening_text(curve: object) -> str:
+    """A hardening curve: the first yield stress, and how it rises."""
+    if isinstance(curve, LinearVoce):
+        parts = [f"yield stress {curve.yield_stress:.6g}"]
+        if curve.modulus:
+            parts.append(f"linear hardening {curve.modulus:.6g}")
+        if curve.rate and curve.saturation > curve.yield_stress:
+            parts.append(f"saturation {curve.saturation:.6g} at the rate {curve.rate:.6g}")
+        return ", ".join(parts) if len(parts) > 1 else f"{parts[0]}, perfectly plastic"
+    if isinstance(curve, Swift):
+        first = curve.strength * curve.offset**curve.exponent
+        law = f"{curve.strength:.6g} ({curve.offset:.6g} + e)^{curve.exponent:.6g}"
+        return f"yield stress {first:.6g}, Swift hardening {law}"
+    if isinstance(curve, Table):
+        end = f"{curve.stress[-1]:.6g} at a plastic strain of {curve.eqps[-1]:.6g}"
+        return f"yield stress {curve.stress[0]:.6g}, table of {len(curve.eqps)} points up to {end}"
+    return str(curve)

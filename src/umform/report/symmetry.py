@@ -1,0 +1,104 @@
+"""Planes of symmetry of a model, and the whole part that it is a half or a quarter of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model import Model
+from umform.results.shape import Shape
+
+Floats = NDArray[np.float64]
+
+#: Nodes this near to a plane lie in it, as a share of the size of the sheet.
+_HAIR = 1e-7
+#: Distances that differ by less than this share of the size of the sheet are the same.
+_SAME = 1e-6
+#: Points along each side of a box in which a tool is compared with its mirror image.
+_SAMPLES = 7
+
+
+@dataclass(frozen=True)
+class Mirror:
+    """A plane of symmetry across a coordinate axis.
+
+    Attributes
+    ----------
+    axis : int
+        Its normal: 0, 1 or 2.
+    at : float
+        Its coordinate.
+    """
+
+    axis: int
+    at: float
+
+    def image(self, x: Floats) -> Floats:
+        """Mirror images of positions (..., 3)."""
+        image = x.copy()
+        image[..., self.axis] = 2.0 * self.at - x[..., self.axis]
+        return image
+
+
+def mirrors(model: Model) -> list[Mirror]:
+    """Planes of symmetry that the supports of a model say, at most one across each axis.
+
+    A plane counts if the sheet ends there through its whole thickness, all nodes in it are held across it, and not all
+    of them in every direction, which is a clamp. Nodes that are all held along an axis, as in plane strain, are none.
+
+    Parameters
+    ----------
+    model : Model
+        The model.
+    """
+    points, held = model.mesh.points, model.constrained().reshape(-1, 3)
+    hair = _HAIR * float(np.ptp(points, axis=0).max())
+    found: list[Mirror] = []
+    for axis in range(3):
+        x = points[:, axis]
+        if held[:, axis].all():
+            continue
+        for at in (float(x.min()), float(x.max())):
+            inside = np.abs(x - at) <= hair
+            if held[inside, axis].all() and not held[inside].all() and _through_the_thickness(model, inside):
+                found.append(Mirror(axis, at + 0.0))
+                break
+    return found
+
+
+def _through_the_thickness(model: Model, inside: NDArray[np.bool_]) -> bool:
+    """Whether of each pair of a lower and an upper node both lie in a plane, or none."""
+    lower, upper = np.split(model.mesh.connectivity, 2, axis=1)
+    return bool((inside[lower] == inside[upper]).all())
+
+
+def whole(shape: Shape, planes: Sequence[Mirror]) -> Shape:
+    """A shape together with its mirror images."""
+    for plane in planes:
+        shift = np.zeros(3)
+        shift[plane.axis] = plane.at
+        shape = replace(shape, points=shape.points - shift).mirrored(plane.axis)
+        shape = replace(shape, points=shape.points + shift)
+    return shape
+
+
+def is_symmetric(gap: Callable[[Floats], Floats], plane: Mirror, box: tuple[Floats, Floats]) -> bool:
+    """Whether a tool is its own mirror image.
+
+    Parameters
+    ----------
+    gap : callable
+        Signed distances of positions (n, 3) to the tool.
+    plane : Mirror
+        The plane.
+    box : tuple of ndarray
+        Lowest and highest corner of a box, in which the distances are compared.
+    """
+    sides = [np.linspace(low, high, _SAMPLES) for low, high in zip(*box, strict=True)]
+    x = np.stack(np.meshgrid(*sides, indexing="ij"), axis=-1).reshape(-1, 3)
+    here, there = gap(x), gap(plane.image(x))
+    size = float(np.linalg.norm(box[1] - box[0]))
+    return bool(np.allclose(here, there, rtol=0.0, atol=_SAME * size, equal_nan=True))

@@ -1,0 +1,78 @@
+"""Linear systems with a border: scalar unknowns beside those at the nodes, solved with the factors of the tangent.
+
+[K B; C D] [q; z] = [r; s]: K is factorised as it is, and a dense system of the few scalar unknowns remains. eq. (5.43)
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import SingularMatrix
+from umform.solution.system import Evaluation, System
+from umform.solution.timed_solver import TimedSolver
+from umform.solvers import Factorisation
+
+Floats = NDArray[np.float64]
+
+
+class Bordered:
+    """A sparse solver with the rows and columns of scalar unknowns; without any, the solver itself.
+
+    Parameters
+    ----------
+    system : System
+        Restricts rows and columns to the unknowns, and sums them over the ranks.
+    solver : TimedSolver
+        Solver that has analysed the pattern at the nodes.
+    """
+
+    def __init__(self, system: System, solver: TimedSolver) -> None:
+        self.system, self.solver = system, solver
+        self._count = 0
+
+    def factor(self, evaluation: Evaluation) -> Factorisation:
+        """Factorise the tangent of an evaluation, and eliminate the unknowns at the nodes from the border.
+
+        Raises
+        ------
+        SingularMatrix
+            If the tangent is singular, or the scalar unknowns are not determined: a tool that nothing holds.
+        """
+        found = self.solver.factor(evaluation.values)
+        border, system = evaluation.border, self.system
+        self._count = len(border.unknowns)
+        if self._count:
+            columns = np.stack([system.restrict(column) for column in border.columns], axis=1)
+            self._rows = np.stack([system.restrict(row) for row in border.rows])
+            self._columns = self.solver.solve(columns)
+            supports = np.stack([system.displacement_of_supports(unknown.rates) for unknown in border.unknowns])
+            corner = border.corner + system.ranks.sum(border.rows @ supports.T)
+            self._schur = corner - system.ranks.sum(self._rows @ self._columns)
+            self._check([unknown.name for unknown in border.unknowns], corner)
+        return found
+
+    def _check(self, names: list[str], corner: Floats) -> None:
+        scale = np.abs(corner).max(initial=0.0)
+        sizes = np.linalg.svd(self._schur, compute_uv=False)
+        if not (np.isfinite(sizes).all() and sizes[-1] > 1e-13 * max(scale, sizes[0])):
+            raise SingularMatrix(
+                "a way that a force is to find is not determined",
+                value=", ".join(names),
+                cause="nothing holds the tool: it does not touch the sheet, or the sheet itself is not held",
+                remedy="drive the tool into touch first, then press it; or hold it by a spring",
+            )
+
+    def solve(self, rhs: Floats) -> Floats:
+        """Solve for the unknowns at the nodes and the scalar ones behind them; shape (n + k,) or (n + k, m)."""
+        if not self._count:
+            return self.solver.solve(rhs)
+        if rhs.ndim == 2:
+            return np.stack([self.solve(column) for column in rhs.T], axis=1)
+        ranks, first = self.system.ranks, self.system.ranks.rank == 0
+        at_nodes = rhs[: -self._count] if first else rhs
+        below = ranks.sum(rhs[-self._count :].copy() if first else np.zeros(self._count))
+        q = self.solver.solve(np.ascontiguousarray(at_nodes))
+        z = np.linalg.solve(self._schur, below - ranks.sum(self._rows @ q))
+        q = q - self._columns @ z
+        return np.concatenate([q, z]) if first else q

@@ -1,0 +1,193 @@
+"""Ctrl-C, SIGTERM and kill at any time: what is told does not contradict itself, and nothing hidden stays behind."""
+
+from __future__ import annotations
+
+import csv
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from umform import cli
+from umform.deck.templates import write_template
+from umform.processes.air_bending.brake import Brake
+
+SOURCE = Path(cli.__file__).parents[2]
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals")
+SHORT = ["--set", "steps.0.increments=300", "--set", "output.report=false", "--set", "output.pictures=false"]
+
+
+def umform(*words):
+    return CliRunner().invoke(cli.app, [str(word) for word in words])
+
+
+def started(*words, code=""):
+    """The real command line in a process of its own; after some code if there is any."""
+    environment = os.environ | {"PYTHONPATH": str(SOURCE), "OMP_NUM_THREADS": "1"}
+    start = ["-c", f"{code}\nfrom umform.cli import main; main()"] if code else ["-m", "umform"]
+    command = [sys.executable, *start, *map(str, words)]
+    pipes = {"stderr": subprocess.PIPE, "stdout": subprocess.DEVNULL}
+    return subprocess.Popen(command, text=True, env=environment, **pipes)
+
+
+def line_with(run, text):
+    """Read what a process says up to a text."""
+    for line in run.stderr:
+        if text in line:
+            return
+    raise AssertionError(f"{text} was not said")
+
+
+@pytest.fixture
+def deck(tmp_path):
+    write_template("free-bending", tmp_path / "deck.toml")
+    return tmp_path / "deck.toml"
+
+
+def test_sigterm_ends_a_run_as_ctrl_c_does(deck, tmp_path):
+    run = started("run", deck, "--out", tmp_path / "out", "-v", *SHORT)
+    line_with(run, "step 1  time 0.0")
+    run.terminate()
+    _, said = run.communicate(timeout=60)
+    assert run.returncode == cli.INTERRUPTED, said
+    assert "interrupted; what was reached is written" in said
+    assert "given up" not in said
+    assert f"go on with: umform resume {tmp_path / 'out' / 'checkpoint.h5'}" in said
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    assert names == {"history.csv", "fields.vtkhdf", "as-run.toml", "checkpoint.h5"}
+
+
+def test_sigterm_ends_a_demo_with_its_processes_and_leaves_nothing(tmp_path):
+    run = started("demo", "free-bending", "--out", tmp_path / "out", "--processes", 2)
+    for _ in range(600):
+        if list(tmp_path.glob("out/.umform-*")):
+            break
+        time.sleep(0.05)
+    time.sleep(2.0)
+    run.terminate()
+    _, said = run.communicate(timeout=20)  # ends when no process holds the pipe any more
+    assert run.returncode == cli.INTERRUPTED
+    assert "interrupted" in said
+    assert "Traceback" not in said
+    assert not (tmp_path / "out").exists()
+
+
+def test_what_a_killed_run_has_left_is_removed_by_the_next_one(deck, tmp_path):
+    out = tmp_path / "out"
+    run = started("run", deck, "--out", out, "-v", *SHORT)
+    line_with(run, "step 1  time 0.0")
+    run.kill()
+    run.communicate()
+    assert [path.name for path in out.iterdir()] == [".umform-run"]
+    half = out / f".checkpoint.{(out / '.umform-run' / 'owner').read_text()}.00ff00ff.h5"
+    half.touch()  # killed while it wrote a checkpoint
+    answer = umform(
+        "run", deck, "--out", out, *SHORT, "--set", "steps.0.increments=30", "--set", "steps.0.to.punch=-0.5"
+    )
+    assert answer.exit_code == 0, answer.output
+    assert {path.name for path in out.iterdir()} == {"history.csv", "fields.vtkhdf", "as-run.toml"}
+
+
+def test_two_runs_do_not_write_to_one_folder(deck, tmp_path):
+    out = tmp_path / "out"
+    run = started("run", deck, "--out", out, "-v", *SHORT)
+    try:
+        line_with(run, "step 1  time 0.0")
+        second = umform("run", deck, "--out", out, *SHORT)
+        assert second.exit_code == 1
+        assert "another run is writing to this folder" in second.stderr
+        assert f"process {run.pid} on" in second.stderr
+        assert umform("bend", "--stroke", "1", "--out", out).exit_code == 1
+        assert (out / ".umform-run").is_dir()
+    finally:
+        run.kill()
+        run.communicate()
+
+
+SLOW_IMPORT = """
+import os, signal, sys, threading
+class Slow:
+    def find_spec(self, name, path, target=None):
+        if name == {name!r}:
+            os.kill(os.getpid(), signal.{signal})
+            import time; time.sleep(10)
+sys.meta_path.insert(0, Slow())
+"""
+
+
+@pytest.mark.parametrize("name", ["typer", "umform.cli.bend", "umform.deck", "numpy"])
+@pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
+def test_a_signal_during_the_imports_is_one_line(name, number, deck):
+    run = started("check", deck, code=SLOW_IMPORT.format(name=name, signal=number))
+    _, said = run.communicate(timeout=30)
+    assert run.returncode == cli.INTERRUPTED
+    assert said.startswith("umform: interrupted")
+    assert len(said.splitlines()) == 1
+
+
+BEND = ["--stroke", "1.2", "--increment", "0.0125", "--elements-per-thickness", "1", "--layers", "1"]
+
+
+def table_interrupted_by(error, monkeypatch, tmp_path):
+    unload, calls = Brake.unload, []
+
+    def interrupted(self):
+        calls.append(1)
+        if len(calls) == 3:
+            raise error
+        return unload(self)
+
+    monkeypatch.setattr(Brake, "unload", interrupted)
+    return umform("bend", *BEND, "--table", "0.4:1.2:0.2", "--out", tmp_path / "out")
+
+
+def test_ctrl_c_keeps_the_rows_of_a_bending_table(monkeypatch, tmp_path):
+    run = table_interrupted_by(KeyboardInterrupt(), monkeypatch, tmp_path)
+    assert run.exit_code == cli.INTERRUPTED
+    assert run.stderr.count("umform:") == 1
+    assert f"what was reached is in {tmp_path / 'out'}: table.csv" in run.stderr
+    with (tmp_path / "out" / "table.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["stroke"]) for row in rows] == pytest.approx([0.4, 0.6])
+
+
+def test_ctrl_c_in_the_budget_keeps_the_bend(monkeypatch, tmp_path):
+    def interrupted(*arguments, **options):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("umform.processes.air_bending.budget.error_budget", interrupted)
+    run = umform("bend", *BEND, "--budget", "--out", tmp_path / "out")
+    assert run.exit_code == cli.INTERRUPTED
+    assert "all but the budget" in run.stderr
+    assert {"bend.json", "curve.csv", "report.html"} <= {path.name for path in (tmp_path / "out").iterdir()}
+    assert not list((tmp_path / "out").glob(".*"))
+
+
+def test_a_handler_of_the_program_is_left_alone():
+    """Ours goes with the block; one that a program has set is not touched."""
+    from umform.run.interrupt import gentle_interrupt
+
+    before = signal.getsignal(signal.SIGTERM)
+    with gentle_interrupt() as stop:
+        signal.raise_signal(signal.SIGTERM)
+        assert stop.asked
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+    assert signal.getsignal(signal.SIGTERM) is before
+
+    def own(number, frame):
+        pass
+
+    signal.signal(signal.SIGTERM, own)
+    try:
+        with gentle_interrupt() as stop:
+            signal.raise_signal(signal.SIGTERM)
+            assert not stop.asked
+        assert signal.getsignal(signal.SIGTERM) is own
+    finally:
+        signal.signal(signal.SIGTERM, before)

@@ -1,0 +1,25 @@
+import json
+from pathlib import Path
+
+from umform.deck.contents import json_schema
+
+PAGE = Path(__file__).parents[3] / "docs" / "deck-schema.json"
+
+
+def test_the_schema_in_the_docs_is_that_of_the_models():
+    assert PAGE.read_text(encoding="utf-8") == json_schema(), "umform new --schema > docs/deck-schema.json"
+
+
+def described(schema):
+    """All properties of a schema that have no description."""
+    for name, part in schema["$defs"].items():
+        for key, value in part.get("properties", {}).items():
+            if "description" not in value:
+                yield f"{name}.{key}"
+
+
+def test_each_key_is_described_and_no_other_is_allowed():
+    schema = json.loads(json_schema())
+    assert list(described(schema)) == []
+    assert all(part["additionalProperties"] is False for part in schema["$defs"].values() if part["type"] == "object")
+    assert schema["properties"]["title"]["description"]

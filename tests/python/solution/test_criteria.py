@@ -1,0 +1,96 @@
+"""When an iteration is converged: residual, increment, and an active set that has come to rest."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from umform.ranks import ONE
+from umform.solution.criteria import Criteria
+from umform.solution.newton import Newton, NewtonOptions
+from umform.solvers import Pattern
+
+
+class Given:
+    """A system of one unknown with slope 1 whose n-th evaluation has a given residual and active set."""
+
+    effort = extent = 1.0
+    ranks = ONE
+
+    def __init__(self, residuals, active):
+        self.u = np.array([1.0])
+        self.pattern = Pattern(1, np.array([0, 1], dtype=np.int32), np.array([0], dtype=np.int32), True)
+        self.residuals, self.active, self.count = residuals, active, 0
+
+    def restrict(self, r):
+        return r
+
+    coefficients = extend = restrict
+
+    def largest_entry(self, values):
+        return float(np.abs(values).max())
+
+    def prescribed_displacement(self):
+        return np.zeros(1)
+
+    def evaluate(self, u, du=None):
+        self.count += 1
+        residual = np.array([self.residuals[min(self.count, len(self.residuals)) - 1]])
+        return SimpleNamespace(
+            residual=residual, values=np.ones(1), predictor=np.zeros(1), force_scale=1.0, failed=-1, round_off=0.0
+        )
+
+    def active_set(self):
+        return np.array(self.active[min(self.count, len(self.active)) - 1], dtype=bool)
+
+    def flowing(self):
+        return np.zeros(0, dtype=np.uint8)
+
+    def recover(self, du, s, mixed=False):
+        pass
+
+    def revert(self):
+        pass
+
+
+def iterations(residuals, active):
+    return Newton(Given(residuals, active), NewtonOptions(mixed=False)).solve(np.zeros(1)).iterations
+
+
+def test_a_small_residual_is_not_converged_while_the_active_set_changes():
+    """The points that came into touch in the last iteration have not been asked what they do to the next one."""
+    at_rest = iterations([1e-8, 1e-10], [[False]])
+    assert [record.entered for record in at_rest] == [0, 0]
+    moving = iterations([1e-8, 1e-10], [[False], [True], [True]])
+    assert [record.entered for record in moving] == [0, 1, 0]
+    assert [record.left for record in moving] == [0, 0, 0]
+
+
+def test_a_point_that_leaves_counts_as_one_that_comes():
+    records = iterations([1e-8, 1e-10], [[True, True], [True, False], [True, False]])
+    assert [record.left for record in records] == [0, 1, 0]
+
+
+def test_a_set_that_never_rests_is_granted_two_iterations():
+    sets = [[k % 4 < 2, k % 3 == 0, k % 5 == 0] for k in range(40)]
+    records = iterations([1e-8, 1e-10], sets)
+    small = [record for record in records if record.residual < 1e-9]
+    assert len(small) == 3
+    assert all(record.entered + record.left for record in small)
+
+
+@pytest.mark.parametrize(
+    ("norm", "increment", "moved", "met"),
+    [
+        (1e-10, 1e-8, False, True),
+        (1e-10, 1e-8, True, False),
+        (1e-8, 1e-8, False, False),
+        (1e-10, 1e-5, False, False),
+    ],
+)
+def test_residual_increment_and_active_set_must_agree(norm, increment, moved, met):
+    system = Given([0.0], [[False]])
+    criteria = Criteria(system, 1e-9, 1e-6)
+    assert criteria.met(norm, increment, np.ones(1), system.evaluate(system.u), moved=moved) is met
