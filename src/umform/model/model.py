@@ -341,7 +341,7 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
                 term.recover(du[: self.u.size], s, mixed)
 
     def prepare(self) -> None:
-        """See to it that enhanced parameters can be recovered from the converged state, after an attempt that failed."""
+        """Let enhanced parameters be recovered from the converged state, after an attempt that failed."""
         if not all(body.block.keeps_blocks for body in self.bodies):
             self.evaluate(self.x)
 
