@@ -122,7 +122,9 @@ def test_a_blank_of_two_thicknesses_and_two_laws_closes_its_balance_and_names_it
         uniaxial_force(MILD, 0.5 * LENGTH, THIN, 0.01)[-1],
         uniaxial_force(mt.SVK(E=210e3, nu=0.3), 0.5 * LENGTH, THICK, 0.01)[-1],
     ]
-    assert result["pull_force"][-1] == pytest.approx(sum(expected), rel=0.02)
+    tapered = 0.5 * LENGTH / 4 * 0.5 * (THICK - THIN) / (0.5 * LENGTH * THICK)  # the cells at the weld grow thicker
+    expected[1] *= 1.0 - tapered
+    assert result["pull_force"][-1] == pytest.approx(sum(expected), rel=0.003)
 
 
 def test_a_run_of_two_bodies_goes_on_from_its_checkpoint(tmp_path, same_state):
