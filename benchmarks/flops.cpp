@@ -4,9 +4,9 @@
 // how many operations strains, law, integration and condensation take. A sum, product, quotient or root counts as one.
 #include <iostream>
 
+#include "umform/elements/solid_shell.hpp"
 #include "umform/materials/j2.hpp"
 #include "umform/materials/saint_venant_kirchhoff.hpp"
-#include "umform/solid_shell.hpp"
 
 namespace umform {
 
@@ -102,7 +102,7 @@ void count(const Technology& technology) {
     else
         answer(J2{law[0], law[1], LinearVoce{law[2], law[3], law[2], 0.0}}, element, w);
     const long material = since();
-    element.integrate({true, false}, w);
+    element.integrate({.tangent = true, .corrected = false}, w);
     const long integration = since();
     element.condense(true, w);
     std::cout << strains << ' ' << material << ' ' << integration << ' ' << since() << '\n';

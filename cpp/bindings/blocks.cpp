@@ -91,6 +91,9 @@ void bind_blocks(nb::module_& m) {
             nb::arg("du"), nb::arg("s"), nb::arg("mixed") = false,
             nb::sig("def recover(self, du: NDArray[float64], s: float, mixed: bool = False) -> None"),
             "Update the enhanced parameters after u += s du; mixed: the geometric stiffness is of the foreseen stress.")
+        .def_prop_ro(
+            "keeps_blocks", &ShellBlock::keeps_blocks,
+            "Whether enhanced parameters can be recovered from the converged state without an evaluation there.")
         .def("undo_recover", &ShellBlock::undo_recover, "Take the last recover back.")
         .def("commit", &ShellBlock::commit, "Make the trial history the converged one.")
         .def("revert", &ShellBlock::revert, "Go back to the converged history.")

@@ -2,33 +2,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from umform.deck.parts import Axis, Directions, Name, Part, Vector, Way
+from umform.deck.parts import Axis, Name, Part, Vector, Way
 from umform.deck.selection import Selection, faces_of, nodes_of
 from umform.model import Model
+from umform.model.axes import Axes, cylindrical
 from umform.model.contact import Contact
 from umform.model.control import Control
+from umform.model.support import Support as Held
 
 Contacts = Mapping[str, Contact]
 
 
-class Fix(Part):
+class Around(Part):
+    """Cylindrical axes r, t, a around a line."""
+
+    origin: Vector
+    """A point of the axis."""
+    axis: Way
+    """Direction of the axis."""
+
+    def build(self) -> Axes:
+        """The axes."""
+        return cylindrical(self.origin, self.axis)
+
+
+class _Supporting(Part):
+    """What supports in axes of their own have in common."""
+
+    nodes: Selection
+    """Which nodes; for a mid-line or a director the lower and upper nodes of the edge."""
+    directions: Annotated[str, Field(pattern=r"^[xyzrta]{1,3}$")] | None = None
+    """Letters of the directions: x, y, z, or r, t, a of the axes; by default all three."""
+    axes: Around | None = None
+    """Cylindrical axes instead of x, y, z."""
+    name: Name | None = None
+    """Name, by which a step may free it."""
+
+    def _hold(self, method: Callable[..., Held], model: Model) -> Held:
+        axes = None if self.axes is None else self.axes.build()
+        return method(nodes_of(model.mesh, self.nodes), self.directions, axes=axes, name=self.name or "")
+
+
+class Fix(_Supporting):
     """Nodes that are held."""
 
     kind: Literal["fix"]
     """The word fix."""
-    nodes: Selection
-    """Which nodes."""
-    directions: Directions = "xyz"
-    """Letters of the directions."""
 
-    def add_to(self, model: Model) -> None:
+    def add_to(self, model: Model) -> Held:
         """Hold the nodes."""
-        model.fix(nodes_of(model.mesh, self.nodes), self.directions)
+        return self._hold(model.fix, model)
 
 
 class Symmetry(Part):
@@ -41,27 +69,34 @@ class Symmetry(Part):
     normal: Axis
     """Normal of the plane."""
 
-    def add_to(self, model: Model) -> None:
+    def add_to(self, model: Model) -> Held:
         """Hold the nodes in the plane."""
-        model.symmetry(nodes_of(model.mesh, self.nodes), self.normal)
+        return model.symmetry(nodes_of(model.mesh, self.nodes), self.normal)
 
 
-class Hinge(Part):
+class Hinge(_Supporting):
     """Mid-line of an edge that is held; the edge may turn about it."""
 
     kind: Literal["hinge"]
     """The word hinge."""
-    nodes: Selection
-    """Lower and upper nodes of the edge."""
-    directions: Directions = "xyz"
-    """Letters of the directions."""
 
-    def add_to(self, model: Model) -> None:
+    def add_to(self, model: Model) -> Held:
         """Hold the mid-line."""
-        model.hinge(nodes_of(model.mesh, self.nodes), self.directions)
+        return self._hold(model.hinge, model)
 
 
-Support = Annotated[Fix | Symmetry | Hinge, Field(discriminator="kind")]
+class Director(_Supporting):
+    """Director of an edge that stays in the planes normal to the directions, and may tilt and stretch there."""
+
+    kind: Literal["director"]
+    """The word director."""
+
+    def add_to(self, model: Model) -> Held:
+        """Hold the director."""
+        return self._hold(model.hold_director, model)
+
+
+Support = Annotated[Fix | Symmetry | Hinge | Director, Field(discriminator="kind")]
 
 # Controls ----------------------------------------------------------------------------------------------------
 

@@ -20,6 +20,7 @@ from umform.materials import Material
 from umform.model import Model
 from umform.model.contact import Contact
 from umform.model.control import Control
+from umform.model.support import Support
 from umform.run import Result, resume, solve
 from umform.solution.newton import Newton, NewtonOptions
 from umform.steps import Step
@@ -122,11 +123,11 @@ class _Builder:
         if model is None:
             raise DeckError(self.errors)
         contacts = self._contacts(model, tools)
-        self._supports(model)
+        supports = self._supports(model)
         controls = self._controls(model, contacts)
         options = self._options(model)
         self._raise()
-        steps = self._steps(controls)
+        steps = self._steps(controls, supports)
         self._raise()
         return Problem(
             model=model,
@@ -195,10 +196,14 @@ class _Builder:
                 contacts[name] = part.add_to(model, tools[part.tool], name)
         return contacts
 
-    def _supports(self, model: Model) -> None:
+    def _supports(self, model: Model) -> dict[str, Support]:
+        """The supports by name."""
+        supports: dict[str, Support] = {}
         for number, part in enumerate(self.contents.supports):
             with self._at("supports", number):
-                part.add_to(model)
+                support = part.add_to(model)
+                supports[support.name] = support
+        return supports
 
     def _controls(self, model: Model, contacts: dict[str, Contact]) -> dict[str, Control]:
         controls: dict[str, Control] = {}
@@ -227,11 +232,11 @@ class _Builder:
                 _ = Newton(model, options, self.solver).solver
         return options
 
-    def _steps(self, controls: dict[str, Control]) -> list[Step]:
+    def _steps(self, controls: dict[str, Control], supports: dict[str, Support]) -> list[Step]:
         steps: list[Step] = []
         for number, part in enumerate(self.contents.steps):
             with self._at("steps", number):
-                steps.append(part.build(controls))
+                steps.append(part.build(controls, supports))
         return steps
 
     def _at(self, *path: str | int) -> _Place:

@@ -1,4 +1,4 @@
-"""Names in a deck that stand for something else in it: tools of contacts, contacts of drives, controls of steps."""
+"""Names in a deck that stand for something else in it: tools, contacts, controls and supports."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ def unknown_names(source: Source) -> Iterator[DeckKey]:
         The deck.
     """
     for kind, name, path in references(source.data):
-        known = list(_table(source.data, kind))
+        known = _names(source.data, kind)
         if name not in known:
             yield DeckKey(
                 f"there is no {kind[:-1]} of this name",
                 where=source.place(path),
                 value=shortened(name),
                 cause=slip(name, known, "another name than those of the deck" if known else f"the deck has no {kind}"),
-                remedy=f"{kind}: {', '.join(known)}" if known else f"add [{kind}.{shortened(name)}]",
+                remedy=f"{kind}: {', '.join(known)}" if known else _how_to_add(kind, shortened(name)),
             )
 
 
@@ -47,6 +47,21 @@ def references(data: dict[str, Any]) -> Iterator[tuple[str, str, Path]]:
                 yield "controls", name, ("steps", number, "to", name)
         if isinstance(step.get("control"), str):
             yield "controls", step["control"], ("steps", number, "control")
+        if isinstance(step.get("support"), str):
+            yield "supports", step["support"], ("steps", number, "support")
+
+
+def _names(data: dict[str, Any], kind: str) -> list[str]:
+    """The names of the things of a kind; supports stand in a list, and some of them have a name."""
+    if kind != "supports":
+        return list(_table(data, kind))
+    supports = data.get(kind)
+    named = [part.get("name") for part in supports if isinstance(part, dict)] if isinstance(supports, list) else []
+    return [name for name in named if isinstance(name, str)]
+
+
+def _how_to_add(kind: str, name: str) -> str:
+    return f'name = "{name}" in one of the [[supports]]' if kind == "supports" else f"add [{kind}.{name}]"
 
 
 def _table(data: dict[str, Any], key: str) -> dict[str, Any]:

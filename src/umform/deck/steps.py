@@ -10,9 +10,11 @@ from pydantic import Field
 from umform import steps
 from umform.deck.parts import Count, Name, Part, Positive
 from umform.model.control import Control
+from umform.model.support import Support
 from umform.solution.newton import NewtonOptions
 
 Controls = Mapping[str, Control]
+Supports = Mapping[str, Support]
 Targets = Annotated[dict[Name, float], Field(min_length=1)]
 Cuts = Annotated[int, Field(ge=0, le=40)]
 Grow = Annotated[float, Field(ge=1)]
@@ -34,7 +36,7 @@ class Move(Part):
     grow: Grow = 1.0
     """Largest increment over the nominal one."""
 
-    def build(self, controls: Controls) -> steps.Step:
+    def build(self, controls: Controls, supports: Supports) -> steps.Step:
         """The step."""
         moved = [controls[name] for name in self.to]
         return steps.Move(moved, list(self.to.values()), steps=self.increments, cuts=self.cuts, grow=self.grow)
@@ -57,7 +59,7 @@ class Release(Part):
     tolerance: Positive = 1e-6
     """Force that counts as zero, relative to that at the beginning."""
 
-    def build(self, controls: Controls) -> steps.Step:
+    def build(self, controls: Controls, supports: Supports) -> steps.Step:
         """The step."""
         return steps.Release(controls[self.control], self.increment, self.tolerance)
 
@@ -87,7 +89,7 @@ class Arc(Part):
     most: Annotated[int, Field(ge=1, le=1_000_000)] = 200
     """Number of increments at which the step ends with a warning."""
 
-    def build(self, controls: Controls) -> steps.Step:
+    def build(self, controls: Controls, supports: Supports) -> steps.Step:
         """The step."""
         return steps.Arc(
             [controls[name] for name in self.to],
@@ -106,7 +108,31 @@ class Arc(Part):
         return self.most
 
 
-StepPart = Annotated[Move | Release | Arc, Field(discriminator="kind")]
+class Free(Part):
+    """Take a support away gradually: its reactions become a load that goes to zero."""
+
+    kind: Literal["free"]
+    """The word free."""
+    support: Name
+    """Name of the support."""
+    increments: Annotated[int, Field(ge=1, le=1_000_000)] = 10
+    """Number of equal increments."""
+    cuts: Cuts = 10
+    """How often an increment may be halved."""
+    grow: Grow = 1.0
+    """Largest increment over the nominal one."""
+
+    def build(self, controls: Controls, supports: Supports) -> steps.Step:
+        """The step."""
+        return steps.Free(supports[self.support], steps=self.increments, cuts=self.cuts, grow=self.grow)
+
+    @property
+    def expected(self) -> int:
+        """About how many increments it takes."""
+        return self.increments
+
+
+StepPart = Annotated[Move | Release | Arc | Free, Field(discriminator="kind")]
 
 
 class Solution(Part):

@@ -149,10 +149,14 @@ class Body(Term):
         return self
 
     @property
+    def whole(self) -> bool:
+        """Whether it has all cells of the mesh."""
+        return len(self.cells) == len(self.mesh.connectivity)
+
+    @property
     def connectivity(self) -> NDArray[np.int32]:
         """Nodes of its cells, shape (cells, nodes)."""
-        whole = len(self.cells) == len(self.mesh.connectivity)
-        return self.mesh.connectivity if whole else self.mesh.connectivity[self.cells]
+        return self.mesh.connectivity if self.whole else self.mesh.connectivity[self.cells]
 
     @cached_property
     def block(self) -> _core.ShellBlock:

@@ -340,6 +340,11 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
             for term in self.terms:
                 term.recover(du[: self.u.size], s, mixed)
 
+    def prepare(self) -> None:
+        """Let enhanced parameters be recovered from the converged state, after an attempt that failed."""
+        if not all(body.block.keeps_blocks for body in self.bodies):
+            self.evaluate(self.x)
+
     def undo_recover(self) -> None:
         """Take the last :meth:`recover` back."""
         for term in self.terms:

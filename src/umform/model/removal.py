@@ -1,7 +1,7 @@
 """Take supports and tools away from a model; the forces that they exerted become a dead load, which may then fade.
 
 The load is what equilibrium asks for over the new unknowns, T T^T r with the residual r of the model without what was
-removed: its columns are orthonormal, so the present state is in equilibrium at the factor 1. docs/theory, 5.10
+removed: the columns of T are orthonormal, so the present state is in equilibrium at the factor 1. eq. (5.45)
 """
 
 from __future__ import annotations
@@ -123,12 +123,18 @@ def put_supports(model: Model, states: Mapping[str, Any]) -> None:
         if support.load is None or support.name not in states:
             continue
         state = states[support.name]
+        base, removed = state["base"], bool(state["removed"])
         support.load.vector = np.array(state["vector"])
-        changed |= support.removed != state["removed"] or support.base is not state["base"]
-        support.removed = bool(state["removed"])
-        support.hold_at(state["base"])
+        if support.removed == removed and _same(support.base, base):
+            continue
+        changed, support.removed = True, removed
+        support.hold_at(base)
     if changed:
         model.hold_again()
+
+
+def _same(one: NDArray[np.float64] | None, other: NDArray[np.float64] | None) -> bool:
+    return one is other if one is None or other is None else np.array_equal(one, other)
 
 
 def _remove_contact(model: Model, contact: Contact) -> Load:

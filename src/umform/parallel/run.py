@@ -101,11 +101,12 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
                 cause="the unknowns of all ranks would have to be numbered again",
                 remedy="another solver in one process; or remove() between two calls of solve()",
             )
-    if model.rows or any(support.base is not None for support in model.supports):
+    asked_by = {part.by for part in model.rows} | {str(part) for part in model.supports if part.base is not None}
+    if asked_by:
         raise InvalidValue(
             "supports in local axes, and those that hold nodes where they are now, do not go with the solver petsc",
             where="supports",
-            value="; ".join(str(support) for support in model.supports if support.rows or support.base is not None),
+            value=", ".join(sorted(asked_by)),
             cause="ranks share out single degrees of freedom and pairs of them",
             remedy="another solver in one process, or supports along x, y and z of the undeformed mesh",
         )
@@ -158,7 +159,7 @@ def _give_back(share: Share, result: History | None) -> None:
     whole.elsewhere = True
     for thing in (*whole.bodies, *whole.contacts):
         thing.elsewhere = True
-        for made in ("block", "multipliers"):
+        for made in ("block", "_areas", "_no_multipliers"):
             vars(thing).pop(made, None)
     if result is not None:
         result.model = whole

@@ -149,7 +149,9 @@ def test_forces_of_uniform_pressure_are_consistent_on_distorted_faces(build, cel
 def test_nodal_rule_has_the_tributary_areas_of_the_shape_functions(cell, parts):
     mesh = strip(2.0, 1.5, 0.2, (1, 1), cell=cell)
     model, contact = contact_of(mesh, Plane(), "nodes", cell=cell)
-    np.testing.assert_allclose(model.evaluate(model.u).found[contact].area, 3.0 * np.array(parts) / sum(parts), rtol=1e-13)
+    np.testing.assert_allclose(
+        model.evaluate(model.u).found[contact].area, 3.0 * np.array(parts) / sum(parts), rtol=1e-13
+    )
 
 
 @pytest.mark.parametrize(

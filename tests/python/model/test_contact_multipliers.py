@@ -118,7 +118,7 @@ def test_multipliers_are_part_of_the_converged_state(curves):
     model, contact = held.model, held.model.contacts[0]
     saved = model.snapshot()
     assert contact.multipliers.max() > 1.0
-    kept = saved.terms["contact tool"]["multipliers"].ravel()
+    kept = saved.terms["contact tool"]["history"].ravel()
     np.testing.assert_array_equal(kept, contact.multipliers)
     first = solve(model, Move(held.punch, -1.5, steps=5), frames=0)["punch_force"]
     assert not np.array_equal(kept, contact.multipliers)

@@ -15,6 +15,7 @@ from umform.mesh import strip
 from umform.parallel.cutting import by_rank
 from umform.parallel.numbering import Owners, tied_pairs
 from umform.parallel.partition import columns
+from umform.parallel.run import _outline
 from umform.ranks import ONE
 from umform.run import solve
 
@@ -94,7 +95,7 @@ def test_without_a_model_one_process_has_nothing_to_solve():
 
 def test_what_the_ranks_had_is_not_taken_for_a_fresh_state():
     model = uf.Model(strip(8.0, 3.0, 1.0, (4, 3)), material=STEEL)
-    model.elsewhere = True
+    model.bodies[0].elsewhere = True
     with pytest.raises(ModelError, match="the history of the elements is not here"):
         model.evaluate(model.u)
     floor = model.contact("lower", uf.Plane((0, 0, -0.5), (0, 0, 1)), penalty=1.0)
@@ -107,3 +108,26 @@ def test_nothing_of_mpi_is_imported_without_being_asked_for():
     code = "import sys, umform, umform.cli, umform.parallel.run; print({'mpi4py', 'petsc4py'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"
+
+
+AROUND = uf.cylindrical((0.0, 0.0, -20.0), "y")
+
+
+@pytest.mark.parametrize(
+    ("support", "name"),
+    [
+        (lambda model: model.fix("x1", "r", axes=AROUND, name="roller"), "roller"),
+        (lambda model: model.prescribe("x1", "r", "push", axes=AROUND), "push"),
+        (lambda model: model.hold_director("x1", "z", name="edge"), "edge"),
+        (lambda model: model.fix("x1", "z", here=True, name="prop"), "prop"),
+    ],
+)
+def test_supports_that_ranks_cannot_share_are_refused_by_name(support, name):
+    model = uf.Model(strip(8.0, 3.0, 1.0, (4, 3)), material=STEEL)
+    clamp = model.fix("x0")
+    support(model)
+    with pytest.raises(InvalidValue, match="do not go with the solver petsc") as caught:
+        _outline(model, [], ONE)
+    assert name in str(caught.value)
+    with pytest.raises(InvalidValue, match="cannot be freed"):
+        _outline(model, [uf.Free(clamp)], ONE)

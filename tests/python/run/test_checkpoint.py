@@ -227,9 +227,9 @@ def run_until_killed(path: str, increment: int, writing: bool) -> None:
         add(self, *arguments, **more)
         rows.append(len(self))
 
-    def kill_in_the_second_iteration(self, iterations, number, *arguments):
-        record(self, iterations, number, *arguments)
-        if not writing and len(rows) > increment and number == 2:
+    def kill_in_the_second_iteration(self, iterations, *arguments):
+        record(self, iterations, *arguments)
+        if not writing and len(rows) > increment and len(iterations) == 2:
             os.kill(os.getpid(), signal.SIGKILL)
 
     def kill(self):
@@ -243,7 +243,9 @@ def run_until_killed(path: str, increment: int, writing: bool) -> None:
 
 
 @pytest.mark.parametrize(("increment", "writing"), [(0, False), (3, False), (12, False), (3, True)])
-def test_a_process_that_is_killed_leaves_a_checkpoint_that_goes_on_to_the_same_bits(increment, writing, tmp_path, assert_the_same):
+def test_a_process_that_is_killed_leaves_a_checkpoint_that_goes_on_to_the_same_bits(
+    increment, writing, tmp_path, assert_the_same
+):
     """In the first increment, on the way, in the release, and while a checkpoint is written."""
     path = tmp_path / "run.h5"
     command = f"import test_checkpoint as t; t.run_until_killed({str(path)!r}, {increment}, {writing})"

@@ -17,10 +17,11 @@ class Given:
     """A system of one unknown with slope 1 whose n-th evaluation has a given residual and active set."""
 
     effort = extent = 1.0
+    smooth = False
     ranks = ONE
 
     def __init__(self, residuals, active):
-        self.u = np.array([1.0])
+        self.x = np.array([1.0])
         self.pattern = Pattern(1, np.array([0, 1], dtype=np.int32), np.array([0], dtype=np.int32), True)
         self.residuals, self.active, self.count = residuals, active, 0
 
@@ -39,14 +40,10 @@ class Given:
         self.count += 1
         residual = np.array([self.residuals[min(self.count, len(self.residuals)) - 1]])
         return SimpleNamespace(
-            residual=residual, values=np.ones(1), predictor=np.zeros(1), force_scale=1.0, failed=-1, round_off=0.0
-        )
-
-    def active_set(self):
-        return np.array(self.active[min(self.count, len(self.active)) - 1], dtype=bool)
-
-    def flowing(self):
-        return np.zeros(0, dtype=np.uint8)
+            x=u, residual=residual, values=np.ones(1), predictor=np.zeros(1), border=SimpleNamespace(unknowns=()),
+            force_scale=1.0, failed=-1, round_off=0.0, flowing=np.zeros(0, dtype=np.uint8),
+            active=np.array(self.active[min(self.count, len(self.active)) - 1], dtype=bool),
+        )  # fmt: skip
 
     def recover(self, du, s, mixed=False):
         pass
@@ -93,4 +90,4 @@ def test_a_set_that_never_rests_is_granted_two_iterations():
 def test_residual_increment_and_active_set_must_agree(norm, increment, moved, met):
     system = Given([0.0], [[False]])
     criteria = Criteria(system, 1e-9, 1e-6)
-    assert criteria.met(norm, increment, np.ones(1), system.evaluate(system.u), moved=moved) is met
+    assert criteria.met(norm, increment, np.ones(1), system.evaluate(system.x), moved=moved) is met

@@ -28,8 +28,6 @@ class ShellBlockOf final : public ShellBlock {
         history_.initialise([this](double* state) { material_->initial(state); });
         alpha_.assign(elements * modes, 0.0);
         alpha_before_ = alpha_converged_ = alpha_;
-        y_.resize(batches_.all.size() * modes);
-        Y_.resize(batches_.all.size() * modes * size);
         scale_.resize(elements);
         failed_.resize(elements);
         energy_.resize(elements);
@@ -46,13 +44,14 @@ class ShellBlockOf final : public ShellBlock {
 
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         if (target.values != nullptr) scatter.require(symmetric(), "the law of the elements");
+        if (target.wants_tangent()) begin_blocks();
         for_each_batch([&](int b, Workspace& w) {
             const Batch& batch = batches_.all[b];
             const Failures failures = compute(batch, u, target.wants_tangent(), correction_, trial_of(batch), w);
             if (target.wants_tangent()) {
                 const std::size_t modes = element_.modes();
-                std::copy(w.shell.ra.begin(), w.shell.ra.end(), y_.begin() + b * modes);
-                std::copy(w.shell.Kad.begin(), w.shell.Kad.end(), Y_.begin() + b * modes * size);
+                std::copy(w.shell.ra.begin(), w.shell.ra.end(), last_.y.begin() + b * modes);
+                std::copy(w.shell.Kad.begin(), w.shell.Kad.end(), last_.Y.begin() + b * modes * size);
             }
             for (int lane = 0; lane < batch.count; ++lane) {
                 const int e = batch.element[lane];
@@ -73,25 +72,49 @@ class ShellBlockOf final : public ShellBlock {
 
     void recover_enhanced(const double* du, double s) override {
         const int modes = element_.modes();
+        const Eliminated& from = from_kept_ ? kept_ : last_;
+        if (from.y.empty()) return;  // nothing has been evaluated yet
         for_each_batch([&](int b, Workspace& w) {
             const Batch& batch = batches_.all[b];
             gather<Nodes>(part_, batch, du, w.u);
             for (int m = 0; m < modes; ++m) {
                 const std::size_t row = static_cast<std::size_t>(b) * modes + m;
                 Lanes sum = 0.0;
-                for (int i = 0; i < size; ++i) sum += Y_[row * size + i] * w.u[i];
-                const Lanes change = y_[row] + s * sum;
+                for (int i = 0; i < size; ++i) sum += from.Y[row * size + i] * w.u[i];
+                const Lanes change = from.y[row] + s * sum;
                 for (int lane = 0; lane < batch.count; ++lane)
                     alpha_[static_cast<std::size_t>(batch.element[lane]) * modes + m] -= change[lane];
             }
         });
     }
 
+    bool keeps_blocks() const override { return keeps_ || element_.modes() == 0; }
+    void keep_blocks() override {
+        if (from_kept_) return;
+        std::swap(last_, kept_);
+        from_kept_ = keeps_ = !kept_.y.empty();
+    }
+    void return_to_kept_blocks() override { from_kept_ = keeps_; }
+    void forget_blocks() override { from_kept_ = keeps_ = false; }
+
     void element(int e, const double* u, double* K, double* f) override;
     void fields(const double* u, const PointFields& out) override;
     Energy energy(const double* u) override;
 
   private:
+    /// What the elimination of the enhanced parameters leaves: [batch] Kaa^-1 ra, Kaa^-1 Kad.
+    struct Eliminated {
+        std::vector<Lanes> y, Y;
+    };
+
+    /// The blocks of the evaluation that begins take the place of those of the last one.
+    void begin_blocks() {
+        const std::size_t rows = batches_.all.size() * element_.modes();
+        last_.y.resize(rows);
+        last_.Y.resize(rows * size);
+        from_kept_ = false;
+    }
+
     using Failures = std::array<Failure, lane_count>;
 
     /// Of one thread.
@@ -261,7 +284,8 @@ class ShellBlockOf final : public ShellBlock {
     std::vector<double> rolling_;  // none, one, or one for each element
     Batches batches_;
     std::vector<Workspace> workspaces_;  // one a thread
-    std::vector<Lanes> y_, Y_;           // [batch] Kaa^-1 ra, Kaa^-1 Kad of the last evaluate
+    Eliminated last_, kept_;             // of the last evaluate with a tangent, and of the converged state
+    bool from_kept_ = false, keeps_ = false;
     std::vector<double> scale_;
     std::vector<Failure> failed_;
     std::vector<Energy> energy_;

@@ -36,8 +36,8 @@ class ShellBlock {
     /// K, f of one element before its scatter, condensed; for tests and eigenvalues.
     virtual void element(int e, const double* u, double* K, double* f) = 0;
 
-    /// alpha -= Kaa^-1 (ra + s Kad du) with the blocks of the last `evaluate` with a tangent; those without one leave the blocks
-    /// as they are. eq. (2.19) If `mixed`, the evaluations that follow take the geometric stiffness from the stress that the
+    /// alpha -= Kaa^-1 (ra + s Kad du) with the blocks of the last `evaluate` with a tangent, or with those of the converged state
+    /// if there was none since `commit` or `revert`. eq. (2.19) If `mixed`, the evaluations that follow take the geometric stiffness from the stress that the
     /// correction s du foresaw. eq. (5.39)
     void recover(const double* du, double s, bool mixed) {
         alpha_before_ = alpha_;
@@ -55,12 +55,16 @@ class ShellBlock {
         history_.commit();
         alpha_converged_ = alpha_;
         correction_.clear();
+        keep_blocks();
     }
     void revert() {
         history_.revert();
         alpha_ = alpha_before_ = alpha_converged_;
         correction_.clear();
+        return_to_kept_blocks();
     }
+    /// Whether the blocks of the converged state are there: not before the first `commit`, and not after `restore`.
+    virtual bool keeps_blocks() const = 0;
 
     const std::vector<double>& state() const { return history_.state(); }
     /// The parts of the history of a point, in their order.
@@ -71,6 +75,7 @@ class ShellBlock {
     void restore(const double* state, const double* alpha) {
         history_.restore(state, history_.state().size());
         alpha_converged_.assign(alpha, alpha + alpha_converged_.size());
+        forget_blocks();
         revert();
     }
 
@@ -82,6 +87,9 @@ class ShellBlock {
   protected:
     std::int32_t number_of(int e) const { return numbers_.empty() ? e : numbers_[e]; }
     virtual void recover_enhanced(const double* du, double s) = 0;
+    virtual void keep_blocks() = 0;
+    virtual void return_to_kept_blocks() = 0;
+    virtual void forget_blocks() = 0;
 
     std::vector<std::int32_t> numbers_;
     std::vector<double> correction_;                              // of all degrees of freedom, or empty
