@@ -80,7 +80,8 @@ def test_every_class_has_a_sentence_of_documentation(kind):
 
 
 SOURCE = Path(umform.__file__).parent
-FILES = [SOURCE / f"{name}.py" for name in ("materials", "ties", "supports")] + sorted(SOURCE.glob("surfaces/*.py"))
+FILES = [SOURCE / "model" / f"{name}.py" for name in ("ties", "supports")]
+FILES += [file for folder in ("materials", "surfaces") for file in sorted((SOURCE / folder).glob("*.py"))]
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
