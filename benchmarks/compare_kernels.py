@@ -47,7 +47,7 @@ def answers(core: str) -> dict[str, np.ndarray]:
                 if evaluation.failed >= 0:
                     break
                 model.recover(0.01 * u, 0.7)
-                model.commit(u)
+                model.commit(evaluation)
                 results[f"alpha {case}"], results[f"history {case}"] = model.block.alpha, model.block.state
                 try:
                     fields = model.block.point_fields(u)

@@ -4,9 +4,9 @@
 // how many operations strains, law, integration and condensation take. A sum, product, quotient or root counts as one.
 #include <iostream>
 
+#include "umform/elements/solid_shell.hpp"
 #include "umform/materials/j2.hpp"
 #include "umform/materials/saint_venant_kirchhoff.hpp"
-#include "umform/solid_shell.hpp"
 
 namespace umform {
 
@@ -86,7 +86,7 @@ template <int Nodes>
 void count(const Technology& technology) {
     const int surface_points = read_count(), layers = read_count();
     const std::vector<double> t = read(layers), weights = read(layers);
-    const SolidShell<Nodes, Counted> element(technology, surface_points, {t, weights});
+    const SolidShell<Nodes, Counted> element(technology, surface_points, {t, weights}, true);
     const std::vector<double> law = read(read_count()), X = read(3 * Nodes), u = read(3 * Nodes);
     typename SolidShell<Nodes, Counted>::Nodal local_X, local_u;
     std::copy(X.begin(), X.end(), local_X.begin());
@@ -95,16 +95,16 @@ void count(const Technology& technology) {
     const std::vector<Counted> alpha(element.modes(), 0.0);
     const auto part = [before = 0L]() mutable { return operations - std::exchange(before, operations); };
     auto since = part;
-    element.strains(local_X, local_u, alpha.data(), w);
+    element.strains(local_X, local_u, alpha.data(), nullptr, w);
     const long strains = since();
     if (law.size() == 2)
         answer(SaintVenantKirchhoff{law[0], law[1]}, element, w);
     else
         answer(J2{law[0], law[1], LinearVoce{law[2], law[3], law[2], 0.0}}, element, w);
     const long material = since();
-    element.integrate(false, w);
+    element.integrate({.tangent = true, .corrected = false}, w);
     const long integration = since();
-    element.condense(w);
+    element.condense(true, w);
     std::cout << strains << ' ' << material << ' ' << integration << ' ' << since() << '\n';
 }
 

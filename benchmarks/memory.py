@@ -41,16 +41,16 @@ def stages(elements: int, solver: str) -> Iterator[tuple[str, float, float]]:
     yield "history, converged and trial", peak(), held / MB
     condensed = 8 * count * block.modes * (1 + mesh.connectivity.shape[1] * 3)
     yield "condensed blocks of the enhanced parameters", peak(), condensed / MB
-    assembly = model._assembly()
-    yield "scatter map", peak(), assembly.scatter.bytes / MB
+    maps = [scatter for scatters in model._assembly().scatters.values() for scatter in scatters]
+    yield "scatter map", peak(), sum(scatter.bytes for scatter in maps) / MB
     pattern = model.pattern
     yield "pattern, upper triangle", peak(), (pattern.indices.nbytes + pattern.indptr.nbytes) / MB
-    values = model.evaluate(model.u).values
-    yield "matrix, upper triangle", peak(), values.nbytes / MB
+    evaluation = model.evaluate(model.u)
+    yield "matrix, upper triangle", peak(), evaluation.values.nbytes / MB
     newton = Newton(model, solver=solver)
     sparse = newton.ready_solver()
-    yield f"analysis by {sparse.name}", peak(), math.nan
-    told = sparse.factor(values)
+    yield f"analysis by {sparse.solver.name}", peak(), math.nan
+    told = sparse.factor(evaluation)
     yield "factors", peak(), 8 * told.fill / MB
     sparse.solve(np.ones(pattern.n))
     yield "solution", peak(), 8 * pattern.n / MB

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <vector>
 
-#include "umform/lanes.hpp"
+#include "umform/algebra/lanes.hpp"
 
 using umform::Lanes;
 

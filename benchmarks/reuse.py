@@ -71,7 +71,7 @@ def costs(cells: int) -> None:
     for label, model in models.items():
         pattern, solver = model.pattern, Newton(model).ready_solver()
         evaluate, evaluation = best(model.evaluate, model.u)
-        factor, told = best(solver.factor, evaluation.values)
+        factor, told = best(solver.factor, evaluation)
         solve, _ = best(solver.solve, np.ones(pattern.n))
         fill = told.fill
         units = (

@@ -8,6 +8,7 @@
 #include <nanobind/ndarray.h>
 
 #include "umform/assembly/connectivity.hpp"
+#include "umform/assembly/history.hpp"
 
 namespace nb = nanobind;
 
@@ -32,6 +33,13 @@ inline void copy_result(nb::handle result, double* out, std::size_t size) {
     const auto array = nb::cast<Input>(result);
     if (array.size() != size) throw std::invalid_argument("a function has returned an array of another size");
     std::copy_n(array.data(), size, out);
+}
+
+/// Names and sizes of the parts of a history, in their order.
+inline nb::dict to_dict(const std::vector<umform::Quantity>& quantities) {
+    nb::dict names;
+    for (const umform::Quantity& quantity : quantities) names[quantity.name.c_str()] = quantity.size;
+    return names;
 }
 
 inline umform::Connectivity to_connectivity(const InputIds& ids) {

@@ -13,14 +13,17 @@ Rule to_rule(const Input& x, const Input& w) { return {to_vector(x), to_vector(w
 
 std::unique_ptr<ShellBlock> shell_block(const Technology& technology, int surface_points, const Input& t,
                                         const Input& w, std::shared_ptr<Material> material,
-                                        const InputIds& connectivity, const Input& X) {
+                                        const InputIds& connectivity, const Input& X,
+                                        const std::optional<Input>& rolling) {
     Connectivity part = to_connectivity(connectivity);
+    std::vector<double> directions;
+    if (rolling) directions = to_vector(*rolling);
     if (part.nodes == 8)
         return std::make_unique<ShellBlockOf<8>>(technology, surface_points, to_rule(t, w), std::move(material),
-                                                 std::move(part), to_vector(X));
+                                                 std::move(part), to_vector(X), std::move(directions));
     if (part.nodes == 18)
         return std::make_unique<ShellBlockOf<18>>(technology, surface_points, to_rule(t, w), std::move(material),
-                                                  std::move(part), to_vector(X));
+                                                  std::move(part), to_vector(X), std::move(directions));
     throw std::invalid_argument("a solid-shell has 8 or 18 nodes");
 }
 
@@ -69,11 +72,28 @@ void bind_blocks(nb::module_& m) {
     shell.def_prop_ro("points", &ShellBlock::points)
         .def_prop_ro("modes", &ShellBlock::modes)
         .def_prop_ro("state_size", &ShellBlock::state_size)
+        .def_prop_ro(
+            "state_names", [](const ShellBlock& b) { return to_dict(b.state_names()); },
+            nb::sig("def state_names(self) -> dict[str, int]"), "Parts of the history of a point, in their order.")
+        .def_prop_ro("symmetric", &ShellBlock::symmetric, "Whether the tangent is symmetric.")
+        .def_rw("step", &ShellBlock::step, "Increment of time, for laws that ask for it.")
+        .def(
+            "set_numbers",
+            [](ShellBlock& b, const InputIds& numbers) {
+                require(numbers.size() == static_cast<std::size_t>(b.connectivity().size()),
+                        "there is one number for each cell");
+                b.set_numbers({numbers.data(), numbers.data() + numbers.size()});
+            },
+            nb::arg("numbers"), nb::sig("def set_numbers(self, numbers: NDArray[int32]) -> None"),
+            "Numbers of the cells for messages, where they are a part of a larger mesh.")
         .def(
             "recover", [](ShellBlock& b, const Input& du, double s, bool mixed) { b.recover(nodal(b, du), s, mixed); },
             nb::arg("du"), nb::arg("s"), nb::arg("mixed") = false,
             nb::sig("def recover(self, du: NDArray[float64], s: float, mixed: bool = False) -> None"),
             "Update the enhanced parameters after u += s du; mixed: the geometric stiffness is of the foreseen stress.")
+        .def_prop_ro(
+            "keeps_blocks", &ShellBlock::keeps_blocks,
+            "Whether enhanced parameters can be recovered from the converged state without an evaluation there.")
         .def("undo_recover", &ShellBlock::undo_recover, "Take the last recover back.")
         .def("commit", &ShellBlock::commit, "Make the trial history the converged one.")
         .def("revert", &ShellBlock::revert, "Go back to the converged history.")
@@ -124,7 +144,8 @@ void bind_blocks(nb::module_& m) {
              "Condensed K and f of one element.");
     m.def(
         "shell_block", &shell_block, nb::arg("technology"), nb::arg("surface_points"), nb::arg("t"), nb::arg("w"),
-        nb::arg("material"), nb::arg("connectivity"), nb::arg("X"),
+        nb::arg("material"), nb::arg("connectivity"), nb::arg("X"), nb::arg("rolling") = nb::none(),
         nb::sig(
-            "def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64]) -> ShellBlock"));
+            "def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64], rolling: NDArray[float64] | None = None) -> ShellBlock"),
+        "Solid-shells on the cells of a mesh; rolling: direction of e_1, one vector (3,) or one for each cell (cells, 3).");
 }

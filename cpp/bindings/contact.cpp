@@ -1,30 +1,196 @@
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/vector.h>
 
 #include "evaluate.hpp"
-#include "umform/contact/facets.hpp"
+#include "umform/contact/block.hpp"
+#include "umform/contact/penalty.hpp"
 
 using namespace umform;
 
 namespace {
 
+using Vectors = std::vector<Vec3>;
+
 std::unique_ptr<ContactBlock> contact_block(const InputIds& facets, const Input& X, int points, bool at_nodes,
-                                            std::shared_ptr<Surface> surface) {
-    Connectivity part = to_connectivity(facets);
+                                            const std::shared_ptr<Surface>& surface, std::shared_ptr<ContactLaw> law) {
+    const Connectivity part = to_connectivity(facets);
     const ContactRule rule{points, at_nodes};
-    if (part.nodes == 4)
-        return std::make_unique<ContactBlockOf<4>>(std::move(part), to_vector(X), rule, std::move(surface));
-    if (part.nodes == 9)
-        return std::make_unique<ContactBlockOf<9>>(std::move(part), to_vector(X), rule, std::move(surface));
+    if (part.nodes == 4) return std::make_unique<ContactBlockOf<4>>(part, to_vector(X), rule, surface, std::move(law));
+    if (part.nodes == 9) return std::make_unique<ContactBlockOf<9>>(part, to_vector(X), rule, surface, std::move(law));
     throw std::invalid_argument("a facet has 4 or 9 nodes");
+}
+
+nb::object copied(const std::vector<double>& values) { return to_numpy(values, {values.size()}); }
+
+nb::object copied(const Vectors& vectors) {
+    std::vector<double> values;
+    values.reserve(3 * vectors.size());
+    for (const Vec3& v : vectors) values.insert(values.end(), v.begin(), v.end());
+    return to_numpy(std::move(values), {vectors.size(), 3});
+}
+
+/// Arrays that the object owns, which nobody can write to.
+template <class T>
+using View = nb::ndarray<const T, nb::numpy, nb::c_contig, nb::device::cpu>;
+template <class T>
+View<T> view(const std::vector<T>& values) {
+    return View<T>(values.data(), {values.size()});
+}
+View<double> view(const Vectors& vectors) {
+    return View<double>(vectors.empty() ? nullptr : vectors[0].data(), {vectors.size(), 3});
+}
+
+void bind_found(nb::module_& m) {
+    constexpr auto inside = nb::rv_policy::reference_internal;
+    nb::class_<ContactFound>(
+        m, "ContactFound", "What an evaluation of a contact came across: a copy that later evaluations do not change.")
+        .def_prop_ro(
+            "active", [](const ContactFound& f) { return view(f.active); }, inside,
+            nb::sig("def active(self) -> NDArray[uint8]"), "For each contact point 1 where the tool holds it, else 0.")
+        .def_prop_ro(
+            "points", [](const ContactFound& f) { return view(f.points); }, inside,
+            nb::sig("def points(self) -> NDArray[int32]"),
+            "Numbers of the points that are held, ascending; the arrays that follow are of these points.")
+        .def_prop_ro(
+            "x", [](const ContactFound& f) { return view(f.x); }, inside, nb::sig("def x(self) -> NDArray[float64]"),
+            "Positions (held, 3).")
+        .def_prop_ro(
+            "normal", [](const ContactFound& f) { return view(f.normal); }, inside,
+            nb::sig("def normal(self) -> NDArray[float64]"), "Unit normals out of the tool (held, 3).")
+        .def_prop_ro(
+            "traction", [](const ContactFound& f) { return view(f.traction); }, inside,
+            nb::sig("def traction(self) -> NDArray[float64]"),
+            "Tractions of the tool on the sheet, on the reference area (held, 3).")
+        .def_prop_ro(
+            "force", [](const ContactFound& f) { return view(f.force); }, inside,
+            nb::sig("def force(self) -> NDArray[float64]"), "Forces of the sheet on the tool (held, 3).")
+        .def_prop_ro(
+            "gap", [](const ContactFound& f) { return view(f.gap); }, inside,
+            nb::sig("def gap(self) -> NDArray[float64]"), "Signed distances (held,), negative in penetration.")
+        .def_prop_ro(
+            "pressure", [](const ContactFound& f) { return view(f.pressure); }, inside,
+            nb::sig("def pressure(self) -> NDArray[float64]"), "Normal parts of the tractions (held,).")
+        .def_prop_ro(
+            "area", [](const ContactFound& f) { return view(f.area); }, inside,
+            nb::sig("def area(self) -> NDArray[float64]"), "Reference areas (held,).")
+        .def_ro("penetration", &ContactFound::penetration, "The largest penetration, zero if there is none.")
+        .def_ro("round_off_squared", &ContactFound::round_off_squared,
+                "Square of what a relative error 1 of all positions makes of the residual.");
+}
+
+void bind_law(nb::module_& m) {
+    nb::class_<ContactLaw>(m, "ContactLaw", "Traction at a place of a face from its gap, and what it remembers.")
+        .def_prop_rw("penalty", &ContactLaw::penalty, &ContactLaw::set_penalty, "Pressure per penetration.")
+        .def_prop_ro("symmetric", &ContactLaw::symmetric, "Whether its tangent is symmetric.")
+        .def_prop_ro(
+            "quantities",
+            [](const ContactLaw& law) {
+                nb::dict sizes;
+                for (const Quantity& quantity : law.quantities()) sizes[quantity.name.c_str()] = quantity.size;
+                return sizes;
+            },
+            nb::sig("def quantities(self) -> dict[str, int]"), "Names and sizes of what a place remembers.");
+    m.def(
+        "penalty_law",
+        [](double penalty) -> std::shared_ptr<ContactLaw> {
+            return std::make_shared<ContactLawOf<Penalty>>(Penalty{penalty});
+        },
+        nb::arg("penalty"), "Frictionless contact: a pressure of penalty times penetration, and multipliers.");
+}
+
+/// What is measured at the contact points.
+void bind_points(nb::class_<ContactBlock>& contact) {
+    contact
+        .def_prop_ro(
+            "positions", [](ContactBlock& b) { return copied(b.positions()); },
+            nb::sig("def positions(self) -> NDArray[float64]"), "Of all points (points, 3).")
+        .def_prop_ro(
+            "gaps", [](ContactBlock& b) { return copied(b.gaps()); }, nb::sig("def gaps(self) -> NDArray[float64]"),
+            "Of all points; those of far facets are measured now.")
+        .def_prop_ro(
+            "normals", [](ContactBlock& b) { return copied(b.normals()); },
+            nb::sig("def normals(self) -> NDArray[float64]"), "Of all points (points, 3).")
+        .def_prop_ro(
+            "areas", [](const ContactBlock& b) { return copied(b.areas()); },
+            nb::sig("def areas(self) -> NDArray[float64]"))
+        .def_prop_ro(
+            "active",
+            [](ContactBlock& b) {
+                std::vector<std::uint8_t> active;
+                for (const Reaction& reaction : b.reactions()) active.push_back(reaction.held ? 1 : 0);
+                return to_numpy(std::move(active), {static_cast<std::size_t>(b.points())});
+            },
+            nb::sig("def active(self) -> NDArray[uint8]"), "For each point 1 where the tool holds it, else 0.")
+        .def_prop_ro(
+            "pressures",
+            [](ContactBlock& b) {
+                std::vector<double> pressures;
+                for (const Reaction& reaction : b.reactions()) pressures.push_back(reaction.pressure);
+                return copied(pressures);
+            },
+            nb::sig("def pressures(self) -> NDArray[float64]"), "Normal parts of the tractions at all points.")
+        .def_prop_ro(
+            "tractions",
+            [](ContactBlock& b) {
+                const ContactFound found = b.found();
+                Vectors tractions(b.points(), Vec3{});
+                for (std::size_t i = 0; i < found.points.size(); ++i) tractions[found.points[i]] = found.traction[i];
+                return copied(tractions);
+            },
+            nb::sig("def tractions(self) -> NDArray[float64]"),
+            "Of the tool on the sheet at all points (points, 3), on the reference area.")
+        .def_prop_ro("penetration", &ContactBlock::penetration, "The largest, zero if there is none.")
+        .def_prop_ro(
+            "round_off_squared", &ContactBlock::round_off_squared,
+            "Square of what a relative error 1 of all positions makes of the residual, at the last evaluation.")
+        .def_prop_ro("far_facets", &ContactBlock::far_facets,
+                     "Facets so far from the tool that nothing was measured there since the last evaluation.");
+}
+
+/// What the contact points remember.
+void bind_history(nb::class_<ContactBlock>& contact) {
+    contact
+        .def_prop_rw(
+            "multipliers", [](const ContactBlock& b) { return copied(b.multipliers()); },
+            [](ContactBlock& b, const Input& values) {
+                require(values.size() == static_cast<std::size_t>(b.points()),
+                        "there is one multiplier for each contact point");
+                b.set_multipliers(values.data());
+            },
+            nb::for_getter(nb::sig("def multipliers(self) -> NDArray[float64]")),
+            nb::for_setter(nb::sig("def multipliers(self, values: NDArray[float64], /) -> None")),
+            "Pressures that are there without a penetration: those of now, which commit makes the converged ones.")
+        .def_prop_ro(
+            "state",
+            [](const ContactBlock& b) {
+                return to_numpy(b.history().state(),
+                                {static_cast<std::size_t>(b.points()), static_cast<std::size_t>(b.history().size())});
+            },
+            nb::sig("def state(self) -> NDArray[float64]"),
+            "Converged history (points, size) in the order of the quantities of the law.")
+        .def("commit", &ContactBlock::commit, "Make the trial history the converged one.")
+        .def("revert", &ContactBlock::revert, "Go back to the converged history.")
+        .def(
+            "restore", [](ContactBlock& b, const Input& state) { b.restore(state.data(), state.size()); },
+            nb::arg("state"), nb::sig("def restore(self, state: NDArray[float64]) -> None"),
+            "Put a stored history back.");
 }
 
 }  // namespace
 
 void bind_contact(nb::module_& m) {
+    bind_found(m);
+    bind_law(m);
     auto contact = nb::class_<ContactBlock>(m, "ContactBlock", "Contact of element faces with one rigid tool.");
     bind_common(contact);
-    contact.def_rw("penalty", &ContactBlock::penalty)
+    contact.def_rw("name", &ContactBlock::name, "For messages.")
+        .def_prop_ro("law", &ContactBlock::law)
+        .def_prop_ro("symmetric", &ContactBlock::symmetric, "Whether its tangent is symmetric.")
+        .def_prop_rw(
+            "penalty", [](const ContactBlock& b) { return b.law()->penalty(); },
+            [](ContactBlock& b, double value) { b.law()->set_penalty(value); }, "That of its law.")
         .def(
             "set_pose",
             [](ContactBlock& b, const Input& Q, const Input& c) {
@@ -38,6 +204,7 @@ void bind_contact(nb::module_& m) {
             "locate", [](ContactBlock& b, const Input& u) { b.locate(nodal(b, u)); }, nb::arg("u"),
             nb::sig("def locate(self, u: NDArray[float64]) -> None"),
             "Move the contact points to X + u and measure the gaps.")
+        .def("found", &ContactBlock::found, "What is known of the points that are held now, as a copy.")
         .def_prop_ro(
             "shape_values",
             [](const ContactBlock& b) {
@@ -48,34 +215,12 @@ void bind_contact(nb::module_& m) {
             },
             nb::sig("def shape_values(self) -> NDArray[float64]"),
             "Shape functions at the points of a facet (points, nodes).")
-        .def_prop_ro("points", &ContactBlock::points)
-        .def_prop_ro(
-            "positions", [](const ContactBlock& b) { return to_numpy(b.positions(), {b.gaps().size(), 3}); },
-            nb::sig("def positions(self) -> NDArray[float64]"))
-        .def_prop_ro(
-            "gaps", [](const ContactBlock& b) { return to_numpy(b.gaps(), {b.gaps().size()}); },
-            nb::sig("def gaps(self) -> NDArray[float64]"))
-        .def_prop_ro(
-            "normals", [](const ContactBlock& b) { return to_numpy(b.normals(), {b.gaps().size(), 3}); },
-            nb::sig("def normals(self) -> NDArray[float64]"))
-        .def_prop_ro(
-            "areas", [](const ContactBlock& b) { return to_numpy(b.areas(), {b.areas().size()}); },
-            nb::sig("def areas(self) -> NDArray[float64]"))
-        .def_prop_ro(
-            "round_off_squared", &ContactBlock::round_off_squared,
-            "Square of what a relative error 1 of all positions makes of the residual, at the last evaluation.")
-        .def_prop_rw(
-            "multipliers", [](const ContactBlock& b) { return to_numpy(b.multipliers(), {b.multipliers().size()}); },
-            [](ContactBlock& b, const Input& values) {
-                require(values.size() == b.multipliers().size(), "there is one multiplier for each contact point");
-                b.set_multipliers(values.data());
-            },
-            nb::for_getter(nb::sig("def multipliers(self) -> NDArray[float64]")),
-            nb::for_setter(nb::sig("def multipliers(self, values: NDArray[float64], /) -> None")),
-            "Pressures at the contact points that are there without a penetration.");
+        .def_prop_ro("points", &ContactBlock::points);
+    bind_points(contact);
+    bind_history(contact);
     m.def(
         "contact_block", &contact_block, nb::arg("facets"), nb::arg("X"), nb::arg("points"), nb::arg("at_nodes"),
-        nb::arg("surface"),
+        nb::arg("surface"), nb::arg("law"),
         nb::sig(
-            "def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface) -> ContactBlock"));
+            "def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface, law: ContactLaw) -> ContactBlock"));
 }

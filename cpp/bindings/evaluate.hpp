@@ -4,7 +4,7 @@
 #include <optional>
 
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
 
 #include "arrays.hpp"
 #include "umform/assembly/target.hpp"
@@ -20,10 +20,11 @@ const double* nodal(const Block& block, const Input& values) {
 }
 
 /// Adds the share of a block to f (and the tangent to values, K du to Kdu, where given); returns (first failed element or -1,
-/// sum |f_e|^2).
+/// sum |f_e|^2, why it has failed).
 template <class Block>
-std::pair<int, double> evaluate(Block& block, const Input& u, const umform::Scatter& scatter, Output f,
-                                std::optional<Output> values, std::optional<Input> du, std::optional<Output> Kdu) {
+std::tuple<int, double, const char*> evaluate(Block& block, const Input& u, const umform::Scatter& scatter, Output f,
+                                              std::optional<Output> values, std::optional<Input> du,
+                                              std::optional<Output> Kdu) {
     require(f.size() == block.dofs() && (!Kdu || Kdu->size() == block.dofs()),
             "f or Kdu has another length than the model");
     require(!values || values->size() == scatter.entries, "values has another length than the pattern");
@@ -33,7 +34,7 @@ std::pair<int, double> evaluate(Block& block, const Input& u, const umform::Scat
                                 Kdu ? Kdu->data() : nullptr};
     const nb::gil_scoped_release release;
     const umform::Outcome outcome = block.evaluate(position, scatter, target);
-    return {outcome.failed, outcome.force_scale_squared};
+    return {outcome.failed, outcome.force_scale_squared, umform::describe(outcome.failure)};
 }
 
 template <class Block>
@@ -44,6 +45,6 @@ void bind_common(nb::class_<Block>& type) {
             "evaluate", &evaluate<Block>, nb::arg("u"), nb::arg("scatter"), nb::arg("f"), nb::arg("values").none(),
             nb::arg("du").none(), nb::arg("Kdu").none(),
             nb::sig(
-                "def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]"),
-            "Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.");
+                "def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float, str]"),
+            "Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1), sum |f_e|^2 and why it has failed, in words that follow its number.");
 }

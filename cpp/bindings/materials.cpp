@@ -1,10 +1,14 @@
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
+#include "umform/materials/function.hpp"
 #include "umform/materials/j2.hpp"
-#include "umform/materials/neo_hooke.hpp"
+#include "umform/materials/neo_hooke_logarithmic.hpp"
+#include "umform/materials/neo_hooke_power.hpp"
 #include "umform/materials/saint_venant_kirchhoff.hpp"
 
 using namespace umform;
@@ -16,17 +20,30 @@ std::shared_ptr<Material> material(Law law) {
     return std::make_shared<MaterialOf<Law>>(std::move(law));
 }
 
-nb::object respond(const Material& material, const Input& E, const Input& state) {
-    const std::size_t n = E.shape(0), size = material.state_size();
-    if (E.ndim() != 2 || E.shape(1) != 6 || state.size() != n * size)
+/// The axes (3, 3) of all points, or those of the global frame.
+Point<double> to_point(const std::optional<Input>& axes, double size, double step) {
+    Point<double> point;
+    if (axes && axes->size() != 9) throw std::invalid_argument("axes must have shape (3, 3)");
+    for (int i = 0; axes && i < 9; ++i) point.axes[i / 3][i % 3] = axes->data()[i];
+    point.size = size;
+    point.step = step;
+    return point;
+}
+
+nb::object respond(const Material& material, const Input& E, const Input& state, const std::optional<Input>& axes,
+                   double size, double step) {
+    const std::size_t n = E.shape(0), numbers = material.state_size();
+    if (E.ndim() != 2 || E.shape(1) != 6 || state.size() != n * numbers)
         throw std::invalid_argument("E must have shape (n, 6) and state (n, state_size)");
-    std::vector<double> S(6 * n), CC(36 * n), trial(n * size);
-    const int done =
-        material.respond(static_cast<int>(n), reinterpret_cast<const Voigt*>(E.data()), state.data(),
-                         reinterpret_cast<Voigt*>(S.data()), reinterpret_cast<Voigt66*>(CC.data()), trial.data());
-    if (done != static_cast<int>(n)) throw std::domain_error("the strain is outside of the domain of the law");
+    std::vector<double> S(6 * n), CC(36 * n), trial(n * numbers);
+    const int done = material.respond(static_cast<int>(n), reinterpret_cast<const Voigt*>(E.data()), state.data(),
+                                      reinterpret_cast<Voigt*>(S.data()), reinterpret_cast<Voigt66*>(CC.data()),
+                                      trial.data(), to_point(axes, size, step));
+    if (done != static_cast<int>(n))
+        throw std::domain_error("the law has no answer at point " + std::to_string(done)
+                                + ": the strain is outside of its domain, or its equations could not be solved");
     return nb::make_tuple(to_numpy(std::move(S), {n, 6}), to_numpy(std::move(CC), {n, 6, 6}),
-                          to_numpy(std::move(trial), {n, size}));
+                          to_numpy(std::move(trial), {n, numbers}));
 }
 
 nb::object energy(const Material& material, const Input& E, const Input& state) {
@@ -34,7 +51,7 @@ nb::object energy(const Material& material, const Input& E, const Input& state) 
     if (E.ndim() != 2 || E.shape(1) != 6 || state.size() != n * material.state_size())
         throw std::invalid_argument("E must have shape (n, 6) and state (n, state_size)");
     std::vector<Energy> energies(n);
-    material.energy(static_cast<int>(n), reinterpret_cast<const Voigt*>(E.data()), state.data(), energies.data());
+    material.energy(static_cast<int>(n), reinterpret_cast<const Voigt*>(E.data()), state.data(), energies.data(), -1);
     std::vector<double> elastic(n), plastic(n);
     for (std::size_t q = 0; q < n; ++q) {
         elastic[q] = energies[q].elastic;
@@ -50,12 +67,14 @@ nb::tuple point_arguments(std::size_t n, std::size_t size, const Voigt* E, const
                           to_numpy(std::vector<double>(state, state + size * n), {n, size}));
 }
 
-/// A Python function (E (n, 6), state (n, size)) -> (elastic (n,), plastic (n,)), called once for each element.
+/// A Python function (E (n, 6), state (n, size), cell) -> (elastic (n,), plastic (n,)), called once for each element.
 MaterialFromFunction::EnergyFunction energy_from_function(nb::callable function, std::size_t size) {
-    return [function = std::move(function), size](int n, const Voigt* E, const double* state, Energy* energies) {
+    return [function = std::move(function), size](int n, const Voigt* E, const double* state, Energy* energies,
+                                                  std::int32_t cell) {
         const nb::gil_scoped_acquire gil;
         const std::size_t count = n;
-        const auto answer = nb::cast<nb::tuple>(function(*point_arguments(count, size, E, state)));
+        const nb::tuple points = point_arguments(count, size, E, state);
+        const auto answer = nb::cast<nb::tuple>(function(points[0], points[1], cell));
         std::vector<double> elastic(count), plastic(count);
         copy_result(answer[0], elastic.data(), count);
         copy_result(answer[1], plastic.data(), count);
@@ -63,22 +82,39 @@ MaterialFromFunction::EnergyFunction energy_from_function(nb::callable function,
     };
 }
 
-/// A Python function (E (n, 6), state (n, size)) -> (S, CC, new state), called once for each element.
+/// Axes of the points (n, 3, 3), size of the element and step, or None for a law that does not ask for them.
+nb::object context(const FunctionArguments& at) {
+    if (at.axes == nullptr) return nb::none();
+    const auto* axes = reinterpret_cast<const double*>(at.axes);
+    const std::size_t count = at.n;
+    return nb::make_tuple(to_numpy(std::vector<double>(axes, axes + 9 * count), {count, 3, 3}), at.size, at.step);
+}
+
+/// A Python function (E (n, 6), state (n, size), cell, context) -> (S, CC, new state), called once for each element.
 std::shared_ptr<Material> material_from_function(nb::callable function, std::vector<double> initial,
-                                                 std::optional<nb::callable> energy) {
+                                                 const std::vector<std::pair<std::string, int>>& state,
+                                                 std::optional<nb::callable> energy, bool symmetric, bool sees_points) {
     const std::size_t size = initial.size();
-    auto call = [function, size](int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial) {
+    MaterialFromFunction::Traits traits{{}, std::move(initial), symmetric, sees_points};
+    std::size_t named = 0;
+    for (const auto& [name, numbers] : state) {
+        traits.state.push_back({name, numbers});
+        named += numbers;
+    }
+    if (named != size) throw std::invalid_argument("the names of the history do not have the size of the initial one");
+    auto call = [function, size](const FunctionArguments& at, const FunctionAnswer& out) {
         const nb::gil_scoped_acquire gil;
-        const std::size_t count = n;
-        const auto answer = nb::cast<nb::tuple>(function(*point_arguments(count, size, E, state)));
-        copy_result(answer[0], reinterpret_cast<double*>(S), 6 * count);
-        copy_result(answer[1], reinterpret_cast<double*>(CC), 36 * count);
-        copy_result(answer[2], trial, size * count);
-        return n;
+        const std::size_t count = at.n;
+        const nb::tuple points = point_arguments(count, size, at.E, at.state);
+        const auto answer = nb::cast<nb::tuple>(function(points[0], points[1], at.cell, context(at)));
+        copy_result(answer[0], reinterpret_cast<double*>(out.S), 6 * count);
+        copy_result(answer[1], reinterpret_cast<double*>(out.CC), 36 * count);
+        copy_result(answer[2], out.trial, size * count);
+        return at.n;
     };
     MaterialFromFunction::EnergyFunction energies;
     if (energy) energies = energy_from_function(std::move(*energy), size);
-    return std::make_shared<MaterialFromFunction>(std::move(call), std::move(initial), std::move(energies));
+    return std::make_shared<MaterialFromFunction>(std::move(call), std::move(traits), std::move(energies));
 }
 
 }  // namespace
@@ -112,6 +148,11 @@ void bind_materials(nb::module_& m) {
 
     nb::class_<Material>(m, "Material", "A material law: strain and history in, stress, tangent and new history out.")
         .def_prop_ro("state_size", &Material::state_size)
+        .def_prop_ro(
+            "state", [](const Material& law) { return to_dict(law.state_names()); },
+            nb::sig("def state(self) -> dict[str, int]"), "Parts of the history of a point, in their order.")
+        .def_prop_ro("symmetric", &Material::symmetric, "Whether the tangent is symmetric at any strain.")
+        .def_prop_ro("sees_points", &Material::sees_points, "Whether the law asks for axes, size and step.")
         .def(
             "initial",
             [](const Material& law) {
@@ -122,10 +163,11 @@ void bind_materials(nb::module_& m) {
             },
             nb::sig("def initial(self) -> NDArray[float64]"), "History of the virgin material.")
         .def(
-            "respond", &respond, nb::arg("E"), nb::arg("state"),
+            "respond", &respond, nb::arg("E"), nb::arg("state"), nb::arg("axes") = nb::none(), nb::arg("size") = 0.0,
+            nb::arg("step") = 0.0,
             nb::sig(
-                "def respond(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]"),
-            "S (n, 6), CC (n, 6, 6) and the new history at n points.")
+                "def respond(self, E: NDArray[float64], state: NDArray[float64], axes: NDArray[float64] | None = None, size: float = 0.0, step: float = 0.0) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]"),
+            "S (n, 6), CC (n, 6, 6) and the new history at n points with the same axes (3, 3), size and step.")
         .def(
             "energy", &energy, nb::arg("E"), nb::arg("state"),
             nb::sig(
@@ -144,9 +186,9 @@ void bind_materials(nb::module_& m) {
         "j2", [](double kappa, double mu, const Hardening& hardening) { return material(J2{kappa, mu, hardening}); },
         nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"));
     m.def(
-        "material_from_function", &material_from_function, nb::arg("function"), nb::arg("initial"),
-        nb::arg("energy").none(),
+        "material_from_function", &material_from_function, nb::arg("function"), nb::arg("initial"), nb::arg("state"),
+        nb::arg("energy").none(), nb::arg("symmetric"), nb::arg("sees_points"),
         nb::sig(
-            "def material_from_function(function: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float], energy: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64]]] | None) -> Material"),
-        "A law from a function (E (n, 6), state (n, size)) -> (S (n, 6), CC (n, 6, 6), new state (n, size)); its energy -> (elastic (n,), plastic (n,)).");
+            "def material_from_function(function: Callable[[NDArray[float64], NDArray[float64], int, tuple[NDArray[float64], float, float] | None], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float], state: Sequence[tuple[str, int]], energy: Callable[[NDArray[float64], NDArray[float64], int], tuple[NDArray[float64], NDArray[float64]]] | None, symmetric: bool, sees_points: bool) -> Material"),
+        "A law from a function (E (n, 6), state (n, size), cell, (axes (n, 3, 3), size, step) or None) -> (S (n, 6), CC (n, 6, 6), new state (n, size)); its energy (E, state, cell) -> (elastic (n,), plastic (n,)).");
 }

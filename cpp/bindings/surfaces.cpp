@@ -108,7 +108,9 @@ void bind_surfaces(nb::module_& m) {
         .def("gap", &gap, nb::arg("x"),
              nb::sig(
                  "def gap(self, x: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]"),
-             "Signed distance (n,), normal (n, 3) and Hessian (n, 3, 3) at the positions x (n, 3).");
+             "Signed distance (n,), normal (n, 3) and Hessian (n, 3, 3) at the positions x (n, 3).")
+        .def_prop_ro("is_distance", &Surface::is_distance,
+                     "Whether the gap changes by no more than a point moves: contact leaves out what is far then.");
     m.def(
         "plane", [](Vec3 point, Vec3 normal) { return surface(Plane{point, normal}); }, nb::arg("point"),
         nb::arg("normal"));

@@ -1,3 +1,3 @@
-#include "umform/elements/block.hpp"
+#include "umform/elements/block_output.hpp"
 
 template class umform::ShellBlockOf<8>;

@@ -50,11 +50,25 @@ class Material:
     @property
     def state_size(self) -> int: ...
 
+    @property
+    def state(self) -> dict[str, int]:
+        """Parts of the history of a point, in their order."""
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the tangent is symmetric at any strain."""
+
+    @property
+    def sees_points(self) -> bool:
+        """Whether the law asks for axes, size and step."""
+
     def initial(self) -> NDArray[float64]:
         """History of the virgin material."""
 
-    def respond(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
-        """S (n, 6), CC (n, 6, 6) and the new history at n points."""
+    def respond(self, E: NDArray[float64], state: NDArray[float64], axes: NDArray[float64] | None = None, size: float = 0.0, step: float = 0.0) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+        """
+        S (n, 6), CC (n, 6, 6) and the new history at n points with the same axes (3, 3), size and step.
+        """
 
     def energy(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
         """
@@ -69,9 +83,9 @@ def neo_hooke_power(mu: float, beta: float) -> Material: ...
 
 def j2(kappa: float, mu: float, hardening: Hardening) -> Material: ...
 
-def material_from_function(function: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float], energy: Callable[[NDArray[float64], NDArray[float64]], tuple[NDArray[float64], NDArray[float64]]] | None) -> Material:
+def material_from_function(function: Callable[[NDArray[float64], NDArray[float64], int, tuple[NDArray[float64], float, float] | None], tuple[NDArray[float64], NDArray[float64], NDArray[float64]]], initial: Sequence[float], state: Sequence[tuple[str, int]], energy: Callable[[NDArray[float64], NDArray[float64], int], tuple[NDArray[float64], NDArray[float64]]] | None, symmetric: bool, sees_points: bool) -> Material:
     """
-    A law from a function (E (n, 6), state (n, size)) -> (S (n, 6), CC (n, 6, 6), new state (n, size)); its energy -> (elastic (n,), plastic (n,)).
+    A law from a function (E (n, 6), state (n, size), cell, (axes (n, 3, 3), size, step) or None) -> (S (n, 6), CC (n, 6, 6), new state (n, size)); its energy (E, state, cell) -> (elastic (n,), plastic (n,)).
     """
 
 class Surface:
@@ -82,6 +96,12 @@ class Surface:
     def gap(self, x: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
         """
         Signed distance (n,), normal (n, 3) and Hessian (n, 3, 3) at the positions x (n, 3).
+        """
+
+    @property
+    def is_distance(self) -> bool:
+        """
+        Whether the gap changes by no more than a point moves: contact leaves out what is far then.
         """
 
 def plane(point: Sequence[float], normal: Sequence[float]) -> Surface: ...
@@ -239,9 +259,9 @@ class ShellBlock:
     def dofs(self) -> int:
         """Degrees of freedom of the model."""
 
-    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float, str]:
         """
-        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
+        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1), sum |f_e|^2 and why it has failed, in words that follow its number.
         """
 
     @property
@@ -253,9 +273,35 @@ class ShellBlock:
     @property
     def state_size(self) -> int: ...
 
+    @property
+    def state_names(self) -> dict[str, int]:
+        """Parts of the history of a point, in their order."""
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the tangent is symmetric."""
+
+    @property
+    def step(self) -> float:
+        """Increment of time, for laws that ask for it."""
+
+    @step.setter
+    def step(self, arg: float, /) -> None: ...
+
+    def set_numbers(self, numbers: NDArray[int32]) -> None:
+        """
+        Numbers of the cells for messages, where they are a part of a larger mesh.
+        """
+
     def recover(self, du: NDArray[float64], s: float, mixed: bool = False) -> None:
         """
         Update the enhanced parameters after u += s du; mixed: the geometric stiffness is of the foreseen stress.
+        """
+
+    @property
+    def keeps_blocks(self) -> bool:
+        """
+        Whether enhanced parameters can be recovered from the converged state without an evaluation there.
         """
 
     def undo_recover(self) -> None:
@@ -297,7 +343,86 @@ class ShellBlock:
     def element(self, e: int, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
         """Condensed K and f of one element."""
 
-def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64]) -> ShellBlock: ...
+def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64], rolling: NDArray[float64] | None = None) -> ShellBlock:
+    """
+    Solid-shells on the cells of a mesh; rolling: direction of e_1, one vector (3,) or one for each cell (cells, 3).
+    """
+
+class ContactFound:
+    """
+    What an evaluation of a contact came across: a copy that later evaluations do not change.
+    """
+
+    @property
+    def active(self) -> NDArray[uint8]:
+        """For each contact point 1 where the tool holds it, else 0."""
+
+    @property
+    def points(self) -> NDArray[int32]:
+        """
+        Numbers of the points that are held, ascending; the arrays that follow are of these points.
+        """
+
+    @property
+    def x(self) -> NDArray[float64]:
+        """Positions (held, 3)."""
+
+    @property
+    def normal(self) -> NDArray[float64]:
+        """Unit normals out of the tool (held, 3)."""
+
+    @property
+    def traction(self) -> NDArray[float64]:
+        """Tractions of the tool on the sheet, on the reference area (held, 3)."""
+
+    @property
+    def force(self) -> NDArray[float64]:
+        """Forces of the sheet on the tool (held, 3)."""
+
+    @property
+    def gap(self) -> NDArray[float64]:
+        """Signed distances (held,), negative in penetration."""
+
+    @property
+    def pressure(self) -> NDArray[float64]:
+        """Normal parts of the tractions (held,)."""
+
+    @property
+    def area(self) -> NDArray[float64]:
+        """Reference areas (held,)."""
+
+    @property
+    def penetration(self) -> float:
+        """The largest penetration, zero if there is none."""
+
+    @property
+    def round_off_squared(self) -> float:
+        """
+        Square of what a relative error 1 of all positions makes of the residual.
+        """
+
+class ContactLaw:
+    """Traction at a place of a face from its gap, and what it remembers."""
+
+    @property
+    def penalty(self) -> float:
+        """Pressure per penetration."""
+
+    @penalty.setter
+    def penalty(self, arg: float, /) -> None: ...
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether its tangent is symmetric."""
+
+    @property
+    def quantities(self) -> dict[str, int]:
+        """Names and sizes of what a place remembers."""
+
+def penalty_law(penalty: float) -> ContactLaw:
+    """
+    Frictionless contact: a pressure of penalty times penetration, and multipliers.
+    """
 
 class ContactBlock:
     """Contact of element faces with one rigid tool."""
@@ -309,13 +434,28 @@ class ContactBlock:
     def dofs(self) -> int:
         """Degrees of freedom of the model."""
 
-    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float, str]:
         """
-        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
+        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1), sum |f_e|^2 and why it has failed, in words that follow its number.
         """
 
     @property
-    def penalty(self) -> float: ...
+    def name(self) -> str:
+        """For messages."""
+
+    @name.setter
+    def name(self, arg: str, /) -> None: ...
+
+    @property
+    def law(self) -> ContactLaw: ...
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether its tangent is symmetric."""
+
+    @property
+    def penalty(self) -> float:
+        """That of its law."""
 
     @penalty.setter
     def penalty(self, arg: float, /) -> None: ...
@@ -326,6 +466,9 @@ class ContactBlock:
     def locate(self, u: NDArray[float64]) -> None:
         """Move the contact points to X + u and measure the gaps."""
 
+    def found(self) -> ContactFound:
+        """What is known of the points that are held now, as a copy."""
+
     @property
     def shape_values(self) -> NDArray[float64]:
         """Shape functions at the points of a facet (points, nodes)."""
@@ -334,16 +477,37 @@ class ContactBlock:
     def points(self) -> int: ...
 
     @property
-    def positions(self) -> NDArray[float64]: ...
+    def positions(self) -> NDArray[float64]:
+        """Of all points (points, 3)."""
 
     @property
-    def gaps(self) -> NDArray[float64]: ...
+    def gaps(self) -> NDArray[float64]:
+        """Of all points; those of far facets are measured now."""
 
     @property
-    def normals(self) -> NDArray[float64]: ...
+    def normals(self) -> NDArray[float64]:
+        """Of all points (points, 3)."""
 
     @property
     def areas(self) -> NDArray[float64]: ...
+
+    @property
+    def active(self) -> NDArray[uint8]:
+        """For each point 1 where the tool holds it, else 0."""
+
+    @property
+    def pressures(self) -> NDArray[float64]:
+        """Normal parts of the tractions at all points."""
+
+    @property
+    def tractions(self) -> NDArray[float64]:
+        """
+        Of the tool on the sheet at all points (points, 3), on the reference area.
+        """
+
+    @property
+    def penetration(self) -> float:
+        """The largest, zero if there is none."""
 
     @property
     def round_off_squared(self) -> float:
@@ -352,13 +516,36 @@ class ContactBlock:
         """
 
     @property
+    def far_facets(self) -> int:
+        """
+        Facets so far from the tool that nothing was measured there since the last evaluation.
+        """
+
+    @property
     def multipliers(self) -> NDArray[float64]:
-        """Pressures at the contact points that are there without a penetration."""
+        """
+        Pressures that are there without a penetration: those of now, which commit makes the converged ones.
+        """
 
     @multipliers.setter
     def multipliers(self, values: NDArray[float64], /) -> None: ...
 
-def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface) -> ContactBlock: ...
+    @property
+    def state(self) -> NDArray[float64]:
+        """
+        Converged history (points, size) in the order of the quantities of the law.
+        """
+
+    def commit(self) -> None:
+        """Make the trial history the converged one."""
+
+    def revert(self) -> None:
+        """Go back to the converged history."""
+
+    def restore(self, state: NDArray[float64]) -> None:
+        """Put a stored history back."""
+
+def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface, law: ContactLaw) -> ContactBlock: ...
 
 class PressureBlock:
     """Follower pressure on element faces."""
@@ -370,9 +557,9 @@ class PressureBlock:
     def dofs(self) -> int:
         """Degrees of freedom of the model."""
 
-    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float]:
+    def evaluate(self, u: NDArray[float64], scatter: Scatter, f: NDArray[float64], values: NDArray[float64] | None, du: NDArray[float64] | None, Kdu: NDArray[float64] | None) -> tuple[int, float, str]:
         """
-        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1) and sum |f_e|^2.
+        Add the share of the block to f (and the tangent to values, K du to Kdu, where given); returns the first failed element (or -1), sum |f_e|^2 and why it has failed, in words that follow its number.
         """
 
     @property

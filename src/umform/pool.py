@@ -139,11 +139,12 @@ def _processors() -> int:
 
 
 def _prepare(level: int) -> None:
-    """Make a new process ready: one kernel thread, the log of its parent, silent on Ctrl-C.
+    """Make a new process ready: one kernel thread, the log of its parent; Ctrl-C and SIGTERM end it at once.
 
     Without a log, warnings come back with the answers and are not printed here too.
     """
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.signal(signal.SIGTERM, lambda number, frame: os._exit(128 + number))  # a run would end after its increment
     _core.set_threads(1)
     if level < logging.WARNING:
         log_to_stderr(level)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
+from dataclasses import is_dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -29,7 +31,7 @@ CELL_NODES = {"hex8": 8, "hex18": 18}
 class OneElement:
     """One distorted element whose enhanced parameters are solved for at each displacement."""
 
-    def __init__(self, name, material, thickness_points=5, seed=1, **options):
+    def __init__(self, name, material, thickness_points=5, seed=1, rolling=None, **options):
         self.rng = np.random.default_rng(seed)
         self.element = elements.element(name, **options)
         self.nodes = self.element.nodes
@@ -41,8 +43,10 @@ class OneElement:
             material.law(),
             np.arange(self.nodes, dtype=np.int32)[None],
             self.X.copy(),
+            None if rolling is None else np.asarray(rolling, dtype=float),
         )
-        self.pattern = _core.Pattern(np.arange(3 * self.nodes, dtype=np.int32), [self.block.connectivity], True)
+        equation = np.arange(3 * self.nodes, dtype=np.int32)
+        self.pattern = _core.Pattern(equation, [self.block.connectivity], self.block.symmetric)
         self.scatter = self.pattern.scatter(self.block.connectivity)
 
     def natural_nodes(self):
@@ -62,7 +66,7 @@ class OneElement:
         last = np.inf
         for _ in range(40):
             f, values = np.zeros(u.size), np.zeros(self.pattern.indices.size)
-            failed, _scale = self.block.evaluate(u, self.scatter, f, values, None, None)
+            failed, _scale, _why = self.block.evaluate(u, self.scatter, f, values, None, None)
             assert failed == -1
             if self.block.modes == 0 or np.abs(f - last).max() <= 1e-15 * np.abs(f).max():
                 return
@@ -210,6 +214,22 @@ def limit_loads(result):
     return [float(match[1]) for match in found if match]
 
 
+def same_state(a, b):
+    """Whether two states are the same to the last bit: snapshots, trees by name, sequences, arrays and numbers."""
+    if is_dataclass(a):
+        a, b = vars(a) if type(a) is type(b) else None, vars(b) if is_dataclass(b) else b
+    if isinstance(a, Mapping):
+        return isinstance(b, Mapping) and a.keys() == b.keys() and all(same_state(a[name], b[name]) for name in a)
+    if isinstance(a, (list, tuple)):
+        return isinstance(b, (list, tuple)) and len(a) == len(b) and all(map(same_state, a, b))
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        one, other = np.asarray(a), np.asarray(b)
+        return one.shape == other.shape and one.dtype == other.dtype and one.tobytes() == other.tobytes()
+    if isinstance(a, float) and isinstance(b, float):
+        return np.float64(a).tobytes() == np.float64(b).tobytes()
+    return type(a) is type(b) and a == b
+
+
 def thickness_vectors(mesh):
     half = mesh.connectivity.shape[1] // 2
     return mesh.points[mesh.connectivity[:, half:]] - mesh.points[mesh.connectivity[:, :half]]
@@ -247,6 +267,12 @@ def build():
         thickness_vectors=thickness_vectors,
         volume=volume,
     )
+
+
+@pytest.fixture(name="same_state", scope="session")
+def same_state_of_two():
+    """Whether two states are the same to the last bit."""
+    return same_state
 
 
 @pytest.fixture

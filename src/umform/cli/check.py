@@ -37,7 +37,7 @@ def check_deck(deck: DeckFile, changes: Changes = None, verbose: Verbose = 0, de
     from umform.deck.check import check
     from umform.deck.findings import Level
 
-    with told():
+    with deck_errors():
         loaded = read(deck, changes or ())
         problem = loaded.build()
         findings = list(check(loaded, problem))
@@ -54,7 +54,7 @@ def read(path: Path, changes: Sequence[str]) -> Deck:
 
 
 @contextmanager
-def told() -> Iterator[None]:
+def deck_errors() -> Iterator[None]:
     """Print what is wrong with a deck in the words of decks, and end with exit code 1."""
     try:
         yield

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from umform.cli.check import told
+from umform.cli.check import deck_errors
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Overwrite, Verbose, app
 from umform.cli.run import Every, finish
@@ -36,7 +36,7 @@ def resume(
 
     let_the_first_talk()
     print_warnings_once()
-    with told():
+    with deck_errors():
         kept = Kept.read(checkpoint)
         with on_all_ranks(kept.chosen_solver, petsc_options(ctx)):
             outcome = running.resume(checkpoint, kept, out, every=every, overwrite=overwrite)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from umform.cli import INTERRUPTED
-from umform.cli.check import Changes, DeckFile, Force, read, told
+from umform.cli.check import Changes, DeckFile, Force, deck_errors, read
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say_of
 from umform.cli.timing import Timed, show_timing
@@ -59,7 +59,7 @@ def run(
 
     let_the_first_talk()
     print_warnings_once()
-    with told():
+    with deck_errors():
         loaded = read(deck, changes or ())
         chosen = solver or loaded.contents.solution.solver
         with on_all_ranks(chosen, petsc_options(ctx)):

@@ -32,7 +32,8 @@ def print_warnings_once() -> None:
     """Print warnings of the log from now on; with ``--verbose`` the log does so itself."""
     logger = logging.getLogger("umform")
     others = [handler for handler in logger.handlers if not isinstance(handler, _Warnings)]
-    logger.handlers[:] = [*others, _Warnings(prints=not others)]
+    logged = any(isinstance(handler, logging.StreamHandler) for handler in others)
+    logger.handlers[:] = [*others, _Warnings(prints=not logged)]
 
 
 def echo_warnings(warnings: Iterable[str]) -> None:

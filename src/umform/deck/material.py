@@ -8,7 +8,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from pydantic_core import PydanticCustomError
 
 from umform import materials, sheet_metals
-from umform.deck.parts import NotNegative, Part, Positive, told_by
+from umform.deck.parts import NotNegative, Part, Positive, tagged_by
 from umform.materials import Hardening, Material
 
 Fraction = Annotated[float, Field(ge=0, le=1)]
@@ -203,7 +203,7 @@ MaterialPart = Annotated[
     | Annotated[J2, Tag("J2")]
     | Annotated[FromLibrary, Tag("library")],
     Discriminator(
-        told_by("law", "library"),
+        tagged_by("law", "library"),
         custom_error_type="law",
         custom_error_message="a material has law = SVK, NeoHooke, NeoHookePower or J2, or library = a name",
         custom_error_context={"key": "law", "expected_tags": "'SVK', 'NeoHooke', 'NeoHookePower', 'J2'"},

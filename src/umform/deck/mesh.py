@@ -12,7 +12,7 @@ from pydantic import Discriminator, Field, Strict, Tag, model_validator
 from pydantic_core import PydanticCustomError
 
 from umform import mesh
-from umform.deck.parts import Pair, Part, Positive, Vector, told_by, word_or_array
+from umform.deck.parts import Pair, Part, Positive, Vector, tagged_by, word_or_array
 from umform.errors import InvertedElement, MeshError, WrongNodeOrder
 from umform.mesh import Floats, Mesh
 
@@ -166,7 +166,7 @@ def _refuse_too_many(cells: int) -> None:
 _OF_SHELLS = {"thickness", "surface", "kink"}
 
 
-_generator_or_file = told_by("generator", "file")
+_generator_or_file = tagged_by("generator", "file")
 
 
 def _kind(value: Any) -> str | None:

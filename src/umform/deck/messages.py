@@ -59,7 +59,7 @@ def messages(error: ValidationError, source: Source) -> Iterator[DeckKey]:
 def _message(found: Mapping[str, Any], source: Source) -> DeckKey:
     loc, kind, given = found["loc"], found["type"], found["input"]
     path = path_in(source.data, loc)
-    told = found.get("ctx") or {}
+    context = found.get("ctx") or {}
     if kind == "extra_forbidden":
         known = list(fields_at(loc[:-1]))
         return DeckKey(
@@ -81,9 +81,9 @@ def _message(found: Mapping[str, Any], source: Source) -> DeckKey:
         field = fields_at(loc[:-1]).get(str(loc[-1]))
         meaning = f": {field.description}" if field and field.description else ""
         return _missing(source, path, str(loc[-1]), meaning)
-    if kind in ("union_tag_not_found", "union_tag_invalid") or "key" in told:
-        return _wrong_kind(source, path, given, told)
-    words = _quoted(told.get("expected", ""))
+    if kind in ("union_tag_not_found", "union_tag_invalid") or "key" in context:
+        return _wrong_kind(source, path, given, context)
+    words = _quoted(context.get("expected", ""))
     return DeckKey(
         _plain(found["msg"]),
         where=source.place(path),
@@ -102,10 +102,10 @@ def _missing(source: Source, path: Path, key: str, meaning: str, cause: str = "i
     )
 
 
-def _wrong_kind(source: Source, path: Path, given: Any, told: Mapping[str, Any]) -> DeckKey:
+def _wrong_kind(source: Source, path: Path, given: Any, context: Mapping[str, Any]) -> DeckKey:
     """A table whose kind is missing, or not known."""
-    key = str(told.get("key") or told.get("discriminator", "")).strip("'")
-    known = _quoted(str(told.get("expected_tags", "")))
+    key = str(context.get("key") or context.get("discriminator", "")).strip("'")
+    known = _quoted(str(context.get("expected_tags", "")))
     if not isinstance(given, dict):
         return DeckKey(
             "this should be a table",
@@ -196,7 +196,7 @@ def _bare(kind: Any) -> Any:
 
 
 def _tags(member: Any) -> set[object]:
-    """Words by which a member of a union is told from the others."""
+    """Words by which a member of a union differs from the others."""
     tags: set[object] = {note.tag for note in get_args(member)[1:] if isinstance(note, Tag)}
     bare = _bare(member)
     if not tags and isinstance(bare, type) and issubclass(bare, BaseModel):

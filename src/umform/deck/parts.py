@@ -29,7 +29,7 @@ Vector = Annotated[tuple[float, float, float], Strict(False)]
 
 
 def word_or_array(value: Any) -> str | None:
-    """Which of two ways to write a value was taken, lest the errors of both be told."""
+    """Which of two ways to write a value was taken, lest the errors of both be reported."""
     return "word" if isinstance(value, str) else "array" if isinstance(value, list | tuple) else None
 
 
@@ -38,7 +38,7 @@ def number_or_array(value: Any) -> str | None:
     return "array" if isinstance(value, list | tuple) else "number"
 
 
-def told_by(key: str, other: str) -> Callable[[Any], str | None]:
+def tagged_by(key: str, other: str) -> Callable[[Any], str | None]:
     """What tells kinds of a table apart: the word of a key; or the name of another key that stands in its place."""
 
     def kind(value: Any) -> str | None:
@@ -71,6 +71,6 @@ __all__ = [
     "Vector",
     "Way",
     "number_or_array",
-    "told_by",
+    "tagged_by",
     "word_or_array",
 ]

@@ -12,6 +12,7 @@ from umform.elements.catalogue import (
     thickness_modes,
     thickness_rule,
 )
+from umform.elements.rolling import rolling_directions
 from umform.elements.technology import COMPONENTS, Element, Mode, Term, Tying
 
 __all__ = [
@@ -28,6 +29,7 @@ __all__ = [
     "Tying",
     "element",
     "membrane_modes",
+    "rolling_directions",
     "thickness_modes",
     "thickness_rule",
 ]

@@ -1,27 +1,31 @@
 """Nested dictionaries and lists of numbers, texts and arrays in one HDF5 file, written whole or not at all.
 
-One JSON document holds the tree, in which ``{"#array": k}`` stands for the dataset ``arrays/k``. Numbers come back to
-the last bit. A checksum over everything tells a damaged file.
+A dictionary is a group, an array a data set; a list of numbers or texts is a data set too, any other list a group with
+a member for each item. Numbers come back to the last bit. A checksum over everything tells a damaged file.
 """
 
 from __future__ import annotations
 
 import io
-import json
 import os
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+from urllib.parse import unquote
 
 import numpy as np
-from numpy.typing import NDArray
 
 from umform.errors import FileProblem
 from umform.io.atomic import PendingFile
 
-_ARRAY = "#array"
-Array = NDArray[Any]
+if TYPE_CHECKING:
+    import h5py
+
+#: Attribute of what is more than a dictionary, an array, a number or a text, and what it says.
+_IS, _LIST, _NONES, _ROWS, _SCALAR_ARRAY = "is", "list", "list of None", "rows of equal length", "array without axes"
+#: Types of which a list is stored as one data set.
+_PLAIN = (bool, int, float, str)
 
 
 def write_tree(path: str | os.PathLike[str], tree: dict[str, Any], kind: str) -> None:
@@ -43,20 +47,16 @@ def write_tree(path: str | os.PathLike[str], tree: dict[str, Any], kind: str) ->
     """
     import h5py  # slow to import, and most runs keep no checkpoints
 
-    arrays: list[Array] = []
-    document = json.dumps(_plain(tree, arrays))
     image = io.BytesIO()  # HDF5 cannot forget a write that failed: it writes to memory, and the image in one go
-    with h5py.File(image, "w") as file:
+    with h5py.File(image, "w", track_order=True) as file:
         file.attrs["kind"] = kind
-        file.attrs["checksum"] = _checksum(document, arrays)
-        file["document"] = document
-        for number, array in enumerate(arrays):
-            file[f"arrays/{number}"] = array
+        file.attrs["checksum"] = _checksum(tree)
+        _write(file, "tree", tree)
     with PendingFile(path) as temporary:
         temporary.write_bytes(image.getbuffer())
 
 
-def read_tree(path: str | os.PathLike[str], kind: str, *, whole: bool = True) -> dict[str, Any]:
+def read_tree(path: str | os.PathLike[str], kind: str, *, part: str | None = None) -> dict[str, Any]:
     """Read a tree back.
 
     Parameters
@@ -65,8 +65,8 @@ def read_tree(path: str | os.PathLike[str], kind: str, *, whole: bool = True) ->
         The file.
     kind : str
         What it must hold.
-    whole : bool
-        Whether arrays are wanted. Without them the checksum is not looked at.
+    part : str, optional
+        Key of the one dictionary of the tree that is wanted; then the checksum is not looked at.
 
     Raises
     ------
@@ -80,24 +80,17 @@ def read_tree(path: str | os.PathLike[str], kind: str, *, whole: bool = True) ->
             found, checksum = file.attrs.get("kind"), file.attrs.get("checksum")
             if found != kind:
                 raise _problem(path, f"this is not a {kind}", "it is an HDF5 file of something else")
-            document = str(file["document"].asstr()[()])
-            count = len(file.get("arrays", ()))
-            arrays = [file[f"arrays/{number}"][()] if whole else np.empty(0) for number in range(count)]
+            tree: dict[str, Any] = _read(file["tree" if part is None else f"tree/{_name(part)}"])
     except FileProblem:
         raise
     except FileNotFoundError as error:
         raise _problem(path, f"there is no {kind} of this name", "a wrong folder, or none was written yet") from error
     except PermissionError as error:
         raise _problem(path, f"the {kind} cannot be read", "no permission to read it") from error
-    except (OSError, KeyError, RuntimeError, ValueError, TypeError) as error:
+    except (OSError, KeyError, RuntimeError, ValueError, TypeError, AttributeError) as error:
         raise _problem(path, f"the {kind} is damaged", f"it was cut short, or is no HDF5 file: {error}") from error
-    if whole and checksum != _checksum(document, arrays):
+    if part is None and checksum != _checksum(tree):
         raise _problem(path, f"the {kind} is damaged", "its checksum does not fit")
-    try:
-        tree = _filled(json.loads(document), arrays)
-    except ValueError as error:  # nothing but the checksum would have told
-        raise _problem(path, f"the {kind} is damaged", f"its text is cut: {error}") from error
-    assert isinstance(tree, dict)
     return tree
 
 
@@ -107,31 +100,95 @@ def _problem(path: str | os.PathLike[str], what: str, cause: str) -> FileProblem
     )
 
 
-def _plain(value: Any, arrays: list[Array]) -> Any:
-    """The value as JSON takes it; its arrays go to the list."""
+def _write(group: h5py.Group, name: str, value: Any) -> None:
+    """Add a value to a group."""
+    import h5py
+
+    if isinstance(value, np.generic):
+        value = value.item()
     if isinstance(value, dict):
-        return {str(key): _plain(item, arrays) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item, arrays) for item in value]
-    if isinstance(value, np.ndarray):
-        arrays.append(value)
-        return {_ARRAY: len(arrays) - 1}
+        inner = group.create_group(name, track_order=True)
+        for key, item in value.items():
+            _write(inner, _name(str(key)), item)
+    elif isinstance(value, list | tuple):
+        _write_list(group, name, value)
+    elif value is None:
+        group[name] = h5py.Empty("f8")
+    else:
+        group[name] = value
+        if isinstance(value, np.ndarray) and value.ndim == 0:
+            group[name].attrs[_IS] = _SCALAR_ARRAY
+
+
+def _write_list(group: h5py.Group, name: str, items: list[Any] | tuple[Any, ...]) -> None:
+    """Add a list: as one data set, as one for each column, or item by item."""
+    items = [item.item() if isinstance(item, np.generic) else item for item in items]
+    kinds = {type(item) for item in items}
+    if len(kinds) == 1 and kinds <= set(_PLAIN):
+        group[name] = items
+        group[name].attrs[_IS] = _LIST
+        return
+    if kinds == {type(None)}:
+        group.create_dataset(name, dtype="f8", shape=(len(items), 0)).attrs[_IS] = _NONES
+        return
+    inner = group.create_group(name, track_order=True)
+    table = kinds == {list} and len({len(item) for item in items}) == 1 and len(items[0]) > 0
+    inner.attrs[_IS] = _ROWS if table else _LIST
+    for number, item in enumerate(zip(*items, strict=True) if table else items):
+        _write(inner, str(number), item)
+
+
+def _name(key: str) -> str:
+    """Name of a member of a group: it may be neither empty nor a dot, and have no slash."""
+    return {"": "%", ".": "%2E"}.get(key, key.replace("%", "%25").replace("/", "%2F"))
+
+
+def _key(name: str) -> str:
+    """The key that a name was made of."""
+    return "" if name == "%" else unquote(name)
+
+
+def _read(node: h5py.Group | h5py.Dataset) -> Any:
+    """The value that a group or a data set stands for."""
+    import h5py
+
+    what = node.attrs.get(_IS)
+    if isinstance(node, h5py.Group):
+        if what is None:
+            return {_key(name): _read(item) for name, item in node.items()}
+        items = [_read(item) for item in node.values()]
+        return [list(row) for row in zip(*items, strict=True)] if what == _ROWS else items
+    if node.shape is None:
+        return None
+    value = node.asstr()[()] if h5py.check_string_dtype(node.dtype) else node[()]
+    if what == _NONES:
+        return [None] * len(value)
+    if what == _LIST:
+        return value.tolist()
+    if what == _SCALAR_ARRAY:
+        return np.asarray(value)
     return value.item() if isinstance(value, np.generic) else value
 
 
-def _filled(value: Any, arrays: Sequence[Array]) -> Any:
-    """The tree with its arrays back in place."""
-    if isinstance(value, list):
-        return [_filled(item, arrays) for item in value]
-    if isinstance(value, dict):
-        if _ARRAY in value:
-            return arrays[value[_ARRAY]]
-        return {key: _filled(item, arrays) for key, item in value.items()}
-    return value
-
-
-def _checksum(document: str, arrays: Sequence[Array]) -> int:
-    check = zlib.crc32(document.encode())
-    for array in arrays:
-        check = zlib.crc32(np.ascontiguousarray(array).reshape(-1).view(np.uint8).data, check)
+def _checksum(tree: Any) -> int:
+    check = 0
+    for part in _bytes_of(tree):
+        check = zlib.crc32(part, check)
     return check
+
+
+def _bytes_of(value: Any) -> Iterator[Any]:
+    """All that a tree holds, in its order."""
+    if isinstance(value, dict):
+        for key, item in value.items():
+            yield str(key).encode()
+            yield from _bytes_of(item)
+    elif isinstance(value, list | tuple):
+        yield str(len(value)).encode()
+        for item in value:
+            yield from _bytes_of(item)
+    elif isinstance(value, np.ndarray):
+        yield f"{value.dtype.str} {value.shape}".encode()
+        yield np.ascontiguousarray(value).reshape(-1).view(np.uint8).data
+    else:
+        yield repr(value.item() if isinstance(value, np.generic) else value).encode()

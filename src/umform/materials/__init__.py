@@ -15,7 +15,8 @@ from umform.materials.laws import (
     Table,
     Voce,
 )
-from umform.materials.user_law import EnergyFunction, Floats, LawFunction, UserLaw, check_law
+from umform.materials.tangent_check import TangentCheck, check_law
+from umform.materials.user_law import EnergyFunction, Floats, LawFunction, Points, UserLaw
 
 __all__ = [
     "J2",
@@ -31,8 +32,10 @@ __all__ = [
     "NeoHooke",
     "NeoHookePower",
     "Perfect",
+    "Points",
     "Swift",
     "Table",
+    "TangentCheck",
     "UserLaw",
     "Voce",
     "check_law",

@@ -1,24 +1,49 @@
-"""A material law from a function of your own, and its finite-difference check."""
+"""A material law from a function of your own."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+import inspect
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform import _core
-from umform.errors import InvalidValue, NotFinite
-from umform.materials.laws import Material
+from umform.errors import InvalidValue, NotFinite, UmformError
 
 Floats = NDArray[np.float64]
 
-#: Strain E (n, 6) and history (n, size) -> stress S (n, 6), tangent CC (n, 6, 6), new history (n, size).
-LawFunction = Callable[[Floats, Floats], tuple[ArrayLike, ArrayLike, ArrayLike]]
+#: Strain E (n, 6), history (n, size) and, if it takes three arguments, the :class:`Points` ->
+#: stress S (n, 6), tangent CC (n, 6, 6), new history (n, size).
+LawFunction = Callable[..., tuple[ArrayLike, ArrayLike, ArrayLike]]
 
 #: Strain E (n, 6) and the history (n, size) that belongs to it -> elastic energy (n,), plastic work (n,).
 EnergyFunction = Callable[[Floats, Floats], tuple[ArrayLike, ArrayLike]]
+
+#: Asymmetry of a tangent, relative to its largest entry, that round-off may leave.
+SYMMETRY = 1e-9
+
+
+@dataclass(frozen=True)
+class Points:
+    """What a law may know of the points of a cell at which it is asked.
+
+    Attributes
+    ----------
+    axes : ndarray, shape (n, 3, 3)
+        Rows: base vectors e_1, e_2, e_3 of the local frame in global components. e_3 is normal to the sheet. e_1 lies
+        along the rolling direction of the model, if it has one, else along G_1, which follows the mesh's numbering.
+    size : float
+        Length of the cell: root of the area of its undeformed mid-surface.
+    step : float
+        Increment of time.
+    """
+
+    axes: Floats
+    size: float
+    step: float
 
 
 @dataclass(frozen=True)
@@ -31,7 +56,7 @@ class UserLaw:
         Takes the Green-Lagrange strain (n, 6) in the local orthonormal frame (Voigt 11 22 33 12 23 13, engineering
         shears) and the converged history (n, size), which it must not change; returns the second Piola-Kirchhoff stress
         (n, 6), the tangent dS/dE (n, 6, 6) and the new history (n, size). :func:`check_law` compares the tangent with
-        differences.
+        differences. A function of three arguments gets the :class:`Points` too: axes, size, step.
     initial : tuple of float
         History of the virgin material; its length is the size of the history.
     thickness_points : int
@@ -42,6 +67,18 @@ class UserLaw:
         Takes strain and history like ``function``, but the history that a converged step has left behind, and returns
         energies per reference volume: what can be had back from the strain (n,), and what has been spent so far (n,).
         Without it the energies of a run are not known, and are NaN.
+    symmetric : bool
+        Whether the tangent is symmetric at any strain; one that is not is then refused. With False the whole matrix is
+        formed and solved for.
+    state : mapping of str to int, optional
+        Parts of the history by name and size, in their order: ``{"alpha": 6, "eqps": 1}``. Fields go by these names;
+        ``eqps`` is the accumulated plastic strain. Without ``initial`` the history of the virgin material is zero;
+        without names the whole history is called ``history``.
+
+    Raises
+    ------
+    InvalidValue
+        If the names do not have the size of the initial history.
     """
 
     function: LawFunction
@@ -49,43 +86,114 @@ class UserLaw:
     thickness_points: int = 2
     name: str = "user law"
     energy: EnergyFunction | None = None
+    symmetric: bool = True
+    state: Mapping[str, int] = field(default_factory=dict, hash=False)
 
-    def __call__(self, E: Floats, state: Floats) -> tuple[Floats, Floats, Floats]:
+    def __post_init__(self) -> None:
+        initial = tuple(float(value) for value in self.initial)
+        state = dict(self.state) or ({"history": len(initial)} if initial else {})
+        if any(isinstance(size, bool) or not isinstance(size, int) or size < 1 for size in state.values()):
+            raise InvalidValue(
+                "parts of a history have one number or more",
+                where=self.name,
+                value=state,
+                cause="a size that is no whole number",
+                remedy='state={"alpha": 6, "eqps": 1}',
+            )
+        size = sum(state.values())
+        if initial and len(initial) != size:
+            raise InvalidValue(
+                "the names of a history must have the size of its initial values",
+                where=self.name,
+                value=f"{state}, {len(initial)} initial values",
+                cause="a part is missing, or a symmetric tensor was counted as nine numbers",
+                remedy="six numbers for a symmetric tensor, one for a scalar; or leave initial away for zeros",
+            )
+        object.__setattr__(self, "initial", initial or (0.0,) * size)
+        object.__setattr__(self, "state", state)
+
+    def __call__(self, E: Floats, state: Floats, points: Points | None = None) -> tuple[Floats, Floats, Floats]:
         """Evaluate the function and check what it returns.
 
         Raises
         ------
         InvalidValue
-            If the arrays have other shapes.
+            If the arrays have other shapes, or a tangent that should be symmetric is not.
         NotFinite
             If one of them holds NaN or infinity.
         """
-        answer = self.function(E, state)
+        answer = self.function(E, state) if points is None else self.function(E, state, points)
         if not isinstance(answer, tuple) or len(answer) != 3:
             raise InvalidValue("a law must return three arrays: S, CC, state", where=self.name, value=type(answer))
         S, CC, new = answer
-        return (
+        checked = (
             self._checked("S", S, (len(E), 6)),
             self._checked("CC", CC, (len(E), 6, 6)),
             self._checked("state", new, (len(E), len(self.initial))),
         )
+        if self.symmetric:
+            self._check_symmetry(checked[1])
+        return checked
 
-    def _energies(self, E: Floats, state: Floats) -> tuple[Floats, Floats]:
+    @property
+    def sees_points(self) -> bool:
+        """Whether the function takes a third argument."""
+        try:
+            parameters = inspect.signature(self.function).parameters.values()
+        except (TypeError, ValueError):  # a function of C that does not say
+            return False
+        positional = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+        return sum(one.kind in positional and one.default is one.empty for one in parameters) == 3
+
+    def _respond(
+        self, E: Floats, state: Floats, cell: int, context: tuple[Floats, float, float] | None
+    ) -> tuple[Floats, Floats, Floats]:
+        with self._naming(cell):
+            return self(E, state, None if context is None else Points(*context))
+
+    def _energies(self, E: Floats, state: Floats, cell: int) -> tuple[Floats, Floats]:
         """Evaluate the energy function and check what it returns."""
         assert self.energy is not None
-        answer = self.energy(E, state)
-        if not isinstance(answer, tuple) or len(answer) != 2:
-            raise InvalidValue(
-                "the energy function of a law must return two arrays: elastic, plastic",
-                where=self.name,
-                value=type(answer),
-                remedy="an elastic law has no plastic work: return np.zeros(len(E)) for it",
+        with self._naming(cell):
+            answer = self.energy(E, state)
+            if not isinstance(answer, tuple) or len(answer) != 2:
+                raise InvalidValue(
+                    "the energy function of a law must return two arrays: elastic, plastic",
+                    where=self.name,
+                    value=type(answer),
+                    remedy="an elastic law has no plastic work: return np.zeros(len(E)) for it",
+                )
+            elastic, plastic = answer
+            return (
+                self._checked("elastic energy", elastic, (len(E),)),
+                self._checked("plastic work", plastic, (len(E),)),
             )
-        elastic, plastic = answer
-        return (
-            self._checked("elastic energy", elastic, (len(E),)),
-            self._checked("plastic work", plastic, (len(E),)),
-        )
+
+    @contextmanager
+    def _naming(self, cell: int) -> Iterator[None]:
+        """Say in which cell an error has come up; it stays the same object."""
+        try:
+            yield
+        except UmformError as error:
+            if cell >= 0 and ", cell " not in error.where:  # a function may raise the same object again
+                error.where = f"{error.where or self.name}, cell {cell}"
+            raise
+        except Exception as error:
+            error.add_note(f"in the law {self.name!r}" + (f", cell {cell}" if cell >= 0 else ""))
+            raise
+
+    def _check_symmetry(self, CC: Floats) -> None:
+        largest = np.abs(CC).max(axis=(1, 2), initial=0.0)
+        deviation = np.abs(CC - CC.transpose(0, 2, 1)).max(axis=(1, 2), initial=0.0)
+        if (deviation > SYMMETRY * largest).any():
+            point = int(np.argmax(deviation / np.maximum(largest, 1e-300)))
+            raise InvalidValue(
+                "the tangent of a law is not symmetric",
+                where=self.name,
+                value=f"CC - CC^T is {deviation[point] / largest[point]:.2g} of the largest entry of CC",
+                cause="flow that is not associated, a tangent by differences, or a mistake in it",
+                remedy="UserLaw(..., symmetric=False) where it is meant, else correct it: check_law compares it",
+            )
 
     def _checked(self, name: str, values: ArrayLike, shape: tuple[int, ...]) -> Floats:
         array = np.ascontiguousarray(values, dtype=float)
@@ -103,30 +211,7 @@ class UserLaw:
     def law(self) -> _core.Material:
         """The law as the kernels take it."""
         energies = None if self.energy is None else self._energies
-        return _core.material_from_function(self, list(self.initial), energies)
-
-
-def check_law(material: Material, E: ArrayLike, state: ArrayLike | None = None, step: float = 1e-6) -> float:
-    """Largest deviation of the tangent of a law from central differences, relative to its largest entry.
-
-    Parameters
-    ----------
-    material : Material
-        Any law.
-    E : array_like, shape (n, 6)
-        Strains where to look, away from kinks such as first yield.
-    state : array_like, shape (n, size), optional
-        Converged history; default that of the virgin material.
-    step : float
-        Step of the differences.
-    """
-    law = material.law()
-    E = np.ascontiguousarray(E, dtype=float)
-    history = np.tile(law.initial(), (len(E), 1)) if state is None else np.ascontiguousarray(state, dtype=float)
-    _, CC, _ = law.respond(E, history)
-    differences = np.empty_like(CC)
-    for k in range(6):
-        shift = np.zeros(6)
-        shift[k] = step
-        differences[:, :, k] = (law.respond(E + shift, history)[0] - law.respond(E - shift, history)[0]) / (2 * step)
-    return float(np.abs(CC - differences).max() / np.abs(CC).max())
+        names = list(self.state.items())
+        return _core.material_from_function(
+            self._respond, list(self.initial), names, energies, self.symmetric, self.sees_points
+        )

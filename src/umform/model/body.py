@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform import _core
-from umform.elements import Element
+from umform.elements import Element, rolling_directions
 from umform.elements import element as catalogue_element
 from umform.elements import thickness_rule as make_thickness_rule
 from umform.errors import EmptySet, InvalidValue, WrongCellType
@@ -65,6 +65,9 @@ class Body(Term):
         plastic one, but 12 with BEND8 and BEND18.
     thickness_rule : {"gauss", "lobatto", "split"}, optional
         Where they lie; default gauss, but split where the default of the points is 12.
+    rolling : array_like, shape (3,) or (cells, 3), optional
+        Rolling direction of the sheet: e_1 of the local axes is its projection onto the layer, eq. (1.13a). By default
+        e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic law does not see.
     **options
         Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
         compatible_E12.
@@ -86,6 +89,7 @@ class Body(Term):
         name: str = "sheet",
         thickness_points: int | None = None,
         thickness_rule: str | None = None,
+        rolling: ArrayLike | None = None,
         **options: int | bool | None,
     ) -> None:
         self.name = name
@@ -108,7 +112,7 @@ class Body(Term):
             )
         self._through = make_thickness_rule(self.thickness_points, self.thickness_rule)
         self.element.check_modes(self._through[0])
-        self._selection = cells
+        self._selection, self._given_rolling = cells, rolling
         self.elsewhere = False
         #: History that the evaluation of the converged state had read: with it that evaluation can be repeated.
         self.before: Floats = np.empty(0)
@@ -139,13 +143,20 @@ class Body(Term):
         self.mesh = mesh
         #: Numbers of its cells in the mesh.
         self.cells: Numbers = _cell_numbers(mesh, self._selection, self.name)
+        #: Rolling direction, or that of each of its cells.
+        self.rolling = rolling_directions(self._given_rolling, len(self.cells))
+        self._numbers = self.cells
         return self
+
+    @property
+    def whole(self) -> bool:
+        """Whether it has all cells of the mesh."""
+        return len(self.cells) == len(self.mesh.connectivity)
 
     @property
     def connectivity(self) -> NDArray[np.int32]:
         """Nodes of its cells, shape (cells, nodes)."""
-        whole = len(self.cells) == len(self.mesh.connectivity)
-        return self.mesh.connectivity if whole else self.mesh.connectivity[self.cells]
+        return self.mesh.connectivity if self.whole else self.mesh.connectivity[self.cells]
 
     @cached_property
     def block(self) -> _core.ShellBlock:
@@ -155,12 +166,26 @@ class Body(Term):
         ------
         ModelError
             If the model was solved on many ranks: they have its history.
+        InvalidValue
+            If the rolling direction stands on the sheet somewhere.
         """
         if self.elsewhere:
             raise not_here("the history of the elements")
         (t, w), technology, law = self._through, self.element.technology(), self.material.law()
-        points = self.element.surface_points
-        return _core.shell_block(technology, points, t, w, law, self.connectivity, self.mesh.points)
+        points, cells, X = self.element.surface_points, self.connectivity, self.mesh.points
+        try:
+            block = _core.shell_block(technology, points, t, w, law, cells, X, self.rolling)
+        except ValueError as error:
+            if self.rolling is None:
+                raise
+            raise InvalidValue(str(error), remedy="a vector in the plane of the sheet, or one for each cell") from error
+        block.set_numbers(self._numbers.astype(np.int32))
+        return block
+
+    @property
+    def symmetric(self) -> bool:  # type: ignore[override]
+        """Whether the tangent of its law is."""
+        return self.block.symmetric
 
     @property
     def begun(self) -> bool:
@@ -176,9 +201,10 @@ class Body(Term):
     def evaluate(self, at: At, into: Into) -> BodyFound:
         """Add the forces and tangents of all elements. eqs. (2.16)-(2.18)"""
         product = None if at.du is None else into.predictor
-        failed, scale = self.block.evaluate(at.u, into.scatters[self][0], into.residual, into.values, at.du, product)
+        scatter, self.block.step = into.scatters[self][0], at.step
+        failed, scale, failure = self.block.evaluate(at.u, scatter, into.residual, into.values, at.du, product)
         failed = failed if failed < 0 else int(self.cells[failed])
-        return BodyFound(scale, failed=failed, flows=self.block.flowing)
+        return BodyFound(scale, failed=failed, failure=failure, flows=self.block.flowing)
 
     def recover(self, du: Floats, s: float, mixed: bool) -> None:
         """Update the enhanced parameters. eq. (2.19)"""
@@ -213,19 +239,21 @@ class Body(Term):
 
     def strip(self, bare: Self, twins: Twins) -> None:
         """Without cells and history."""
-        for made in ("block", "mesh", "cells"):
+        for made in ("block", "mesh", "cells", "rolling", "_numbers"):
             bare.__dict__.pop(made, None)
 
-    def piece(self, cut: Cut) -> tuple[Numbers, Numbers, Tree | None]:
-        """Cells of the rank, in its numbers and as rows of this body, and their history if there is one yet."""
+    def piece(self, cut: Cut) -> dict[str, Any]:
+        """Cells of the rank: their numbers there, as rows of this body and in the whole model; their history."""
         here, rows = cut.cells_of(self.cells)
         history = {name: values[rows] for name, values in self.state().items()} if self.begun else None
-        return here, rows, history
+        each = self.rolling is not None and self.rolling.ndim == 2
+        rolling = self.rolling[rows] if each and self.rolling is not None else self.rolling
+        return {"cells": here, "rows": rows, "numbers": self.cells[rows], "rolling": rolling, "history": history}
 
-    def fill(self, piece: tuple[Numbers, Numbers, Tree | None], mesh: Mesh) -> None:
-        """Take cells and history."""
-        self.mesh = mesh
-        self.cells, self.rows, history = piece
+    def fill(self, piece: dict[str, Any], mesh: Mesh) -> None:
+        """Take cells, rolling directions and history."""
+        self.mesh, self.cells, self.rows = mesh, piece["cells"], piece["rows"]
+        self._numbers, self.rolling, history = piece["numbers"], piece["rolling"], piece["history"]
         if history is not None:
             self.restore(history)
 

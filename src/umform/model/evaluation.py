@@ -41,7 +41,7 @@ class Evaluation:
         Root of the sum of squares of all element forces, the scale of a residual. eq. (5.8)
     failed : int
         First cell without an answer, or -1.
-    reason : str
+    failure : str
         Why it has none.
     round_off : float
         What a relative error of all positions makes of the residual of contact, over that error. eq. (5.36)
@@ -61,7 +61,7 @@ class Evaluation:
     predictor: Floats
     force_scale: float
     failed: int
-    reason: str
+    failure: str
     round_off: float
     found: dict[Term, Any]
     border: Border
@@ -99,5 +99,5 @@ def _joined(parts: list[Any], kind: np.dtype[Any]) -> Any:
 
 def first_failure(found: Mapping[Term, Found]) -> tuple[int, str]:
     """First cell without an answer and why, or -1."""
-    failed = [(one.failed, one.reason) for one in found.values() if one.failed >= 0]
+    failed = [(one.failed, one.failure) for one in found.values() if one.failed >= 0]
     return min(failed) if failed else (-1, "")

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from umform.elements import Element
 from umform.errors import InvalidValue
@@ -56,6 +56,9 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
         plastic one, but 12 with BEND8 and BEND18.
     thickness_rule : {"gauss", "lobatto", "split"}, optional
         Where they lie; default gauss, but split where the default of the points is 12.
+    rolling : array_like, shape (3,) or (cells, 3), optional
+        Rolling direction of the sheet: e_1 of the local axes is its projection onto the layer, eq. (1.26). By default
+        e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic law does not see.
     **options
         Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
         compatible_E12.
@@ -80,19 +83,20 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
         bodies: Sequence[Body] | None = None,
         thickness_points: int | None = None,
         thickness_rule: str | None = None,
+        rolling: ArrayLike | None = None,
         **options: int | bool | None,
     ) -> None:
         super().__init__(mesh)
         if bodies is None:
-            through: dict[str, Any] = {"thickness_points": thickness_points, "thickness_rule": thickness_rule}
-            bodies = [Body(element, material=material, **through, **options)]  # type: ignore[arg-type]
+            given: dict[str, Any] = {"thickness_rule": thickness_rule, "rolling": rolling, **options}
+            bodies = [Body(element, material=material, thickness_points=thickness_points, **given)]  # type: ignore[arg-type]
         elif material is not None:
             raise InvalidValue("give bodies, or element and material", where="Model", remedy="leave one of them away")
         self._embody(bodies)
         self.u: Floats = np.zeros(3 * len(mesh.points))
         #: Terms of other kinds, see :meth:`add`.
         self.others: list[Term] = []
-        self._evaluations = 0
+        self._evaluations, self._converged_time = 0, 0.0
         #: Where the time goes; :func:`umform.solve` puts a new one here.
         self.timing = Timing()
 
@@ -250,7 +254,8 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
         u, rates = x[:dofs], rates or {}
         if rates or until is not None:
             du = self.displacement_of_supports(rates)
-        at = At(u, self.time, self._values(unknowns, x[dofs:]), None if du is None else du[:dofs], rates, until)
+        values_now, step = self._values(unknowns, x[dofs:]), self.time - self._converged_time
+        at = At(u, self.time, values_now, step, None if du is None else du[:dofs], rates, until)
         values = np.zeros(assembly.entries) if tangent else None
         border = Border.of(unknowns, dofs)
         into = Into(np.zeros(dofs), values, np.zeros(dofs), assembly.scatters, self._positions, self.ranks, border)
@@ -272,7 +277,7 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
         for one in found.values():
             scale += one.force_scale_squared
             round_off += one.round_off_squared
-        failed, reason = first_failure(found)
+        failed, failure = first_failure(found)
         residual, predictor = into.residual, into.predictor
         if k:
             residual = np.concatenate([residual, into.border.residual])
@@ -286,7 +291,7 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
             predictor=predictor,
             force_scale=float(np.sqrt(scale)),
             failed=failed,
-            reason=reason,
+            failure=failure,
             round_off=float(np.sqrt(round_off)),
             found=found,
             border=into.border,
@@ -322,7 +327,7 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
         """Rate of the forces of one term with controls, shape (3 n,)."""
         part, forces = np.zeros(at.u.size), np.zeros(at.u.size)
         scratch = Into(forces, None, part, into.scatters, into.positions, into.ranks, into.border)
-        term.evaluate(At(at.u, at.time, at.values, along, rates), scratch)
+        term.evaluate(At(at.u, at.time, at.values, at.step, along, rates), scratch)
         return part
 
     def recover(self, du: Floats, s: float, mixed: bool = False) -> None:
@@ -334,6 +339,11 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
         with self.timing.recovery:
             for term in self.terms:
                 term.recover(du[: self.u.size], s, mixed)
+
+    def prepare(self) -> None:
+        """Let enhanced parameters be recovered from the converged state, after an attempt that failed."""
+        if not all(body.block.keeps_blocks for body in self.bodies):
+            self.evaluate(self.x)
 
     def undo_recover(self) -> None:
         """Take the last :meth:`recover` back."""
@@ -350,7 +360,7 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
             unknown.value = float(value)
         for term in self.terms:
             term.commit(evaluation.found[term])
-        self.u = evaluation.u.copy()
+        self.u, self._converged_time = evaluation.u.copy(), evaluation.time
 
     def stand(self, evaluation: Evaluation) -> None:
         """Let contacts know what was found at the converged state, where no commit has told them."""
@@ -397,7 +407,7 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot."""
         removal.put_supports(self, snapshot.supports)
-        self.u, self.time = snapshot.u.copy(), snapshot.time
+        self.u, self.time, self._converged_time = snapshot.u.copy(), snapshot.time, snapshot.time
         for control in self.controls:
             control.value = snapshot.controls.get(control.name, 0.0)
         for unknown in self.unknowns:

@@ -56,6 +56,8 @@ class At:
         Time.
     values : mapping of Control to float
         Values of all controls, those that scalar unknowns move included.
+    step : float
+        Time since the converged state.
     du : ndarray, shape (3 n,), optional
         Increment of the prescribed degrees of freedom, if the predictor is asked for.
     rates : mapping of Control to float
@@ -67,6 +69,7 @@ class At:
     u: Floats
     time: float
     values: Mapping[Control, float]
+    step: float = 0.0
     du: Floats | None = None
     rates: Mapping[Control, float] = field(default_factory=dict)
     until: float | None = None
@@ -186,14 +189,14 @@ class Found:
         Square of what a relative error of all positions makes of its residual, over that of the error. eq. (5.36)
     failed : int
         First cell without an answer, or -1.
-    reason : str
+    failure : str
         Why that cell has none.
     """
 
     force_scale_squared: float = 0.0
     round_off_squared: float = 0.0
     failed: int = -1
-    reason: str = ""
+    failure: str = ""
 
     @property
     def active(self) -> NDArray[np.bool_]:

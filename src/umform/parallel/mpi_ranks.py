@@ -65,6 +65,10 @@ class MpiRanks:
         """Digests of the states of all ranks."""
         return b"".join(self.comm.allgather(hashlib.blake2b(state, digest_size=16).digest()))
 
+    def text(self, mine: str) -> str:
+        """The text of the first rank that has one."""
+        return next((one for one in self.comm.allgather(mine) if one), "")
+
     def rows(self, matrix: Floats) -> Floats:
         """Triangular factors of the rows of all ranks, below each other."""
         few = np.linalg.qr(matrix, mode="r") if len(matrix) > matrix.shape[1] else matrix

@@ -159,7 +159,7 @@ def _give_back(share: Share, result: History | None) -> None:
     whole.elsewhere = True
     for thing in (*whole.bodies, *whole.contacts):
         thing.elsewhere = True
-        for made in ("block", "multipliers"):
+        for made in ("block", "_areas", "_no_multipliers"):
             vars(thing).pop(made, None)
     if result is not None:
         result.model = whole

@@ -180,5 +180,10 @@ class Share(Model):
         assert found is not None
         first = -self.ranks.max(-float(self.cells[found.failed]) if found.failed >= 0 else -np.inf)
         scale, round_off = np.sqrt(self.ranks.sum(np.array([found.force_scale, found.round_off]) ** 2))
-        failed = int(first) if np.isfinite(first) else -1
-        return replace(found, force_scale=float(scale), round_off=float(round_off), failed=failed)
+        failed, failure = -1, ""
+        if np.isfinite(first):
+            failed = int(first)
+            mine = found.failed >= 0 and self.cells[found.failed] == failed
+            failure = self.ranks.text(found.failure if mine else "")
+        scale, round_off = float(scale), float(round_off)
+        return replace(found, force_scale=scale, round_off=round_off, failed=failed, failure=failure)

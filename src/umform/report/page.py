@@ -107,4 +107,4 @@ def settings(result: History) -> dict[str, object]:
         "degrees of freedom": f"{model.unknown_count} unknown of {model.u.size}",
     }
     reached = penetrations(model, result)
-    return rows | {f"contact {pair.name}": f"{pair.tool}, {reached[pair.name]}" for pair in model.contacts}
+    return rows | {f"contact {pair.name}": f"{pair.tool.surface}, {reached[pair.name]}" for pair in model.contacts}

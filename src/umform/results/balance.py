@@ -104,7 +104,7 @@ class _Tool:
         for pair in tool.pairs:
             found: ContactFound = evaluation.found[pair]
             force = force + found.forces.sum(axis=0)
-            moment = moment + _moment(found.x - point, found.forces)
+            moment = moment + _moment(found.held.x - point, found.held.force)
             magnitude += float((found.pressure * found.area).sum())
         return cls(point, rotation, ranks.sum(force), ranks.sum(moment), ranks.sum(magnitude))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
-from umform.materials import J2
-from umform.model import Evaluation, Model
+from umform.model import Body, Evaluation, Model
 
 Floats = NDArray[np.float64]
 
@@ -31,8 +31,8 @@ class PointFields:
         Compatible deformation gradient in global axes.
     volume : ndarray, shape (cells, points)
         Reference volume of a point.
-    eqps : ndarray or None, shape (cells, points)
-        Accumulated plastic strain; None for elastic laws.
+    history : mapping of str to ndarray, shape (cells, points, size)
+        Parts of the history of the law by their names, ``history["Cp_inv"]`` for instance.
     """
 
     E: Floats
@@ -40,7 +40,13 @@ class PointFields:
     frame: Floats
     F: Floats
     volume: Floats
-    eqps: Floats | None
+    history: Mapping[str, Floats]
+
+    @property
+    def eqps(self) -> Floats | None:
+        """Accumulated plastic strain (cells, points) of laws that name it ``eqps``; None for others."""
+        part = self.history.get("eqps")
+        return None if part is None else part[..., 0]
 
     def stress(self, kind: str = "cauchy", frame: str = "global") -> Floats:
         """Stress at the Gauss points, Voigt order 11 22 33 12 23 13.
@@ -86,11 +92,45 @@ class PointFields:
 
 
 def point_fields(model: Model) -> PointFields:
-    """Fields at the Gauss points of the converged state of a model."""
-    E, S, frame, F, volume = model.block.point_fields(model.u)
-    state = model.block.state
-    eqps = state[..., 6] if isinstance(model.material, J2) else None
-    return PointFields(E, S, frame, F, volume, eqps)
+    """Fields at the Gauss points of the converged state of a model of one body."""
+    return body_fields(model.body, model.u)
+
+
+def body_fields(body: Body, u: Floats) -> PointFields:
+    """Fields at the Gauss points of the converged state of a body, at the displacement u, shape (3 n,)."""
+    E, S, frame, F, volume = body.block.point_fields(u)
+    return PointFields(E, S, frame, F, volume, named_history(body))
+
+
+def named_history(body: Body) -> dict[str, Floats]:
+    """Parts of the converged history of a body by their names, arrays (cells, points, size)."""
+    sizes, state = body.block.state_names, body.block.state
+    ends = np.cumsum([0, *sizes.values()])
+    return {name: state[..., begin : begin + size] for (name, size), begin in zip(sizes.items(), ends, strict=False)}
+
+
+def cell_fields(model: Model) -> dict[str, Floats]:
+    """Fields of the cells of the converged state, arrays (cells, ...); zero in bodies whose law does not have one."""
+    fields: dict[str, Floats] = {}
+    for body in model.bodies:
+        for name, values in _cell_fields(body_fields(body, model.u)).items():
+            whole = fields.setdefault(name, np.zeros((len(model.mesh.connectivity), *values.shape[1:])))
+            whole[body.cells] = values
+    return fields
+
+
+def _cell_fields(at: PointFields) -> dict[str, Floats]:
+    local = at.stress("cauchy", "local")
+    cells = {
+        "stress_cauchy": at.cell_average(at.stress("cauchy", "global")),
+        "stress_cauchy_local": at.cell_average(local),
+        "stress_pk2": at.cell_average(at.stress("pk2", "global")),
+        "stress_pk2_local": at.cell_average(at.stress("pk2", "local")),
+        "stress_von_mises": von_mises(local).max(axis=1),
+    }
+    if at.eqps is not None:
+        cells |= {"plastic_strain_mean": at.cell_average(at.eqps), "plastic_strain_max": at.eqps.max(axis=1)}
+    return cells
 
 
 def von_mises(stress: Floats) -> Floats:

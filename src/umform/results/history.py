@@ -142,17 +142,6 @@ class History:
 
     def _frame(self, evaluation: Evaluation) -> Frame:
         model, residual = self.model, evaluation.residual[: self.model.u.size]
-        at = fields.point_fields(model)
-        local = at.stress("cauchy", "local")
-        cells = {
-            "stress_cauchy": at.cell_average(at.stress("cauchy", "global")),
-            "stress_cauchy_local": at.cell_average(local),
-            "stress_pk2": at.cell_average(at.stress("pk2", "global")),
-            "stress_pk2_local": at.cell_average(at.stress("pk2", "local")),
-            "stress_von_mises": fields.von_mises(local).max(axis=1),
-        }
-        if at.eqps is not None:
-            cells |= {"plastic_strain_mean": at.cell_average(at.eqps), "plastic_strain_max": at.eqps.max(axis=1)}
         reaction = model.sum_at_nodes(residual.reshape(-1, 3)).copy()
         reaction.ravel()[model.free] = 0.0
         points = {
@@ -163,7 +152,7 @@ class History:
         if model.contacts:
             points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model, evaluation)
         contacts = {contact.name: evaluation.found[contact].points() for contact in model.contacts}
-        return Frame(len(self.rows) - 1, model.time, points, cells, contacts)
+        return Frame(len(self.rows) - 1, model.time, points, fields.cell_fields(model), contacts)
 
     def __len__(self) -> int:
         return len(self.rows)

@@ -122,8 +122,7 @@ def read_note(path: str | PathLike[str]) -> dict[str, Any]:
     FileProblem
         If the file cannot be read, or is no checkpoint.
     """
-    note: dict[str, Any] = read_tree(path, _KIND, whole=False)["note"]
-    return note
+    return read_tree(path, _KIND, part="note")
 
 
 def _problem_of_writing(path: Path) -> FileProblem | None:
@@ -180,7 +179,7 @@ def _tree(run: Run) -> dict[str, Any]:
     return model.whole_state(
         {
             "number": run.number,
-            # The one solver with a memory: once it needs the factors of an indefinite matrix, it stays with them.
+            # The one solver with a memory: after an indefinite matrix it tries other factors than Cholesky's.
             "factors": solver.memory() if isinstance(solver, Pardiso) else None,
             "loop": None if run.loop is None else run.loop.memory(),
             "model": vars(model.snapshot()),

@@ -52,7 +52,8 @@ def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: i
         "mesh": f"{mesh.cell}, {len(mesh.points)} points, {len(mesh.connectivity)} cells, "
         + digest(mesh.points, mesh.connectivity),
         "element": text([[body.element, body.thickness_points, body.thickness_rule] for body in model.bodies]),
-        "material": text([[body.name, body.material, body.cells] for body in model.bodies]),
+        "material": text([[body.name, body.material, body.rolling] for body in model.bodies]),
+        "bodies": text([None if body.whole else body.cells for body in model.bodies]),
         "supports and loads": text([supports, [_control(control) for control in model.controls]]),
         "contacts": text([_contact(contact) for contact in model.contacts]),
         "tools": text([_tool(tool) for tool in model.tools]),

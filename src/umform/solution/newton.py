@@ -273,7 +273,8 @@ class Newton:
             return work()
         except (SingularMatrix, NotFinite) as error:
             self.system.revert()
-            raise Failed(error.what, [], singular=isinstance(error, SingularMatrix)) from error
+            what = ", ".join(filter(None, (error.what, error.where)))
+            raise Failed(what, [], singular=isinstance(error, SingularMatrix)) from error
         except BaseException:  # an error of a user's function or an interrupt too leaves no trace
             self.system.revert()
             raise
@@ -416,13 +417,9 @@ class Newton:
 
     @staticmethod
     def check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:
-        """Fail where a cell has no answer."""
+        """Fail where a cell has no residual: it is turned inside out, or its law has no answer."""
         if evaluation.failed >= 0:
-            reason = evaluation.reason or (
-                "strained beyond the domain of its material law (or so far that its enhanced parameters cannot be "
-                "eliminated)"
-            )
-            raise Failed(f"cell {evaluation.failed} is {reason}", iterations)
+            raise Failed(f"cell {evaluation.failed} {evaluation.failure}", iterations)
 
     def _count(self, points: NDArray[np.bool_]) -> int:
         return int(self.system.ranks.sum(float(points.sum())))

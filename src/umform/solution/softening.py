@@ -47,6 +47,7 @@ def softened(model: Model, newton: Newton, start: NDArray[np.float64] | None) ->
     try:
         return _same_side(model, _stiffened(model, newton, start, soft))
     except Failed:
+        model.prepare()
         return _same_side(model, _stiffened(model, newton, start, softest))
 
 

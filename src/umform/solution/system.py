@@ -70,7 +70,7 @@ class Evaluation(Protocol):
         """First cell without an answer, or -1."""
 
     @property
-    def reason(self) -> str:
+    def failure(self) -> str:
         """Why it has none."""
 
     @property

@@ -6,7 +6,7 @@ more to factorise; it orders all other matrices. Large sheets go in as blocks, o
 analysis takes a quarter of the time then. PARDISO does not give the pivots of Cholesky factors of blocks, so
 these are L D L^T without exchanges.
 
-Against SuperLU it factorises strips 3 to 7 times faster and sheets 3 times and more. Cholesky comes first; a pivot
+Against SuperLU it factorises strips 3 to 7 times faster and sheets 6 to 8 times. Cholesky comes first; a pivot
 that is not positive leads to Bunch-Kaufman factors, which cost 1.0 to 1.5 times as much and know the inertia, until a
 matrix has no negative pivot any more. LU for unsymmetric matrices costs twice as much. Matching and scaling would tie
 the analysis to the values and make the factors of a sheet 3 times dearer: they are off, and the residual is
@@ -54,7 +54,7 @@ _CAUSES = {
 }
 # From so many equations on blocks are worth it: below, Cholesky factors take a few per cent less than those of blocks.
 _LARGE = 100_000
-# Below so many equations one thread: two gain up to 20 ms there, and take 2 to 5 times as long on a busy machine.
+# Below so many equations one thread: two gain up to 20 ms, but take 2 to 5 times as long as one on a busy machine.
 _SMALL = 25_000
 
 
@@ -86,7 +86,7 @@ class Pardiso:
         with mkl.threads(self._threads):
             self._factorise()
             handle = self._handle
-            # Pivots of unsymmetric matrices are not always given; there the residual of each solve is checked.
+            # PARDISO does not always give the pivots of unsymmetric matrices: the residual of each solve is checked.
             weakest = vanishing_pivot(*handle.pivots()) if self._pattern.symmetric else None
         if weakest is not None or handle.perturbed_pivots:
             raise singular(self.name, None if weakest is None else handle.equation(weakest))

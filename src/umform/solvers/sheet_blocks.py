@@ -12,7 +12,7 @@ _FILLING = 1.1
 
 
 class SheetBlocks:
-    """Upper triangle of the blocks by rows, one for two neighbouring fibres; equations x = 0 fill them up to one size.
+    """Upper triangle of the blocks by rows; they are filled up with equations x = 0 to one size.
 
     Parameters
     ----------

@@ -1,5 +1,7 @@
 """What `umform check` finds is found before a run too: errors refuse, warnings are printed."""
 
+import logging
+
 import pytest
 from typer.testing import CliRunner
 
@@ -102,3 +104,23 @@ def test_a_warning_that_comes_again_is_counted(monkeypatch, deck):
     assert run.stderr.count("it chatters") == 2
     assert "umform: step 1, time 0.1: it chatters\n" in run.stderr
     assert "times, first at step 1, time 0.1" in run.stderr
+
+
+def test_with_the_log_a_warning_is_printed_once_too(deck, monkeypatch):
+    logger = logging.getLogger("umform")
+    monkeypatch.setattr(logger, "handlers", [])
+    monkeypatch.setattr(logger, "level", logger.level)
+    fine = ["--set", "mesh.cells=[24, 1]", "--set", "output.report=false", "--set", "contacts.cylinder.points=1"]
+    run = umform("run", "-v", deck, *SHORT, *fine)
+    assert run.stderr.count("the force climbs in stairs") == 1
+    assert "step 1  time 0.25" in run.stderr
+
+
+def test_a_demo_without_room_for_its_stroke_is_refused_with_its_options(tmp_path):
+    refused = umform("demo", "free-bending", "--radius", "30", "--out", tmp_path / "out")
+    assert refused.exit_code == 1
+    assert "no room for the stroke" in refused.stderr
+    assert "--stroke" in refused.stderr
+    assert "12.67 at most" in refused.stderr
+    assert "--tool-x 31 or more" in refused.stderr
+    assert not (tmp_path / "out").exists()

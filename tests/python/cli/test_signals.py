@@ -86,9 +86,8 @@ def test_what_a_killed_run_has_left_is_removed_by_the_next_one(deck, tmp_path):
     assert [path.name for path in out.iterdir()] == [".umform-run"]
     half = out / f".checkpoint.{(out / '.umform-run' / 'owner').read_text()}.00ff00ff.h5"
     half.touch()  # killed while it wrote a checkpoint
-    answer = umform(
-        "run", deck, "--out", out, *SHORT, "--set", "steps.0.increments=30", "--set", "steps.0.to.punch=-0.5"
-    )
+    less = ["--set", "steps.0.increments=30", "--set", "steps.0.to.punch=-0.5"]
+    answer = umform("run", deck, "--out", out, *SHORT, *less)
     assert answer.exit_code == 0, answer.output
     assert {path.name for path in out.iterdir()} == {"history.csv", "fields.vtkhdf", "as-run.toml"}
 

@@ -174,7 +174,7 @@ def test_every_control_is_that_of_the_model(strip):
     }
     assert sums == {"push": [0, 0, -1], "drag": [20, 0, 0], "edge": [0, 2, 0], "weight": [0, 0, -20]}
     contact = problem.contacts["floor"]
-    contact.place(0.5)
+    problem.model.time = 0.5
     Q, c = contact.pose
     assert c.tolist() == [0, 0, 0.5]
     assert np.allclose(Q @ [1, 0, 0], [np.sqrt(0.5), 0, -np.sqrt(0.5)])

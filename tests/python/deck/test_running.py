@@ -44,6 +44,7 @@ def whole(folder):
 
 
 def test_run_writes_everything(deck, tmp_path):
+    deck.write_text('title = "A strip that is pulled <far>"\n' + deck.read_text())
     out = tmp_path / "a" / "b"
     answer = umform("run", deck, "--out", out, "--solver", "superlu", "--set", "steps.0.increments=3")
     assert answer.exit_code == 0, answer.output
@@ -54,6 +55,7 @@ def test_run_writes_everything(deck, tmp_path):
     copy = (out / "as-run.toml").read_text()
     assert copy == "# run with --set steps.0.increments=3\n" + deck.read_text()
     assert escape(copy) in (out / "report.html").read_text()
+    assert "<h1>A strip that is pulled &lt;far&gt;</h1>" in (out / "report.html").read_text()
     assert umform("check", out / "as-run.toml").exit_code == 0
 
 
@@ -110,13 +112,11 @@ def test_interrupt_writes_what_was_reached(deck, tmp_path, monkeypatch):
 
 
 def test_interrupt_while_writing_leaves_no_half_file(deck, tmp_path, monkeypatch):
-    from umform.run import Result
-
-    def interrupted(self, path, *, deck):
+    def interrupted(result, path, **texts):
         path.write_text("<html>")
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(Result, "report", interrupted)
+    monkeypatch.setattr("umform.report.page.write_report", interrupted)
     answer = umform("run", deck, "--out", tmp_path / "out")
     assert answer.exit_code == 130
     assert whole(tmp_path / "out") == {"history.csv", "fields.vtkhdf", "as-run.toml", "checkpoint.h5"}

@@ -75,7 +75,7 @@ def test_an_element_outside_of_its_domain_is_found_without_a_tangent(build, mate
     element = build.one_element("DISP3D", materials["j2"])
     flat = np.zeros((element.nodes, 3))
     flat[:, 2] = -element.X[:, 2]
-    (failed, scale), f, _ = evaluate(element, flat.ravel(), tangent=False)
+    (failed, scale, _), f, _ = evaluate(element, flat.ravel(), tangent=False)
     assert (failed, scale) == (0, 0.0)
     assert not f.any()
 

@@ -176,4 +176,4 @@ def test_a_law_without_an_energy_has_none(tmp_path):
 def test_a_wrong_energy_is_refused(answer, error, message):
     with pytest.raises(error, match=message) as caught:
         pulled(UserLaw(hooke, energy=answer, name="mine"))
-    assert caught.value.where == "mine"
+    assert caught.value.where == "mine, cell 0"

@@ -10,7 +10,7 @@ import pytest
 import umform
 from umform import materials as mt
 from umform.errors import InvalidValue, NoConvergence, NotFinite
-from umform.materials.user_law import UserLaw, check_law
+from umform.materials import UserLaw, check_law
 from umform.mesh import strip
 from umform.model import Model
 from umform.run import solve
@@ -83,11 +83,6 @@ def raised(error):
     return action
 
 
-def assert_same(one, other):
-    for a, b in zip(vars(one).values(), vars(other).values(), strict=True):
-        np.testing.assert_array_equal(a, b)
-
-
 # What a law returns -----------------------------------------------------------------------------------------
 
 
@@ -124,7 +119,7 @@ def test_wrong_shapes_are_refused(watched, spoil, message):
     function.hook = lambda answer: spoil(*answer)
     with pytest.raises(InvalidValue, match=message) as caught:
         solve(model, Move(pull, 0.1, steps=1), frames=0)
-    assert caught.value.where == "damage"
+    assert caught.value.where == "damage, cell 0"
     with pytest.raises(InvalidValue, match=message):
         model.material.law().respond(np.zeros((3, 6)), np.zeros((3, 1)))
 
@@ -141,7 +136,7 @@ def test_what_is_not_finite_is_refused(watched, which, name, value):
     function.hook = spoil
     with pytest.raises(NotFinite, match=f"{name} of a law is not finite") as caught:
         model.evaluate(model.u)
-    assert caught.value.where == "damage"
+    assert caught.value.where == "damage, cell 0"
 
 
 def test_a_law_cannot_change_strain_or_history(watched):
@@ -164,7 +159,7 @@ def test_a_law_cannot_change_strain_or_history(watched):
 
 
 @pytest.mark.parametrize("calls", [0, 3, 7])
-def test_nan_in_the_middle_of_a_run_ends_with_its_cause_at_the_last_converged_state(watched, calls):
+def test_nan_in_the_middle_of_a_run_ends_with_its_cause_at_the_last_converged_state(watched, calls, same_state):
     function, model, pull = watched
     solve(model, Move(pull, 0.1, steps=2), frames=0)
     before, residual = model.snapshot(), model.evaluate(model.u).residual
@@ -174,7 +169,7 @@ def test_nan_in_the_middle_of_a_run_ends_with_its_cause_at_the_last_converged_st
     assert "S of a law is not finite" in caught.value.cause
     assert len(caught.value.result) == 1
     function.hook = None
-    assert_same(model.snapshot(), before)
+    assert same_state(model.snapshot(), before)
     np.testing.assert_array_equal(model.evaluate(model.u).residual, residual)
 
 
@@ -202,7 +197,9 @@ def test_a_single_nan_costs_a_cut_and_leaves_no_trace_in_the_history(watched):
 @pytest.mark.parametrize(
     "error", [RuntimeError("broken law", 7), KeyError("K"), InvalidValue("bad", value=3), KeyboardInterrupt("stop")]
 )
-def test_an_error_of_the_function_arrives_intact_at_the_last_converged_state(threads_as_before, threads, cells, error):
+def test_an_error_of_the_function_arrives_intact_at_the_last_converged_state(
+    threads_as_before, threads, cells, error, same_state
+):
     """Also out of a team of threads, which is sent out for more than 64 elements."""
     umform.set_threads(threads)
     function = Watched()
@@ -218,7 +215,7 @@ def test_an_error_of_the_function_arrives_intact_at_the_last_converged_state(thr
     assert len(error.result) == 1
     assert error.result["pull"][-1] == 0.1
     function.hook = None
-    assert_same(model.snapshot(), before)
+    assert same_state(model.snapshot(), before)
     assert pull.value == 0.1
     np.testing.assert_array_equal(model.evaluate(model.u).residual, residual)
     other, control = pulled(UserLaw(damage, initial=(0.0,)), cells)
@@ -228,6 +225,43 @@ def test_an_error_of_the_function_arrives_intact_at_the_last_converged_state(thr
         solve(m, Move(c, 0.3, steps=2), frames=0)
     np.testing.assert_array_equal(model.u, other.u)
     np.testing.assert_array_equal(model.block.state, other.block.state)
+
+
+@pytest.mark.parametrize("spoilt", [0, 5, 17])
+def test_an_error_of_the_function_says_its_cell(spoilt):
+    """Of a team of threads too; the error stays what it was, with a note."""
+
+    def moody(E, state):
+        if E[0, 0] > 0.1:
+            raise ArithmeticError("too much")
+        return hooke(E, state)
+
+    def bitter(E, state):
+        if E[0, 0] > 0.1:
+            raise NotFinite("too much", where="bitter")
+        return hooke(E, state)
+
+    for function in (moody, bitter):
+        model, _ = pulled(UserLaw(function, name="moody"), (18, 1))
+        u = np.zeros_like(model.mesh.points)
+        right = model.mesh.points[:, 0] > (spoilt + 0.5) / 18
+        u[right, 0] = 0.5 / 18
+        with pytest.raises((ArithmeticError, NotFinite), match="too much") as caught:
+            model.evaluate(u.ravel())
+        if function is moody:
+            assert caught.value.__notes__ == [f"in the law 'moody', cell {spoilt}"]
+        else:
+            assert caught.value.where == f"bitter, cell {spoilt}"
+
+
+def test_an_error_of_the_energy_says_its_cell():
+    def energy(E, state):
+        raise ZeroDivisionError("nothing")
+
+    model, _ = pulled(UserLaw(hooke, energy=energy, name="mine"))
+    with pytest.raises(ZeroDivisionError) as caught:
+        model.block.energy(model.u)
+    assert caught.value.__notes__ == ["in the law 'mine', cell 0"]
 
 
 def test_the_number_of_threads_changes_no_bit(threads_as_before):
@@ -278,13 +312,13 @@ def test_damage_stays_when_the_load_goes(watched):
     assert (model.block.state > 1.2 * damaged).all()
 
 
-def test_a_snapshot_holds_the_history(watched):
+def test_a_snapshot_holds_the_history(watched, same_state):
     _, model, pull = watched
     solve(model, Move(pull, 0.1, steps=1), frames=0)
     saved = model.snapshot()
     first = solve(model, Move(pull, 0.2, steps=2), frames=0)["pull_force"]
     model.restore(saved)
-    assert_same(model.snapshot(), saved)
+    assert same_state(model.snapshot(), saved)
     np.testing.assert_array_equal(solve(model, Move(pull, 0.2, steps=2), frames=0)["pull_force"], first)
 
 

@@ -77,13 +77,11 @@ def test_tangent_is_the_derivative_of_the_force(build, rng, name, cell, points):
     full = build.full_tangent(contact.block, len(mesh.points))
     u = 0.05 * rng.normal(size=full.size)
     for _ in range(2):  # move the tool until about half of the points penetrate
-        contact.place(0.0)
-        contact.block.locate(u)
-        shift[2] += middle_of_a_void(contact.block.gaps)
-    contact.place(0.0)
+        shift[2] += middle_of_a_void(contact.locate(u, contact.pose).gap)
+    found = contact.locate(u, contact.pose)
     _, K = full(u)
-    assert 0.3 < contact.active().mean() < 0.7
-    assert np.abs(contact.block.gaps).min() > 1e-5  # away from the kink
+    assert 0.3 < found.active.mean() < 0.7
+    assert np.abs(found.gap).min() > 1e-5  # away from the kink
     np.testing.assert_allclose(K, K.T, atol=1e-13 * np.abs(K).max())
     for _ in range(3):
         du = rng.normal(size=u.size)
@@ -95,17 +93,15 @@ def test_a_turned_and_shifted_tool_sees_a_turned_and_shifted_sheet(build, rng, n
     mesh = plate("hex8", build)
     model, contact = contact_of(mesh, TOOLS[name], 3)
     u = 0.05 * rng.normal(size=(len(mesh.points), 3))
-    model.evaluate(u.ravel())
-    still, force = contact.at_points(), contact.resultant()[0]
+    still = model.evaluate(u.ravel()).found[contact]
+    force = still.resultant()[0]
     rotation, centre, shift = Rotation.from_rotvec([0.5, 0.4, -1.2]), np.array([0.3, 0.0, 1.0]), (0.2, 0.5, -1)
     model.set_motion(contact, lambda time: (np.array(shift), rotation.as_rotvec()), about=centre)
-    contact.place(0.0)
     x = (mesh.points + u - centre) @ rotation.as_matrix().T + centre + shift
-    contact.block.locate((x - mesh.points).ravel())
-    moved = contact.at_points()
+    moved = contact.locate((x - mesh.points).ravel(), contact.pose)
     np.testing.assert_allclose(moved.gap, still.gap, atol=1e-14)
     np.testing.assert_allclose(moved.normal, still.normal @ rotation.as_matrix().T, atol=1e-13)
-    np.testing.assert_allclose(contact.resultant()[0], rotation.as_matrix() @ force, atol=1e-12)
+    np.testing.assert_allclose(moved.resultant()[0], rotation.as_matrix() @ force, atol=1e-12)
 
 
 # Uniform pressure -------------------------------------------------------------------------------------------
@@ -122,14 +118,15 @@ def test_a_flat_block_feels_penalty_times_penetration(build, cell, points, face)
     u = np.zeros((len(mesh.points), 3))
     u[:, 2] = -0.01 * sign
     full = build.full_tangent(contact.block, len(mesh.points))
+    found = contact.locate(u.ravel(), contact.pose)
     f, _ = full(u.ravel())
-    at = contact.at_points()
+    at = found.points()
     np.testing.assert_allclose(at.pressure, 0.5, rtol=1e-12)
     np.testing.assert_allclose(at.gap, -0.01, rtol=1e-12)
     assert at.area.sum() == pytest.approx(3.0, rel=1e-13)
-    np.testing.assert_allclose(contact.resultant()[0], [0.0, 0.0, -1.5 * sign], atol=1e-13)
-    np.testing.assert_allclose(contact.resultant()[1], [-1.5 * sign * 0.75, 1.5 * sign, 0.0], atol=1e-13)
-    assert f.reshape(-1, 3).sum(axis=0) == pytest.approx(contact.resultant()[0], abs=1e-13)
+    np.testing.assert_allclose(found.resultant()[0], [0.0, 0.0, -1.5 * sign], atol=1e-13)
+    np.testing.assert_allclose(found.resultant()[1], [-1.5 * sign * 0.75, 1.5 * sign, 0.0], atol=1e-13)
+    assert f.reshape(-1, 3).sum(axis=0) == pytest.approx(found.resultant()[0], abs=1e-13)
     if (cell, points) != ("hex18", 1):  # one point does not integrate the biquadratic functions of a face
         expected = -forces.traction_forces(mesh, face, (0.0, 0.0, 0.5 * sign))
         np.testing.assert_allclose(f, expected, atol=1e-13)
@@ -151,8 +148,10 @@ def test_forces_of_uniform_pressure_are_consistent_on_distorted_faces(build, cel
 @pytest.mark.parametrize(("cell", "parts"), [("hex8", [1, 1, 1, 1]), ("hex18", [1, 1, 1, 1, 4, 4, 4, 4, 16])])
 def test_nodal_rule_has_the_tributary_areas_of_the_shape_functions(cell, parts):
     mesh = strip(2.0, 1.5, 0.2, (1, 1), cell=cell)
-    _, contact = contact_of(mesh, Plane(), "nodes", cell=cell)
-    np.testing.assert_allclose(contact.at_points().area, 3.0 * np.array(parts) / sum(parts), rtol=1e-13)
+    model, contact = contact_of(mesh, Plane(), "nodes", cell=cell)
+    np.testing.assert_allclose(
+        model.evaluate(model.u).found[contact].area, 3.0 * np.array(parts) / sum(parts), rtol=1e-13
+    )
 
 
 @pytest.mark.parametrize(
@@ -195,9 +194,9 @@ STANDING = [("ANS3DEAS", 2), ("ANS3DEAS", "nodes"), ("MI9K3DEAS", 3), ("MI9K3DEA
 @pytest.mark.parametrize(("element", "points"), STANDING)
 def test_a_tool_that_just_touches_holds_a_load_driven_block(element, points):
     model, contact, load = standing(0.0, element, points)
-    model.evaluate(model.u)
-    assert (contact.at_points().gap == 0.0).all()
-    assert contact.active().all()
+    found = model.evaluate(model.u).found[contact]
+    assert (found.gap == 0.0).all()
+    assert found.active.all()
     solve(model, Move(load, 8.0, steps=2), options=NewtonOptions(residual=1e-13), frames=0)
     np.testing.assert_allclose(contact.at_points().gap, -8.0 / 400.0, rtol=1e-10)
     np.testing.assert_allclose(contact.resultant()[0], [0.0, 0.0, -24.0], atol=1e-9)
@@ -238,10 +237,10 @@ def test_resultant_is_the_reaction_and_the_moment_is_in_balance(build, element, 
 def test_moment_about_another_point_is_shifted_by_the_force(build):
     mesh = plate("hex8", build)
     model, contact = contact_of(mesh, TOOLS["sphere"], 3)
-    model.evaluate(np.tile([0.0, 0.0, -0.05], len(mesh.points)))
-    force, moment = contact.resultant()
+    found = model.evaluate(np.tile([0.0, 0.0, -0.05], len(mesh.points))).found[contact]
+    force, moment = found.resultant()
     about = np.array([3.0, -1.0, 2.0])
-    np.testing.assert_allclose(contact.resultant(about)[1], moment - np.cross(about, force), atol=1e-13)
+    np.testing.assert_allclose(found.resultant(about)[1], moment - np.cross(about, force), atol=1e-13)
 
 
 @pytest.mark.parametrize("cell", ["hex8", "hex18"])
@@ -250,9 +249,10 @@ def test_nodes_do_not_pull_and_carry_what_the_points_carry(build, cell, points):
     """Beside the edge of a contact that covers a part of a face, where a 9-node shape function is negative."""
     mesh = plate(cell, build, amount=0.05)
     model, contact = contact_of(mesh, Sphere((0.2, 0.1, -1.0), 1.0), points, cell=cell)
-    model.evaluate(np.tile([0.0, 0.0, -0.1], len(mesh.points)))
-    at, (pressure, _) = contact.at_points(), contact.at_nodes(np.tile([0.0, 0.0, -0.1], len(mesh.points)), mesh)
-    assert 0 < contact.active().sum() < contact.active().size
+    u = np.tile([0.0, 0.0, -0.1], len(mesh.points))
+    at = model.evaluate(u).found[contact]
+    pressure, _ = contact.found_at_nodes(at, u, mesh)
+    assert 0 < at.active.sum() < at.active.size
     assert pressure.min() == 0.0
     assert pressure.max() <= at.pressure.max()
     hats = hat_functions(contact.block.shape_values)
@@ -302,14 +302,12 @@ def test_a_motion_in_time_equals_a_driven_tool(build):
 def test_tools_that_follow_several_controls_add_their_ways(build):
     case = build.free_bending((8, 1))
     up, along = case.model.drive(case.contact, "z"), case.model.drive(case.contact, (3.0, 0.0, 4.0))
-    case.contact.place(0.0)
-    case.contact.block.locate(case.model.u)
+    case.contact.locate(case.model.u, case.contact.pose)
     up.value, along.value = 0.5, 2.0
-    case.contact.place(0.0)
-    case.contact.block.locate(case.model.u)
-    x = case.contact.at_points().x
+    found = case.contact.locate(case.model.u, case.contact.pose)
+    x = found.x
     expected = np.hypot(x[:, 0] - 25 - 1.2, x[:, 2] + 20.5 - 0.5 - 1.6) - 20
-    np.testing.assert_allclose(case.contact.at_points().gap, expected, atol=1e-13)
+    np.testing.assert_allclose(found.gap, expected, atol=1e-13)
 
 
 # Refusals ---------------------------------------------------------------------------------------------------
@@ -372,7 +370,7 @@ def test_a_motion_must_be_three_finite_numbers_or_two_times_three(build, answer,
     with pytest.raises(error, match=message) as caught:
         model.evaluate(model.u)
     assert type(caught.value) is error
-    assert caught.value.where == "motion of contact tool1 at time 0.5"
+    assert caught.value.where == "motion of tool tool1 at time 0.5"
 
 
 @pytest.mark.parametrize(
@@ -390,8 +388,7 @@ def test_a_motion_is_a_translation_with_or_without_a_rotation_vector(build, answ
     """The last one turns the plane upside down and its normal with it."""
     model, contact = contact_of(plate("hex8", build), Plane(), 2)
     model.set_motion(contact, lambda time: answer)
-    model.evaluate(model.u)
-    np.testing.assert_allclose(contact.at_points().gap, 0.25, atol=1e-15)
+    np.testing.assert_allclose(model.evaluate(model.u).found[contact].gap, 0.25, atol=1e-15)
 
 
 def pushed_on(build, function):

@@ -10,6 +10,7 @@ import pytest
 from umform import materials as mt
 from umform.mesh import strip
 from umform.model import Model
+from umform.model.term import At
 from umform.run import solve
 from umform.solution.criteria import Criteria
 from umform.solution.newton import Failed, Newton, NewtonOptions
@@ -45,7 +46,7 @@ def attained(model, iterations=6):
         evaluation = model.evaluate(u)
         r = model.restrict(evaluation.residual)
         norms.append(float(np.linalg.norm(r)))
-        solver.factor(evaluation.values)
+        solver.factor(evaluation)
         du = model.extend(solver.solve(-r))
         model.recover(du, 1.0)
         u += du
@@ -85,23 +86,21 @@ def test_the_scale_of_round_off_by_hand():
     sheet = strip(1.0, 1.0, 0.5, (1, 1)).transformed(lambda x: x + np.array([3.0, 0.0, 4.25]))
     model = Model(sheet, material=ELASTIC)
     contact = model.contact("lower", Plane((0.0, 0.0, 4.0)), penalty=7.0, points=1)
-    model.evaluate(model.u)
-    at = contact.at_points()
+    at = model.evaluate(model.u).found[contact]
     assert at.gap[0] == 0.0
     size = np.linalg.norm(at.x[0])
-    assert contact.block.round_off_squared == pytest.approx(4 * (7.0 * 0.25 * size) ** 2, rel=1e-14)
-    model.evaluate(np.tile([0.0, 0.0, 1e-9], len(sheet.points)))
-    assert contact.block.round_off_squared == 0.0
+    assert at.round_off_squared == pytest.approx(4 * (7.0 * 0.25 * size) ** 2, rel=1e-14)
+    away = model.evaluate(np.tile([0.0, 0.0, 1e-9], len(sheet.points)))
+    assert away.found[contact].round_off_squared == 0.0
 
 
 def test_a_round_tool_adds_its_radius_of_curvature_to_the_scale():
     sheet = strip(1.0, 1.0, 0.5, (1, 1))
     model = Model(sheet, material=ELASTIC)
     contact = model.contact("lower", Cylinder((0.0, 0.0, -50.0), "y", 50.0), penalty=1.0, points=1)
-    model.evaluate(model.u)
-    at = contact.at_points()
+    at = model.evaluate(model.u).found[contact]
     size = np.linalg.norm(at.x[0]) + 50.0 + at.gap[0]
-    assert contact.block.round_off_squared == pytest.approx(4 * (0.25 * size) ** 2, rel=1e-12)
+    assert at.round_off_squared == pytest.approx(4 * (0.25 * size) ** 2, rel=1e-12)
 
 
 # First touch and release ------------------------------------------------------------------------------------
@@ -144,10 +143,10 @@ def test_a_release_with_a_penalty_of_100_E_over_h_ends_where_that_of_a_soft_one_
 def test_softer_penalties_lead_to_the_equilibrium_of_the_penalty_itself():
     model, ram = three_points(1e5, 10)
     ram.value = 1.0
-    model.evaluate(model.u)
+    model.stand(model.evaluate(model.u))
     converged = softened(model, Newton(model), None)
     assert model.contacts[0].penalty == 1e5
-    model.commit(converged.u)
+    model.commit(converged.evaluation)
     again, other = three_points(1e5, 10)
     solve(again, Move(other, 1.0, steps=20), frames=0)
     np.testing.assert_allclose(model.u, again.u, atol=1e-7)
@@ -156,7 +155,7 @@ def test_softer_penalties_lead_to_the_equilibrium_of_the_penalty_itself():
 def test_penalties_are_those_of_before_when_softer_ones_lead_nowhere():
     model, ram = three_points(1e5, 10)
     ram.value = 1.0
-    model.evaluate(model.u)
+    model.stand(model.evaluate(model.u))
     with pytest.raises(Failed):
         softened(model, Newton(model, NewtonOptions(max_iterations=1)), None)
     assert model.contacts[0].penalty == 1e5
@@ -190,13 +189,12 @@ def test_the_way_of_a_tool_is_that_of_its_points(build):
     case = build.free_bending((8, 1))
     case.model.set_motion(case.contact, rolling, about=(20.0, 0.0, -15.0))
     ram = case.model.drive(case.contact, "z", "ram")
-    ram.value = 0.7
-    case.contact.place(0.5)
-    rotation, shift = case.contact.pose
+    ram.value, case.model.time = 0.7, 0.5
+    rotation, shift = pose = case.contact.pose
     mark = np.array([[3.0, 4.0, 5.0], [-1.0, 0.0, 2.0]])  # in the tool's own frame
     x = mark @ rotation.T + shift
-    way = case.contact.carried(x, 0.9)
-    case.contact.place(0.9)
+    way = case.contact._carried(x, At(case.model.u, 0.5, {ram: 0.7}, until=0.9), pose)
+    case.model.time = 0.9
     rotation, shift = case.contact.pose
     np.testing.assert_allclose(x + way, mark @ rotation.T + shift, atol=1e-13)
 

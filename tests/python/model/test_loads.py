@@ -295,7 +295,7 @@ def test_a_held_displacement_cannot_be_prescribed_too(model):
 def test_names_of_controls_are_unique(model):
     model.force("x1", VECTOR, "pull")
     for taken in ("pull", "time"):
-        with pytest.raises(InvalidValue, match="name of a control is taken"):
+        with pytest.raises(InvalidValue, match="the name is taken: two columns of the history would collide"):
             model.traction("upper", VECTOR, taken)
     assert [model.force("x1", VECTOR).name for _ in range(3)] == ["force", "force2", "force3"]
 

@@ -61,7 +61,17 @@ def size_of(value):
         return value.nbytes
     if dataclasses.is_dataclass(value):
         value = list(vars(value).values())
+    if isinstance(value, dict):
+        value = list(value.values())
     return sum(map(size_of, value)) if isinstance(value, list | tuple) else 0
+
+
+def pieces(cut, model, kind):
+    """Of the parcels the pieces of some things of the model, by kind: a list over the ranks for each of them."""
+    kinds = ("bodies", "controls", "tools", "contacts", "others")
+    first = sum(len(getattr(model, before)) for before in kinds[: kinds.index(kind)])
+    assert len(cut[0].pieces) == sum(len(getattr(model, name)) for name in kinds)
+    return [[one.pieces[first + k] for one in cut] for k in range(len(getattr(model, kind)))]
 
 
 def test_all_parcels_make_the_model():
@@ -87,8 +97,7 @@ def test_all_parcels_make_the_model():
 def test_controls_ties_and_contacts_are_parted_too():
     model, _ = sheet()
     cut = parcels(model)
-    for number, control in enumerate(model.controls):
-        mine = [one.controls[number] for one in cut]
+    for control, mine in zip(model.controls, pieces(cut, model, "controls"), strict=True):
         if isinstance(control, Prescribed | MidLine):
             whole = [3 * one.nodes[dofs // 3] + dofs % 3 for one, dofs in zip(cut, mine, strict=True)]
             np.testing.assert_array_equal(np.unique(np.concatenate(whole)), np.unique(control.dofs))
@@ -102,11 +111,10 @@ def test_controls_ties_and_contacts_are_parted_too():
                 [np.c_[one.cells[rows[:, 0]], rows[:, 1]] for one, rows in zip(cut, mine, strict=True)]
             )
             np.testing.assert_array_equal(np.unique(whole, axis=0), np.unique(control.faces, axis=0))
-    for number, contact in enumerate(model.contacts):
-        for one in cut:
-            rows = contact.faces[one.facets[number]]
-            np.testing.assert_array_equal(np.c_[one.cells[one.faces[number][:, 0]], one.faces[number][:, 1]], rows)
-        assert sum(len(one.facets[number]) for one in cut) == len(contact.faces)
+    for contact, mine in zip(model.contacts, pieces(cut, model, "contacts"), strict=True):
+        for one, (faces, rows, _) in zip(cut, mine, strict=True):
+            np.testing.assert_array_equal(np.c_[one.cells[faces[:, 0]], faces[:, 1]], contact.faces[rows])
+        assert sum(len(rows) for _, rows, _ in mine) == len(contact.faces)
     for number, tie in enumerate(model.ties):
         whole = np.concatenate([3 * one.nodes[one.ties[number] // 3] + one.ties[number] % 3 for one in cut])
         np.testing.assert_array_equal(np.unique(whole, axis=0), np.unique(tie.dofs, axis=0))
@@ -116,9 +124,13 @@ def test_a_begun_state_goes_along():
     model, _ = sheet()
     model.block.restore(model.block.state, np.random.default_rng(3).normal(size=model.block.alpha.shape))
     model.contacts[1].multipliers = np.arange(float(len(model.contacts[1].block.gaps)))
-    for one in parcels(model):
-        np.testing.assert_array_equal(one.history[1], model.block.alpha[one.cells])
-        np.testing.assert_array_equal(one.multipliers[1].reshape(-1, 9)[:, 0], 9.0 * one.facets[1])
+    cut = parcels(model)
+    (bodies,), (_, punch) = pieces(cut, model, "bodies"), pieces(cut, model, "contacts")
+    for one, (cells, rows, history), (_, facets, multipliers) in zip(cut, bodies, punch, strict=True):
+        np.testing.assert_array_equal(one.cells[cells], rows)
+        np.testing.assert_array_equal(history["history"], model.block.state[rows])
+        np.testing.assert_array_equal(history["alpha"], model.block.alpha[rows])
+        np.testing.assert_array_equal(multipliers.reshape(-1, 9)[:, 0], 9.0 * facets)
 
 
 def test_a_parcel_and_the_outline_know_nothing_of_the_size_of_the_whole():
@@ -138,8 +150,10 @@ def test_an_outline_is_the_same_on_the_other_side():
         assert list(names) == [control.name for control in model.controls]
         assert outline.steps[0].control == [names["end"], names["stroke"]]
         assert outline.steps[0].to[1] is wave
-        assert outline.contacts[1].translations == [names["stroke"]]
-        assert outline.contacts[0].motion is wave
+        assert outline.contacts[1].tool is outline.tools[1]
+        assert outline.tools[1].ways == [names["stroke"]]
+        assert outline.tools[1].ways[0].tool is outline.tools[1]
+        assert outline.tools[0].motion is wave
         assert outline.tied == [None, None, names["end"]]
         assert names["stroke"] is not model.controls[-1]
     assert len(model.contacts[0].facets) == 48
@@ -153,9 +167,9 @@ def test_what_a_deck_describes_can_be_sent(name):
     outline = pickle.loads(pickle.dumps(Outline.of(problem.model, problem.steps)))
     assert [contact.name for contact in outline.contacts] == list(problem.contacts)
     for contact, whole in zip(outline.contacts, problem.model.contacts, strict=True):
-        assert contact.tool == whole.tool
-        if whole.motion is not None:
-            np.testing.assert_array_equal(contact.motion(0.5)[0], [0.0, 0.0, 1.0])
+        assert contact.tool.surface == whole.tool.surface
+        if whole.tool.motion is not None:
+            np.testing.assert_array_equal(contact.tool.motion(0.5)[0], [0.0, 0.0, 1.0])
 
 
 def test_a_function_without_a_name_is_refused_with_a_remedy():

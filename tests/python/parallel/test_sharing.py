@@ -95,7 +95,7 @@ def test_without_a_model_one_process_has_nothing_to_solve():
 
 def test_what_the_ranks_had_is_not_taken_for_a_fresh_state():
     model = uf.Model(strip(8.0, 3.0, 1.0, (4, 3)), material=STEEL)
-    model.elsewhere = True
+    model.bodies[0].elsewhere = True
     with pytest.raises(ModelError, match="the history of the elements is not here"):
         model.evaluate(model.u)
     floor = model.contact("lower", uf.Plane((0, 0, -0.5), (0, 0, 1)), penalty=1.0)

@@ -40,7 +40,7 @@ def bent(tool=None, cell="hex8", motion=None):
     if tool is not None:
         moves[model.drive(model.contact("lower", tool, penalty=10.0, name="tool"), "z", name="drop")] = -0.25
         if motion is not None:
-            model.contacts[0].motion = motion
+            model.set_motion(model.contacts[0], motion)
     steps = [uf.Move(control, to=to, steps=2) for control, to in moves.items()]
     return uf.solve(model, steps, progress=False, frames=10)
 
@@ -95,7 +95,7 @@ def test_a_field_with_two_signs_has_a_scale_about_zero(result):
 
 def test_tools_stand_where_they_stood(result):
     contact = result.model.contacts[0]
-    before = contact.pose[1].copy(), contact.translations[0].value
+    before = contact.pose[1].copy(), contact.tool.ways[0].value
     head, arrays = unpacked(scene_of(result).data)
     assert head["tools"] == ["tool"]
     poses = arrays["tool 0 poses"].reshape(-1, 3, 4)
@@ -106,7 +106,7 @@ def test_tools_stand_where_they_stood(result):
     assert depth.min() > -1e-6
     assert depth.max() < 5e-4 * 12.0  # the chord error: 1/2000 of the diagonal of the box that is drawn
     np.testing.assert_array_equal(contact.pose[1], before[0])
-    assert contact.translations[0].value == before[1]
+    assert contact.tool.ways[0].value == before[1]
 
 
 def test_a_turning_tool_turns():
@@ -138,7 +138,7 @@ def test_a_function_that_fails_off_the_sheet_is_left_out_with_a_note():
     scene = scene_of(bent(uf.UserSurface(shy, name="floor")))
     assert scene.tools == []
     (note,) = scene.notes
-    assert "contact tool" in note
+    assert "The tool tool is not drawn" in note
     assert "fails around the tool" in note
 
 

@@ -41,8 +41,9 @@ def uniform(build, element, gradient, layers=2):
         made = build.jittered(made, 0.15)
     model = Model(made, element, material=LAW)
     u = (made.points @ gradient.T - made.points).ravel()
-    assert model.evaluate(u).failed == -1
-    model.commit(u)
+    evaluation = model.evaluate(u)
+    assert evaluation.failed == -1
+    model.commit(evaluation)
     return model
 
 

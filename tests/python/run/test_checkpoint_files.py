@@ -70,10 +70,16 @@ def test_a_tree_comes_back_to_the_last_bit(tmp_path):
         "numbers": [0.1, -0.0, np.nan, np.inf, 5e-324, 2**60, True, None],
         "arrays": {"empty": np.zeros((2, 0, 3)), "flags": np.array([True, False]), "x": np.array([np.nan, -0.0])},
         "text": ["", "a/b . \u20ac"],
+        "a/b . \u20ac%": {"..": 1, ".": 2, "%2F": 3, "%": 4, "": {}, "none": None, "long": 100_000 * "x"},
+        "rows": [[1, 0.5, None, "a"], [2, -0.0, None, "b"]],
+        "lists": [[], [1, "a"], [[0.5], [True, False]], [np.zeros((2, 2)), np.array(3.0)]],
     }
     write_tree(tmp_path / "tree.h5", tree, "tree")
     back = read_tree(tmp_path / "tree.h5", "tree")
     assert repr(back) == repr(tree)
+    with h5py.File(tmp_path / "tree.h5") as file:  # for any reader of HDF5
+        assert np.isnan(file["tree/arrays/x"][0])
+        assert file["tree/rows/1"][:].tolist() == [0.5, -0.0]
     for name, array in tree["arrays"].items():
         assert back["arrays"][name].dtype == array.dtype
         assert back["arrays"][name].tobytes() == array.tobytes()
@@ -110,7 +116,7 @@ def test_other_files_are_refused(tmp_path, build):
         ("mesh, contacts", {"cells": (7, 1)}),
         ("material", {"material": mt.J2(kappa=175001.0, mu=80.77e3, hardening=mt.Linear(160.0, 500.0))}),
         ("contacts", {"penalty": 2e4}),
-        ("contacts", {"radius": 21.0}),
+        ("tools", {"radius": 21.0}),
         ("steps", {"stroke": -3.5}),
     ],
 )

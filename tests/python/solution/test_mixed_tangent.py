@@ -102,9 +102,9 @@ def test_what_is_committed_leaves_the_consistent_tangent(element):
         u, du = increment(model, 0.02, seed=2), increment(model, 0.03)
         model.evaluate(model.u)
         model.recover(du, 1.0, mixed)
-        before = model.evaluate(u)
-        model.commit(before)
-        return before.values.copy(), model.evaluate(u).values.copy()
+        evaluation = model.evaluate(u)
+        model.commit(evaluation)
+        return evaluation.values, model.evaluate(u).values.copy()
 
     (plain, plain_after), (mixed, after) = committed(False), committed(True)
     assert np.abs(mixed - plain).max() > 1e-6 * np.abs(plain).max()

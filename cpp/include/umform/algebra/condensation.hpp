@@ -1,4 +1,4 @@
-// Dense algebra of the elements in the lanes: products A^T B by tiles, L D L^T of Kaa for the static condensation.
+// Dense algebra of the elements in the lanes: products A^T B by tiles, L D L^T and L U of Kaa for the static condensation.
 #pragma once
 
 #include "umform/algebra/tensor.hpp"
@@ -90,6 +90,38 @@ void solve_ldlt(const Real* LD, int n, Real* Y, int columns) {
             const Real factor = LD[k * n + i];
             for (int c = 0; c < columns; ++c) Y[i * columns + c] -= factor * Y[k * columns + c];
         }
+}
+
+/// Factorises an n x n matrix (stored by rows) as L U in place, with ones on the diagonal of L; false on a vanishing pivot, which
+/// is measured as in `factor_ldlt`. Rows are not exchanged: that would differ from lane to lane. The matrices of condensation
+/// have a positive symmetric part as long as their element is stable, and need none.
+template <class Real>
+Mask<Real> factor_lu(Real* A, int n) {
+    Mask<Real> regular = true;
+    for (int i = 0; i < n; ++i) {
+        const Real diagonal = A[i * n + i];
+        for (int k = 0; k < i; ++k) {
+            const Real factor = A[i * n + k] / A[k * n + k];
+            A[i * n + k] = factor;
+            for (int j = k + 1; j < n; ++j) A[i * n + j] -= factor * A[k * n + j];
+        }
+        regular = regular & (abs(A[i * n + i]) > 1e-13 * abs(diagonal));
+    }
+    return regular;
+}
+
+/// Solves (L U) Y = Y in place for the `columns` columns of Y (stored by rows).
+template <class Real>
+void solve_lu(const Real* LU, int n, Real* Y, int columns) {
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < i; ++k)
+            for (int c = 0; c < columns; ++c) Y[i * columns + c] -= LU[i * n + k] * Y[k * columns + c];
+    for (int i = n - 1; i >= 0; --i) {
+        for (int k = i + 1; k < n; ++k)
+            for (int c = 0; c < columns; ++c) Y[i * columns + c] -= LU[i * n + k] * Y[k * columns + c];
+        const Real reciprocal = 1.0 / LU[i * n + i];
+        for (int c = 0; c < columns; ++c) Y[i * columns + c] *= reciprocal;
+    }
 }
 
 }  // namespace umform

@@ -21,6 +21,10 @@ struct Mat {
     constexpr const T& operator()(int i, int j) const { return a[i * Cols + j]; }
 };
 
+/// Orthonormal axes e_1, e_2, e_3, each in global components.
+template <class T>
+using Axes = std::array<Vec<T, 3>, 3>;
+
 using Vec3 = Vec<double, 3>;
 using Mat3 = Mat<double, 3, 3>;
 

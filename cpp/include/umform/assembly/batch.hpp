@@ -59,7 +59,8 @@ void gather(const Connectivity& part, const Batch& batch, const double* field, s
         }
 }
 
-/// Matrices and forces of the elements in the lanes by node: i = direction * Nodes + node, K on and above its diagonal.
+/// Matrices and forces of the elements in the lanes by node: i = direction * Nodes + node, K on and above its diagonal, or all
+/// of it where it is not symmetric.
 template <int Nodes>
 struct NodalResults {
     static constexpr int face = Nodes / 2, half = 3 * face, size = 2 * half;
@@ -86,6 +87,20 @@ struct NodalResults {
                 store(lower(i), lower(j) + face, across - difference);
                 const bool above = i / face < j / face;
                 store(above ? lower(i) + face : lower(j), above ? lower(j) : lower(i) + face, across + difference);
+            }
+    }
+
+    /// All entries, of a matrix that is not symmetric: (mm + s_i dm + s_j md + s_i s_j dd) / 4.
+    void set_tangent_full(const Lanes* Kmm, const Lanes* Kdm, const Lanes* Kmd, const Lanes* Kdd) {
+        for (int i = 0; i < half; ++i)
+            for (int j = 0; j < half; ++j) {
+                const int at = i * half + j;
+                for (const int row : {0, 1})
+                    for (const int column : {0, 1}) {
+                        const double si = row == 0 ? -1.0 : 1.0, sj = column == 0 ? -1.0 : 1.0;
+                        store(lower(i) + row * face, lower(j) + column * face,
+                              0.25 * (Kmm[at] + si * Kdm[at] + sj * Kmd[at] + si * sj * Kdd[at]));
+                    }
             }
     }
 

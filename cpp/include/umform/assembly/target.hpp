@@ -18,11 +18,34 @@ struct Target {
     bool wants_tangent() const { return values != nullptr || du != nullptr; }
 };
 
-/// Outcome of `evaluate`: the first element whose strain left the domain of its law or whose
-/// enhanced parameters cannot be eliminated (or -1), and sum |f_e|^2, the scale
-/// of the forces that a residual is measured against.
+/// Why an element has no residual.
+enum class Failure : char {
+    none,
+    inverted,   // det J of the current configuration is not positive at a Gauss point
+    law,        // its law has no answer
+    condensed,  // its enhanced parameters cannot be eliminated
+};
+
+/// Why an element has no residual, in words that follow "cell 7 "; empty if it has one.
+inline const char* describe(Failure failure) {
+    switch (failure) {
+        case Failure::none:
+            return "";
+        case Failure::inverted:
+            return "is turned inside out: det F is not positive at one of its Gauss points";
+        case Failure::law:
+            return "is strained beyond the domain of its material law, or the law found no stress";
+        case Failure::condensed:
+            return "is strained so far that its enhanced parameters cannot be eliminated";
+    }
+    return "";
+}
+
+/// Outcome of `evaluate`: the first element that has no residual (or -1) and why, and sum |f_e|^2, the scale of the forces that a
+/// residual is measured against.
 struct Outcome {
     int failed = -1;
+    Failure failure = Failure::none;
     double force_scale_squared = 0.0;
 };
 

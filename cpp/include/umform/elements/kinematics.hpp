@@ -29,10 +29,27 @@ template <class Real>
     return i == j ? 0.5 * dot(h[i], h[i]) : dot(h[i], h[j]);
 }
 
-/// Local orthonormal frame (columns e_1, e_2, e_3): e_3 normal to the layer, e_1 along G_1. eq. (1.13)
+/// The base vectors as the columns of a matrix.
 template <class Real>
-std::array<Vec<Real, 3>, 3> local_frame(const std::array<Vec<Real, 3>, 3>& G) {
+Mat<Real, 3, 3> columns(const std::array<Vec<Real, 3>, 3>& v) {
+    return {{v[0][0], v[1][0], v[2][0], v[0][1], v[1][1], v[2][1], v[0][2], v[1][2], v[2][2]}};
+}
+
+/// Local orthonormal frame (e_1, e_2, e_3): e_3 normal to the layer, e_1 along G_1. eq. (1.13)
+template <class Real>
+Axes<Real> local_frame(const std::array<Vec<Real, 3>, 3>& G) {
     const Vec<Real, 3> e3 = normalised(cross(G[0], G[1])), e1 = normalised(G[0]);
+    return {e1, cross(e3, e1), e3};
+}
+
+/// The same with e_1 along the rolling direction, which is projected onto the layer. eq. (1.26)
+template <class Real>
+Axes<Real> local_frame(const std::array<Vec<Real, 3>, 3>& G, const Vec<Real, 3>& rolling) {
+    const Vec<Real, 3> e3 = normalised(cross(G[0], G[1]));
+    const Real out_of_plane = dot(rolling, e3);
+    Vec<Real, 3> in_plane;
+    for (int k = 0; k < 3; ++k) in_plane[k] = rolling[k] - out_of_plane * e3[k];
+    const Vec<Real, 3> e1 = normalised(in_plane);
     return {e1, cross(e3, e1), e3};
 }
 
@@ -47,6 +64,19 @@ template <class Real>
     A(0, 1) = -J01 * A(0, 0) * A(1, 1);
     A(1, 2) = -J12 * A(1, 1) * A(2, 2);
     A(0, 2) = (J01 * J12 * A(1, 1) - J02) * A(0, 0) * A(2, 2);
+    return A;
+}
+
+/// J^-1 in any local frame whose e_3 is normal to G_1 and G_2: its third row is (0, 0, 1 / J_33). eq. (1.27)
+template <class Real>
+Mat<Real, 3, 3> local_inverse(const std::array<Vec<Real, 3>, 3>& G, const Axes<Real>& e) {
+    const Real J00 = dot(e[0], G[0]), J01 = dot(e[0], G[1]), J10 = dot(e[1], G[0]), J11 = dot(e[1], G[1]);
+    const Real J02 = dot(e[0], G[2]), J12 = dot(e[1], G[2]), f = 1.0 / (J00 * J11 - J01 * J10);
+    Mat<Real, 3, 3> A;
+    A(0, 0) = f * J11, A(0, 1) = -f * J01;
+    A(1, 0) = -f * J10, A(1, 1) = f * J00;
+    A(2, 2) = 1.0 / dot(e[2], G[2]);
+    for (int i = 0; i < 2; ++i) A(i, 2) = -(A(i, 0) * J02 + A(i, 1) * J12) * A(2, 2);
     return A;
 }
 
@@ -87,6 +117,32 @@ template <class Real>
     out[C12] = P12 * A(1, 1) + P13 * A(1, 2);
     out[C23] = P23 * A(2, 2);
     out[C13] = P13 * A(2, 2);
+}
+
+/// `to_local` with a full matrix A.
+template <class Real>
+Vec<Real, 6> to_local_full(const Mat<Real, 3, 3>& A, const Vec<Real, 6>& covariant) {
+    const Mat<Real, 3, 3> EA = product(from_voigt(covariant, 0.5), A);
+    Vec<Real, 6> local;
+    for (int p = 0; p < 6; ++p) {
+        const auto [k, l] = voigt_pair[p];
+        const Real sum = A(0, k) * EA(0, l) + A(1, k) * EA(1, l) + A(2, k) * EA(2, l);
+        local[p] = p < 3 ? sum : 2.0 * sum;
+    }
+    return local;
+}
+
+/// `to_contravariant` with a full matrix A.
+template <class Real>
+void to_contravariant_full(const Mat<Real, 3, 3>& A, const Real* S, int stride, Real* out) {
+    Mat<Real, 3, 3> tensor;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) tensor(i, j) = S[voigt_index[i][j] * stride];
+    const Mat<Real, 3, 3> AS = product(A, tensor);
+    for (int p = 0; p < 6; ++p) {
+        const auto [k, l] = voigt_pair[p];
+        out[p] = AS(k, 0) * A(l, 0) + AS(k, 1) * A(l, 1) + AS(k, 2) * A(l, 2);
+    }
 }
 
 }  // namespace umform

@@ -18,10 +18,12 @@ class ShellStrains {
 
     int points() const { return tables_.points(); }
     int modes() const { return tables_.modes; }
-    Workspace workspace() const { return Workspace(tables_); }
 
-    /// Strains at the Gauss points in the local frame, with A, dV and the base vectors. False where inverted.
-    Mask<Real> strains(const Nodal& X, const Nodal& u, const Real* alpha, Workspace& w) const {
+    /// Strains at the Gauss points in the local frame, with A, dV and the base vectors. The frame follows the `rolling`
+    /// direction, if one is given. False where det J of the reference or of the current configuration is not positive
+    /// at a Gauss point: the strain alone cannot tell an element that is turned inside out from one that is not. eqs. (1.4), (1.25)
+    Mask<Real> strains(const Nodal& X, const Nodal& u, const Real* alpha, const Vec<Real, 3>* rolling,
+                       Workspace& w) const {
         for (std::size_t k = 0; k < tables_.places.size(); ++k) {
             w.G[k] = base_of(tables_.places[k].shape, X.data());
             w.h[k] = base_of(tables_.places[k].shape, u.data());
@@ -30,6 +32,7 @@ class ShellStrains {
         const Vectors G0 = w.G[tables_.centre].at(0.0);
         const Mat<Real, 3, 3> centre_inverse = inverse(columns(G0));
         const Real centre_det = det(columns(G0));
+        w.rolled = rolling != nullptr;
         Mask<Real> valid = true;
         for (int layer = 0, q = 0; layer < tables_.layers; ++layer) {
             const double t = tables_.t[layer];
@@ -37,15 +40,15 @@ class ShellStrains {
             for (int p = 0; p < tables_.surface; ++p, ++q) {
                 const Vectors G = w.G[p].at(t);
                 const Real detJ = det(columns(G));
-                valid = valid & (detJ > 0.0);
+                valid = valid & (detJ > 0.0) & (det(columns(current(p, t, w))) > 0.0);
                 w.dV[q] = detJ * tables_.weight[q];
-                w.A[q] = local_inverse(G);
+                w.A[q] = rolling == nullptr ? local_inverse(G) : local_inverse(G, local_frame(G, *rolling));
                 Voigt E = assumed_strain(p, t, total(w), w);
                 if (tables_.modes > 0) {
                     enhanced_directions(q, product(centre_inverse, columns(G)), centre_det / detJ, w);
                     add_enhanced_strain(q, alpha, w, E);
                 }
-                w.E[q] = to_local(w.A[q], E);
+                w.E[q] = w.rolled ? to_local_full(w.A[q], E) : to_local(w.A[q], E);
             }
         }
         return valid;
@@ -67,6 +70,26 @@ class ShellStrains {
             sample_strains(tables_.layer_samples, t, quadratic, w.layer_E.data());
             for (int p = 0; p < tables_.surface; ++p, ++q) w.bent[q] = assumed_strain(p, t, quadratic, w);
         }
+    }
+
+    /// Axes of the local frame at all Gauss points, after `strains`.
+    void axes(const Vec<Real, 3>* rolling, const Workspace& w, std::vector<Axes<Real>>& out) const {
+        out.resize(points());
+        for (int q = 0; q < points(); ++q) {
+            const Vectors G = w.G[q % tables_.surface].at(tables_.t[q / tables_.surface]);
+            out[q] = rolling == nullptr ? local_frame(G) : local_frame(G, *rolling);
+        }
+    }
+
+    /// Size of an element, after `strains`: root of the area of its undeformed mid-surface.
+    Real length(const Workspace& w) const {
+        Real area = 0.0;
+        for (int q = 0; q < points(); ++q) {  // the weights of all layers of a place are 2
+            const Vectors G = w.G[q % tables_.surface].at(0.0);
+            const Vec<Real, 3> normal = cross(G[0], G[1]);
+            area += 0.5 * tables_.weight[q] * sqrt(dot(normal, normal));
+        }
+        return sqrt(area);
     }
 
     /// Base vectors of one lane at a Gauss point, after `strains`.
@@ -92,9 +115,6 @@ class ShellStrains {
   private:
     using Voigt = Vec<Real, 6>;
 
-    static Mat<Real, 3, 3> columns(const Vectors& v) {
-        return {{v[0][0], v[1][0], v[2][0], v[0][1], v[1][1], v[2][1], v[0][2], v[1][2], v[2][2]}};
-    }
     /// Covariant strains: of place and t a function of the component.
     static auto total(const Workspace& w) {
         return [&w](int place, double t) {

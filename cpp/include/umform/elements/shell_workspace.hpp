@@ -14,23 +14,25 @@ struct ShellWorkspace {
     /// Values by degree of freedom: the mean by direction, mean[direction * face + node], then the director.
     using Nodal = std::array<Real, size>;
 
-    explicit ShellWorkspace(const ShellTables<Nodes>& tables)
+    /// `symmetric`: the tangent of the law is, and no room is needed for the other half of the blocks.
+    ShellWorkspace(const ShellTables<Nodes>& tables, bool symmetric)
         : G(tables.places.size()), h(tables.places.size()), d(tables.places.size()), E(tables.points()),
           S(tables.points()), CC(tables.points()), A(tables.points()), dV(tables.points()), bent(tables.points()),
           enhanced(tables.points() * tables.enhanced.size()), mid_E(tables.mid_samples.size()),
           layer_E(tables.layer_samples.size()), mid_rows(tables.mid_samples.size() * size),
           layer_rows(tables.layer_samples.size() * size), tied_rows(tables.surface * 6 * size),
           B_mean(tables.surface * 6 * half), B_extra(B_mean), CB_mean(B_mean), CB_extra(B_mean),
-          moments(tables.places.size()), Kmm(half * half), Kdm(Kmm), Kdd(Kmm), Kaa(tables.modes * tables.modes),
-          Kad(tables.modes * size), Kad_raw(Kad), ra(tables.modes) {}
+          moments(tables.places.size()), Kmm(half * half), Kdm(Kmm), Kdd(Kmm), Kmd(symmetric ? 0 : half * half),
+          Kaa(tables.modes * tables.modes), Kad(tables.modes * size), Kda(Kad), ra(tables.modes) {}
 
     /// Sets to zero what `SolidShell::integrate` adds to, with or without a tangent.
     void clear(bool tangent) {
         f.fill(0.0);
         for (std::vector<Real>* sum : {&Kaa, &Kad, &ra}) std::fill(sum->begin(), sum->end(), Real(0.0));
+        if (!Kmd.empty()) std::fill(Kda.begin(), Kda.end(), Real(0.0));  // else it is a copy of Kad
         if (!tangent) return;
         geometry_mm.fill(0.0), geometry_dm.fill(0.0), geometry_dd.fill(0.0);
-        for (std::vector<Real>* sum : {&Kmm, &Kdm, &Kdd}) std::fill(sum->begin(), sum->end(), Real(0.0));
+        for (std::vector<Real>* sum : {&Kmm, &Kdm, &Kdd, &Kmd}) std::fill(sum->begin(), sum->end(), Real(0.0));
         for (auto& of_place : moments)
             for (auto& of_component : of_place) of_component.fill(0.0);
     }
@@ -49,13 +51,14 @@ struct ShellWorkspace {
     std::vector<Real> tied_rows;             // [surface point][row_order][size], of the mid-surface
     std::vector<Real> B_mean, B_extra, CB_mean, CB_extra;
     std::vector<std::array<std::array<Real, 3>, 6>> moments;  // [place][component][power of t] of the stress
+    bool rolled = false;                                      // the frame follows a rolling direction, and A is full
     // Results: the blocks mean-mean, director-mean, director-director of K; of the first and last what is on and above the
-    // diagonal.
-    std::vector<Real> Kmm, Kdm, Kdd;
+    // diagonal. Of a law whose tangent is not symmetric all of them, and the block mean-director.
+    std::vector<Real> Kmm, Kdm, Kdd, Kmd;
     std::array<Real, static_cast<std::size_t>(face) * face> geometry_mm, geometry_dm, geometry_dd;  // [node][node]
     Nodal f;
-    // Enhanced parameters: after `condense`, Kad holds Kaa^-1 Kad and ra holds Kaa^-1 ra.
-    std::vector<Real> Kaa, Kad, Kad_raw, ra;
+    // Enhanced parameters: after `condense`, Kad holds Kaa^-1 Kad and ra holds Kaa^-1 ra. Kda is stored as its transpose.
+    std::vector<Real> Kaa, Kad, Kda, ra;
 };
 
 }  // namespace umform

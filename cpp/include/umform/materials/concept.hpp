@@ -1,15 +1,16 @@
 // What a material law is to the elements: strain and history in, stress, tangent and new history out; and energies.
+// A law of a user, from any function of arrays, is in function.hpp.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <concepts>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
 
-#include "umform/algebra/tensor.hpp"
+#include "umform/assembly/history.hpp"
+#include "umform/materials/point.hpp"
 
 namespace umform {
 
@@ -21,15 +22,37 @@ struct Energy {
 };
 
 /// A law answers at one point of a few elements, one a lane. `E` is the Green-Lagrange strain in a local orthonormal frame,
-/// `state` the converged history (never changed), `trial` the new one. False where the strain is outside of its domain.
+/// `state` the converged history (never changed), `trial` the new one. False where it has no answer: the strain is outside of
+/// its domain, or its equations could not be solved. `state_names` names the parts of the history in their order.
 template <class L>
-concept MaterialLaw = requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S,
-                               Mat<Lanes, 6, 6>& CC, Lanes* trial, const Voigt& strain, double* history) {
-    { L::state_size } -> std::convertible_to<int>;
-    { law.respond(E, state, S, CC, trial) } -> std::same_as<LaneMask>;
-    { law.initial(history) } -> std::same_as<void>;
-    { law.energy(strain, history) } -> std::same_as<Energy>;
-};
+concept MaterialLaw =
+    requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
+             Lanes* trial, const Voigt& strain, double* history, const Point<Lanes>& point) {
+        { L::state_size } -> std::convertible_to<int>;
+        { L::state_names() } -> std::same_as<std::vector<Quantity>>;
+        requires requires {
+            { law.respond(E, state, S, CC, trial) } -> std::same_as<LaneMask>;
+        } || requires {
+            { law.respond(E, state, S, CC, trial, point) } -> std::same_as<LaneMask>;
+        };
+        { law.initial(history) } -> std::same_as<void>;
+        { law.energy(strain, history) } -> std::same_as<Energy>;
+    };
+
+/// A law that takes its point as a last argument: it sees the axes of the sheet, the size of the element and the step.
+template <class L>
+concept SeesPoint =
+    requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
+             Lanes* trial, const Point<Lanes>& point) { law.respond(E, state, S, CC, trial, point); };
+
+/// A law whose tangent is not symmetric says so: `static constexpr bool symmetric = false`.
+template <class L>
+constexpr bool has_symmetric_tangent() {
+    if constexpr (requires { L::symmetric; })
+        return L::symmetric;
+    else
+        return true;
+}
 
 /// Where the histories of the elements in the lanes begin, [lane][n][state_size].
 using LaneStates = std::array<const double*, lane_count>;
@@ -40,38 +63,61 @@ using LaneTrials = std::array<double*, lane_count>;
 class Material {
   public:
     virtual ~Material() = default;
+    /// The parts of the history of a point, in their order.
+    virtual std::vector<Quantity> state_names() const = 0;
     virtual int state_size() const = 0;
     virtual void initial(double* state) const = 0;
+    /// Whether dS/dE is symmetric at any strain.
+    virtual bool symmetric() const = 0;
+    /// Whether it asks for its points: the axes are not formed for laws that do not.
+    virtual bool sees_points() const = 0;
     /// Answers at the n points of the elements in the lanes of `wanted`; arrays are [n]. Returns which of them have an
     /// answer at every point.
     virtual LaneMask respond(int n, LaneMask wanted, const Vec<Lanes, 6>* E, const LaneStates& state, Vec<Lanes, 6>* S,
-                             Mat<Lanes, 6, 6>* CC, const LaneTrials& trial) const = 0;
-    /// Answers at n points; arrays are [n][6], [n][state_size], [n][36]. Returns the index of the first point that
-    /// fails, or n.
-    virtual int respond(int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial) const = 0;
-    /// Energies at n points whose history `state` belongs to the strain (it has been committed).
-    virtual void energy(int n, const Voigt* E, const double* state, Energy* energies) const = 0;
+                             Mat<Lanes, 6, 6>* CC, const LaneTrials& trial, const LanePoints& points) const = 0;
+    /// Answers at n points with the same context; arrays are [n][6], [n][state_size], [n][36]. Returns the index of the
+    /// first point that fails, or n.
+    virtual int respond(int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial,
+                        const Point<double>& point) const = 0;
+    /// Energies at n points whose history `state` belongs to the strain (it has been committed); `cell` is the number of their
+    /// element for messages, or -1.
+    virtual void energy(int n, const Voigt* E, const double* state, Energy* energies, std::int32_t cell) const = 0;
 };
 
 template <MaterialLaw Law>
 class MaterialOf final : public Material {
   public:
     explicit MaterialOf(Law law) : law_(std::move(law)) {}
+    std::vector<Quantity> state_names() const override { return Law::state_names(); }
     int state_size() const override { return Law::state_size; }
     void initial(double* state) const override { law_.initial(state); }
+    bool symmetric() const override { return has_symmetric_tangent<Law>(); }
+    bool sees_points() const override { return SeesPoint<Law>; }
+
     LaneMask respond(int n, LaneMask wanted, const Vec<Lanes, 6>* E, const LaneStates& state, Vec<Lanes, 6>* S,
-                     Mat<Lanes, 6, 6>* CC, const LaneTrials& trial) const override {
+                     Mat<Lanes, 6, 6>* CC, const LaneTrials& trial, const LanePoints& points) const override {
         std::array<Lanes, Law::state_size> before, after;
         for (int q = 0; q < n; ++q) {
             for (int k = 0; k < Law::state_size; ++k)
                 before[k] = by_lane([&](int lane) { return state[lane][q * Law::state_size + k]; });
-            wanted = wanted & law_.respond(E[q], before.data(), S[q], CC[q], after.data());
+            if constexpr (SeesPoint<Law>)
+                wanted = wanted
+                         & law_.respond(E[q], before.data(), S[q], CC[q], after.data(),
+                                        Point<Lanes>{points.axes[q], points.size, points.step});
+            else
+                wanted = wanted & law_.respond(E[q], before.data(), S[q], CC[q], after.data());
             for (int lane = 0; lane < lane_count; ++lane)
                 for (int k = 0; k < Law::state_size; ++k) trial[lane][q * Law::state_size + k] = after[k][lane];
         }
         return wanted;
     }
-    int respond(int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial) const override {
+
+    int respond(int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial,
+                const Point<double>& context) const override {
+        Axes<Lanes> axes;
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) axes[i][k] = context.axes[i][k];
+        const LanePoints points{{}, &axes, context.size, context.step};
         for (int first = 0; first < n; first += lane_count) {  // points instead of elements in the lanes
             const auto point = [&](int lane) { return std::min(first + lane, n - 1); };
             Vec<Lanes, 6> strain, stress;
@@ -83,7 +129,7 @@ class MaterialOf final : public Material {
                 before[lane] = state + point(lane) * Law::state_size;
                 after[lane] = trial + point(lane) * Law::state_size;
             }
-            const LaneMask answered = respond(1, true, &strain, before, &stress, &tangent, after);
+            const LaneMask answered = respond(1, true, &strain, before, &stress, &tangent, after, points);
             for (int q = first; q < std::min(first + lane_count, n); ++q) {
                 if (!answered[q - first]) return q;
                 for (int p = 0; p < 6; ++p) S[q][p] = stress[p][q - first];
@@ -92,58 +138,13 @@ class MaterialOf final : public Material {
         }
         return n;
     }
-    void energy(int n, const Voigt* E, const double* state, Energy* energies) const override {
+
+    void energy(int n, const Voigt* E, const double* state, Energy* energies, std::int32_t) const override {
         for (int q = 0; q < n; ++q) energies[q] = law_.energy(E[q], state + q * Law::state_size);
     }
 
   private:
     Law law_;
-};
-
-/// A law from any function of arrays, a user's own for instance.
-class MaterialFromFunction final : public Material {
-  public:
-    /// n, E [n][6], state [n][state_size] -> S [n][6], CC [n][36], trial [n][state_size]; the index of the first point
-    /// that fails, or n.
-    using Function = std::function<int(int, const Voigt*, const double*, Voigt*, Voigt66*, double*)>;
-
-    /// n, E [n][6], state [n][state_size] -> energies [n]; may be empty, if they are not known.
-    using EnergyFunction = std::function<void(int, const Voigt*, const double*, Energy*)>;
-
-    MaterialFromFunction(Function function, std::vector<double> initial, EnergyFunction energy)
-        : function_(std::move(function)), initial_(std::move(initial)), energy_(std::move(energy)) {}
-    int state_size() const override { return static_cast<int>(initial_.size()); }
-    void initial(double* state) const override { std::copy(initial_.begin(), initial_.end(), state); }
-    LaneMask respond(int n, LaneMask wanted, const Vec<Lanes, 6>* E, const LaneStates& state, Vec<Lanes, 6>* S,
-                     Mat<Lanes, 6, 6>* CC, const LaneTrials& trial) const override {
-        std::vector<Voigt> strain(n), stress(n);
-        std::vector<Voigt66> tangent(n);
-        LaneMask answered = wanted;
-        for (int lane = 0; lane < lane_count; ++lane) {  // one call an element
-            if (!wanted[lane]) continue;
-            for (int q = 0; q < n; ++q)
-                for (int p = 0; p < 6; ++p) strain[q][p] = E[q][p][lane];
-            answered.set(lane,
-                         function_(n, strain.data(), state[lane], stress.data(), tangent.data(), trial[lane]) == n);
-            for (int q = 0; q < n; ++q) {
-                for (int p = 0; p < 6; ++p) S[q][p].set(lane, stress[q][p]);
-                for (int i = 0; i < 36; ++i) CC[q].a[i].set(lane, tangent[q].a[i]);
-            }
-        }
-        return answered;
-    }
-    int respond(int n, const Voigt* E, const double* state, Voigt* S, Voigt66* CC, double* trial) const override {
-        return function_(n, E, state, S, CC, trial);
-    }
-    void energy(int n, const Voigt* E, const double* state, Energy* energies) const override {
-        std::fill_n(energies, n, Energy{});
-        if (energy_) energy_(n, E, state, energies);
-    }
-
-  private:
-    Function function_;
-    std::vector<double> initial_;
-    EnergyFunction energy_;
 };
 
 }  // namespace umform

@@ -14,6 +14,7 @@ struct J2 {
     Hardening hardening;
 
     static constexpr int state_size = 7;
+    static std::vector<Quantity> state_names() { return {{"Cp_inv", 6}, {"eqps", 1}}; }
     void initial(double* state) const { std::copy_n(std::array<double, 7>{1, 1, 1, 0, 0, 0, 0}.begin(), 7, state); }
 
     /// Where the trial state is elastic and small there is no eigenproblem to solve: the fast path. Each lane takes the path it
@@ -34,11 +35,11 @@ struct J2 {
         Vec<Real, 6> S_roots;
         Mat<Real, 6, 6> CC_roots;
         std::array<Real, 7> trial_roots;
-        const Mask<Real> positive = respond_by_roots(strain, state, y, S_roots, CC_roots, trial_roots.data());
+        const Mask<Real> answered = respond_by_roots(strain, state, y, S_roots, CC_roots, trial_roots.data());
         for (int p = 0; p < 6; ++p) S[p] = select(fast, S[p], S_roots[p]);
         for (int i = 0; i < 36; ++i) CC.a[i] = select(fast, CC.a[i], CC_roots.a[i]);
         for (int k = 0; k < 7; ++k) trial[k] = select(fast, trial[k], trial_roots[k]);
-        return fast | positive;
+        return fast | answered;
     }
 
     /// The same by principal stretches: for plastic flow and for elastic strains of any size.
@@ -66,7 +67,7 @@ struct J2 {
         std::copy_n(state, 7, trial);
         if (any(back.plastic)) flow(elastic, back, NN, trial);
         tangent(elastic, back, tau, NN, CC);
-        return positive;
+        return positive & back.found;
     }
 
     /// Energy of the logarithmic elastic strains, and the work done against the yield stress. eqs. (3.38), (3.39)
@@ -86,6 +87,7 @@ struct J2 {
     /// A converged plastic point lies on the yield surface up to round-off. Without this margin chance would make it plastic
     /// or elastic in the first tangent of an increment, and the patchwork wakes the modes of the elements.
     static constexpr double plastic_margin = 1e-10;
+    static constexpr int max_iterations = 100;  // of the return map
 
     template <class Real>
     static Vec<Real, 6> plastic_metric(const Real* state) {
@@ -141,7 +143,7 @@ struct J2 {
     /// What the return map finds: dev eps_elastic = (1 - b) dev eps.
     template <class Real>
     struct Return {
-        Mask<Real> plastic;
+        Mask<Real> plastic, found;  // found: the increment has been solved for, or there is none
         Real dgam, b, slope;
         Real square;  // dev eps : dev eps
     };
@@ -151,10 +153,11 @@ struct J2 {
     Return<Real> return_map(const ElasticStrain<Real>& elastic, Real eqps, YieldStress<Real> y) const {
         const Real square = dot(elastic.deviator, elastic.deviator);
         const Real q_trial = std::sqrt(6.0) * mu * sqrt(square);
-        const Mask<Real> plastic = q_trial > y.value * (1.0 + plastic_margin);
-        if (!any(plastic)) return {plastic, 0.0, 0.0, y.slope, square};
-        const Real dgam = plastic_increment(plastic, q_trial, eqps, y);
-        return {plastic, dgam, select(plastic, 3.0 * mu * dgam / q_trial, 0.0), y.slope, square};
+        const Mask<Real> plastic = !(q_trial <= y.value * (1.0 + plastic_margin));  // also if y is not a number
+        if (!any(plastic)) return {plastic, true, 0.0, 0.0, y.slope, square};
+        Real dgam = 0.0;
+        const Mask<Real> found = plastic_increment(plastic, q_trial, eqps, y, dgam);
+        return {plastic, found, dgam, select(plastic, 3.0 * mu * dgam / q_trial, 0.0), y.slope, square};
     }
 
     /// The new history of plastic points: Cp^-1 = sum_i exp(2 eps_elastic_i) / l_i^2 N_i (x) N_i with
@@ -172,22 +175,24 @@ struct J2 {
     }
 
     /// Solves q_trial - 3 mu dgam - y(eqps + dgam) = 0 where `open` by Newton's method kept inside a bracket; y at the end.
+    /// False where it finds no solution: the curve is too steep for the number of iterations, or not a number.
     template <class Real>
-    Real plastic_increment(Mask<Real> open, Real q_trial, Real eqps, YieldStress<Real>& y) const {
-        Real low = 0.0, high = q_trial * (1.0 / (3.0 * mu)), dgam = 0.0;
-        for (int iteration = 0; iteration < 100; ++iteration) {
+    Mask<Real> plastic_increment(Mask<Real> open, Real q_trial, Real eqps, YieldStress<Real>& y, Real& dgam) const {
+        Real low = 0.0, high = q_trial * (1.0 / (3.0 * mu));
+        dgam = 0.0;
+        for (int iteration = 0; iteration < max_iterations; ++iteration) {
             const Real f = q_trial - 3.0 * mu * dgam - y.value;
             low = select(f > 0.0, dgam, low);
             high = select(f > 0.0, high, dgam);
-            open = open & (abs(f) > 1e-15 * q_trial);
+            open = open & !(abs(f) <= 1e-15 * q_trial);
             if (!any(open)) break;
             Real next = dgam + f / (3.0 * mu + y.slope);
             next = select((next > low) & (next < high), next, 0.5 * (low + high));
-            open = open & !(next == dgam);
+            open = open & !((next == dgam) & (f == f));  // nothing is left between the ends of the bracket
             dgam = select(open, next, dgam);
             y = yield_stress(hardening, eqps + dgam);
         }
-        return dgam;
+        return !open;
     }
 
     /// Principal moduli c_ij = d tau_i / d eps_j and the spectral form of CC. eqs. (3.22)-(3.25)

@@ -9,6 +9,7 @@ struct SaintVenantKirchhoff {
     double lambda, mu;
 
     static constexpr int state_size = 0;
+    static std::vector<Quantity> state_names() { return {}; }
     void initial(double*) const {}
 
     template <class Real>

@@ -17,8 +17,10 @@ struct Gap {
     Mat3 H;
 };
 
+/// A surface that `is_distance` changes its gap by no more than the way of the point: contact leaves out what is far then.
 template <class S>
 concept ToolSurface = requires(const S& surface, const Vec3& x) {
+    { S::is_distance } -> std::convertible_to<bool>;
     { surface.gap(x) } -> std::same_as<Gap>;
 };
 
@@ -28,12 +30,17 @@ class Surface {
     virtual ~Surface() = default;
     /// Arrays x [count][3], g [count], n [count][3], H [count][3][3].
     virtual void gap(int count, const double* x, double* g, double* n, double* H) const = 0;
+    virtual bool is_distance() const = 0;
+    /// Whether several threads may ask at a time, each for some of the points.
+    virtual bool is_concurrent() const = 0;
 };
 
 template <ToolSurface Shape>
 class SurfaceOf final : public Surface {
   public:
     explicit SurfaceOf(Shape shape) : shape_(shape) {}
+    bool is_distance() const override { return Shape::is_distance; }
+    bool is_concurrent() const override { return true; }
     void gap(int count, const double* x, double* g, double* n, double* H) const override {
         for (int q = 0; q < count; ++q) {
             const Gap at = shape_.gap({x[3 * q], x[3 * q + 1], x[3 * q + 2]});
@@ -47,11 +54,13 @@ class SurfaceOf final : public Surface {
     Shape shape_;
 };
 
-/// A surface from any function of arrays, a user's own for instance.
+/// A surface from any function of arrays, a user's own for instance: it may be scaled, and is asked once for all points.
 class SurfaceFromFunction final : public Surface {
   public:
     using Function = std::function<void(int, const double*, double*, double*, double*)>;
     explicit SurfaceFromFunction(Function function) : function_(std::move(function)) {}
+    bool is_distance() const override { return false; }
+    bool is_concurrent() const override { return false; }
     void gap(int count, const double* x, double* g, double* n, double* H) const override {
         function_(count, x, g, n, H);
     }

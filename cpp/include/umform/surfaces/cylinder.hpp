@@ -10,6 +10,8 @@ struct Cylinder {
     double radius;
     bool inside;  // the sheet lies inside of the bore
 
+    static constexpr bool is_distance = true;
+
     /// H = (1 - a a^T - n n^T) / rho with rho the distance to the axis. eq. (4.3)
     Gap gap(const Vec3& x) const {
         Vec3 d{x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};

@@ -10,6 +10,8 @@ struct Extruded {
     Profile profile;
     Vec3 origin, x, y;  // where the profile has its origin and its two directions
 
+    static constexpr bool is_distance = true;
+
     /// H = k t t^T, t = n_x y - n_y x. eq. (4.25)
     Gap gap(const Vec3& at) const {
         const Vec3 d{at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]};

@@ -12,6 +12,9 @@ class Placed final : public Surface {
     /// A point X of the tool goes to Q X + c; Q is orthogonal, a rotation or a reflection.
     Placed(std::shared_ptr<const Surface> tool, const Mat3& Q, const Vec3& c) : tool_(std::move(tool)), Q_(Q), c_(c) {}
 
+    bool is_distance() const override { return tool_->is_distance(); }
+    bool is_concurrent() const override { return tool_->is_concurrent(); }
+
     /// g = g_local, n = Q n_local, H = Q H_local Q^T; the tool is asked once for all points. eq. (4.18)
     void gap(int count, const double* x, double* g, double* n, double* H) const override {
         std::vector<double> local(3 * static_cast<std::size_t>(count));

@@ -10,6 +10,8 @@ struct Revolved {
     Profile profile;
     Vec3 origin, axis;
 
+    static constexpr bool is_distance = true;
+
     /// H = k t t^T + (n_rho / rho) h h^T with h around the axis. eq. (4.26)
     Gap gap(const Vec3& at) const {
         Vec3 e{at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]};

@@ -13,6 +13,8 @@ struct RoundedBox {
     Vec3 core;  // half of the edges, less the radius
     double radius;
 
+    static constexpr bool is_distance = true;
+
     /// Distance to the core less the radius; n and H live in the directions in which x lies beyond the core. eq. (4.27)
     Gap gap(const Vec3& x) const {
         const Vec3 d{x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};

@@ -10,6 +10,8 @@ struct Sphere {
     double radius;
     bool inside;  // the sheet lies inside of the sphere
 
+    static constexpr bool is_distance = true;
+
     /// H = (1 - n n^T) / rho with rho the distance to the centre. eq. (4.3)
     Gap gap(const Vec3& x) const {
         const Vec3 d{x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,59 +44,96 @@ class ContactPoints:
 class ContactFound(Found):
     """What the evaluation of a contact has found; it stays what it is when the model is evaluated again.
 
+    What belongs to the points that the tool holds is copied. Positions, gaps and normals of all points follow from the
+    displacement and the pose of the tool, and are measured on demand: most facets of a large sheet are far
+    from the tool.
+
     Attributes
     ----------
-    x, gap, normal, area : ndarray
-        At the contact points, see :class:`ContactPoints`.
+    held : umform._core.ContactFound
+        What was found at the points that are held.
+    measure : callable
+        Returns positions (n, 3), gaps (n,) and normals (n, 3) of all points at the same displacement and pose.
+    area : ndarray, shape (n,)
+        Reference areas of all points.
     multiplier : ndarray, shape (n,)
         Pressures that are there without a penetration.
     penalty : float
         Pressure per penetration.
     """
 
-    x: Floats = None  # type: ignore[assignment]
-    gap: Floats = None  # type: ignore[assignment]
-    normal: Floats = None  # type: ignore[assignment]
-    area: Floats = None  # type: ignore[assignment]
-    multiplier: Floats = None  # type: ignore[assignment]
+    held: Any = None
+    measure: Callable[[], tuple[Floats, Floats, Floats]] = field(default=lambda: (np.empty(0),) * 3, repr=False)
+    area: Floats = field(default_factory=lambda: np.empty(0), repr=False)
+    multiplier: Floats = field(default_factory=lambda: np.empty(0), repr=False)
     penalty: float = 0.0
 
     @cached_property
-    def shifted_gap(self) -> Floats:
-        """Gap less multiplier over penalty: where it is not positive a point is held. eq. (4.33)"""
-        return self.gap - self.multiplier / self.penalty
+    def _measured(self) -> tuple[Floats, Floats, Floats]:
+        return self.measure()
 
     @property
+    def x(self) -> Floats:
+        """Positions of all points, shape (n, 3)."""
+        return self._measured[0]
+
+    @property
+    def gap(self) -> Floats:
+        """Signed distances of all points, negative in penetration, shape (n,)."""
+        return self._measured[1]
+
+    @property
+    def normal(self) -> Floats:
+        """Unit normals out of the tool at all points, shape (n, 3)."""
+        return self._measured[2]
+
+    @cached_property
     def active(self) -> NDArray[np.bool_]:
         """Which points are held by the tool."""
-        return self.shifted_gap <= 0.0
+        return np.asarray(self.held.active, dtype=bool)
+
+    def _spread(self, values: Floats) -> Floats:
+        """Values at all points from those at the points that are held, zero elsewhere."""
+        full = np.zeros((self.area.size, *values.shape[1:]))
+        full[self.held.points] = values
+        return full
 
     @cached_property
     def pressure(self) -> Floats:
-        """Contact pressure on the reference area, shape (n,). eqs. (4.6), (4.33)"""
-        return self.penalty * np.maximum(-self.shifted_gap, 0.0)
+        """Contact pressure on the reference area at all points, shape (n,). eqs. (4.6), (4.33)"""
+        return self._spread(self.held.pressure)
 
     @cached_property
     def traction(self) -> Floats:
-        """Traction of the sheet on the tool on the reference area, shape (n, 3)."""
-        return -self.pressure[:, None] * self.normal
+        """Traction of the tool on the sheet on the reference area at all points, shape (n, 3)."""
+        return self._spread(self.held.traction)
 
     @cached_property
     def forces(self) -> Floats:
-        """Forces of the sheet on the tool at the points, shape (n, 3)."""
-        return -(self.pressure * self.area)[:, None] * self.normal
+        """Forces of the sheet on the tool at all points, shape (n, 3)."""
+        return self._spread(self.held.force)
+
+    @cached_property
+    def held_gap(self) -> Floats:
+        """Gaps of the points that are held, zero elsewhere, shape (n,)."""
+        return self._spread(self.held.gap)
+
+    @cached_property
+    def held_normal(self) -> Floats:
+        """Normals at the points that are held, zero elsewhere, shape (n, 3)."""
+        return self._spread(self.held.normal)
 
     @property
     def penetration(self) -> float:
         """Largest penetration."""
-        return float(max(0.0, -self.gap.min(initial=np.inf)))
+        return float(self.held.penetration)
 
     def points(self) -> ContactPoints:
-        """Positions, gap, pressure, normal and area."""
+        """Positions, gap, pressure, normal and area of all points."""
         return ContactPoints(self.x, self.gap, self.pressure, self.normal, self.area)
 
     def resultant(self, about: Floats | None = None) -> tuple[Floats, Floats]:
-        """Resultant of the contact pressure. eq. (4.17)
+        """Resultant of the contact tractions. eq. (4.17)
 
         Parameters
         ----------
@@ -106,8 +145,8 @@ class ContactFound(Found):
         force, moment : ndarray, shape (3,)
             Of the sheet on the tool.
         """
-        arm = self.x - (np.zeros(3) if about is None else np.asarray(about, dtype=float))
-        return self.forces.sum(axis=0), np.cross(arm, self.forces).sum(axis=0)
+        arm = self.held.x - (np.zeros(3) if about is None else np.asarray(about, dtype=float))
+        return self.forces.sum(axis=0), self._spread(np.cross(arm, self.held.force)).sum(axis=0)
 
     def energy(self) -> float:
         """Potential of penalty and multipliers, (p^2 - lambda^2) / (2 penalty) over the reference area. eq. (4.32)"""

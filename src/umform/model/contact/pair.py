@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cached_property
+from dataclasses import replace
+from functools import cached_property, partial
 from typing import Any, Self
 
 import numpy as np
@@ -74,6 +75,10 @@ class Contact(Term):
         """Penetration that is allowed; None where only a penalty was given."""
         return self._settings.allowed
 
+    @allowed.setter
+    def allowed(self, value: float | None) -> None:
+        self._settings = replace(self._settings, allowed=value)
+
     @property
     def augmented(self) -> bool:
         """Whether multipliers take the penetration away that is not allowed."""
@@ -100,18 +105,26 @@ class Contact(Term):
             If the model was solved on many ranks: each had the points of its own facets.
         """
         if self.elsewhere:
-            raise not_here(f"the state of contact {self.name}")
+            raise self._not_here()
         at_nodes = isinstance(self.points, str)
         per_side = 1 if isinstance(self.points, str) else self.points
-        block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self.tool.kernel)
-        block.penalty = self.penalty
-        self.multipliers = block.multipliers
+        law = _core.penalty_law(self.penalty)
+        block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self.tool.kernel, law)
+        block.name = f"contact {self.name}"
         return block
 
-    @cached_property
+    @property
+    def symmetric(self) -> bool:  # type: ignore[override]
+        """Whether the tangent of its law is."""
+        return self.block.symmetric
+
+    @property
     def multipliers(self) -> Floats:
         """Multipliers of the converged state at the contact points; zero without augmentation."""
-        return self.block.multipliers
+        return self.block.state[:, 0]
+
+    def _not_here(self) -> ModelError:
+        return not_here(f"the state of contact {self.name}")
 
     # Term ----------------------------------------------------------------------------------------------------
 
@@ -131,7 +144,7 @@ class Contact(Term):
         product = None if way is None else into.predictor
         scatter = into.scatters[self][0]
         scale = self.block.evaluate(at.u, scatter, into.residual, into.values, way, product)[1]
-        found = self._found(scale)
+        found = self._found(scale, at.u, pose)
         if at.until is not None and self.tool.motion is not None:
             turned = self.tool.pose(at.values, at.until)[0] @ pose[0].T
             self._spread(
@@ -159,48 +172,66 @@ class Contact(Term):
         (rotation, shift), (rotation_then, shift_then) = pose, self.tool.pose(at.values, at.until)
         return (x - shift) @ rotation @ rotation_then.T + shift_then - x
 
-    def _found(self, scale: float = 0.0) -> ContactFound:
-        """What the kernel knows now, copied."""
+    def _found(self, scale: float, u: Floats, pose: Pose) -> ContactFound:
+        """What the kernel knows now of the points that are held, copied; the rest is measured when it is asked for."""
         block = self.block
+        held = block.found()
+        multiplier = block.multipliers if self.augmented else self._no_multipliers
+        measure = partial(self._measured, u, pose)
         return ContactFound(
             scale,
-            block.round_off_squared,
-            x=block.positions,
-            gap=block.gaps,
-            normal=block.normals,
-            area=block.areas,
-            multiplier=block.multipliers,
+            held.round_off_squared,
+            held=held,
+            measure=measure,
+            area=self._areas,
+            multiplier=multiplier,
             penalty=self.penalty,
         )
+
+    @cached_property
+    def _areas(self) -> Floats:
+        return self.block.areas
+
+    @cached_property
+    def _no_multipliers(self) -> Floats:
+        return np.zeros(self._areas.size)
+
+    def _measured(self, u: Floats, pose: Pose) -> tuple[Floats, Floats, Floats]:
+        """Positions, gaps and normals of all points at a displacement, with the tool in a pose."""
+        self.block.set_pose(*pose)
+        self.block.locate(u)
+        return self.block.positions, self.block.gaps, self.block.normals
 
     def locate(self, u: Floats, pose: Pose) -> ContactFound:
         """What would be found at a displacement, with the tool in a pose; no force and no tangent."""
         self.block.set_pose(*pose)
         self.block.locate(u)
-        return self._found()
+        return self._found(0.0, u, pose)
 
     def stand(self, found: ContactFound) -> None:
         """Keep what was found at the converged state."""
         self._last = found
 
     def commit(self, found: Found) -> None:
-        """Make the multipliers and what was found those of the converged state."""
-        self.multipliers = self.block.multipliers
+        """Make the trial history, multipliers too, and what was found those of the converged state."""
+        self.block.commit()
         assert isinstance(found, ContactFound)
         self.stand(found)
 
     def revert(self) -> None:
-        """Go back to the multipliers of the converged state."""
-        self.block.multipliers = self.multipliers
+        """Go back to the converged history."""
+        self.block.revert()
 
     def state(self) -> Tree:
-        """Multipliers, a row for each facet."""
-        return {"multipliers": self.multipliers.reshape(len(self.facets), -1)}
+        """History of the points, a row for each facet."""
+        state = self.block.state
+        return {"history": state.reshape(len(self.facets), -1, state.shape[1])}
 
     def restore(self, tree: Tree) -> None:
-        """Put multipliers back."""
-        self.multipliers, self._last = tree["multipliers"].ravel(), None
-        self.revert()
+        """Put a history back."""
+        history = np.ascontiguousarray(tree["history"], dtype=float)
+        self.block.restore(history.reshape(-1, history.shape[-1]))
+        self._last = None
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
         """Largest penetration and number of points that are held."""
@@ -228,8 +259,11 @@ class Contact(Term):
         Raises
         ------
         ModelError
-            If the model has not been solved yet; ask ``model.evaluate(u).found[contact]`` then.
+            If the model has not been solved yet; ask ``model.evaluate(u).found[contact]`` then. If it was solved on
+            many ranks: each had the points of its own facets.
         """
+        if self.elsewhere:
+            raise self._not_here()
         if self._last is None:
             raise ModelError(
                 f"nothing is known of contact {self.name} yet",
@@ -256,7 +290,7 @@ class Contact(Term):
         """Whether multipliers are wanted and a point that the tool holds is further from it than allowed."""
         if not self.augmented or self.allowed is None:
             return False
-        return bool((np.abs(found.gap[found.active]) > self.allowed).any())
+        return bool((np.abs(found.held.gap) > self.allowed).any())
 
     def augment(self, found: ContactFound, change: Floats) -> None:
         """Let the multipliers carry the pressure that was found, and add what that changes in the residual.
@@ -264,7 +298,7 @@ class Contact(Term):
         The points that are held now stay so to first order, and close their gaps: where the tool goes back, new
         multipliers on old gaps would let go of points that bear a pressure. eqs. (4.34), (4.35)
         """
-        self._close(found, found.gap, change)
+        self._close(found, found.held_gap, change)
         self.block.multipliers = found.pressure
 
     def stiffen(self, found: ContactFound, penalty: float, change: Floats) -> None:
@@ -279,13 +313,13 @@ class Contact(Term):
         change : ndarray, shape (3 n,)
             Gets what the first increment with the tangent of before has to answer. eq. (4.39)
         """
-        self._close(found, (1.0 - self.penalty / penalty) * found.gap, change)
+        self._close(found, (1.0 - self.penalty / penalty) * found.held_gap, change)
         self.penalty = penalty
 
     def _close(self, found: ContactFound, way: Floats, change: Floats) -> None:
         """Add the forces by which the points that are held now go a way (points,) against their gaps."""
         weight = self.penalty * np.where(found.active, way, 0.0) * found.area
-        self._spread(weight[:, None] * found.normal, change)
+        self._spread(weight[:, None] * found.held_normal, change)
 
     def _spread(self, forces: Floats, change: Floats) -> None:
         """Add forces (points, 3) at the contact points to their nodes. eq. (4.9)"""
@@ -338,24 +372,23 @@ class Contact(Term):
 
     def strip(self, bare: Self, twins: Twins) -> None:
         """Without faces and points, of the twin of its tool."""
-        for made in ("block", "multipliers", "faces", "facets", "nodes", "_mesh_points", "_last"):
+        for made in ("block", "_areas", "_no_multipliers", "faces", "facets", "nodes", "_mesh_points", "_last"):
             bare.__dict__.pop(made, None)
         bare.tool = twins.of(self.tool)
 
-    def piece(self, cut: Cut) -> tuple[Ids, NDArray[np.int64], Floats | None]:
-        """Faces of the rank, which rows of this contact they are, and their multipliers if there are any yet."""
+    def piece(self, cut: Cut) -> tuple[Ids, NDArray[np.int64], Tree | None]:
+        """Faces of the rank, which rows of this contact they are, and their history if there is any yet."""
         faces, rows = cut.faces_of(self.faces)
-        begun = "multipliers" in vars(self)
-        return faces, rows, self.multipliers.reshape(len(self.facets), -1)[rows].ravel() if begun else None
+        history = {name: values[rows] for name, values in self.state().items()} if "block" in vars(self) else None
+        return faces, rows, history
 
-    def fill(self, piece: tuple[Ids, NDArray[np.int64], Floats | None], mesh: Any) -> None:
-        """Take faces and multipliers."""
-        faces, self.rows, multipliers = piece
+    def fill(self, piece: tuple[Ids, NDArray[np.int64], Tree | None], mesh: Any) -> None:
+        """Take faces and history."""
+        faces, self.rows, history = piece
         self._last = None
         self._meet(mesh, faces)
-        if multipliers is not None:
-            self.multipliers = multipliers
-            self.revert()
+        if history is not None:
+            self.restore(history)
 
 
 def hat_functions(N: Floats) -> Floats:

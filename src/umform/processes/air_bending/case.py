@@ -88,10 +88,10 @@ class AirBend:
         flat = (
             "the sheet springs back flat: radius, K-factor and all that rests on them cannot be told: a larger stroke"
         )
-        told = any("the penetration of" in warning for warning in self.result.warnings)
+        exceeded = any("the penetration of" in warning for warning in self.result.warnings)
         found = {
             lying: self.against,
-            deep: self.penetration > _DEEP * self.case.thickness and not told,
+            deep: self.penetration > _DEEP * self.case.thickness and not exceeded,
             flat: not self.released.is_bent,
         }
         return [*(text for text, holds in found.items() if holds), *self.result.warnings]

@@ -156,6 +156,7 @@ class Path:
             self.line.move(state.fraction)
             model.time = time_before
             model.revert()
+            model.prepare()
             raise
         model.commit(converged.evaluation)
         self.state = new

@@ -1,8 +1,10 @@
 // Energies of the laws: remainders of exp and log, integrals of the yield curves, elastic energy on both sides of its switch.
 #include "check.hpp"
 #include "umform/elements/quadrature.hpp"
+#include "umform/materials/function.hpp"
 #include "umform/materials/j2.hpp"
-#include "umform/materials/neo_hooke.hpp"
+#include "umform/materials/neo_hooke_logarithmic.hpp"
+#include "umform/materials/neo_hooke_power.hpp"
 #include "umform/materials/saint_venant_kirchhoff.hpp"
 
 using namespace umform;
@@ -117,10 +119,10 @@ void check_unknown() {
     CHECK(std::isnan(j2.energy(impossible, virgin.data()).elastic));
     CHECK(std::isnan(NeoHookeLogarithmic({1.0, 1.0}).energy(impossible, nullptr).elastic));
     CHECK(std::isnan(NeoHookePower({1.0, 0.5}).energy(impossible, nullptr).elastic));
-    const MaterialFromFunction law([](int n, const Voigt*, const double*, Voigt*, Voigt66*, double*) { return n; }, {},
+    const MaterialFromFunction law([](const FunctionArguments& at, const FunctionAnswer&) { return at.n; }, {},
                                    nullptr);
     std::array<Energy, 2> energies{Energy{1.0, 1.0}, {1.0, 1.0}};
-    law.energy(2, &impossible, nullptr, energies.data());
+    law.energy(2, &impossible, nullptr, energies.data(), -1);
     for (const Energy& energy : energies) CHECK(std::isnan(energy.elastic) && std::isnan(energy.plastic));
 }
 

@@ -128,9 +128,36 @@ void check_lanes() {
     }
 }
 
+/// A curve so steep that Newton's method reaches its next piece only in each iteration: 130 pieces, each 200 times as long as the
+/// one before. The return map gives up, and says so in the lanes that it cannot answer for.
+void check_unsolved() {
+    Tabulated steep;
+    for (int k = 0; k < 130; ++k) {
+        steep.eqps.push_back(k == 0 ? 0.0 : 1e-300 * std::pow(200.0, k));
+        steep.stress.push_back(100.0 + 10.0 * k);
+    }
+    const J2 brittle{175e3, 80.77e3, steep};
+    std::array<double, 7> virgin;
+    brittle.initial(virgin.data());
+    const Voigt elastic{1e-5, 0, 0, 0, 0, 0}, plastic{6.6e-3, -3.3e-3, -3.3e-3, 0, 0, 0};
+    Answer at;
+    CHECK(brittle.respond(elastic, virgin.data(), at.S, at.CC, at.trial.data()));
+    CHECK(!brittle.respond(plastic, virgin.data(), at.S, at.CC, at.trial.data()));
+    Vec<Lanes, 6> strain, S;
+    Mat<Lanes, 6, 6> CC;
+    std::array<Lanes, 7> state, trial;
+    for (int p = 0; p < 6; ++p) strain[p] = by_lane([&](int lane) { return lane == 2 ? plastic[p] : elastic[p]; });
+    for (int k = 0; k < 7; ++k) state[k] = virgin[k];
+    const LaneMask answered = brittle.respond(strain, state.data(), S, CC, trial.data());
+    for (int lane = 0; lane < lane_count; ++lane) CHECK(answered[lane] == (lane != 2));
+    const J2 nameless{175e3, 80.77e3, LinearVoce{160.0, std::nan(""), 160.0, 0.0}};
+    CHECK(!nameless.respond(plastic, virgin.data(), at.S, at.CC, at.trial.data()));
+}
+
 }  // namespace
 
 int main() {
+    check_unsolved();
     check_fast_path();
     check_fast_tangent();
     check_lanes();

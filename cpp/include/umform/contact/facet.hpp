@@ -1,0 +1,90 @@
+// The contact points of a facet: Gauss points, or its nodes.
+#pragma once
+
+#include <cmath>
+
+#include "umform/algebra/tensor.hpp"
+#include "umform/assembly/connectivity.hpp"
+#include "umform/elements/quadrature.hpp"
+#include "umform/elements/topology.hpp"
+
+namespace umform {
+
+/// Where a facet is checked: at points x points Gauss points, or at its nodes with tributary areas.
+struct ContactRule {
+    int points = 2;
+    bool at_nodes = false;
+};
+
+/// Shape functions at the points of a facet, and the reference areas of the points of all facets.
+template <int Nodes>
+struct FacetPoints {
+    using Values = std::array<double, Nodes>;
+
+    std::vector<Values> N;     // [point]
+    std::vector<double> area;  // [facet][point]
+
+    FacetPoints(const Connectivity& part, const std::vector<double>& X, ContactRule rule) {
+        if (rule.at_nodes)
+            nodal(part, X);
+        else
+            gaussian(part, X, gauss(rule.points));
+    }
+
+    int count() const { return static_cast<int>(N.size()); }
+
+    /// How far a point can move at most when no node moves farther than by one: the largest sum of |N|.
+    double largest_motion() const {
+        double largest = 1.0;
+        for (const Values& values : N) {
+            double sum = 0.0;
+            for (const double value : values) sum += std::abs(value);
+            largest = std::max(largest, sum);
+        }
+        return largest;
+    }
+
+  private:
+    void gaussian(const Connectivity& part, const std::vector<double>& X, const Rule& rule) {
+        for (int is = 0; is < rule.size(); ++is)
+            for (int ir = 0; ir < rule.size(); ++ir) N.push_back(face_shape<Nodes>(rule.x[ir], rule.x[is]).N);
+        for (int e = 0; e < part.size(); ++e)
+            for (int is = 0; is < rule.size(); ++is)
+                for (int ir = 0; ir < rule.size(); ++ir)
+                    area.push_back(rule.w[ir] * rule.w[is] * jacobian(part[e], X, rule.x[ir], rule.x[is]));
+    }
+
+    /// Tributary areas int N_a dA: 1/4 of a plane 4-node facet, 1/36, 4/36 and 16/36 of a plane 9-node facet. eq. (4.12)
+    void nodal(const Connectivity& part, const std::vector<double>& X) {
+        for (int a = 0; a < Nodes; ++a) {
+            Values values{};
+            values[a] = 1.0;
+            N.push_back(values);
+        }
+        const Rule rule = gauss(4);
+        for (int e = 0; e < part.size(); ++e) {
+            Values tributary{};
+            for (int is = 0; is < rule.size(); ++is)
+                for (int ir = 0; ir < rule.size(); ++ir) {
+                    const double dA = rule.w[ir] * rule.w[is] * jacobian(part[e], X, rule.x[ir], rule.x[is]);
+                    const Values values = face_shape<Nodes>(rule.x[ir], rule.x[is]).N;
+                    for (int a = 0; a < Nodes; ++a) tributary[a] += values[a] * dA;
+                }
+            area.insert(area.end(), tributary.begin(), tributary.end());
+        }
+    }
+
+    static double jacobian(const std::int32_t* ids, const std::vector<double>& X, double r, double s) {
+        const FaceShape<Nodes> shape = face_shape<Nodes>(r, s);
+        Vec3 Gr{}, Gs{};
+        for (int a = 0; a < Nodes; ++a)
+            for (int k = 0; k < 3; ++k) {
+                Gr[k] += shape.Nr[a] * X[3 * ids[a] + k];
+                Gs[k] += shape.Ns[a] * X[3 * ids[a] + k];
+            }
+        const Vec3 normal = cross(Gr, Gs);
+        return std::sqrt(dot(normal, normal));
+    }
+};
+
+}  // namespace umform

@@ -1,0 +1,32 @@
+// Frictionless contact by penalty and multipliers.
+#pragma once
+
+#include "umform/contact/concept.hpp"
+
+namespace umform {
+
+/// Pressure <multiplier - penalty * gap>. The multiplier is a pressure that is there without a penetration, zero or more.
+struct Penalty {
+    double penalty;
+
+    static constexpr bool symmetric = true;
+    static std::vector<Quantity> quantities() { return {{"multiplier", 1}}; }
+
+    double reach(const double* trial) const { return trial[0] / penalty; }
+
+    /// A place is held where its gap less multiplier over penalty, g~, is not positive (a tool that just touches can hold):
+    /// traction -penalty g~ n, K = penalty (n n^T + g~ H). eqs. (4.6), (4.10), (4.33)
+    bool respond(const Place& place, double weight, const double*, const double* trial, Reaction& reaction) const {
+        const double g = place.gap - trial[0] / penalty;
+        if (!(g <= 0.0)) return false;
+        const double stiffness = penalty * weight;
+        reaction.pressure = -(stiffness * g);
+        reaction.tangential = {0.0, 0.0, 0.0};
+        for (int k = 0; k < 3; ++k)
+            for (int l = k; l < 3; ++l)
+                reaction.K[k][l] = stiffness * std::fma(place.n[k], place.n[l], g * place.H(k, l));
+        return true;
+    }
+};
+
+}  // namespace umform

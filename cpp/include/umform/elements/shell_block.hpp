@@ -1,0 +1,100 @@
+// A block of solid-shells as Python sees it, whatever its number of nodes: history, enhanced parameters, evaluation.
+#pragma once
+
+#include <string>
+
+#include "umform/assembly/history.hpp"
+#include "umform/assembly/target.hpp"
+#include "umform/materials/concept.hpp"
+
+namespace umform {
+
+/// Fields at the Gauss points of all elements, for output. Arrays [element][point][...].
+struct PointFields {
+    double *E, *S;  // [6] in the local frame
+    double* frame;  // [3][3]: rows e_1, e_2, e_3
+    double* F;      // [3][3]: compatible deformation gradient in global axes
+    double* dV;     // reference volume
+};
+
+/// The elements as Python sees them. `evaluate` is pure in the history: it reads the converged state and writes the
+/// trial state and, with a tangent, the condensed blocks; `recover`, `commit` and `revert` are explicit.
+class ShellBlock {
+  public:
+    virtual ~ShellBlock() = default;
+    virtual const Connectivity& connectivity() const = 0;
+    virtual std::size_t dofs() const = 0;  // length of u and f
+    virtual int points() const = 0;
+    virtual int modes() const = 0;
+    virtual int state_size() const = 0;
+    virtual bool symmetric() const = 0;  // whether the tangent is
+    virtual Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) = 0;
+    virtual void fields(const double* u, const PointFields& fields) = 0;
+    /// Energies over the whole block with the converged history and parameters, which belong to u; the trial history stays
+    /// as it is. NaN where the law does not know them. eq. (5.30)
+    virtual Energy energy(const double* u) = 0;
+    /// K, f of one element before its scatter, condensed; for tests and eigenvalues.
+    virtual void element(int e, const double* u, double* K, double* f) = 0;
+
+    /// alpha -= Kaa^-1 (ra + s Kad du) with the blocks of the last `evaluate` with a tangent, or with those of the converged state
+    /// if there was none since `commit` or `revert`. eq. (2.19) If `mixed`, the evaluations that follow take the geometric stiffness from the stress that the
+    /// correction s du foresaw. eq. (5.39)
+    void recover(const double* du, double s, bool mixed) {
+        alpha_before_ = alpha_;
+        correction_.resize(mixed ? dofs() : 0);
+        for (std::size_t i = 0; i < correction_.size(); ++i) correction_[i] = s * du[i];
+        if (modes() > 0) recover_enhanced(du, s);
+    }
+    /// Takes the last `recover` back.
+    void undo_recover() {
+        alpha_ = alpha_before_;
+        correction_.clear();
+    }
+
+    void commit() {
+        history_.commit();
+        alpha_converged_ = alpha_;
+        correction_.clear();
+        keep_blocks();
+    }
+    void revert() {
+        history_.revert();
+        alpha_ = alpha_before_ = alpha_converged_;
+        correction_.clear();
+        return_to_kept_blocks();
+    }
+    /// Whether the blocks of the converged state are there: not before the first `commit`, and not after `restore`.
+    virtual bool keeps_blocks() const = 0;
+
+    const std::vector<double>& state() const { return history_.state(); }
+    /// The parts of the history of a point, in their order.
+    const std::vector<Quantity>& state_names() const { return history_.quantities(); }
+    /// For each point, whether the last `evaluate` has changed its history: 1 where the material flows.
+    std::vector<std::uint8_t> flowing() const { return history_.changed(); }
+    const std::vector<double>& alpha() const { return alpha_converged_; }
+    void restore(const double* state, const double* alpha) {
+        history_.restore(state, history_.state().size());
+        alpha_converged_.assign(alpha, alpha + alpha_converged_.size());
+        forget_blocks();
+        revert();
+    }
+
+    /// Numbers of the elements for messages, where they are a part of a larger mesh.
+    void set_numbers(std::vector<std::int32_t> numbers) { numbers_ = std::move(numbers); }
+
+    double step = 0.0;  // increment of time, for laws that ask for it
+
+  protected:
+    std::int32_t number_of(int e) const { return numbers_.empty() ? e : numbers_[e]; }
+    virtual void recover_enhanced(const double* du, double s) = 0;
+    virtual void keep_blocks() = 0;
+    virtual void return_to_kept_blocks() = 0;
+    virtual void forget_blocks() = 0;
+
+    std::vector<std::int32_t> numbers_;
+    std::vector<double> correction_;                              // of all degrees of freedom, or empty
+    History history_;                                             // [element][point][state_size]
+    std::vector<double> alpha_, alpha_before_, alpha_converged_;  // [element][mode]
+};
+
+}  // namespace umform

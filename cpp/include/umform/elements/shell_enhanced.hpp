@@ -1,0 +1,128 @@
+// The enhanced parameters of an element: their blocks of the tangent, and their elimination.
+#pragma once
+
+#include "umform/elements/shell_products.hpp"
+
+namespace umform {
+
+template <int Nodes, class Real>
+class ShellEnhanced : public ShellProducts<Nodes, Real> {
+    using Products = ShellProducts<Nodes, Real>;
+
+  public:
+    using Products::Products, Products::half, Products::size;
+    using typename Products::Workspace;
+
+    /// Eliminates the enhanced parameters: K -= Kda Kaa^-1 Kad, f -= Kda Kaa^-1 ra. False where Kaa is singular.
+    /// eq. (2.18) Without a tangent K and Kad stay as they are.
+    Mask<Real> condense(bool tangent, Workspace& w) const {
+        if (tables_.modes == 0) return true;
+        const Mask<Real> regular = symmetric_ ? eliminate(w) : eliminate_full(w);
+        for (int m = 0; m < tables_.modes; ++m)
+            for (int i = 0; i < size; ++i) w.f[i] -= w.Kda[m * size + i] * w.ra[m];
+        if (tangent) symmetric_ ? condense_tangent(w) : condense_tangent_full(w);
+        return regular;
+    }
+
+  protected:
+    using Products::symmetric_;
+    using Products::tables_;
+    using typename Products::Voigt, typename Products::Voigt66;
+
+    /// Kaa (lower triangle), Kad and ra. eqs. (2.15), (2.16)
+    template <int FirstExtra>
+    void add_enhanced_blocks(int q, double t, const Voigt& S, const Voigt66& C, const Real* mean, const Real* extra,
+                             Workspace& w) const {
+        const int count = static_cast<int>(tables_.enhanced.size());
+        const Voigt* direction = w.enhanced.data() + q * count;
+        const double* value = tables_.mode_values.data() + q * tables_.entries.size();
+        for (int c = 0; c < count; ++c) {
+            Voigt Cd;
+            for (int p = 0; p < 6; ++p) Cd[p] = dot(direction[c], C[p]);
+            std::array<Real, 6> dCd;
+            for (int other = 0; other < count; ++other) dCd[other] = dot(direction[other], Cd);
+            const Real dS = dot(direction[c], S);
+            std::array<Real, size> dCB{};
+            Products::template add_force<FirstExtra>(Cd, t, mean, extra, dCB.data());
+            for (std::size_t e = 0; e < tables_.entries.size(); ++e) {
+                if (tables_.entries[e].component != c) continue;
+                const int mode = tables_.entries[e].mode;
+                w.ra[mode] += value[e] * dS;
+                for (int i = 0; i < size; ++i) w.Kad[mode * size + i] += value[e] * dCB[i];
+                for (std::size_t other = 0; other < tables_.entries.size(); ++other)
+                    if (tables_.entries[other].mode <= mode)
+                        w.Kaa[mode * tables_.modes + tables_.entries[other].mode] +=
+                            value[e] * value[other] * dCd[tables_.entries[other].component];
+            }
+        }
+    }
+
+    /// The same with Kda (as its transpose) and all of Kaa, for a law whose tangent is not symmetric.
+    template <int FirstExtra>
+    void add_enhanced_blocks_full(int q, double t, const Voigt& S, const Voigt66& C, const Real* mean,
+                                  const Real* extra, Workspace& w) const {
+        const int count = static_cast<int>(tables_.enhanced.size());
+        const Voigt* direction = w.enhanced.data() + q * count;
+        const double* value = tables_.mode_values.data() + q * tables_.entries.size();
+        for (int c = 0; c < count; ++c) {
+            Voigt Cd, dC{};
+            for (int p = 0; p < 6; ++p) {
+                Cd[p] = dot(direction[c], C[p]);
+                for (int r = 0; r < 6; ++r) dC[p] += direction[c][r] * C[r][p];
+            }
+            const Real dS = dot(direction[c], S);
+            std::array<Real, size> dCB{}, CdB{};
+            Products::template add_force<FirstExtra>(dC, t, mean, extra, dCB.data());
+            Products::template add_force<FirstExtra>(Cd, t, mean, extra, CdB.data());
+            for (std::size_t e = 0; e < tables_.entries.size(); ++e) {
+                if (tables_.entries[e].component != c) continue;
+                const int mode = tables_.entries[e].mode;
+                w.ra[mode] += value[e] * dS;
+                for (int i = 0; i < size; ++i) w.Kad[mode * size + i] += value[e] * dCB[i];
+                for (int i = 0; i < size; ++i) w.Kda[mode * size + i] += value[e] * CdB[i];
+                for (std::size_t other = 0; other < tables_.entries.size(); ++other)
+                    w.Kaa[mode * tables_.modes + tables_.entries[other].mode] +=
+                        value[e] * value[other] * dot(dC, direction[tables_.entries[other].component]);
+            }
+        }
+    }
+
+  private:
+    Mask<Real> eliminate(Workspace& w) const {
+        const Mask<Real> regular = factor_ldlt(w.Kaa.data(), tables_.modes);
+        w.Kda = w.Kad;
+        solve_ldlt(w.Kaa.data(), tables_.modes, w.ra.data(), 1);
+        return regular;
+    }
+    Mask<Real> eliminate_full(Workspace& w) const {
+        const Mask<Real> regular = factor_lu(w.Kaa.data(), tables_.modes);
+        solve_lu(w.Kaa.data(), tables_.modes, w.ra.data(), 1);
+        return regular;
+    }
+
+    /// K(i.., j..) -= tile.
+    static auto subtract(std::vector<Real>& K) {
+        return [&K](int i, int j, const Tile<Real>& sum) { add_tile<half>(K.data(), i, j, -1.0, sum); };
+    }
+
+    void condense_tangent(Workspace& w) const {
+        solve_ldlt(w.Kaa.data(), tables_.modes, w.Kad.data(), size);
+        const RowSet all{1, tables_.modes, 0, size};
+        const Real *raw = w.Kda.data(), *solved = w.Kad.data();
+        transposed_product<half>(all, raw, solved, true, subtract(w.Kmm));
+        transposed_product<half>(all, raw + half, solved, false, subtract(w.Kdm));
+        transposed_product<half>(all, raw + half, solved + half, true, subtract(w.Kdd));
+    }
+
+    void condense_tangent_full(Workspace& w) const {
+        solve_lu(w.Kaa.data(), tables_.modes, w.Kad.data(), size);
+        const RowSet all{1, tables_.modes, 0, size};
+        const Real *raw = w.Kda.data(), *solved = w.Kad.data();
+        transposed_product<half>(all, raw, solved, false, subtract(w.Kmm));
+        transposed_product<half>(all, raw + half, solved, false, subtract(w.Kdm));
+        transposed_product<half>(all, raw, solved + half, false, subtract(w.Kmd));
+        transposed_product<half>(all, raw + half, solved + half, false, subtract(w.Kdd));
+    }
+};
+
+}  // namespace umform

@@ -1,0 +1,73 @@
+"""Compare the tangent of a law with differences of its stress."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from umform.materials.laws import Material
+from umform.materials.user_law import Floats, UserLaw
+
+
+class TangentCheck(float):
+    """Largest deviation of a tangent from differences, relative to its largest entry, which is its value as a number.
+
+    Attributes
+    ----------
+    asymmetry : float
+        Largest entry of CC - CC^T relative to that of CC. What is not round-off needs ``UserLaw(symmetric=False)``.
+    """
+
+    asymmetry: float
+
+    def __new__(cls, deviation: float, asymmetry: float) -> TangentCheck:
+        """Make the number and its companion."""
+        check = super().__new__(cls, deviation)
+        check.asymmetry = asymmetry
+        return check
+
+    def __repr__(self) -> str:
+        return f"deviation {float(self):.2g}, asymmetry {self.asymmetry:.2g}"
+
+    __str__ = __repr__
+
+
+def check_law(material: Material, E: ArrayLike, state: ArrayLike | None = None, step: float = 1e-6) -> TangentCheck:
+    """Compare the tangent of a law with central differences, and with its transpose.
+
+    Parameters
+    ----------
+    material : Material
+        Any law. The axes of its points are those of the global frame, size and step of the points are 1.
+    E : array_like, shape (n, 6)
+        Strains where to look, away from kinks such as first yield.
+    state : array_like, shape (n, size), optional
+        Converged history; default that of the virgin material.
+    step : float
+        Step of the differences.
+
+    Returns
+    -------
+    TangentCheck
+        The largest deviation from the differences relative to the largest entry, as a number; and ``asymmetry``.
+    """
+    if isinstance(material, UserLaw):
+        material = replace(material, symmetric=False)  # to measure what an evaluation would refuse
+    law = material.law()
+    E = np.ascontiguousarray(E, dtype=float)
+    history = np.tile(law.initial(), (len(E), 1)) if state is None else np.ascontiguousarray(state, dtype=float)
+
+    def respond(strain: Floats) -> tuple[Floats, Floats, Floats]:
+        return law.respond(strain, history, None, 1.0, 1.0)
+
+    _, CC, _ = respond(E)
+    differences = np.empty_like(CC)
+    for k in range(6):
+        shift = np.zeros(6)
+        shift[k] = step
+        differences[:, :, k] = (respond(E + shift)[0] - respond(E - shift)[0]) / (2 * step)
+    largest = np.abs(CC).max()
+    asymmetry = np.abs(CC - CC.transpose(0, 2, 1)).max() / largest
+    return TangentCheck(float(np.abs(CC - differences).max() / largest), float(asymmetry))
