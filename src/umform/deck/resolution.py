@@ -169,8 +169,8 @@ def ways(deck: Deck, problem: Problem) -> Iterator[Finding]:
     for number, step in enumerate(deck.contents.steps):
         about = f"step {number + 1}"
         if not isinstance(step, Move):  # where it ends is not known
-            for name in [step.control] if step.kind == "release" else step.to:
-                stands[name] = np.nan
+            moved = [] if step.kind == "free" else [step.control] if step.kind == "release" else list(step.to)
+            stands |= dict.fromkeys(moved, np.nan)
             continue
         for name, to in step.to.items():
             way, stands[name] = abs(to - stands[name]), to
