@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from umform.model.axes import cylindrical, turned
     from umform.results import fields
     from umform.run import Result, resume, solve
-    from umform.solution.newton import NewtonOptions
+    from umform.solution.options import NewtonOptions
     from umform.steps import Arc, Free, Move, Release
     from umform.surfaces import (
         Box,
@@ -75,7 +75,7 @@ _HOME = {
     "umform.model": ("Model",),
     "umform.model.axes": ("cylindrical", "turned"),
     "umform.run": ("Result", "resume", "solve"),
-    "umform.solution.newton": ("NewtonOptions",),
+    "umform.solution.options": ("NewtonOptions",),
     "umform.steps": ("Arc", "Free", "Move", "Release"),
     "umform.surfaces": (
         "Box",

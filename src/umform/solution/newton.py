@@ -22,6 +22,8 @@ from umform.errors import InvalidValue, NotFinite, SingularMatrix
 from umform.solution.bordered import Bordered
 from umform.solution.criteria import Chatter, Criteria, largest
 from umform.solution.factor_reuse import Reuse
+from umform.solution.options import NewtonOptions
+from umform.solution.records import Converged, Failed, Iteration
 from umform.solution.system import Evaluation, System
 from umform.solution.timed_solver import TimedSolver
 from umform.solvers import Pattern, make_solver
@@ -34,115 +36,6 @@ _T = TypeVar("_T")
 
 #: Each trial is at least a quarter of the one before: thin sheets, whose energy is a narrow bent valley, creep else.
 _LINE_SEARCH_TRIALS = 3
-
-
-@dataclass(frozen=True)
-class NewtonOptions:
-    """How far and how hard to iterate.
-
-    Attributes
-    ----------
-    residual : float
-        Tolerance of the residual, relative to the element forces.
-    increment : float
-        Tolerance of the increment, relative to the largest displacement.
-    max_iterations : int
-        Iterations before a step is given up.
-    line_search : bool
-        Shorten increments that do not bring the residual along them down.
-    extrapolate : bool
-        Start a step from the extrapolated last one instead of the tangent.
-    factor_cost : float, optional
-        What a factorisation costs over an evaluation with a solve; where it is dear, old factors serve for more than
-        one iteration, see :mod:`umform.solution.factor_reuse`. Default: an estimate from the entries of the factors; 0
-        makes new ones always.
-    mixed : bool, optional
-        Take the geometric stiffness from the stress that the last increment foresaw, not from the present one: thin
-        elastic sheets take larger steps and fewer iterations. eq. (5.39) Default: where there is neither
-        contact nor a law with a history.
-    """
-
-    residual: float = 1e-9
-    increment: float = 1e-6
-    max_iterations: int = 25
-    line_search: bool = False
-    extrapolate: bool = True
-    factor_cost: float | None = None
-    mixed: bool | None = None
-
-    def __post_init__(self) -> None:
-        if not self.residual > 0 or not self.increment > 0 or self.max_iterations < 1:
-            raise InvalidValue("tolerances and iterations must be positive", where="NewtonOptions", value=self)
-        if self.factor_cost is not None and not self.factor_cost >= 0:
-            raise InvalidValue("a cost is zero or more", where="factor_cost", value=self.factor_cost)
-
-
-@dataclass(frozen=True)
-class Iteration:
-    """Record of one iteration.
-
-    Attributes
-    ----------
-    residual : float
-        Norm of the residual of the free degrees of freedom over the force scale.
-    increment : float
-        Largest entry of the increment that led here over the largest displacement.
-    energy : float
-        Residual times the increment to come (absolute); zero in the last iteration.
-    entered, left : int
-        Contact points that came into and went out of contact.
-    step_length : float
-        Step length that the line search took.
-    negative_pivots : int or None
-        Negative pivots of the tangent, where the solver tells.
-    seconds : float
-        Wall time.
-    switched : int
-        Points of the material that began or ceased to flow since the iteration before.
-    """
-
-    number: int
-    residual: float
-    increment: float
-    energy: float
-    entered: int
-    left: int
-    step_length: float
-    negative_pivots: int | None
-    seconds: float
-    switched: int = 0
-
-
-class Failed(Exception):
-    """A step that did not converge: why, and the iterations so far. Steps turn it into a cut or an error."""
-
-    def __init__(
-        self, reason: str, iterations: list[Iteration], *, chattering: bool = False, singular: bool = False
-    ) -> None:
-        super().__init__(reason)
-        self.reason = reason
-        self.iterations = iterations
-        self.chattering = chattering
-        self.singular = singular
-
-
-@dataclass(frozen=True)
-class Converged:
-    """A converged step: the evaluation there, the iterations, those of more passes at the same loads."""
-
-    evaluation: Any
-    iterations: list[Iteration]
-    passes: list[Iteration] = field(default_factory=list)
-
-    @property
-    def x(self) -> Floats:
-        """Displacement and scalar unknowns."""
-        return self.evaluation.x  # type: ignore[no-any-return]
-
-    @property
-    def residual(self) -> Floats:
-        """Residual, reactions at the degrees of freedom that are held, prescribed or tied."""
-        return self.evaluation.residual  # type: ignore[no-any-return]
 
 
 class Corrector(Protocol):

@@ -9,7 +9,8 @@ import pytest
 
 from umform.ranks import ONE
 from umform.solution.criteria import Criteria
-from umform.solution.newton import Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
 from umform.solvers import Pattern
 
 

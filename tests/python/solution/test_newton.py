@@ -15,7 +15,9 @@ from umform.model import Model
 from umform.model.term import Border
 from umform.ranks import ONE
 from umform.run import solve
-from umform.solution.newton import Failed, Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
+from umform.solution.records import Failed
 from umform.solvers import Pattern
 from umform.steps import Move
 

@@ -15,7 +15,8 @@ from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.control import Control
 from umform.solution.bordered import Bordered
-from umform.solution.newton import Converged, Failed, Newton
+from umform.solution.newton import Newton
+from umform.solution.records import Converged, Failed
 from umform.solution.system import Evaluation
 from umform.steps.arc_length.critical import PathState
 from umform.steps.loop import Run
