@@ -21,8 +21,8 @@ from umform.model import Body, Model
 from umform.model.checks import check_held, middle
 from umform.model.control import Control
 from umform.model.evaluation import Evaluation
-from umform.model.frame import Frame
 from umform.model.forces import rigid_body_modes
+from umform.model.frame import Frame
 from umform.model.ties import Tie
 from umform.parallel.cutting import Parcel
 from umform.parallel.exchange import Exchange

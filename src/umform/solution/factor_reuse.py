@@ -12,7 +12,6 @@ from __future__ import annotations
 from umform.solution.options import NewtonOptions
 from umform.solvers import Factorisation
 
-
 #: Where new factors cost less than this, in evaluations with a solve, they are made always.
 _CHEAP = 1.0
 #: From the ratio of two increments to what old factors leave of the residual: 2 in theory, 1 to 4 as measured.

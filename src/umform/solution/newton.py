@@ -11,14 +11,13 @@ import logging
 import math
 import time as clock
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import InvalidValue, NotFinite, SingularMatrix
+from umform.errors import NotFinite, SingularMatrix
 from umform.solution.bordered import Bordered
 from umform.solution.criteria import Chatter, Criteria, largest
 from umform.solution.factor_reuse import Reuse
