@@ -52,8 +52,8 @@ class Corrector(Protocol):
     def mixed(self) -> bool:
         """Whether the geometric stiffness is that of the stress which the last increment foresaw. eq. (5.39)"""
 
-    def evaluate(self, u: Floats) -> Evaluation:
-        """Residual and tangent."""
+    def evaluate(self, u: Floats, *, tangent: bool = True) -> Evaluation:
+        """Residual and tangent, or the residual alone."""
 
     def direction(self, solver: Bordered, u: Floats, evaluation: Evaluation) -> Floats:
         """Increment of all degrees of freedom; the solver holds the factors of the tangent."""
@@ -67,8 +67,8 @@ class _FixedLoads:
     def __init__(self, system: System, line_search: bool, mixed: bool) -> None:
         self.system, self.line_search, self.mixed = system, line_search, mixed
 
-    def evaluate(self, u: Floats) -> Evaluation:
-        return self.system.evaluate(u)
+    def evaluate(self, u: Floats, *, tangent: bool = True) -> Evaluation:
+        return self.system.evaluate(u, tangent=tangent)
 
     def direction(self, solver: Bordered, u: Floats, evaluation: Evaluation) -> Floats:
         return self.system.extend(solver.solve(-self.system.restrict(evaluation.residual)))
@@ -240,29 +240,38 @@ class Newton:
 
     def _advance(self, u: Floats, du: Floats, r: Floats, corrector: Corrector) -> tuple[Floats, Evaluation, float]:
         """Take the increment, shortened by the line search if that is wanted. eq. (5.12)"""
-        system = self.system
-        s = 1.0
-        x = system.coefficients(du)
-        slope = system.ranks.dot(r, x)
-        for _ in range(_LINE_SEARCH_TRIALS):
-            system.recover(du, s, corrector.mixed)
-            trial = u + s * du
-            evaluation = corrector.evaluate(trial)
-            if not corrector.line_search:
-                break
-            along = system.ranks.dot(system.restrict(evaluation.residual), x) if evaluation.failed < 0 else np.inf
-            if abs(along) <= 0.8 * abs(slope):
-                break
-            # Evaluation is pure: put the parameters back and evaluate at u again, and nothing of the trial is left.
-            system.undo_recover()
-            corrector.evaluate(u)
+        system, s = self.system, 1.0
+        system.recover(du, s, corrector.mixed)
+        trial = u + du
+        evaluation = corrector.evaluate(trial)
+        if not corrector.line_search:
+            return trial, evaluation, s
+        slope = system.ranks.dot(r, system.coefficients(du))
+        along = self._along(du, evaluation)
+        if abs(along) <= 0.8 * abs(slope):
+            return trial, evaluation, s
+        # The parameters go back to u, and with them the blocks that they are recovered with.
+        system.undo_recover()
+        corrector.evaluate(u)
+        for number in range(_LINE_SEARCH_TRIALS):
             secant = s * slope / (slope - along) if np.isfinite(along) and slope != along else 0.5 * s
             s = min(max(secant, 0.25 * s), 0.5 * s)
-        else:
             system.recover(du, s, corrector.mixed)
             trial = u + s * du
-            evaluation = corrector.evaluate(trial)
-        return trial, evaluation, s
+            if number == _LINE_SEARCH_TRIALS - 1:
+                break
+            along = self._along(du, corrector.evaluate(trial, tangent=False))
+            if abs(along) <= 0.8 * abs(slope):
+                break
+            system.undo_recover()
+        return trial, corrector.evaluate(trial), s
+
+    def _along(self, du: Floats, evaluation: Evaluation) -> float:
+        """Residual along an increment; infinite where a cell has none."""
+        if evaluation.failed >= 0:
+            return math.inf
+        system = self.system
+        return system.ranks.dot(system.restrict(evaluation.residual), system.coefficients(du))
 
     def ready_solver(self) -> Bordered:
         """Return the solver that has analysed the present pattern."""

@@ -76,9 +76,9 @@ class OnArc:
         self.load_weight, self.length, self.start = load_weight, length, line.fraction
         self.mixed = newton.mixed
 
-    def evaluate(self, u: Floats) -> Evaluation:
+    def evaluate(self, u: Floats, *, tangent: bool = True) -> Evaluation:
         """Residual, tangent and rate of the residual with the load parameter. eq. (5.21)"""
-        return self.model.evaluate(u, rates=self.line.rates)
+        return self.model.evaluate(u, rates=self.line.rates, tangent=tangent)
 
     def direction(self, solver: Bordered, u: Floats, evaluation: Evaluation) -> Floats:
         """Increment of the displacement; the load parameter takes its own at once. eq. (5.24)"""
