@@ -124,7 +124,13 @@ class UserLaw:
         """
         answer = self.function(E, state) if points is None else self.function(E, state, points)
         if not isinstance(answer, tuple) or len(answer) != 3:
-            raise InvalidValue("a law must return three arrays: S, CC, state", where=self.name, value=type(answer))
+            raise InvalidValue(
+                "a law must return three arrays: S, CC, state",
+                where=self.name,
+                value=type(answer),
+                cause="a part is missing; a law without a history returns the empty one that it was given",
+                remedy="return S, CC, state",
+            )
         S, CC, new = answer
         checked = (
             self._checked("S", S, (len(E), 6)),
@@ -161,6 +167,7 @@ class UserLaw:
                     "the energy function of a law must return two arrays: elastic, plastic",
                     where=self.name,
                     value=type(answer),
+                    cause="one of them is missing",
                     remedy="an elastic law has no plastic work: return np.zeros(len(E)) for it",
                 )
             elastic, plastic = answer
@@ -198,7 +205,13 @@ class UserLaw:
     def _checked(self, name: str, values: ArrayLike, shape: tuple[int, ...]) -> Floats:
         array = np.ascontiguousarray(values, dtype=float)
         if array.shape != shape:
-            raise InvalidValue(f"{name} of a law must have shape {shape}", where=self.name, value=array.shape)
+            raise InvalidValue(
+                f"{name} of a law must have shape {shape}",
+                where=self.name,
+                value=array.shape,
+                cause="an answer for one point instead of all, or another size of the history than the law has said",
+                remedy="one row for each point; UserLaw(..., state=...) says the size of the history",
+            )
         if not np.isfinite(array).all():
             raise NotFinite(
                 f"{name} of a law is not finite",

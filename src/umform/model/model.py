@@ -210,7 +210,7 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
         return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))  # no copy of the matrix
 
     def extend(self, x: Floats) -> Floats:
-        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eqs. (5.17), (5.41)"""
+        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eqs. (5.17), (5.46)"""
         unknowns = self.unknowns
         if not unknowns:
             return self._extend_nodes(x)
@@ -307,7 +307,7 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
         return values
 
     def _move(self, at: At, into: Into) -> None:
-        """Rates of the residual with each scalar unknown while the unknowns at nodes are held. eq. (5.42)"""
+        """Rates of the residual with each scalar unknown while the unknowns at nodes are held. eq. (5.47)"""
         for column, unknown in zip(into.border.columns, into.border.unknowns, strict=True):
             along = self.displacement_of_supports(unknown.rates)
             supports = bool(along.any())
