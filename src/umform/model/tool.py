@@ -177,7 +177,7 @@ class Tool(Term):
         rotation, shift = self.pose(still, time)
         return rotation @ np.asarray(turn.axis), rotation @ np.asarray(turn.about) + shift
 
-    def moves_with(self, rates: Mapping[Control, float]) -> bool:
+    def moved_by(self, rates: Mapping[Control, float]) -> bool:
         """Whether one of its ways has a rate."""
         return any(rates.get(control, 0.0) != 0.0 for control in self.ways)
 
@@ -309,7 +309,7 @@ def turn_of(name: str, tool: Tool, axis: Direction, about: ArrayLike) -> ToolTur
 
 def check_spring(stiffness: float, preload: float, where: str) -> None:
     """Refuse a spring that is none."""
-    if not np.isfinite([stiffness, free]).all():
+    if not np.isfinite([stiffness, preload]).all():
         raise NotFinite(
             "a spring needs finite numbers",
             where=where,

@@ -123,14 +123,17 @@ def test_controls_ties_and_contacts_are_parted_too():
 def test_a_begun_state_goes_along():
     model, _ = sheet()
     model.block.restore(model.block.state, np.random.default_rng(3).normal(size=model.block.alpha.shape))
-    model.contacts[1].multipliers = np.arange(float(len(model.contacts[1].block.gaps)))
+    contact = model.contacts[1]
+    count = len(contact.block.gaps)
+    contact.restore({"history": np.arange(float(count)).reshape(len(contact.facets), -1, 1)})
     cut = parcels(model)
     (bodies,), (_, punch) = pieces(cut, model, "bodies"), pieces(cut, model, "contacts")
-    for one, (cells, rows, history), (_, facets, multipliers) in zip(cut, bodies, punch, strict=True):
-        np.testing.assert_array_equal(one.cells[cells], rows)
-        np.testing.assert_array_equal(history["history"], model.block.state[rows])
-        np.testing.assert_array_equal(history["alpha"], model.block.alpha[rows])
-        np.testing.assert_array_equal(multipliers.reshape(-1, 9)[:, 0], 9.0 * facets)
+    for one, body, (_, facets, of_points) in zip(cut, bodies, punch, strict=True):
+        np.testing.assert_array_equal(one.cells[body["cells"]], body["rows"])
+        np.testing.assert_array_equal(body["numbers"], body["rows"])
+        np.testing.assert_array_equal(body["history"]["history"], model.block.state[body["rows"]])
+        np.testing.assert_array_equal(body["history"]["alpha"], model.block.alpha[body["rows"]])
+        np.testing.assert_array_equal(of_points["history"][:, 0, 0], 9.0 * facets)
 
 
 def test_a_parcel_and_the_outline_know_nothing_of_the_size_of_the_whole():

@@ -134,7 +134,7 @@ class Contact(Term):
 
     def moves_with(self, rates: Mapping[Control, float]) -> bool:
         """Whether its tool does."""
-        return self.tool.moves_with(rates)
+        return self.tool.moved_by(rates)
 
     def evaluate(self, at: At, into: Into) -> ContactFound:
         """Add the forces and tangents of all facets that the tool holds. eqs. (4.9), (4.10)"""

@@ -1,0 +1,264 @@
+"""Tools as things of a model: ways, turns, forces, springs, several pairs to one tool, poses as part of the state."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from umform import materials as mt
+from umform.errors import InvalidValue, NoConvergence
+from umform.mesh import strip
+from umform.model import Model
+from umform.run import solve
+from umform.solution.newton import Newton, NewtonOptions
+from umform.steps import Move
+from umform.surfaces import Cylinder, Plane
+
+STEEL = mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(160.0, 500.0))
+TIGHT = NewtonOptions(residual=1e-12, increment=1e-9)
+
+
+def beam(material=STEEL, cells=(16, 1)):
+    """A strip that is clamped at both ends under a cylinder that overlaps it by a hair."""
+    model = Model(strip(40.0, 4.0, 1.0, cells), material=material, thickness_points=5)
+    model.fix("x0")
+    model.fix("x1")
+    tool = model.tool("punch", Cylinder((20.0, 0.0, 10.48), "y", 10.0))
+    model.contact("upper", tool, penalty=1e4, points=4, name="top")
+    return model, tool
+
+
+# Forces ------------------------------------------------------------------------------------------------------
+
+
+def test_a_punch_that_a_force_presses_stands_where_a_driven_one_has_this_force():
+    model, punch = beam(mt.SVK(E=210e3, nu=0.3))
+    press = model.press(punch, "z", "press")
+    result = solve(model, Move(press, -150.0, steps=6), options=TIGHT)
+    np.testing.assert_allclose(result["punch_fz"][1:], -result["press"][1:], rtol=1e-9)  # the sheet holds the press
+    driven, tool = beam(mt.SVK(E=210e3, nu=0.3))
+    way = driven.drive(tool, "z", "way")
+    other = solve(driven, Move(way, float(result["press_way"][-1]), steps=6), options=TIGHT)
+    assert other["way_force"][-1] == pytest.approx(150.0, rel=1e-9)
+    np.testing.assert_allclose(model.u, driven.u, atol=1e-9 * np.abs(driven.u).max())
+
+
+def test_newton_converges_quadratically_with_the_way_among_the_unknowns():
+    model, punch = beam()
+    press = model.press(punch, "z", "press")
+    result = solve(model, Move(press, -200.0, steps=8), options=NewtonOptions(residual=1e-11))
+    for records in result.iterations[2:]:
+        last, final = records[-2].residual, records[-1].residual
+        assert last < 1e-4
+        assert final < max(100.0 * last**1.7, 1e-11)
+    assert result["iterations"][2:].max() < 9
+
+
+@pytest.mark.parametrize("moved", ["press", "turn", "support"])
+def test_rows_columns_and_corner_of_the_border_are_derivatives(moved, rng):
+    """The whole bordered tangent against central differences of residual and equation."""
+    model, punch = beam(mt.SVK(E=210e3, nu=0.3))
+    model.turn(punch, "y", (15.0, 0.0, 2.0), "tilt").value = 0.02 if moved == "turn" else 0.0
+    press = model.press(punch, (0.3, 0.0, -1.0), "press")
+    press.value = 50.0
+    x = model.x.copy()
+    x[: model.u.size] += 1e-3 * rng.normal(size=model.u.size)
+    x[-1] = 0.05
+    evaluation = model.evaluate(x)
+    assert 0 < evaluation.active.sum() < evaluation.active.size
+    border, dofs, step = evaluation.border, model.u.size, 1e-6
+    for _ in range(3):
+        dx = np.concatenate([rng.normal(size=dofs), [0.0]])
+        ahead, behind = (model.evaluate(x + sign * step * dx).residual[-1] for sign in (1, -1))
+        assert border.rows[0] @ dx[:dofs] == pytest.approx((ahead - behind) / (2 * step), rel=1e-6, abs=1e-6)
+    dz = np.zeros(x.size)
+    dz[-1] = 1.0
+    ahead, behind = (model.evaluate(x + sign * step * dz).residual for sign in (1, -1))
+    column = (ahead - behind) / (2 * step)
+    np.testing.assert_allclose(border.columns[0], column[:dofs], atol=1e-6 * np.abs(column).max())
+    assert border.corner[0, 0] == pytest.approx(column[-1], rel=1e-7)
+
+
+def test_a_spring_shares_the_force_with_the_sheet():
+    model, punch = beam(mt.SVK(E=210e3, nu=0.3))
+    force = model.spring(punch, "-z", stiffness=40.0, preload=30.0, name="pad")
+    result = solve(model, Move(force, 25.0, steps=5), options=TIGHT)
+    pushed = 30.0 - 40.0 * result["pad_way"] + result["pad"]  # what spring and press exert along -z
+    np.testing.assert_allclose(-result["pad_way_force"][1:], pushed[1:], rtol=1e-9)
+    assert result["pad_way"][-1] > 0.05
+
+
+def test_a_tool_that_touches_nothing_cannot_be_pressed():
+    model = Model(strip(40.0, 4.0, 1.0, (8, 1)), material=STEEL)
+    model.fix("x0")
+    contact = model.contact("upper", Cylinder((20.0, 0.0, 11.0), "y", 10.0), penalty=1e4)
+    press = model.press(contact, "z", "press")
+    with pytest.raises(NoConvergence, match="not determined"):
+        solve(model, Move(press, -1.0, steps=1))
+
+
+def test_a_way_is_given_or_found_but_not_both():
+    model, punch = beam()
+    model.drive(punch, "z", "stroke")
+    controls = list(model.controls)
+    with pytest.raises(InvalidValue, match="driven and pressed"):
+        model.press(punch, (0.0, 1.0, 1.0), "press")
+    assert model.controls == controls
+    assert len(punch.ways) == 1
+    model.press(punch, "x", "push")  # across it is another way
+
+
+# Ways and turns ----------------------------------------------------------------------------------------------
+
+
+def test_a_turn_is_a_control_like_a_translation(rng):
+    """Its pose is that of the motion in time with the same rotation, its force the moment about its axis."""
+    model, punch = beam()
+    turn = model.turn(punch, "y", (20.0, 0.0, 0.5), "roll")
+    timed, tool = beam()
+    timed.set_motion(tool, lambda time: (np.zeros(3), np.array([0.0, 0.3, 0.0])), about=(20.0, 0.0, 0.5))
+    turn.value = 0.3
+    for a, b in zip(punch.pose_now, tool.pose_now, strict=True):
+        np.testing.assert_allclose(a, b, atol=1e-14)
+    evaluation = model.evaluate(model.x)
+    force, moment = punch.resultant(evaluation.found, model.ranks)
+    expected = (moment - np.cross([20.0, 0.0, 0.5], force))[1]
+    assert turn.force(evaluation, model.ranks) == pytest.approx(expected, abs=1e-12)
+
+
+def test_the_predictor_of_a_turning_tool_is_a_derivative(rng):
+    model, punch = beam(mt.SVK(E=210e3, nu=0.3))
+    turn, way = model.turn(punch, "y", (15.0, 0.0, 0.0), "tilt"), model.drive(punch, (1.0, 0.0, -0.2), "slide")
+    u = 1e-3 * rng.normal(size=model.u.size)
+    rates = {turn: 0.7, way: 1.3}
+    found = model.evaluate(u, rates=rates).predictor
+
+    def residual(fraction):
+        turn.value, way.value = (0.05 + fraction * rates[turn], 0.04 + fraction * rates[way])
+        return model.evaluate(u).residual
+
+    turn.value, way.value = 0.05, 0.04
+    found = model.evaluate(u, rates=rates).predictor
+    difference = (residual(1e-6) - residual(-1e-6)) / 2e-6
+    np.testing.assert_allclose(found, difference, atol=2e-6 * np.abs(difference).max())
+
+
+def test_turns_come_first_in_the_order_in_which_they_were_made():
+    model, punch = beam()
+    first, second = model.turn(punch, "z", (1.0, 0.0, 0.0), "first"), model.turn(punch, "x", (0.0, 2.0, 0.0), "second")
+    way = model.drive(punch, "y", "way")
+    first.value, second.value, way.value = np.pi / 2, np.pi / 2, 5.0
+    rotation, shift = punch.pose_now
+    # (2, 0, 0) turns about z at (1, 0, 0) to (1, 1, 0), then about x at (0, 2, 0) to (1, 2, -1), and goes 5 along y.
+    np.testing.assert_allclose(rotation @ [2.0, 0.0, 0.0] + shift, [1.0, 7.0, -1.0], atol=1e-12)
+
+
+# One tool, several pairs -------------------------------------------------------------------------------------
+
+
+def test_columns_and_work_are_those_of_the_tool_over_all_its_pairs():
+    """A die under both halves of a strip, as one pair and as two of the same tool: the same run."""
+
+    def pressed(halves):
+        model = Model(strip(20.0, 2.0, 1.0, (8, 1)), material=mt.SVK(E=1000.0, nu=0.3))
+        model.symmetry("x0", "x")
+        model.symmetry(lambda x, y, z: y < 1e-9, "y")
+        bed = model.tool("bed", Plane((0.0, 0.0, -0.5)))
+        lower = model.mesh.face_set("lower")
+        parts = [lower[:4], lower[4:]] if halves else [lower]
+        for k, part in enumerate(parts):
+            model.contact(part, bed, penalty=100.0, points=3, name=f"half{k}")
+        lift = model.drive(bed, "z", "lift")
+        load = model.force("x0_upper", (0.0, 0.0, -1.0), "load")
+        return solve(model, [Move(load, 2.0, steps=2), Move(lift, 0.5, steps=3)], options=TIGHT)
+
+    one, two = pressed(False), pressed(True)
+    for column in ("bed_fz", "bed_my", "lift_force", "external_work", "contact_energy"):
+        np.testing.assert_allclose(two[column], one[column], rtol=1e-9, atol=1e-9)
+    assert [name for name in two.columns() if name.startswith("half")] == [
+        "half0_penetration", "half0_active", "half1_penetration", "half1_active",
+    ]  # fmt: skip
+
+
+# The pose is a part of the state -----------------------------------------------------------------------------
+
+
+def test_after_a_failed_run_the_pose_is_where_the_control_says():
+    """Pushed through a clamped sheet by a thousand thicknesses: nothing of the attempt is left."""
+    model, punch = beam(cells=(8, 1))
+    stroke = model.drive(punch, "z", "stroke")
+    solve(model, Move(stroke, -0.2, steps=2))
+    saved, force = model.snapshot(), model.contacts[0].resultant()[0]
+    with pytest.raises(NoConvergence):
+        solve(model, Move(stroke, -1000.0, steps=1, cuts=0))
+    assert stroke.value == -0.2
+    np.testing.assert_array_equal(punch.pose_now[1], [0.0, 0.0, -0.2])
+    model.restore(saved)
+    found = model.evaluate(model.x).found[model.contacts[0]]
+    np.testing.assert_allclose(found.resultant()[0], force, rtol=1e-9)
+
+
+# Names -------------------------------------------------------------------------------------------------------
+
+
+def die(model):
+    return model.contact("lower", Plane((0, 0, -5)), penalty=1.0, name="die")
+
+
+def die_tool(model):
+    return model.tool("die", Plane((0, 0, -5)))
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        (lambda m: m.force("x0", (0, 0, 1), "a"), lambda m: m.force("x1", (0, 0, 1), "a_force")),
+        (lambda m: m.force("x0", (0, 0, 1), "a_force"), lambda m: m.force("x1", (0, 0, 1), "a")),
+        (die, lambda m: m.force("x1", (0, 0, 1), "die_fx")),
+        (lambda m: m.force("x1", (0, 0, 1), "die_my"), die_tool),
+        (lambda m: m.force("x1", (0, 0, 1), "die_active"), die),
+        (die_tool, die),
+    ],
+)  # fmt: skip
+def test_two_things_that_would_write_one_column_are_refused(first, second):
+    model = Model(strip(10.0, 1.0, 0.5, (4, 1)), material=STEEL)
+    first(model)
+    before = list(model.controls), list(model.contacts), list(model.tools)
+    with pytest.raises(InvalidValue, match="the name is taken"):
+        second(model)
+    assert (model.controls, model.contacts, model.tools) == before
+
+
+def test_a_refused_call_leaves_nothing_behind():
+    model = Model(strip(10.0, 1.0, 0.5, (4, 1)), material=STEEL)
+    model.fix("x0")
+    model.force("x1", (0, 0, 1), "taken")
+    contact = model.contact("lower", Plane((0, 0, -5)), penalty=1.0, name="die")
+    unknowns, ways = model.unknown_count, list(contact.tool.ways)
+    for call in (
+        lambda: model.prescribe_midline("x1", "z", name="taken"),
+        lambda: model.prescribe("x1", "z", name="taken"),
+        lambda: model.drive(contact, "z", name="taken"),
+        lambda: model.turn(contact, "z", name="taken"),
+        lambda: model.press(contact, "z", name="taken"),
+        lambda: model.spring(contact, "z", 1.0, name="taken"),
+    ):
+        with pytest.raises(InvalidValue, match="taken"):
+            call()
+        assert model.unknown_count == unknowns
+        assert contact.tool.ways == ways
+        assert contact.tool.presses == []
+        assert [control.name for control in model.controls] == ["taken"]
+
+
+def test_a_solver_sees_the_border_only_where_there_is_one():
+    model, punch = beam()
+    newton = Newton(model)
+    solver, evaluation = newton.ready_solver(), model.evaluate(model.x)
+    solver.factor(evaluation)
+    plain = solver.solve(model.restrict(np.ones(model.u.size)))
+    model.press(punch, "z", "press")
+    solver, evaluation = newton.ready_solver(), model.evaluate(model.x)
+    solver.factor(evaluation)
+    whole = solver.solve(model.restrict(np.ones(model.u.size + 1)))
+    assert whole.size == plain.size + 1
