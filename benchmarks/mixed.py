@@ -15,7 +15,7 @@ import umform as uf
 from sheets import sheet
 from umform.processes.bending import case as bending
 from umform.processes.bending.parameters import FreeBending
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 from umform_book.nonlinear import hemisphere, slit_annulus
 from umform_book.nonlinear.course import TIED
 from umform_book.nonlinear.tracing import Setup

@@ -20,7 +20,8 @@ from umform.processes.air_bending.parameters import AirBending
 from umform.processes.bending import case as bending
 from umform.processes.bending.parameters import FreeBending
 from umform.solution.factor_reuse import cost_of_factors
-from umform.solution.newton import Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
 
 LAW = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
 

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from umform_book.page import Page
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -25,7 +22,7 @@ class Case:
     reference : str
         Where the reference comes from, with its citation and its own uncertainty (Markdown).
     run : callable
-        Computes, and enters into a :class:`Page` what came out.
+        Computes, and enters into a :class:`umform_book.page.Page` what came out.
     cost : float
         Seconds that the whole case takes on one core, about; the dearest cases start first.
     own : str
@@ -36,7 +33,7 @@ class Case:
     title: str
     problem: str
     reference: str
-    run: Callable[[Page], None]
+    run: Callable[[Any], None]
     cost: float = 10.0
     own: str = ""
 

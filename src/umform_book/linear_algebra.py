@@ -43,7 +43,7 @@ def linear_solution(
     u = np.where(model.constrained(), np.broadcast_to(prescribed, (model.u.size // 3, 3)).ravel(), 0.0)
     evaluation = model.evaluate(np.zeros(u.size), u)
     if evaluation.failed >= 0:
-        raise SolveError("an element is outside of the domain of its law", where=f"cell {evaluation.failed}")
+        raise SolveError(f"an element {evaluation.failure}", where=f"cell {evaluation.failed}")
     rhs = np.broadcast_to(loads, u.shape) - evaluation.predictor
     linear = make_solver(model.pattern, solver)
     linear.factor(evaluation.values)

@@ -10,7 +10,7 @@ from statistics import median
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from umform.solution.newton import Iteration
+    from umform.solution.records import Iteration
 
 #: An order below this is low, and asks for a reason.
 LOW = 1.8

@@ -80,7 +80,7 @@ class Page:
     def solve(self, label: str, model: Model, steps: Sequence[Step] | Step, **options: Any) -> Result:
         """Solve a nonlinear problem and enter its balance of work and forces, and the order of Newton's method."""
         from umform.run import solve
-        from umform.solution.newton import NewtonOptions
+        from umform.solution.options import NewtonOptions
 
         newton = replace(options.pop("options", NewtonOptions()), factor_cost=0.0)  # the order is Newton's own
         try:

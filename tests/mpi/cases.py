@@ -16,7 +16,7 @@ import umform as uf
 from umform.deck import load
 from umform.deck.templates import template_file
 from umform.mesh import strip
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 
 STEEL = {"kappa": 175e3, "mu": 80.77e3}
 #: Of the command line: the trouble that the functions of the cases make, and the solver that decks are built for.

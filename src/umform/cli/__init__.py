@@ -42,9 +42,18 @@ def main() -> None:
 class _Closed(io.TextIOBase):
     """Standard output that was closed before the start."""
 
+    wanted = False
+
     def write(self, text: str, /) -> int:
-        """Refuse it, in the words of the operating system."""
-        raise OSError("it was closed before the start")
+        """Refuse it, as a disk that is full does."""
+        self.wanted = True
+        self.flush()
+        return 0
+
+    def flush(self) -> None:
+        """Fail if there was something to be written."""
+        if self.wanted:
+            raise OSError("it was closed before the start")
 
 
 def _prepare_streams() -> None:

@@ -89,7 +89,7 @@ def printing(kept: str = "") -> Iterator[None]:
 def _output_fails() -> bool:
     """Whether standard output cannot be written, now that something could not; then it is led to nowhere."""
     try:
-        sys.stdout.write(" ")
+        sys.stdout.write("\n")
         sys.stdout.flush()
     except OSError:
         sys.stdout = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115  (to the end)

@@ -22,7 +22,8 @@ from umform.model.contact import Contact
 from umform.model.control import Control
 from umform.model.support import Support
 from umform.run import Result, resume, solve
-from umform.solution.newton import Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
 from umform.steps import Step
 from umform.surfaces import Tool
 

@@ -11,7 +11,7 @@ from umform import steps
 from umform.deck.parts import Count, Name, Part, Positive
 from umform.model.control import Control
 from umform.model.support import Support
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 
 Controls = Mapping[str, Control]
 Supports = Mapping[str, Support]

@@ -31,6 +31,7 @@ def rolling_directions(rolling: ArrayLike | None, cells: int) -> Floats | None:
     if vectors.shape not in ((3,), (cells, 3)):
         raise InvalidValue(
             "rolling must be one vector, or one for each cell",
+            where="rolling",
             value=f"shape {vectors.shape}",
             cause="a name of an axis, or a vector for each node",
             remedy=f"rolling=(1, 0, 0), or an array of shape ({cells}, 3)",
@@ -41,7 +42,7 @@ def rolling_directions(rolling: ArrayLike | None, cells: int) -> Floats | None:
         first = int(np.argmax(wrong))
         raise InvalidValue(
             "a rolling direction must have a length",
-            where="" if vectors.ndim == 1 else f"cell {first}",
+            where="rolling" if vectors.ndim == 1 else f"rolling, cell {first}",
             value=vectors.reshape(-1, 3)[first].tolist(),
             cause="a vector of zeros, or an entry that is no number",
             remedy="rolling=(1, 0, 0)",

@@ -18,12 +18,7 @@ from numpy.typing import ArrayLike
 from umform.errors import FileProblem, WrongCellType
 from umform.io.abaqus import check_abaqus
 from umform.io.atomic import PendingFile
-from umform.io.cells import (
-    CELL_TYPES,
-    cell_type,
-    from_vtk,
-    to_vtk,
-)
+from umform.io.cells import CELL_TYPES, cell_type, from_vtk, to_vtk
 from umform.io.checks import Fields, FloatArray, IntArray, check_ids, check_points, field_arrays
 from umform.io.vtkhdf_reader import read_vtkhdf
 

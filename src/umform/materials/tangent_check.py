@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from umform.materials.laws import Material
+from umform.materials.material import Material
 from umform.materials.user_law import Floats, UserLaw
 
 

@@ -128,8 +128,8 @@ class UserLaw:
                 "a law must return three arrays: S, CC, state",
                 where=self.name,
                 value=type(answer),
-                cause="a part is missing; a law without a history returns the empty one that it was given",
-                remedy="return S, CC, state",
+                cause="a return that is missing, or a list in place of a tuple",
+                remedy="return S, CC, state; a law without a history returns the one it was given",
             )
         S, CC, new = answer
         checked = (
@@ -167,7 +167,7 @@ class UserLaw:
                     "the energy function of a law must return two arrays: elastic, plastic",
                     where=self.name,
                     value=type(answer),
-                    cause="one of them is missing",
+                    cause="one array, or a list in place of a tuple",
                     remedy="an elastic law has no plastic work: return np.zeros(len(E)) for it",
                 )
             elastic, plastic = answer
@@ -209,8 +209,8 @@ class UserLaw:
                 f"{name} of a law must have shape {shape}",
                 where=self.name,
                 value=array.shape,
-                cause="an answer for one point instead of all, or another size of the history than the law has said",
-                remedy="one row for each point; UserLaw(..., state=...) says the size of the history",
+                cause="an answer for one point, or with its axes in another order",
+                remedy="points come first: one row for each row of the strain",
             )
         if not np.isfinite(array).all():
             raise NotFinite(

@@ -19,8 +19,8 @@ from umform.materials import Material
 from umform.mesh import Mesh
 from umform.model.control import Twins
 from umform.model.cut import Cut
+from umform.model.elsewhere import not_here
 from umform.model.term import At, Energies, Found, Into, Term, Tree
-from umform.model.whole import not_here
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,14 +10,12 @@ from numpy.typing import NDArray
 from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
 from umform.mesh import Mesh
 from umform.model import forces
-
-if TYPE_CHECKING:
-    from umform.model import Model
+from umform.model.evaluated import Evaluated
 
 Floats = NDArray[np.float64]
 
 
-def check_model(model: Model) -> None:
+def check_model(model: Evaluated) -> None:
     """Look at nodes, supports and tools.
 
     Raises
@@ -44,14 +41,14 @@ def check_nodes(mesh: Mesh) -> None:
         )
 
 
-def middle(model: Model, points: Floats | None = None) -> tuple[Floats, float]:
+def middle(model: Evaluated, points: Floats | None = None) -> tuple[Floats, float]:
     """Mean of the nodes of the undeformed mesh, or of other points, and the largest distance from it along an axis."""
     points, ranks = model.mesh.points if points is None else points, model.ranks
     centre = ranks.sum(points.sum(axis=0)) / ranks.sum(float(len(points)))
     return centre, max(ranks.max(float(np.abs(points - centre).max())), 1e-300)
 
 
-def check_held(model: Model) -> None:
+def check_held(model: Evaluated) -> None:
     """Refuse supports that leave a rigid-body motion free, and tools that swallow the sheet."""
     problem = None
     try:
@@ -69,7 +66,7 @@ def check_held(model: Model) -> None:
         )
 
 
-def free_motions(model: Model, touched: Sequence[tuple[Floats, Floats]] = ()) -> list[str]:
+def free_motions(model: Evaluated, touched: Sequence[tuple[Floats, Floats]] = ()) -> list[str]:
     """Rigid-body motions that supports and tools leave free at the present displacement of the model, in words.
 
     Parameters
@@ -92,7 +89,7 @@ def free_motions(model: Model, touched: Sequence[tuple[Floats, Floats]] = ()) ->
     return [_describe_motion(motion) for motion in directions[rank:]]
 
 
-def diagnosis(model: Model) -> tuple[str, str] | None:
+def diagnosis(model: Evaluated) -> tuple[str, str] | None:
     """Cause and remedy where a rigid-body motion of the model is free at its present state, or held by tools alone.
 
     Asked when an increment has failed; None where supports hold the sheet.
@@ -113,7 +110,7 @@ def diagnosis(model: Model) -> tuple[str, str] | None:
     )
 
 
-def _in_touch(model: Model) -> Iterator[tuple[Floats, Floats]]:
+def _in_touch(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
     """Positions and normals of the points that each tool holds at the present state."""
     for contact in model.contacts:
         if len(contact.facets) > 0:
@@ -121,7 +118,7 @@ def _in_touch(model: Model) -> Iterator[tuple[Floats, Floats]]:
             yield at.x[at.active], at.normal[at.active]
 
 
-def _touching(model: Model) -> Iterator[tuple[Floats, Floats]]:
+def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
     """Positions and normals of the points that each tool holds; a tool that swallows the sheet is refused."""
     mesh = model.mesh
     half = len(mesh.connectivity[0]) // 2

@@ -7,7 +7,7 @@ removed: the columns of T are orthonormal, so the present state is in equilibriu
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,13 +15,11 @@ from numpy.typing import NDArray
 from umform.errors import InvalidValue
 from umform.model.contact import Contact
 from umform.model.dead_load import Load
+from umform.model.evaluated import Evaluated
 from umform.model.support import Support
 
-if TYPE_CHECKING:
-    from umform.model import Model
 
-
-def remove(model: Model, thing: Support | Contact) -> Load:
+def remove(model: Evaluated, thing: Support | Contact) -> Load:
     """Take a support or a contact away; its forces stay as a load of factor 1.
 
     Parameters
@@ -65,7 +63,7 @@ def remove(model: Model, thing: Support | Contact) -> Load:
     return load
 
 
-def put_back(model: Model, support: Support, *, here: bool = True) -> None:
+def put_back(model: Evaluated, support: Support, *, here: bool = True) -> None:
     """Let a support that was removed act again, where its nodes are now or where they were in the undeformed mesh.
 
     Raises
@@ -95,7 +93,7 @@ def put_back(model: Model, support: Support, *, here: bool = True) -> None:
         support.load.value = 0.0
 
 
-def fading(model: Model, support: Support) -> Load:
+def fading(model: Evaluated, support: Support) -> Load:
     """The control of the forces that take the place of a support once it is removed; zero until then."""
     if support.load is None:
         zero = np.zeros_like(model.u)
@@ -103,7 +101,7 @@ def fading(model: Model, support: Support) -> Load:
     return support.load
 
 
-def states_of_supports(model: Model) -> dict[str, Any]:
+def states_of_supports(model: Evaluated) -> dict[str, Any]:
     """State of the supports that have been removed, or are to be: which act, where, and the forces of the others."""
     return {
         support.name: {
@@ -116,7 +114,7 @@ def states_of_supports(model: Model) -> dict[str, Any]:
     }
 
 
-def put_supports(model: Model, states: Mapping[str, Any]) -> None:
+def put_supports(model: Evaluated, states: Mapping[str, Any]) -> None:
     """Let the supports stand as they did in a state from :func:`states_of_supports`."""
     changed = False
     for support in model.all_supports:
@@ -137,7 +135,7 @@ def _same(one: NDArray[np.float64] | None, other: NDArray[np.float64] | None) ->
     return one is other if one is None or other is None else np.array_equal(one, other)
 
 
-def _remove_contact(model: Model, contact: Contact) -> Load:
+def _remove_contact(model: Evaluated, contact: Contact) -> Load:
     if contact not in model.contacts:
         raise InvalidValue(
             "the model has no such contact",
@@ -167,7 +165,7 @@ def _remove_contact(model: Model, contact: Contact) -> Load:
     return load
 
 
-def _unbalanced(model: Model) -> NDArray[np.float64]:
+def _unbalanced(model: Evaluated) -> NDArray[np.float64]:
     """Forces on the unknowns that nothing in the model balances at its present state."""
     residual: NDArray[np.float64] = model.extend(model.restrict(model.evaluate(model.x).residual))
     return residual[: model.u.size]

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import ModelError
-
-if TYPE_CHECKING:
-    from umform.model import Model
-    from umform.model.frame import Frame
+from umform.model.frame import Frame
 
 Floats = NDArray[np.float64]
 
@@ -27,9 +23,9 @@ class Whole:
     owned: slice | NDArray[np.int64] = slice(None)
 
     @property
-    def described(self) -> Model | None:
+    def described(self) -> Any:
         """The model as it was described, if it is there: this one."""
-        return self  # type: ignore[return-value]
+        return self
 
     def node_number(self, node: int) -> int:
         """Number of a node in the mesh of the model."""
@@ -50,12 +46,3 @@ class Whole:
     def own_state(self, read: Callable[[], dict[str, Any]]) -> dict[str, Any]:
         """The state of a run at the nodes, cells and contact points that are here; the first rank reads it."""
         return read()
-
-
-def not_here(what: str) -> ModelError:
-    """The error for what each rank had of its own elements, after a run on ranks."""
-    return ModelError(
-        f"{what} is not here",
-        cause="the model was solved with the solver petsc, and each rank had what belongs to its own elements",
-        remedy="read history and frames of the result; give all steps in one solve(), or go on with resume()",
-    )

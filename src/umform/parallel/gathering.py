@@ -4,20 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.model import Body
 from umform.model.contact import Contact, ContactPoints
 from umform.model.frame import Frame
 from umform.model.term import Tree
+from umform.parallel.mpi_ranks import MpiRanks
 from umform.parallel.places import Places
 
-if TYPE_CHECKING:
-    from umform.parallel.share import Share
-
 Floats = NDArray[np.float64]
+
+
+class Part(Protocol):
+    """What a share says of where it is in the whole model."""
+
+    ranks: MpiRanks
+    bodies: list[Body]
+    contacts: list[Contact]
+    u: Floats
+    nodes: NDArray[np.int64]
+    cells: NDArray[np.int64]
+    owned: NDArray[np.int64]
 
 
 class Gathering:
@@ -25,11 +36,11 @@ class Gathering:
 
     Parameters
     ----------
-    share : Share
+    share : Part
         The share of this rank.
     """
 
-    def __init__(self, share: Share) -> None:
+    def __init__(self, share: Part) -> None:
         ranks = share.ranks
         self.share, self.ranks = share, ranks
         self.known_nodes = Places(share.nodes, ranks)

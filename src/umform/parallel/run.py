@@ -13,7 +13,7 @@ from umform.errors import InvalidValue, UmformError
 from umform.model import Model
 from umform.model.checks import check_nodes
 from umform.model.dead_load import Load
-from umform.model.whole import not_here
+from umform.model.elsewhere import not_here
 from umform.parallel.cutting import Cutting
 from umform.parallel.mpi_ranks import MpiRanks, world
 from umform.parallel.outline import Outline

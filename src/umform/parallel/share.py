@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from umform.model.checks import check_held, middle
 from umform.model.control import Control
 from umform.model.evaluation import Evaluation
 from umform.model.forces import rigid_body_modes
+from umform.model.frame import Frame
 from umform.model.ties import Tie
 from umform.parallel.cutting import Parcel
 from umform.parallel.exchange import Exchange
@@ -30,9 +31,6 @@ from umform.parallel.mpi_ranks import MpiRanks
 from umform.parallel.numbering import SharedPattern
 from umform.parallel.outline import Outline
 from umform.solvers import Pattern
-
-if TYPE_CHECKING:
-    from umform.model.frame import Frame
 
 Floats = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from umform.model import Evaluation, Model
 from umform.model.frame import Frame
 from umform.results import fields
 from umform.results.balance import Balance, ExternalWork, drift
-from umform.solution.newton import Iteration
+from umform.solution.records import Iteration
 from umform.timing import Timing
 
 log = logging.getLogger("umform")

@@ -22,7 +22,7 @@ from umform.model.contact import ContactPoints
 from umform.model.frame import Frame
 from umform.ranks import ONE, Ranks
 from umform.results.history import History
-from umform.solution.newton import Iteration
+from umform.solution.records import Iteration
 from umform.solvers.pardiso import Pardiso
 from umform.steps.loop import Run
 

@@ -16,7 +16,8 @@ from umform.progress import progress_bar
 from umform.results.penetration import warn_of_penetration
 from umform.run.interrupt import Interrupt, gentle_interrupt
 from umform.run.result import Result
-from umform.solution.newton import Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
 from umform.steps import Step
 from umform.steps.arc_length.arc import Arc, Following
 from umform.steps.arc_length.checks import refuse_on_an_arc

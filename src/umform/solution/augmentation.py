@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from umform.model import Model
-from umform.solution.newton import Converged, Newton
+from umform.solution.newton import Newton
+from umform.solution.records import Converged
 
 log = logging.getLogger("umform.contact")
 

@@ -9,12 +9,8 @@ docs/performance.md, Solving
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from umform.solution.options import NewtonOptions
 from umform.solvers import Factorisation
-
-if TYPE_CHECKING:
-    from umform.solution.newton import NewtonOptions
 
 #: Where new factors cost less than this, in evaluations with a solve, they are made always.
 _CHEAP = 1.0

@@ -11,17 +11,18 @@ import logging
 import math
 import time as clock
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import InvalidValue, NotFinite, SingularMatrix
+from umform.errors import NotFinite, SingularMatrix
 from umform.solution.bordered import Bordered
 from umform.solution.criteria import Chatter, Criteria, largest
 from umform.solution.factor_reuse import Reuse
+from umform.solution.options import NewtonOptions
+from umform.solution.records import Converged, Failed, Iteration
 from umform.solution.system import Evaluation, System
 from umform.solution.timed_solver import TimedSolver
 from umform.solvers import Pattern, make_solver
@@ -34,115 +35,6 @@ _T = TypeVar("_T")
 
 #: Each trial is at least a quarter of the one before: thin sheets, whose energy is a narrow bent valley, creep else.
 _LINE_SEARCH_TRIALS = 3
-
-
-@dataclass(frozen=True)
-class NewtonOptions:
-    """How far and how hard to iterate.
-
-    Attributes
-    ----------
-    residual : float
-        Tolerance of the residual, relative to the element forces.
-    increment : float
-        Tolerance of the increment, relative to the largest displacement.
-    max_iterations : int
-        Iterations before a step is given up.
-    line_search : bool
-        Shorten increments that do not bring the residual along them down.
-    extrapolate : bool
-        Start a step from the extrapolated last one instead of the tangent.
-    factor_cost : float, optional
-        What a factorisation costs over an evaluation with a solve; where it is dear, old factors serve for more than
-        one iteration, see :mod:`umform.solution.factor_reuse`. Default: an estimate from the entries of the factors; 0
-        makes new ones always.
-    mixed : bool, optional
-        Take the geometric stiffness from the stress that the last increment foresaw, not from the present one: thin
-        elastic sheets take larger steps and fewer iterations. eq. (5.39) Default: where there is neither
-        contact nor a law with a history.
-    """
-
-    residual: float = 1e-9
-    increment: float = 1e-6
-    max_iterations: int = 25
-    line_search: bool = False
-    extrapolate: bool = True
-    factor_cost: float | None = None
-    mixed: bool | None = None
-
-    def __post_init__(self) -> None:
-        if not self.residual > 0 or not self.increment > 0 or self.max_iterations < 1:
-            raise InvalidValue("tolerances and iterations must be positive", where="NewtonOptions", value=self)
-        if self.factor_cost is not None and not self.factor_cost >= 0:
-            raise InvalidValue("a cost is zero or more", where="factor_cost", value=self.factor_cost)
-
-
-@dataclass(frozen=True)
-class Iteration:
-    """Record of one iteration.
-
-    Attributes
-    ----------
-    residual : float
-        Norm of the residual of the free degrees of freedom over the force scale.
-    increment : float
-        Largest entry of the increment that led here over the largest displacement.
-    energy : float
-        Residual times the increment to come (absolute); zero in the last iteration.
-    entered, left : int
-        Contact points that came into and went out of contact.
-    step_length : float
-        Step length that the line search took.
-    negative_pivots : int or None
-        Negative pivots of the tangent, where the solver tells.
-    seconds : float
-        Wall time.
-    switched : int
-        Points of the material that began or ceased to flow since the iteration before.
-    """
-
-    number: int
-    residual: float
-    increment: float
-    energy: float
-    entered: int
-    left: int
-    step_length: float
-    negative_pivots: int | None
-    seconds: float
-    switched: int = 0
-
-
-class Failed(Exception):
-    """A step that did not converge: why, and the iterations so far. Steps turn it into a cut or an error."""
-
-    def __init__(
-        self, reason: str, iterations: list[Iteration], *, chattering: bool = False, singular: bool = False
-    ) -> None:
-        super().__init__(reason)
-        self.reason = reason
-        self.iterations = iterations
-        self.chattering = chattering
-        self.singular = singular
-
-
-@dataclass(frozen=True)
-class Converged:
-    """A converged step: the evaluation there, the iterations, those of more passes at the same loads."""
-
-    evaluation: Any
-    iterations: list[Iteration]
-    passes: list[Iteration] = field(default_factory=list)
-
-    @property
-    def x(self) -> Floats:
-        """Displacement and scalar unknowns."""
-        return self.evaluation.x  # type: ignore[no-any-return]
-
-    @property
-    def residual(self) -> Floats:
-        """Residual, reactions at the degrees of freedom that are held, prescribed or tied."""
-        return self.evaluation.residual  # type: ignore[no-any-return]
 
 
 class Corrector(Protocol):
@@ -160,8 +52,8 @@ class Corrector(Protocol):
     def mixed(self) -> bool:
         """Whether the geometric stiffness is that of the stress which the last increment foresaw. eq. (5.39)"""
 
-    def evaluate(self, u: Floats) -> Evaluation:
-        """Residual and tangent."""
+    def evaluate(self, u: Floats, *, tangent: bool = True) -> Evaluation:
+        """Residual and tangent, or the residual alone."""
 
     def direction(self, solver: Bordered, u: Floats, evaluation: Evaluation) -> Floats:
         """Increment of all degrees of freedom; the solver holds the factors of the tangent."""
@@ -175,8 +67,8 @@ class _FixedLoads:
     def __init__(self, system: System, line_search: bool, mixed: bool) -> None:
         self.system, self.line_search, self.mixed = system, line_search, mixed
 
-    def evaluate(self, u: Floats) -> Evaluation:
-        return self.system.evaluate(u)
+    def evaluate(self, u: Floats, *, tangent: bool = True) -> Evaluation:
+        return self.system.evaluate(u, tangent=tangent)
 
     def direction(self, solver: Bordered, u: Floats, evaluation: Evaluation) -> Floats:
         return self.system.extend(solver.solve(-self.system.restrict(evaluation.residual)))
@@ -348,29 +240,38 @@ class Newton:
 
     def _advance(self, u: Floats, du: Floats, r: Floats, corrector: Corrector) -> tuple[Floats, Evaluation, float]:
         """Take the increment, shortened by the line search if that is wanted. eq. (5.12)"""
-        system = self.system
-        s = 1.0
-        x = system.coefficients(du)
-        slope = system.ranks.dot(r, x)
-        for _ in range(_LINE_SEARCH_TRIALS):
-            system.recover(du, s, corrector.mixed)
-            trial = u + s * du
-            evaluation = corrector.evaluate(trial)
-            if not corrector.line_search:
-                break
-            along = system.ranks.dot(system.restrict(evaluation.residual), x) if evaluation.failed < 0 else np.inf
-            if abs(along) <= 0.8 * abs(slope):
-                break
-            # Evaluation is pure: put the parameters back and evaluate at u again, and nothing of the trial is left.
-            system.undo_recover()
-            corrector.evaluate(u)
+        system, s = self.system, 1.0
+        system.recover(du, s, corrector.mixed)
+        trial = u + du
+        evaluation = corrector.evaluate(trial)
+        if not corrector.line_search:
+            return trial, evaluation, s
+        slope = system.ranks.dot(r, system.coefficients(du))
+        along = self._along(du, evaluation)
+        if abs(along) <= 0.8 * abs(slope):
+            return trial, evaluation, s
+        # The parameters go back to u, and with them the blocks that they are recovered with.
+        system.undo_recover()
+        corrector.evaluate(u)
+        for number in range(_LINE_SEARCH_TRIALS):
             secant = s * slope / (slope - along) if np.isfinite(along) and slope != along else 0.5 * s
             s = min(max(secant, 0.25 * s), 0.5 * s)
-        else:
             system.recover(du, s, corrector.mixed)
             trial = u + s * du
-            evaluation = corrector.evaluate(trial)
-        return trial, evaluation, s
+            if number == _LINE_SEARCH_TRIALS - 1:
+                break
+            along = self._along(du, corrector.evaluate(trial, tangent=False))
+            if abs(along) <= 0.8 * abs(slope):
+                break
+            system.undo_recover()
+        return trial, corrector.evaluate(trial), s
+
+    def _along(self, du: Floats, evaluation: Evaluation) -> float:
+        """Residual along an increment; infinite where a cell has none."""
+        if evaluation.failed >= 0:
+            return math.inf
+        system = self.system
+        return system.ranks.dot(system.restrict(evaluation.residual), system.coefficients(du))
 
     def ready_solver(self) -> Bordered:
         """Return the solver that has analysed the present pattern."""

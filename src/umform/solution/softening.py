@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from umform.model import Model
 from umform.model.contact import Contact
-from umform.solution.newton import Converged, Failed, Newton
+from umform.solution.newton import Newton
+from umform.solution.records import Converged, Failed
 
 log = logging.getLogger("umform.contact")
 

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from umform.model import Model
 from umform.model.control import Control
-from umform.solution.newton import Converged, Failed, Newton
+from umform.solution.newton import Newton
+from umform.solution.records import Converged, Failed
 from umform.solution.softening import softened
 
 Floats = NDArray[np.float64]

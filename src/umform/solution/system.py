@@ -127,8 +127,8 @@ class System(Protocol):
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry of the tangent."""
 
-    def evaluate(self, x: Floats, du: Floats | None = None) -> Evaluation:
-        """Residual and tangent."""
+    def evaluate(self, x: Floats, du: Floats | None = None, *, tangent: bool = True) -> Evaluation:
+        """Residual and tangent, or the residual alone, which leaves the blocks of enhanced parameters as they are."""
 
     def recover(self, du: Floats, s: float, mixed: bool = False) -> None:
         """Update condensed parameters; the next tangent may be mixed, of the stress that the increment foresaw."""

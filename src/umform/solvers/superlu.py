@@ -2,7 +2,7 @@
 
 SciPy cannot keep SuperLU's symbolic work, but it can keep the ordering, which is found once a pattern; the values are
 gathered in that order, which saves about a tenth of each call. A sheet is ordered as for PARDISO
-(`umform._core.SheetOrder`), symmetric or not: 1.5 to 1.8 times faster than by minimum degree on K + K^T, which orders
+(`umform._core.SheetOrder`), symmetric or not: 1.5 to 1.8 times faster than by minimum degree on K + K^T. That orders
 all other matrices, 2 to 4 times faster than SciPy's default COLAMD.
 
 A pivot stays on the diagonal unless it is 1000 times smaller than its column (10 times if the matrix is not

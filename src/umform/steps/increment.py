@@ -9,7 +9,7 @@ from umform.errors import NoConvergence
 from umform.model.checks import diagnosis
 from umform.model.control import Control
 from umform.solution.augmentation import augmented
-from umform.solution.newton import Converged, Failed, Iteration
+from umform.solution.records import Converged, Failed, Iteration
 from umform.solution.starts import equilibrium
 from umform.steps.loop import Run
 

@@ -17,7 +17,8 @@ from umform.model import Evaluation, Model
 from umform.model.control import Control
 from umform.progress import Tick, silent
 from umform.results.history import History
-from umform.solution.newton import Converged, Newton
+from umform.solution.newton import Newton
+from umform.solution.records import Converged
 
 Floats = NDArray[np.float64]
 

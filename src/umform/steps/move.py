@@ -12,7 +12,7 @@ import numpy as np
 
 from umform.errors import InvalidValue, NotFinite
 from umform.model.control import Control
-from umform.solution.newton import Failed
+from umform.solution.records import Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
 

@@ -10,7 +10,7 @@ from typing import Any, Self
 from umform.errors import InvalidValue
 from umform.model import Evaluation, Snapshot
 from umform.model.control import Control
-from umform.solution.newton import Converged, Failed
+from umform.solution.records import Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
 

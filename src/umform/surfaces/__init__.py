@@ -3,14 +3,13 @@
 from umform.surfaces.check import SurfaceCheck, check_surface
 from umform.surfaces.directions import Direction, unit_vector
 from umform.surfaces.files import write_tool
-from umform.surfaces.placed import Placed
 from umform.surfaces.press_brake import Punch, UDie, VDie, WipingDie
 from umform.surfaces.profile import Profile
 from umform.surfaces.segments import Arc, Line
 from umform.surfaces.simple import Cylinder, Plane, Sphere
 from umform.surfaces.solids import Box, Torus
 from umform.surfaces.swept import Extruded, Revolved
-from umform.surfaces.tool import Surface, Tool
+from umform.surfaces.tool import Placed, Surface, Tool
 from umform.surfaces.triangles import Triangles
 from umform.surfaces.user import GapFunction, UserSurface
 

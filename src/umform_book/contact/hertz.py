@@ -11,7 +11,7 @@ from umform.materials import SVK
 from umform.model import Model
 from umform.model.contact import Contact, ContactPoints
 from umform.run import Result
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 from umform.steps import Move
 from umform.surfaces import Cylinder, Sphere
 from umform_book.contact.figures import rule_name

@@ -15,7 +15,7 @@ from umform.mesh import Mesh
 from umform.model import Model
 from umform.model.contact import Contact
 from umform.results.shape import Shape
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 from umform.steps import Move
 from umform.surfaces import Cylinder, Plane, Sphere, Surface
 from umform_book.case import Case

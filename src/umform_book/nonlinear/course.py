@@ -67,6 +67,8 @@ class Problem:
         How the load is followed, see :func:`trace`.
     known, cause : float, str
         How far the curve on the finest mesh is known to be off the reference, and why.
+    known_measures : float
+        How far what is read off it is known to be off, for the same cause.
     """
 
     build: Callable[[Variant, int], Setup]
@@ -79,6 +81,7 @@ class Problem:
     follow: Callable[[Setup, Floats, Solve], Curve] = trace
     known: float = 0.0
     cause: str = ""
+    known_measures: float = 0.0
 
 
 @dataclass
@@ -219,7 +222,8 @@ def _enter_checks(page: Page, found: Found) -> None:
     for variant in (variant for variant in TIED if variant in found.curves):
         where = f"{variant.label}, {finest} intervals"
         for what, measure in problem.measures.items():
-            page.check(f"{what}, {where}", found.read(measure)[variant][finest], measure(problem.reference), within)
+            value, known = found.read(measure)[variant][finest], problem.known_measures * coarser
+            page.check(f"{what}, {where}", value, measure(problem.reference), within, known=known, cause=problem.cause)
         off = found.read(partial(distance, reference=problem.reference))[variant][finest]
         page.at_most(
             f"distance from the curve, {where}", off, within, known=problem.known * coarser, cause=problem.cause

@@ -77,6 +77,10 @@ PROBLEM = Problem(
     short=24,
     expected=0.05,
     follow=follow,
+    known=0.08,
+    known_measures=0.12,
+    cause="the mesh: the steep edges of the dents run through it while they grow, and every mesh has waves of its own; "
+    "with 48 intervals MI9K3DEAS is 1.7 % and 0.5 % off at half load, 2.1 % and 1.0 % at full load",
 )
 #: The first point of the curve only, against an own mesh of 96 intervals.
 SHORT = replace(
@@ -90,6 +94,11 @@ SHORT = replace(
 def run(page: Page) -> None:
     """Fill the page."""
     found = run_course(page, SHORT if page.short else PROBLEM)
+    if not page.short:
+        page.text(
+            "A path that does not come to full load within 200 increments, as it runs back and forth with each row of "
+            "cells, is a dash too."
+        )
     enter_shape(page, found, TIED[0], mirrors=(0, 1), view=(-60.0, 40.0))
 
 
@@ -106,9 +115,9 @@ displacement -w_A under the force, inward, and u_B at the side, outward.
 """,
     reference="""
 Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569: -w_A = 83.102 and u_B = 34.272 at full load, 73.79 and
-25.38 at half of it, by four-node shell elements. MI9K3DEAS with E_33 tied comes to 81.39 and 33.94 with 48 intervals,
-and its distance still falls with refinement. With both faces of the end held in x and z, which is no diaphragm of a
-shell, it comes to about 80.1 and 32.9: the director is stretched by some per cent and cannot tilt.
+25.38 at half of it, by four-node shell elements. MI9K3DEAS with E_33 tied and 48 intervals comes to 81.39 and
+33.94 at full load, 72.56 and 25.51 at half of it. With both faces of the end held in x and z, which is no diaphragm of
+a shell, it comes to about 80.1 and 32.9: the director is stretched by some per cent and cannot tilt.
 """,
     run=run,
     cost=400.0,

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from umform.deck import Deck
+from umform.deck.check import check
 from umform.errors import UmformError
 
 PROPPED = """
@@ -75,3 +76,8 @@ def test_a_name_that_no_support_has_is_told_with_those_there_are():
     with pytest.raises(UmformError, match="no support of this name") as caught:
         Deck.read(PROPPED.replace('support = "roller"', 'support = "rollers"')).build()
     assert "roller" in str(caught.value)
+
+
+def test_a_deck_with_a_step_that_frees_a_support_is_checked():
+    deck = Deck.read(PROPPED)
+    assert "supports" in [finding.about for finding in check(deck, deck.build())]

@@ -11,7 +11,7 @@ from umform.mesh import strip
 from umform.model import Body, Model
 from umform.results.fields import body_fields
 from umform.run import resume, solve
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 from umform.steps import Move
 
 MILD = mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(160.0, 1000.0))

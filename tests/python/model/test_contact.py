@@ -16,7 +16,7 @@ from umform.model import Model, forces
 from umform.model.contact.pair import hat_functions
 from umform.results import fields
 from umform.run import solve
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 from umform.steps import Move
 from umform.surfaces import Cylinder, Plane, Sphere, UserSurface
 

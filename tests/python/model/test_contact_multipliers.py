@@ -13,7 +13,9 @@ from umform.errors import InvalidValue
 from umform.mesh import strip
 from umform.model import Model
 from umform.run import solve
-from umform.solution.newton import Failed, Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
+from umform.solution.records import Failed
 from umform.steps import Arc, Move
 from umform.surfaces import Cylinder, Plane, Sphere
 

@@ -13,7 +13,9 @@ from umform.model import Model
 from umform.model.term import At
 from umform.run import solve
 from umform.solution.criteria import Criteria
-from umform.solution.newton import Failed, Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
+from umform.solution.records import Failed
 from umform.solution.softening import softened
 from umform.steps import Move, Release
 from umform.surfaces import Cylinder, Plane

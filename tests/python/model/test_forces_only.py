@@ -34,7 +34,7 @@ def test_forces_scale_and_product_are_those_of_the_full_evaluation(build, rng, k
     for values, with_product in ((np.zeros(full.pattern.indices.size), True), (None, False), (None, True)):
         f, Kdu = np.zeros(full.size), np.zeros(full.size)
         product = (du, Kdu) if with_product else (None, None)
-        _, scale, *_ = block.evaluate(u, full.scatter, f, values, *product)
+        _, scale, _ = block.evaluate(u, full.scatter, f, values, *product)
         answers.append((f, scale, Kdu))
     (f, scale, Kdu), (forces, scale_again, none), (forces_too, _, product_alone) = answers
     assert f.any()

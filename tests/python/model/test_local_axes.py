@@ -12,7 +12,7 @@ from umform.mesh import strip
 from umform.model import Model
 from umform.model.ties import node_pairs
 from umform.run import solve
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 from umform.steps import Move
 
 ELASTIC = mt.SVK(E=1e4, nu=0.3)

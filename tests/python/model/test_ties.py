@@ -12,7 +12,7 @@ from umform.mesh.generators import grid
 from umform.model import Model
 from umform.model.ties import node_pairs
 from umform.run import solve
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 from umform.steps import Move, Release
 from umform.surfaces import Plane
 

@@ -10,7 +10,8 @@ from umform.errors import InvalidValue, NoConvergence
 from umform.mesh import strip
 from umform.model import Model
 from umform.run import solve
-from umform.solution.newton import Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
 from umform.steps import Move
 from umform.surfaces import Cylinder, Plane
 

@@ -22,7 +22,8 @@ from umform.mesh import strip
 from umform.model import Model
 from umform.run import Result, resume, solve
 from umform.run.checkpoint import Checkpoints
-from umform.solution.newton import Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
 from umform.solvers import pardiso
 from umform.steps import Arc, Move, Release
 from umform.surfaces import Cylinder, Plane

@@ -18,7 +18,7 @@ from umform.model import Model
 from umform.run import resume, solve
 from umform.run.checkpoint import Checkpoints, read_note
 from umform.run.fingerprint import text
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 from umform.steps import Move, Release
 from umform.surfaces import UserSurface
 

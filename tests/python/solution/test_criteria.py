@@ -9,7 +9,8 @@ import pytest
 
 from umform.ranks import ONE
 from umform.solution.criteria import Criteria
-from umform.solution.newton import Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
 from umform.solvers import Pattern
 
 
@@ -36,7 +37,7 @@ class Given:
     def prescribed_displacement(self):
         return np.zeros(1)
 
-    def evaluate(self, u, du=None):
+    def evaluate(self, u, du=None, *, tangent=True):
         self.count += 1
         residual = np.array([self.residuals[min(self.count, len(self.residuals)) - 1]])
         return SimpleNamespace(

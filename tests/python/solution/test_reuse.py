@@ -7,7 +7,7 @@ import pytest
 
 import umform as uf
 from umform.solution.factor_reuse import Reuse, cost_of_factors
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 from umform.solvers import Factorisation
 
 

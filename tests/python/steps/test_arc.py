@@ -13,7 +13,7 @@ from umform import materials as mt
 from umform.mesh import strip
 from umform.model import Model
 from umform.run import solve
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 from umform.steps import Arc, Move
 from umform.surfaces import Plane
 

@@ -11,7 +11,8 @@ import umform
 from umform import materials as mt
 from umform.errors import InvalidValue, NoConvergence
 from umform.run import solve
-from umform.solution.newton import Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
 from umform.steps import Arc, Move, Release
 from umform.surfaces import Cylinder, Plane
 

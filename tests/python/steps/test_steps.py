@@ -15,7 +15,8 @@ from umform.mesh import strip
 from umform.model import Model
 from umform.model.control import Prescribed
 from umform.run import Result, solve
-from umform.solution.newton import Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
 from umform.solvers import pardiso
 from umform.steps import Move, Release
 from umform.surfaces import Plane, UserSurface
@@ -444,7 +445,7 @@ def test_an_interrupt_carries_the_result_and_leaves_the_last_converged_state(mon
 
 
 def test_chattering_is_a_warning_of_the_result(build, monkeypatch):
-    from umform.solution.newton import Failed
+    from umform.solution.records import Failed
 
     original, calls = Newton.solve, []
 

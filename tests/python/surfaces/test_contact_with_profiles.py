@@ -9,7 +9,8 @@ from umform import materials as mt
 from umform.mesh import strip
 from umform.model import Model
 from umform.run import solve
-from umform.solution.newton import Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
 from umform.steps import Move
 from umform.surfaces import Cylinder, Extruded, Profile, Punch, VDie
 

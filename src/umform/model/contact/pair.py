@@ -17,9 +17,9 @@ from umform.model.contact.found import ContactFound, ContactPoints
 from umform.model.contact.settings import ContactSettings
 from umform.model.control import Control, Twins
 from umform.model.cut import Cut
+from umform.model.elsewhere import not_here
 from umform.model.term import At, Energies, Found, Into, Term, Tree
 from umform.model.tool import Pose, Tool
-from umform.model.whole import not_here
 from umform.ranks import Ranks
 
 Floats = NDArray[np.float64]

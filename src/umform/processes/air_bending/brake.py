@@ -18,7 +18,7 @@ from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.sheet import half_sheet
 from umform.run import Result, solve
-from umform.solution.newton import NewtonOptions
+from umform.solution.options import NewtonOptions
 from umform.steps import Move
 from umform.steps.release import Release
 

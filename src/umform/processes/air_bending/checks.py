@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from umform.errors import InvalidValue
 from umform.materials import J2
 from umform.processes.rules import Rule, check_rules, length, number, positive, whole
-
-if TYPE_CHECKING:
-    from umform.processes.air_bending.parameters import AirBending
 
 #: The most contact points per direction, and the most layers.
 MOST_POINTS, MOST_LAYERS = 10, 8
@@ -23,6 +20,57 @@ _NARROWEST, _WIDEST = 1.0, 500.0
 _STIFFEST = 1e3
 #: More elements on a thickness than any mesh study needs.
 _MOST_ELEMENTS = 100
+
+
+class Geometry(Protocol):
+    """What is looked at of :class:`umform.processes.air_bending.AirBending`."""
+
+    @property
+    def thickness(self) -> float:
+        """Thickness of the sheet."""
+
+    @property
+    def opening(self) -> float:
+        """Opening of the die."""
+
+    @property
+    def die_angle(self) -> float:
+        """Angle between the flanks of the die."""
+
+    @property
+    def die_radius(self) -> float:
+        """Radius of its shoulders."""
+
+    @property
+    def punch_angle(self) -> float:
+        """Angle between the flanks of the punch."""
+
+    @property
+    def punch_radius(self) -> float:
+        """Radius of its tip."""
+
+    @property
+    def material(self) -> Any:
+        """Law of the sheet."""
+
+    @property
+    def penalty(self) -> float | None:
+        """Contact pressure per penetration."""
+
+    @property
+    def stroke(self) -> float | None:
+        """Way of the punch."""
+
+    def free_length(self, slope: float) -> float:
+        """Length of the sheet between the tools at a slope."""
+
+    @property
+    def largest_stroke(self) -> float:
+        """Way at which the punch has bent the sheet into the die."""
+
+    @property
+    def steepest(self) -> float:
+        """Smallest angle of bending that the tools allow."""
 
 
 def _angle(what: str, mixed_up: str, usual: str) -> Rule:
@@ -119,7 +167,7 @@ def check_parameters(values: Mapping[str, Any]) -> None:
         )
 
 
-def check_geometry(case: AirBending) -> None:
+def check_geometry(case: Geometry) -> None:
     """Refuse tools between which the sheet finds no room, and strokes beyond the end of air bending.
 
     Raises
@@ -139,12 +187,12 @@ def check_geometry(case: AirBending) -> None:
         )
 
 
-def _unfit(case: AirBending, name: str, what: str, cause: str, remedy: str) -> InvalidValue:
+def _unfit(case: Geometry, name: str, what: str, cause: str, remedy: str) -> InvalidValue:
     """Error for a parameter that does not go with the others."""
     return InvalidValue(what, where=name, value=getattr(case, name), cause=cause, remedy=remedy)
 
 
-def _check_proportions(case: AirBending) -> None:
+def _check_proportions(case: Geometry) -> None:
     """Refuse an opening and a penalty of another size than the sheet's."""
     if not _NARROWEST <= case.opening / case.thickness <= _WIDEST:
         raise _unfit(
@@ -164,7 +212,7 @@ def _check_proportions(case: AirBending) -> None:
         )
 
 
-def _check_room(case: AirBending) -> None:
+def _check_room(case: Geometry) -> None:
     """Refuse a tip that is wider than the die, shoulders without flanks, and a sheet that would be drawn."""
     tip = 2.0 * case.punch_radius * math.cos(math.radians(0.5 * case.punch_angle))
     if tip >= case.opening:
@@ -195,7 +243,7 @@ def _check_room(case: AirBending) -> None:
         )
 
 
-def needed_stroke(case: AirBending) -> float:
+def needed_stroke(case: Geometry) -> float:
     """The stroke of a case that must have one.
 
     Raises
@@ -222,7 +270,7 @@ def check_tolerance(tolerance: float) -> None:
     _TOLERANCE.check("tolerance", tolerance)
 
 
-def check_angle(case: AirBending, angle: float) -> None:
+def check_angle(case: Geometry, angle: float) -> None:
     """Refuse an angle that air bending with these tools cannot reach.
 
     Raises

@@ -20,7 +20,8 @@ from umform.processes.bending.parameters import FreeBending
 from umform.report.repeats import counted
 from umform.results.shape import Shape
 from umform.run import Result, solve
-from umform.solution.newton import Newton, NewtonOptions
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
 from umform.steps import Move, Release
 from umform.surfaces import Cylinder
 from umform.timing import Timing

@@ -16,7 +16,7 @@ import numpy as np
 from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model
 from umform.model.control import Control
-from umform.solution.newton import Failed
+from umform.solution.records import Failed
 from umform.steps.arc_length.critical import CriticalPoints, PathState
 from umform.steps.arc_length.path import Line, Path
 from umform.steps.increment import last_residuals

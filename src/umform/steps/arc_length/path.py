@@ -15,7 +15,8 @@ from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.control import Control
 from umform.solution.bordered import Bordered
-from umform.solution.newton import Converged, Failed, Newton
+from umform.solution.newton import Newton
+from umform.solution.records import Converged, Failed
 from umform.solution.system import Evaluation
 from umform.steps.arc_length.critical import PathState
 from umform.steps.loop import Run
@@ -75,9 +76,9 @@ class OnArc:
         self.load_weight, self.length, self.start = load_weight, length, line.fraction
         self.mixed = newton.mixed
 
-    def evaluate(self, u: Floats) -> Evaluation:
+    def evaluate(self, u: Floats, *, tangent: bool = True) -> Evaluation:
         """Residual, tangent and rate of the residual with the load parameter. eq. (5.21)"""
-        return self.model.evaluate(u, rates=self.line.rates)
+        return self.model.evaluate(u, rates=self.line.rates, tangent=tangent)
 
     def direction(self, solver: Bordered, u: Floats, evaluation: Evaluation) -> Floats:
         """Increment of the displacement; the load parameter takes its own at once. eq. (5.24)"""

@@ -1,0 +1,51 @@
+"""Finite-strain J2 plasticity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from umform import _core
+from umform.errors import InvalidValue
+from umform.materials.elastic import Elastic
+from umform.materials.hardening import Hardening
+
+
+@dataclass(frozen=True, init=False)
+class J2(Elastic):
+    """Finite-strain J2 plasticity in logarithmic elastic strains, multiplicative split (docs/theory, chapter 3).
+
+    Parameters
+    ----------
+    E, nu, kappa, mu : float
+        Elastic constants, see :class:`Elastic`.
+    hardening : Hardening
+        Perfect, Linear, Voce, LinearVoce, Swift or Table.
+    """
+
+    hardening: Hardening
+
+    def __init__(
+        self,
+        E: float | None = None,
+        nu: float | None = None,
+        *,
+        kappa: float | None = None,
+        mu: float | None = None,
+        hardening: Hardening,
+    ) -> None:
+        super().__init__(E, nu, kappa=kappa, mu=mu)
+        if not callable(getattr(hardening, "curve", None)) or isinstance(hardening, type):
+            raise InvalidValue(
+                "hardening must be a hardening curve",
+                where="J2",
+                value=hardening,
+                cause="a number, or the name of a curve in place of a curve",
+                remedy="Perfect(160.0) or another of Linear, Voce, LinearVoce, Swift, Table",
+            )
+        object.__setattr__(self, "hardening", hardening)
+
+    thickness_points = 5
+
+    def law(self) -> _core.Material:
+        """The law as the kernels take it."""
+        return _core.j2(self.kappa, self.mu, self.hardening.curve())

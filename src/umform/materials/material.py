@@ -1,0 +1,19 @@
+"""What a model asks of a material."""
+
+from __future__ import annotations
+
+from typing import Protocol, runtime_checkable
+
+from umform import _core
+
+
+@runtime_checkable
+class Material(Protocol):
+    """What a model asks of a material: the law of the kernels, and how many thickness points suit it."""
+
+    @property
+    def thickness_points(self) -> int:
+        """Default number of Gauss points through the thickness."""
+
+    def law(self) -> _core.Material:
+        """The law as the kernels take it."""

@@ -1,0 +1,179 @@
+"""Terms of a model, its unknowns at nodes and beside them, and their pattern."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.mesh import Mesh
+from umform.model.assembly import Assembly
+from umform.model.bodies import Embodied
+from umform.model.loads import Loaded
+from umform.model.supports import Supported
+from umform.model.term import Global, Term
+from umform.model.touched import Touched
+from umform.model.whole import Whole
+from umform.ranks import ONE, Ranks
+from umform.solvers import Pattern
+from umform.timing import Timing
+
+Floats = NDArray[np.float64]
+
+
+class Assembled(Supported, Loaded, Touched, Embodied, Whole):
+    """Supports, loads, tools and bodies together: terms and unknowns.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Points and cells.
+    """
+
+    #: Who shares the model.
+    ranks: Ranks = ONE
+
+    def __init__(self, mesh: Mesh) -> None:
+        super().__init__(mesh)
+        self.u: Floats = np.zeros(3 * len(mesh.points))
+        #: Terms of other kinds, see :meth:`add`.
+        self.others: list[Term] = []
+        #: Where the time goes; :func:`umform.solve` puts a new one here.
+        self.timing = Timing()
+
+    # What there is -------------------------------------------------------------------------------------------
+
+    @property
+    def time(self) -> float:
+        """Present time."""
+        return self.now.time
+
+    @time.setter
+    def time(self, value: float) -> None:
+        self.now.time = value
+
+    @property
+    def terms(self) -> list[Term]:
+        """All that adds to the residual: bodies, contacts, pressures and loads, what was added, and pressed tools."""
+        controls = [control for control in self.controls if isinstance(control, Term)]
+        pressures = [control for control in controls if control.couples()]
+        loads = [control for control in controls if not control.couples()]
+        pressed = [tool for tool in self.tools if tool.unknowns]
+        return [*self.bodies, *self.contacts, *pressures, *loads, *self.others, *pressed]
+
+    def add(self, term: Term) -> Term:
+        """Let a term of another kind add to the residual: a foundation, a spring, one of your own.
+
+        Raises
+        ------
+        InvalidValue
+            If its columns of the history are taken.
+        """
+        self._refuse_taken(term.column_names(), term.name)
+        self.others.append(term)
+        self._assembled = None
+        return term
+
+    def _named(self) -> Iterable[Any]:
+        """All that has columns in the history."""
+        return [*self.controls, *self.tools, *self.contacts, *self.others]
+
+    @property
+    def unknowns(self) -> tuple[Global, ...]:
+        """Scalar unknowns of all terms."""
+        return tuple(unknown for term in [*self.tools, *self.others] for unknown in term.unknowns)
+
+    @property
+    def x(self) -> Floats:
+        """Displacement, and the scalar unknowns behind it."""
+        unknowns = self.unknowns
+        return self.u if not unknowns else np.concatenate([self.u, [unknown.value for unknown in unknowns]])
+
+    # Unknowns ------------------------------------------------------------------------------------------------
+
+    @property
+    def pattern(self) -> Pattern:
+        """Sparse pattern of the tangent over the unknowns at nodes."""
+        return self._assembly().pattern
+
+    @property
+    def effort(self) -> float:
+        """What an evaluation costs for each equation; 1 for 8-node elements with 20 points.
+
+        Each point adds to all entries of an element's matrix; in a regular mesh of one layer an element of 8 nodes has
+        one fibre of its own, one of 18 nodes has four.
+        """
+        nodes = self.mesh.connectivity.shape[1]
+        fibres = 1 if nodes == 8 else 4
+        size = nodes / 8
+        points = sum(body.block.points * len(body.cells) for body in self.bodies)
+        return float(points / max(sum(len(body.cells) for body in self.bodies), 1) / 20 * size * size / fibres)
+
+    @cached_property
+    def extent(self) -> float:
+        """Largest extent of the undeformed body along an axis."""
+        return self.ranks.max(float(np.ptp(self.mesh.points, axis=0).max()))
+
+    @property
+    def free(self) -> NDArray[np.int64]:
+        """Degrees of freedom (3 * node + direction) without a reaction: neither held nor prescribed nor tied."""
+        return self._assembly().unknowns.free
+
+    def restrict(self, r: Floats) -> Floats:
+        """Unknowns' share of forces at all degrees of freedom; on the first rank scalar ones follow. eq. (5.18)"""
+        return self._with_scalars(self._restrict_nodes(r[: self.u.size]), r[self.u.size :])
+
+    def coefficients(self, u: Floats) -> Floats:
+        """Unknowns in a displacement of all degrees of freedom and scalar unknowns. eq. (5.18)"""
+        return self._with_scalars(self._coefficients_nodes(u[: self.u.size]), u[self.u.size :])
+
+    def _with_scalars(self, at_nodes: Floats, scalars: Floats) -> Floats:
+        return np.concatenate([at_nodes, scalars]) if scalars.size and self.ranks.rank == 0 else at_nodes
+
+    def _restrict_nodes(self, r: Floats) -> Floats:
+        """T^T r. eq. (5.18)"""
+        return self._assembly().unknowns.restrict(r)
+
+    def _coefficients_nodes(self, u: Floats) -> Floats:
+        return self._assembly().unknowns.restrict(u)
+
+    def _extend_nodes(self, q: Floats) -> Floats:
+        """T q. eq. (5.17)"""
+        return self._assembly().unknowns.extend(q)
+
+    @property
+    def smooth(self) -> bool:
+        """Whether there is neither contact nor a law with a history."""
+        return not self.contacts and all(body.block.state_size == 0 for body in self.bodies)
+
+    def largest_entry(self, values: Floats) -> float:
+        """Size of the largest entry of the tangent."""
+        return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))  # no copy of the matrix
+
+    def extend(self, x: Floats) -> Floats:
+        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eqs. (5.17), (5.46)"""
+        unknowns = self.unknowns
+        if not unknowns:
+            return self._extend_nodes(x)
+        first, count = self.ranks.rank == 0, len(unknowns)
+        z = self.ranks.sum(x[-count:].copy() if first else np.zeros(count))
+        u = self._extend_nodes(x[:-count] if first else x)
+        for unknown, value in zip(unknowns, z, strict=True):
+            u += value * self.displacement_of_supports(unknown.rates)
+        return np.concatenate([u, z])
+
+    # Inside --------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _positions(self) -> Floats:
+        return self.mesh.points.ravel()
+
+    def _assembly(self) -> Assembly:
+        if self._assembled is None:
+            with self.timing.analysis:
+                self._assembled = Assembly(self.terms, self.constrained(), self.pairs, self.groups, self.ranks)
+        assembled: Assembly = self._assembled
+        return assembled

@@ -1,0 +1,157 @@
+"""Residual and tangent of a model at a displacement: a loop over its terms."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.mesh import Mesh
+from umform.model.assembled import Assembled
+from umform.model.control import Control
+from umform.model.evaluation import Evaluation, first_failure
+from umform.model.term import At, Border, Global, Into, Term
+
+Floats = NDArray[np.float64]
+
+
+class Evaluated(Assembled):
+    """Something with terms that can be evaluated.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Points and cells.
+    """
+
+    def __init__(self, mesh: Mesh) -> None:
+        super().__init__(mesh)
+        self._evaluations, self._converged_time = 0, 0.0
+
+    def evaluate(
+        self,
+        x: Floats,
+        du: Floats | None = None,
+        rates: Mapping[Control, float] | None = None,
+        until: float | None = None,
+        *,
+        tangent: bool = True,
+    ) -> Evaluation:
+        """Residual and tangent at ``x``, at the present values of controls and time; changes no converged history.
+
+        Parameters
+        ----------
+        x : ndarray, shape (3 n + k,)
+            Displacement, and the scalar unknowns behind it.
+        du : ndarray, shape (3 n + k,), optional
+            Increment of the prescribed degrees of freedom, for the predictor. eq. (5.6)
+        rates : mapping of Control to float, optional
+            Rates of the controls instead of ``du``: the predictor is the rate of the residual while the unknowns are
+            held. eq. (5.21)
+        until : float, optional
+            With ``rates``, that are then changes: the time at which tools that move by a function of time arrive, whose
+            way counts too. eq. (4.37)
+        tangent : bool
+            Whether the tangent is wanted; else forces alone are evaluated. The last tangent is then still that which
+            enhanced parameters are recovered with.
+        """
+        assembly, unknowns, dofs = self._assembly(), self.unknowns, self.u.size
+        u, rates = x[:dofs], rates or {}
+        if rates or until is not None:
+            du = self.displacement_of_supports(rates)
+        values_now, step = self._values(unknowns, x[dofs:]), self.time - self._converged_time
+        at = At(u, self.time, values_now, step, None if du is None else du[:dofs], rates, until)
+        values = np.zeros(assembly.entries) if tangent else None
+        border = Border.of(unknowns, dofs)
+        into = Into(np.zeros(dofs), values, np.zeros(dofs), assembly.scatters, self._positions, self.ranks, border)
+        if unknowns and tangent:
+            self._move(at, into)
+        for term in self.terms:
+            with self.timing.of(term.timed_as):
+                into.found[term] = term.evaluate(at, into)
+        if (self.ties or self.rows) and values is not None:
+            with self.timing.ties:
+                values = assembly.reduce(values)
+        return self._evaluation(x, at, into, values)
+
+    def _evaluation(self, x: Floats, at: At, into: Into, values: Floats | None) -> Evaluation:
+        """What the terms have added and found, together."""
+        self._evaluations += 1
+        k, found = len(into.border.unknowns), into.found
+        scale = round_off = 0.0
+        for one in found.values():
+            scale += one.force_scale_squared
+            round_off += one.round_off_squared
+        failed, failure = first_failure(found)
+        residual, predictor = into.residual, into.predictor
+        if k:
+            residual = np.concatenate([residual, into.border.residual])
+            predictor = np.concatenate([predictor, into.border.predictor])
+        return Evaluation(
+            x=x,
+            time=at.time,
+            controls=at.values,
+            residual=residual,
+            values=np.empty(0) if values is None else values,
+            predictor=predictor,
+            force_scale=float(np.sqrt(scale)),
+            failed=failed,
+            failure=failure,
+            round_off=float(np.sqrt(round_off)),
+            found=found,
+            border=into.border,
+            number=self._evaluations,
+        )
+
+    def _values(self, unknowns: Sequence[Global], z: Floats) -> dict[Control, float]:
+        """Values of all controls, with those that scalar unknowns move where these have them."""
+        values = {control: control.value for control in self.controls}
+        for unknown, value in zip(unknowns, z, strict=True):
+            for control, rate in unknown.rates.items():
+                values[control] += rate * float(value - unknown.value)
+        return values
+
+    def _move(self, at: At, into: Into) -> None:
+        """Rates of the residual with each scalar unknown while the unknowns at nodes are held. eq. (5.47)"""
+        for column, unknown in zip(into.border.columns, into.border.unknowns, strict=True):
+            along = self.displacement_of_supports(unknown.rates)
+            supports = bool(along.any())
+            for term in self.terms:
+                moves = term.moves_with(unknown.rates)
+                if moves or (supports and term.couples()):
+                    part = self._rate(term, at, into, along, unknown.rates)
+                    column += part
+                    if moves:
+                        into.moved[term, unknown] = part
+        for pair in self.contacts:
+            if pair.moves_with(at.rates):
+                into.moved[pair, None] = self._rate(pair, at, into, np.zeros(at.u.size), at.rates)
+
+    @staticmethod
+    def _rate(term: Term, at: At, into: Into, along: Floats, rates: Mapping[Control, float]) -> Floats:
+        """Rate of the forces of one term with controls, shape (3 n,)."""
+        part, forces = np.zeros(at.u.size), np.zeros(at.u.size)
+        scratch = Into(forces, None, part, into.scatters, into.positions, into.ranks, into.border)
+        term.evaluate(At(at.u, at.time, at.values, at.step, along, rates), scratch)
+        return part
+
+    def recover(self, du: Floats, s: float, mixed: bool = False) -> None:
+        """Update the enhanced parameters after ``u += s du``. eq. (2.19)
+
+        With ``mixed`` the tangent of the evaluation that follows has the geometric stiffness of the stress that
+        ``s du`` foresaw instead of the present one. eq. (5.39)
+        """
+        with self.timing.recovery:
+            for term in self.terms:
+                term.recover(du[: self.u.size], s, mixed)
+
+    def prepare(self) -> None:
+        """Let enhanced parameters be recovered from the converged state, after an attempt that failed."""
+        if not all(body.block.keeps_blocks for body in self.bodies):
+            self.evaluate(self.x)
+
+    def undo_recover(self) -> None:
+        """Take the last :meth:`recover` back."""
+        for term in self.terms:
+            term.undo_recover()

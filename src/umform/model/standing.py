@@ -1,0 +1,85 @@
+"""The state of a model: what converged becomes its state, and a state is put back."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model import removal
+from umform.model.evaluated import Evaluated
+from umform.model.evaluation import Evaluation
+from umform.model.state import Snapshot
+
+Floats = NDArray[np.float64]
+
+
+class Standing(Evaluated):
+    """Something that stands in a converged state."""
+
+    def commit(self, evaluation: Evaluation) -> None:
+        """Make the state of an evaluation, which must be the last one, the converged state."""
+        for control, value in evaluation.controls.items():
+            control.value = value
+        for unknown, value in zip(self.unknowns, evaluation.x[self.u.size :], strict=True):
+            unknown.value = float(value)
+        for term in self.terms:
+            term.commit(evaluation.found[term])
+        self.u, self._converged_time = evaluation.u.copy(), evaluation.time
+
+    def stand(self, evaluation: Evaluation) -> None:
+        """Let contacts know what was found at the converged state, where no commit has told them."""
+        for contact in self.contacts:
+            contact.stand(evaluation.found[contact])
+
+    def repeat(self, before: Mapping[str, Floats]) -> Evaluation:
+        """Repeat the evaluation of the converged state, from the histories that it had read.
+
+        Parameters
+        ----------
+        before : mapping of str to ndarray
+            :attr:`Body.before` of each body that had any, by its key.
+
+        Returns
+        -------
+        Evaluation
+            To the last bit what the evaluation was, with the blocks that enhanced parameters are recovered with.
+        """
+        for body in self.bodies:
+            if body.key in before:
+                body.block.restore(before[body.key], body.block.alpha)
+        evaluation = self.evaluate(self.x)
+        self.commit(evaluation)
+        return evaluation
+
+    def revert(self) -> None:
+        """Forget everything since the last commit."""
+        for term in self.terms:
+            term.revert()
+
+    def snapshot(self) -> Snapshot:
+        """Copy of the converged state."""
+        states = {term.key: term.state() for term in self.terms}
+        return Snapshot(
+            self.u.copy(),
+            self.time,
+            {control.name: control.value for control in self.controls},
+            {unknown.name: unknown.value for unknown in self.unknowns},
+            {key: tree for key, tree in states.items() if tree},
+            removal.states_of_supports(self),
+        )
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Go back to a snapshot."""
+        removal.put_supports(self, snapshot.supports)
+        self.u, self.time, self._converged_time = snapshot.u.copy(), snapshot.time, snapshot.time
+        for control in self.controls:
+            control.value = snapshot.controls.get(control.name, 0.0)
+        for unknown in self.unknowns:
+            unknown.value = snapshot.unknowns.get(unknown.name, 0.0)
+        for term in self.terms:
+            if term.key in snapshot.terms:
+                term.restore(snapshot.terms[term.key])
+            else:
+                term.revert()

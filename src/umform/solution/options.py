@@ -1,0 +1,48 @@
+"""How far and how hard Newton's method iterates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from umform.errors import InvalidValue
+
+
+@dataclass(frozen=True)
+class NewtonOptions:
+    """How far and how hard to iterate.
+
+    Attributes
+    ----------
+    residual : float
+        Tolerance of the residual, relative to the element forces.
+    increment : float
+        Tolerance of the increment, relative to the largest displacement.
+    max_iterations : int
+        Iterations before a step is given up.
+    line_search : bool
+        Shorten increments that do not bring the residual along them down.
+    extrapolate : bool
+        Start a step from the extrapolated last one instead of the tangent.
+    factor_cost : float, optional
+        What a factorisation costs over an evaluation with a solve; where it is dear, old factors serve for more than
+        one iteration, see :mod:`umform.solution.factor_reuse`. Default: an estimate from the entries of the factors; 0
+        makes new ones always.
+    mixed : bool, optional
+        Take the geometric stiffness from the stress that the last increment foresaw, not from the present one: thin
+        elastic sheets take larger steps and fewer iterations. eq. (5.39) Default: where there is neither
+        contact nor a law with a history.
+    """
+
+    residual: float = 1e-9
+    increment: float = 1e-6
+    max_iterations: int = 25
+    line_search: bool = False
+    extrapolate: bool = True
+    factor_cost: float | None = None
+    mixed: bool | None = None
+
+    def __post_init__(self) -> None:
+        if not self.residual > 0 or not self.increment > 0 or self.max_iterations < 1:
+            raise InvalidValue("tolerances and iterations must be positive", where="NewtonOptions", value=self)
+        if self.factor_cost is not None and not self.factor_cost >= 0:
+            raise InvalidValue("a cost is zero or more", where="factor_cost", value=self.factor_cost)

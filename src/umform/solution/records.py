@@ -1,0 +1,79 @@
+"""What comes out of the iterations of an increment: records, equilibrium, or failure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """Record of one iteration.
+
+    Attributes
+    ----------
+    residual : float
+        Norm of the residual of the free degrees of freedom over the force scale.
+    increment : float
+        Largest entry of the increment that led here over the largest displacement.
+    energy : float
+        Residual times the increment to come (absolute); zero in the last iteration.
+    entered, left : int
+        Contact points that came into and went out of contact.
+    step_length : float
+        Step length that the line search took.
+    negative_pivots : int or None
+        Negative pivots of the tangent, where the solver tells.
+    seconds : float
+        Wall time.
+    switched : int
+        Points of the material that began or ceased to flow since the iteration before.
+    """
+
+    number: int
+    residual: float
+    increment: float
+    energy: float
+    entered: int
+    left: int
+    step_length: float
+    negative_pivots: int | None
+    seconds: float
+    switched: int = 0
+
+
+class Failed(Exception):
+    """A step that did not converge: why, and the iterations so far. Steps turn it into a cut or an error."""
+
+    def __init__(
+        self, reason: str, iterations: list[Iteration], *, chattering: bool = False, singular: bool = False
+    ) -> None:
+        super().__init__(reason)
+        self.reason = reason
+        self.iterations = iterations
+        self.chattering = chattering
+        self.singular = singular
+
+
+@dataclass(frozen=True)
+class Converged:
+    """A converged step: the evaluation there, the iterations, those of more passes at the same loads."""
+
+    evaluation: Any
+    iterations: list[Iteration]
+    passes: list[Iteration] = field(default_factory=list)
+
+    @property
+    def x(self) -> Floats:
+        """Displacement and scalar unknowns."""
+        return self.evaluation.x  # type: ignore[no-any-return]
+
+    @property
+    def residual(self) -> Floats:
+        """Residual, reactions at the degrees of freedom that are held, prescribed or tied."""
+        return self.evaluation.residual  # type: ignore[no-any-return]
