@@ -154,7 +154,7 @@ class Assembled(Supported, Loaded, Touched, Embodied, Whole):
         return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))  # no copy of the matrix
 
     def extend(self, x: Floats) -> Floats:
-        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eqs. (5.17), (5.41)"""
+        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eqs. (5.17), (5.46)"""
         unknowns = self.unknowns
         if not unknowns:
             return self._extend_nodes(x)

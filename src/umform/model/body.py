@@ -66,7 +66,7 @@ class Body(Term):
     thickness_rule : {"gauss", "lobatto", "split"}, optional
         Where they lie; default gauss, but split where the default of the points is 12.
     rolling : array_like, shape (3,) or (cells, 3), optional
-        Rolling direction of the sheet: e_1 of the local axes is its projection onto the layer, eq. (1.13a). By default
+        Rolling direction of the sheet: e_1 of the local axes is its projection onto the layer, eq. (1.26). By default
         e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic law does not see.
     **options
         Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,

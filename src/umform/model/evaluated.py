@@ -113,7 +113,7 @@ class Evaluated(Assembled):
         return values
 
     def _move(self, at: At, into: Into) -> None:
-        """Rates of the residual with each scalar unknown while the unknowns at nodes are held. eq. (5.42)"""
+        """Rates of the residual with each scalar unknown while the unknowns at nodes are held. eq. (5.47)"""
         for column, unknown in zip(into.border.columns, into.border.unknowns, strict=True):
             along = self.displacement_of_supports(unknown.rates)
             supports = bool(along.any())

@@ -173,8 +173,8 @@ class Into:
             np.add.at(self.predictor.reshape(-1, 3), connectivity, change)
         if self.values is not None:
             parts, nodes = connectivity.shape
-            by_direction = tangents.transpose(0, 2, 1, 4, 3).reshape(parts, 3 * nodes, 3 * nodes)
-            self.scatters[term][0].add(np.ascontiguousarray(by_direction), self.values)
+            matrices = np.ascontiguousarray(tangents, dtype=float).reshape(parts, 3 * nodes, 3 * nodes)
+            self.scatters[term][0].add(matrices, self.values)
 
 
 @dataclass(frozen=True)

@@ -116,7 +116,7 @@ class System(Protocol):
         """Unknowns in a displacement of all degrees of freedom and scalar unknowns. eq. (5.18)"""
 
     def extend(self, x: Floats) -> Floats:
-        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eq. (5.17)"""
+        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eqs. (5.17), (5.46)"""
 
     def prescribed_displacement(self) -> Floats:
         """Displacement that the supports prescribe, zero elsewhere, shape (3 n,)."""
