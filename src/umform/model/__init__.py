@@ -3,7 +3,9 @@
 from umform.model.body import Body
 from umform.model.evaluation import Evaluation
 from umform.model.model import Model
+from umform.model.nodal_term import NodalTerm
 from umform.model.state import Snapshot
+from umform.model.term import Term
 from umform.model.tool import Tool
 
-__all__ = ["Body", "Evaluation", "Model", "Snapshot", "Tool"]
+__all__ = ["Body", "Evaluation", "Model", "NodalTerm", "Snapshot", "Term", "Tool"]

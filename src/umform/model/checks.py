@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
+from umform.errors import InvalidValue, ModelError, RigidBodyMotion, ToolSwallowsSheet
 from umform.mesh import Mesh
 from umform.model import forces
+from umform.model.term import At, Term
 
 if TYPE_CHECKING:
     from umform.model import Model
@@ -44,6 +45,27 @@ def check_nodes(mesh: Mesh) -> None:
         )
 
 
+def check_term(term: Term, others: Sequence[Term], nodes: int) -> None:
+    """Refuse a term whose history would collide with that of another one, or that couples a node that is not there."""
+    if any(other.key == term.key for other in others):
+        raise InvalidValue(
+            "the name of a term is taken",
+            where=f"term {type(term).__name__}",
+            value=f"{term.name!r}",
+            cause="two terms of one kind have the same name, and would keep their history in the same place",
+            remedy="give it another name",
+        )
+    for part in term.couples():
+        wrong = part.ids[(part.ids < 0) | (part.ids >= nodes)]
+        if wrong.size:
+            raise InvalidValue(
+                "a term couples a node that does not exist",
+                where=f"term {type(term).__name__} {term.name!r}",
+                value=int(wrong[0]),
+                remedy=f"0 to {nodes - 1}",
+            )
+
+
 def middle(model: Model, points: Floats | None = None) -> tuple[Floats, float]:
     """Mean of the nodes of the undeformed mesh, or of other points, and the largest distance from it along an axis."""
     points, ranks = model.mesh.points if points is None else points, model.ranks
@@ -55,7 +77,7 @@ def check_held(model: Model) -> None:
     """Refuse supports that leave a rigid-body motion free, and tools that swallow the sheet."""
     problem = None
     try:
-        touched = list(_touching(model))
+        touched = [*_touching(model), *_sprung(model)]
     except ModelError as error:
         touched, problem = [], error
     model.ranks.agree(problem)
@@ -97,11 +119,11 @@ def diagnosis(model: Model) -> tuple[str, str] | None:
 
     Asked when an increment has failed; None where supports hold the sheet.
     """
-    without = free_motions(model)
+    without = free_motions(model, list(_sprung(model)))
     if not without:
         return None
     try:
-        free = free_motions(model, list(_in_touch(model)))
+        free = free_motions(model, [*_in_touch(model), *_sprung(model)])
     except ModelError:
         free = without
     hold = "hold it there with fix(), symmetry() or hinge() (three points hold a sheet), or take the step in reverse"
@@ -119,6 +141,17 @@ def _in_touch(model: Model) -> Iterator[tuple[Floats, Floats]]:
         if len(contact.facets) > 0:
             at = contact.locate(model.u, contact.pose)
             yield at.x[at.active], at.normal[at.active]
+
+
+def _sprung(model: Model) -> Iterator[tuple[Floats, Floats]]:
+    """Positions of the nodes that terms hold at the present state, foundations for instance, and the directions."""
+    x = model.mesh.points + model.u.reshape(-1, 3)
+    at = At(model.u, model.time, {control: control.value for control in model.controls})
+    for term in model.others:
+        held = term.holds(at)
+        if held is not None:
+            nodes, directions = held
+            yield x[nodes], directions
 
 
 def _touching(model: Model) -> Iterator[tuple[Floats, Floats]]:

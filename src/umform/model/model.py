@@ -17,7 +17,7 @@ from umform.model import removal
 from umform.model.assembly import Assembly
 from umform.model.bodies import Embodied
 from umform.model.body import Body
-from umform.model.checks import check_model
+from umform.model.checks import check_model, check_term
 from umform.model.contact import Contact
 from umform.model.control import Control
 from umform.model.dead_load import Load
@@ -126,9 +126,10 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
         Raises
         ------
         InvalidValue
-            If its columns of the history are taken.
+            If its name or its columns of the history are taken, or it couples a node that is not there.
         """
         self._refuse_taken(term.column_names(), term.name)
+        check_term(term, self.terms, len(self.mesh.points))
         self.others.append(term)
         self._assembled = None
         return term
@@ -165,8 +166,9 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
         nodes = self.mesh.connectivity.shape[1]
         fibres = 1 if nodes == 8 else 4
         size = nodes / 8
-        points = sum(body.block.points * len(body.cells) for body in self.bodies)
-        return float(points / max(sum(len(body.cells) for body in self.bodies), 1) / 20 * size * size / fibres)
+        points = self.ranks.sum(float(sum(body.block.points * len(body.cells) for body in self.bodies)))
+        cells = self.ranks.sum(float(sum(len(body.cells) for body in self.bodies)))
+        return float(points / max(cells, 1.0) / 20 * size * size / fibres)
 
     @cached_property
     def extent(self) -> float:
@@ -342,7 +344,7 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
 
     def prepare(self) -> None:
         """Let enhanced parameters be recovered from the converged state, after an attempt that failed."""
-        if not all(body.block.keeps_blocks for body in self.bodies):
+        if self.ranks.any(not all(body.block.keeps_blocks for body in self.bodies if len(body.cells))):
             self.evaluate(self.x)
 
     def undo_recover(self) -> None:
@@ -373,16 +375,16 @@ class Model(Supported, Loaded, Touched, Embodied, Whole):
         Parameters
         ----------
         before : mapping of str to ndarray
-            :attr:`Body.before` of each body that had any, by its key.
+            :attr:`Term.before` of each term that had any, by its key.
 
         Returns
         -------
         Evaluation
             To the last bit what the evaluation was, with the blocks that enhanced parameters are recovered with.
         """
-        for body in self.bodies:
-            if body.key in before:
-                body.block.restore(before[body.key], body.block.alpha)
+        for term in self.terms:
+            if term.key in before:
+                term.go_back(before[term.key])
         evaluation = self.evaluate(self.x)
         self.commit(evaluation)
         return evaluation

@@ -43,6 +43,10 @@ class Global:
     rates: dict[Control, float]
     value: float = 0.0
 
+    def strip(self, bare: Global, twins: Twins) -> None:
+        """With the twins of the controls that it moves."""
+        bare.rates = twins.rates(self.rates)
+
 
 @dataclass(frozen=True)
 class At:
@@ -149,7 +153,9 @@ class Into:
     found: dict[Term, Any] = field(default_factory=dict)
     moved: dict[tuple[Term, Global | None], Floats] = field(default_factory=dict)
 
-    def add(self, term: Term, connectivity: Ids, forces: Floats, tangents: Floats | None, at: At) -> None:
+    def add(
+        self, term: Term, connectivity: Ids, forces: Floats, tangents: Floats | None, at: At, kind: int = 0
+    ) -> None:
         """Add the forces and tangents of the parts of a term that is written in Python.
 
         Parameters
@@ -164,6 +170,8 @@ class Into:
             Their derivatives; symmetric if the term is.
         at : At
             Where the term is evaluated; with ``at.du`` the predictor gets its share.
+        kind : int
+            Which of the connectivities of :meth:`Term.couples` these parts are.
         """
         np.add.at(self.residual.reshape(-1, 3), connectivity, forces)
         if tangents is None:
@@ -173,8 +181,8 @@ class Into:
             np.add.at(self.predictor.reshape(-1, 3), connectivity, change)
         if self.values is not None:
             parts, nodes = connectivity.shape
-            by_direction = tangents.transpose(0, 2, 1, 4, 3).reshape(parts, 3 * nodes, 3 * nodes)
-            self.scatters[term][0].add(np.ascontiguousarray(by_direction), self.values)
+            matrices = np.ascontiguousarray(tangents.reshape(parts, 3 * nodes, 3 * nodes), dtype=float)
+            self.scatters[term][kind].add(matrices, self.values)
 
 
 @dataclass(frozen=True)
@@ -250,8 +258,12 @@ class Term:
         Scalar unknowns that it brings.
     elsewhere : bool
         Whether the ranks of a run have its history.
-    rows : ndarray of int
-        On a rank: which rows of its state over the whole model are here.
+    rows : ndarray of int, optional
+        On a rank: which rows of its state over the whole model are here; None if the state has no rows.
+    before : ndarray
+        History that the evaluation of the converged state had read; empty where there is none.
+    memory : tuple of str
+        Names of the attributes that change in a run; all others say what the term is.
     """
 
     name: str = ""
@@ -260,7 +272,9 @@ class Term:
     within_bodies: bool = False
     unknowns: tuple[Global, ...] = ()
     elsewhere: bool = False
-    rows: NDArray[np.int64]
+    rows: NDArray[np.int64] | None = None
+    before: Floats = np.empty(0)
+    memory: tuple[str, ...] = ("elsewhere", "rows")
 
     @property
     def key(self) -> str:
@@ -291,6 +305,9 @@ class Term:
     def revert(self) -> None:
         """Go back to the converged history."""
 
+    def go_back(self, before: Floats) -> None:
+        """Take the history that the evaluation of the converged state had read, so that it can be repeated."""
+
     def state(self) -> Tree:
         """Converged history; empty where there is none."""
         return {}
@@ -311,10 +328,33 @@ class Term:
         return Energies()
 
     def external_forces(self, at: At) -> Floats | None:
-        """Forces from outside on the nodes, shape (3 n,), for the balance; None where it applies none."""
+        """Forces from outside on the nodes, shape (3 n,), for the balance; None where it applies none.
+
+        Their work is external work.
+        """
+        return None
+
+    def support_forces(self, at: At) -> Floats | None:
+        """Forces on the nodes of what holds the sheet, an elastic foundation for instance; shape (3 n,).
+
+        They count in the sums of forces and moments; their work is in :meth:`energies`.
+        """
+        return None
+
+    def holds(self, at: At) -> tuple[Ids, Floats] | None:
+        """Nodes (k,) that it does not let move freely, and the direction (k, 3) of each; None where it holds none.
+
+        Rigid-body motions that it resists are not refused then. A node may be there several times.
+        """
         return None
 
     # Ranks ---------------------------------------------------------------------------------------------------
+
+    @property
+    def shareable(self) -> bool:
+        """Whether it can be given to ranks: it says what each of them gets of it."""
+        kind = type(self)
+        return kind.strip is not Term.strip and kind.fill is not Term.fill
 
     def strip(self, bare: Self, twins: Twins) -> None:
         """Take out of a copy what grows with the mesh, and replace what it refers to by its twins."""

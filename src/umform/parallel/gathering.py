@@ -36,7 +36,7 @@ class Gathering:
         self.own_nodes = Places(share.nodes[share.owned], ranks)
         self.cells = Places(share.cells, ranks)
         #: Rows of the state of each term that has some, by its key.
-        self.rows = {term.key: Places(term.rows, ranks) for term in (*share.bodies, *share.contacts)}
+        self.rows = {term.key: Places(term.rows, ranks) for term in share.terms if term.rows is not None}
 
     # Whole arrays --------------------------------------------------------------------------------------------
 

@@ -110,11 +110,24 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
             cause="ranks share out single degrees of freedom and pairs of them",
             remedy="another solver in one process, or supports along x, y and z of the undeformed mesh",
         )
+    _refuse_what_cannot_be_cut(model)
     if model.elsewhere:
         raise not_here("the history of the elements")
     if ranks.rank == 0:
         check_nodes(model.mesh)
     return Outline.of(model, steps)
+
+
+def _refuse_what_cannot_be_cut(model: Model) -> None:
+    """Refuse terms of other kinds that do not say what each rank gets of them."""
+    for term in model.others:
+        if not term.shareable:
+            raise InvalidValue(
+                "a term cannot be shared with the solver petsc",
+                where=f"term {type(term).__name__} {term.name!r}",
+                cause="it does not say what each rank gets of it",
+                remedy="derive it from NodalTerm, or give it strip(), piece() and fill(); or another solver",
+            )
 
 
 def _check_alike(model: Model, ranks: MpiRanks) -> None:
@@ -157,7 +170,7 @@ def _give_back(share: Share, result: History | None) -> None:
     for unknown, own_unknown in zip(whole.unknowns, share.unknowns, strict=True):
         unknown.value = own_unknown.value
     whole.elsewhere = True
-    for thing in (*whole.bodies, *whole.contacts):
+    for thing in (*whole.bodies, *whole.contacts, *whole.others):
         thing.elsewhere = True
         for made in ("block", "_areas", "_no_multipliers"):
             vars(thing).pop(made, None)

@@ -18,7 +18,7 @@ import numpy as np
 
 import umform
 from umform.digest import digest
-from umform.model import Model, Tool
+from umform.model import Model, Term, Tool
 from umform.model.contact import Contact
 from umform.model.control import Control
 from umform.solution.newton import Newton
@@ -57,7 +57,7 @@ def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: i
         "supports and loads": text([supports, [_control(control) for control in model.controls]]),
         "contacts": text([_contact(contact) for contact in model.contacts]),
         "tools": text([_tool(tool) for tool in model.tools]),
-        "other terms": text(model.others),
+        "other terms": text([_term(term) for term in model.others]),
         "steps": text(list(steps)),
         "options": text(newton.options),
         "solver": newton.solver,
@@ -115,6 +115,12 @@ def _tool(tool: Tool) -> str:
     moved = [tool.ways, tool.motion, tool.reference_point]
     presses = [[press.way, press.forces, press.stiffness, press.free] for press in tool.presses]
     return text([tool.name, tool.surface, *moved, presses])
+
+
+def _term(term: Term) -> str:
+    """All of a term but what changes in a run."""
+    entries = {name: value for name, value in vars(term).items() if name not in term.memory}
+    return f"{type(term).__qualname__} {text(entries)}"
 
 
 def _function(function: Any, depth: int) -> str:
