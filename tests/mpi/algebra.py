@@ -55,18 +55,20 @@ def dofs(share):
     return (3 * share.nodes[:, None] + np.arange(3)).ravel()
 
 
-def refused_tool():
-    """A tool of the user that is not finite at the points of one rank only."""
+def refused_tool(press=False):
+    """A tool of the user that is not finite at the points of one rank only; with a force that presses it or without."""
 
     def gap(x):
         far = x[:, 0] > 15.0
         return np.where(far, np.nan, x[:, 2] + 1.0), np.tile((0.0, 0.0, 1.0), (len(x), 1)), np.zeros((len(x), 3, 3))
 
     model = strut()
-    model.contact("lower", uf.UserSurface(gap), penalty=1.0)
+    tool = model.contact("lower", uf.UserSurface(gap), penalty=1.0)
+    if press:
+        model.press(tool, "z")
     part = shared(model)
     try:
-        part.evaluate(part.u)
+        part.evaluate(part.x)
     except NotFinite as error:
         return error.what
     return "taken"
@@ -172,7 +174,7 @@ def main():
     part, flat = shared(steel), flattened(steel)
     answer["failed"] = [steel.evaluate(flat).failed, part.evaluate(flat[dofs(part)]).failed]
     answer["effort"] = efforts()
-    answer["tool"] = refused_tool()
+    answer["tool"] = [refused_tool(press) for press in (False, True)]
     answer["runs"] = [message(run) for run in refused_runs()]
     loose, rigid = Petsc(), shared(strut(clamped=False))
     loose.analyse(rigid.pattern)

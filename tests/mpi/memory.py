@@ -13,9 +13,9 @@ import tracemalloc
 from pathlib import Path
 
 import numpy as np
+from cases import Foam
 
 import umform as uf
-from cases import Foam
 from umform.mesh import strip
 from umform.model import Body
 from umform.parallel import run

@@ -1,5 +1,6 @@
 """What is solved: mesh, bodies, supports, loads and tools; residual and tangent at a displacement."""
 
+from umform._core import Connectivity
 from umform.model.body import Body
 from umform.model.evaluation import Evaluation
 from umform.model.model import Model
@@ -8,4 +9,4 @@ from umform.model.state import Snapshot
 from umform.model.term import Term
 from umform.model.tool import Tool
 
-__all__ = ["Body", "Evaluation", "Model", "NodalTerm", "Snapshot", "Term", "Tool"]
+__all__ = ["Body", "Connectivity", "Evaluation", "Model", "NodalTerm", "Snapshot", "Term", "Tool"]

@@ -151,7 +151,9 @@ class NodalTerm(Term):
 
     def energies(self, found: Found, u: Floats) -> Energies:
         """Stored energy and spent work of the nodes."""
-        elastic, plastic = (np.broadcast_to(part, len(self.nodes)) for part in self.energy(self._at_nodes(u), self.history))
+        elastic, plastic = (
+            np.broadcast_to(part, len(self.nodes)) for part in self.energy(self._at_nodes(u), self.history)
+        )
         return Energies(float(elastic.sum()), float(plastic.sum()), 0.0)
 
     def support_forces(self, at: At) -> Floats:

@@ -134,7 +134,8 @@ def _check_alike(model: Model, ranks: MpiRanks) -> None:
     """Refuse models that are not the same on all ranks."""
     mesh, loads = model.mesh, [load.vector for load in model.of_kind(Load)]
     facets = [contact.facets for contact in model.contacts]
-    mine = digest(mesh.points, mesh.connectivity, model.constrained(), *loads, *facets)
+    coupled = [part.ids for term in model.others for part in term.couples()]
+    mine = digest(mesh.points, mesh.connectivity, model.constrained(), *loads, *facets, *coupled)
     first = ranks.comm.bcast(mine)
     if ranks.any(mine != first):
         raise InvalidValue(

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from umform import _core
 from umform import materials as mt
 from umform.errors import FileProblem, InvalidValue, RigidBodyMotion
 from umform.mesh import strip
-from umform.model import Model, NodalTerm, Term
+from umform.model import Connectivity, Model, NodalTerm, Term
 from umform.model.term import Energies, Found
 from umform.run import resume, solve
 from umform.steps import Move
@@ -44,10 +43,14 @@ class Links(Term):
     name = "links"
 
     def __init__(self, pairs, stiffness):
-        self.pairs, self.singles, self.stiffness = pairs.astype(np.int32), pairs.astype(np.int32).reshape(-1, 1), stiffness
+        self.pairs, self.singles, self.stiffness = (
+            pairs.astype(np.int32),
+            pairs.astype(np.int32).reshape(-1, 1),
+            stiffness,
+        )
 
     def couples(self):
-        return _core.Connectivity(self.pairs), _core.Connectivity(self.singles)
+        return Connectivity(self.pairs), Connectivity(self.singles)
 
     def evaluate(self, at, into):
         squares = 0.0
