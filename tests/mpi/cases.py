@@ -171,7 +171,7 @@ def two_bodies():
     model.fix("x0")
     model.contact("lower", uf.Cylinder((10.0, 0.0, -10.49), "y", 10.0), penetration=0.02, points=3, name="tool")
     tip = model.prescribe("x1_lower", "z", "tip")
-    return model, [uf.Move(tip, downwards, steps=4), uf.Move(tip, -3.0, steps=2)], None
+    return model, [uf.Move(tip, downwards, steps=4), uf.Move(tip, -3.0, steps=2)], NewtonOptions(max_iterations=12)
 
 
 class Stop(Exception):
