@@ -15,6 +15,7 @@ from umform.model.bodies import Embodied
 from umform.model.loads import Loaded
 from umform.model.supports import Supported
 from umform.model.term import Global, Term
+from umform.model.term_checks import check_term
 from umform.model.touched import Touched
 from umform.model.whole import Whole
 from umform.ranks import ONE, Ranks
@@ -70,9 +71,10 @@ class Assembled(Supported, Loaded, Touched, Embodied, Whole):
         Raises
         ------
         InvalidValue
-            If its columns of the history are taken.
+            If its name or its columns of the history are taken, or it couples a node that is not there.
         """
         self._refuse_taken(term.column_names(), term.name)
+        check_term(term, self.terms, len(self.mesh.points))
         self.others.append(term)
         self._assembled = None
         return term
@@ -109,8 +111,9 @@ class Assembled(Supported, Loaded, Touched, Embodied, Whole):
         nodes = self.mesh.connectivity.shape[1]
         fibres = 1 if nodes == 8 else 4
         size = nodes / 8
-        points = sum(body.block.points * len(body.cells) for body in self.bodies)
-        return float(points / max(sum(len(body.cells) for body in self.bodies), 1) / 20 * size * size / fibres)
+        points = self.ranks.sum(float(sum(body.block.points * len(body.cells) for body in self.bodies)))
+        cells = self.ranks.sum(float(sum(len(body.cells) for body in self.bodies)))
+        return float(points / max(cells, 1.0) / 20 * size * size / fibres)
 
     @cached_property
     def extent(self) -> float:

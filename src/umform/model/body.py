@@ -114,8 +114,7 @@ class Body(Term):
         self.element.check_modes(self._through[0])
         self._selection, self._given_rolling = cells, rolling
         self.elsewhere = False
-        #: History that the evaluation of the converged state had read: with it that evaluation can be repeated.
-        self.before: Floats = np.empty(0)
+        self.before = np.empty(0)
 
     def _through_thickness(self, points: int | None, rule: str | None) -> tuple[int, str]:
         """Points through the thickness and their rule: what is given, else what law and element want."""
@@ -219,6 +218,10 @@ class Body(Term):
         self.before = self.block.state
         self.block.commit()
 
+    def go_back(self, before: Floats) -> None:
+        """Take the history that the evaluation of the converged state had read."""
+        self.block.restore(before, self.block.alpha)
+
     def revert(self) -> None:
         """Go back to the converged history."""
         self.block.revert()
@@ -238,9 +241,10 @@ class Body(Term):
     # Ranks ---------------------------------------------------------------------------------------------------
 
     def strip(self, bare: Self, twins: Twins) -> None:
-        """Without cells and history."""
-        for made in ("block", "mesh", "cells", "rolling", "_numbers"):
+        """Without cells and history, and without what chose them."""
+        for made in ("block", "mesh", "cells", "rolling", "_numbers", "_selection", "_given_rolling"):
             bare.__dict__.pop(made, None)
+        bare.before = np.empty(0)
 
     def piece(self, cut: Cut) -> dict[str, Any]:
         """Cells of the rank: their numbers there, as rows of this body and in the whole model; their history."""

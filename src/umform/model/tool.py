@@ -277,7 +277,7 @@ class Tool(Term):
         bare.__dict__.pop("kernel", None)
         bare.presses = [
             Press(
-                Global(press.unknown.name, twins.rates(press.unknown.rates), press.unknown.value),
+                twins.of(press.unknown),
                 twins.of(press.way),
                 [twins.of(force) for force in press.forces],
                 press.stiffness,

@@ -18,10 +18,9 @@ import numpy as np
 
 import umform
 from umform.digest import digest
-from umform.model import Model, Tool
+from umform.model import Model, Term, Tool
 from umform.model.contact import Contact
 from umform.model.control import Control
-from umform.model.term import Term
 from umform.solution.newton import Newton
 
 _DEEPEST = 8
@@ -58,7 +57,7 @@ def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: i
         "supports and loads": text([supports, [_control(control) for control in model.controls]]),
         "contacts": text([_contact(contact) for contact in model.contacts]),
         "tools": text([_tool(tool) for tool in model.tools]),
-        "other terms": text([_object(term) for term in model.others]),
+        "other terms": text([_term(term) for term in model.others]),
         "steps": text(list(steps)),
         "options": text(newton.options),
         "solver": newton.solver,
@@ -133,6 +132,13 @@ def _tool(tool: Tool) -> str:
     moved = [tool.ways, tool.motion, tool.reference_point]
     presses = [[press.way, press.forces, press.stiffness, press.free] for press in tool.presses]
     return text([tool.name, tool.surface, *moved, presses])
+
+
+def _term(term: Term) -> str:
+    """All of a term but what changes in a run, and the code of its class."""
+    entries = {name: value for name, value in vars(term).items() if name not in term.memory}
+    methods = [_function(part, 0) for _, part in sorted(vars(type(term)).items()) if hasattr(part, "__code__")]
+    return f"{type(term).__qualname__} {text([entries, methods])}"
 
 
 def _function(function: Any, depth: int) -> str:
