@@ -2,7 +2,7 @@
 
 What is put in from outside is stored in elastic strains, spent on plastic flow or held by the penalty of contact. The
 work is summed over the converged states by the trapezoidal rule, without a look at the energies, so that the difference
-measures the increments; it falls with their square. docs/theory, 5.11
+measures the increments. Over the largest energy of the run it falls with their square. docs/theory, 5.11
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class Balance:
     elastic, plastic, contact : ndarray
         Energies, see :class:`Energies`.
     drift : ndarray
-        External work minus the sum of the energies, over the largest sum so far. eq. (5.33)
+        External work minus the sum of the energies, over the largest sum in any row. eq. (5.33)
     force_imbalance : ndarray
         Sum of all external forces on the sheet, over the largest sum of their magnitudes so far. eq. (5.34)
     moment_imbalance : ndarray
@@ -72,12 +72,23 @@ class Balance:
 
 
 def drift(external_work: Floats, stored: Floats) -> Floats:
-    """External work minus energies over the largest energies so far; zero while all are zero. eq. (5.33)"""
-    return _over(external_work - stored, np.maximum.accumulate(np.abs(stored)))
+    """External work minus energies, over the largest energy of the run. eq. (5.33)
 
+    The row of a first touch or a first yield errs by a part of the work in it, however short the increment is: the
+    energies up to there are no scale for it.
 
-def _over(value: Floats, scale: Floats) -> Floats:
-    return np.divide(value, scale, out=np.zeros_like(value), where=scale != 0.0)
+    Parameters
+    ----------
+    external_work, stored : ndarray, shape (rows,)
+        External work, and the sum of all energies.
+
+    Returns
+    -------
+    ndarray, shape (rows,)
+        Zero where no row has any energy.
+    """
+    difference, largest = external_work - stored, np.abs(stored).max(initial=0.0)
+    return difference / largest if largest != 0.0 else np.zeros_like(difference)
 
 
 def _moment(arms: Floats, forces: Floats) -> Floats:

@@ -105,8 +105,9 @@ class History:
         Returns
         -------
         Balance
-            Energies, the drift of the external work from their sum, which falls with the square of the increments, and
-            the relative resultants of all external forces, which are as small as Newton's method has left them.
+            Energies; the drift of the external work from their sum over the largest energy of the run, which falls with
+            the square of the increments; and the relative resultants of all external forces, which are as small as
+            Newton's method has left them.
         """
         elastic, plastic, contact = (self[name] for name in ("elastic_energy", "plastic_work", "contact_energy"))
         forces, moments = np.array(self._work.imbalances).T

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from typing import Any, Self
 
 from umform.errors import InvalidValue
@@ -14,10 +15,16 @@ from umform.solution.records import Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
 
+#: Part of the force that counts as zero which the residual of an increment may reach.
+_PART = 0.1
+
 
 @dataclass(frozen=True)
 class Release:
     """Take a displacement or a tool back until its force is zero (or contact has lifted off).
+
+    The increments of a release are solved so far that the force is known to a part of the tolerance, even where the
+    tolerance of the residual in :class:`umform.NewtonOptions` is looser.
 
     Parameters
     ----------
@@ -114,10 +121,10 @@ class Releasing:
             jump = Failed("the zero of the force cannot be closed in", [])
             raise no_convergence(run, jump, [control], [target])
         time = self.start_time + 1.0 - target / self.start_value
+        extrapolation = None if self.taken is None else (target - value) / self.taken
         try:
-            converged = take_increment(
-                run, [target], [control], time, None if self.taken is None else (target - value) / self.taken
-            )
+            with _tightened(run, _PART * step.tolerance * self.scale):
+                converged = take_increment(run, [target], [control], time, extrapolation)
         except Failed as failure:
             self.size, self.taken, self.failures = 0.25 * self.size, None, self.failures + 1
             if self.failures > 20:
@@ -125,7 +132,9 @@ class Releasing:
             return
         force = control.force(converged.evaluation, model.ranks)
         zero = abs(force) <= step.tolerance * self.scale
-        lifted = touching and zero and not converged.evaluation.touching(model.ranks)
+        lifted = touching and not converged.evaluation.touching(model.ranks)
+        if lifted:
+            lifted = zero = zero or abs(force) <= _hidden(run, before, converged, target - value)
         resolution = 1e-6 * abs(self.start_value)
         if (force * self.force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
             self._go_back(run, saved, before, target, resolution if lifted else 0.0)
@@ -148,6 +157,36 @@ class Releasing:
         self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
         run.model.restore(saved)
         run.evaluation, run.last_dx, self.taken = before, None, None
+
+
+@contextmanager
+def _tightened(run: Run, force: float) -> Iterator[None]:
+    """Let Newton's method go on until the residual is no more than a force, if its tolerance asks for less."""
+    own = run.newton.options
+    run.newton.options = replace(own, residual=min(own.residual, force / run.evaluation.force_scale))
+    try:
+        yield
+    finally:
+        run.newton.options = own
+
+
+def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> float:
+    """Largest force on the control that the residual of an increment may hide. docs/theory, 5.7
+
+    Parameters
+    ----------
+    run : Run
+        The run.
+    before : Evaluation
+        That of the state before.
+    converged : Converged
+        The increment.
+    way : float
+        How far the control went in it.
+    """
+    model = run.model
+    r, dx = model.restrict(converged.residual), model.coefficients(converged.x - before.x)
+    return math.sqrt(model.ranks.dot(r, r) * model.ranks.dot(dx, dx)) / abs(way)
 
 
 def _short_of_zero(value: float, force: float, before: Sequence[float] | None, target: float) -> float:
