@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,8 +60,8 @@ class Evaluated(Assembled):
         u, rates = x[:dofs], rates or {}
         if rates or until is not None:
             du = self.displacement_of_supports(rates)
-        values_now, step = self._values(unknowns, x[dofs:]), self.time - self._converged_time
-        at = At(u, self.time, values_now, step, None if du is None else du[:dofs], rates, until)
+        scalars, step = dict(zip(unknowns, x[dofs:].tolist(), strict=True)), self.time - self._converged_time
+        at = At(u, self.time, self._values(scalars), step, None if du is None else du[:dofs], rates, until, scalars)
         values = np.zeros(assembly.entries) if tangent else None
         border = Border.of(unknowns, dofs)
         into = Into(np.zeros(dofs), values, np.zeros(dofs), assembly.scatters, self._positions, self.ranks, border)
@@ -104,12 +104,11 @@ class Evaluated(Assembled):
             number=self._evaluations,
         )
 
-    def _values(self, unknowns: Sequence[Global], z: Floats) -> dict[Control, float]:
+    def _values(self, scalars: Mapping[Global, float]) -> dict[Control, float]:
         """Values of all controls, with those that scalar unknowns move where these have them."""
         values = {control: control.value for control in self.controls}
-        for unknown, value in zip(unknowns, z, strict=True):
-            for control, rate in unknown.rates.items():
-                values[control] += rate * float(value - unknown.value)
+        for unknown, value in scalars.items():
+            unknown.move(values, value)
         return values
 
     def _move(self, at: At, into: Into) -> None:
@@ -133,7 +132,7 @@ class Evaluated(Assembled):
         """Rate of the forces of one term with controls, shape (3 n,)."""
         part, forces = np.zeros(at.u.size), np.zeros(at.u.size)
         scratch = Into(forces, None, part, into.scatters, into.positions, into.ranks, into.border)
-        term.evaluate(At(at.u, at.time, at.values, at.step, along, rates), scratch)
+        term.evaluate(At(at.u, at.time, at.values, at.step, along, rates, scalars=at.scalars), scratch)
         return part
 
     def recover(self, du: Floats, s: float, mixed: bool = False) -> None:

@@ -57,9 +57,9 @@ class Bordered:
         sizes = np.linalg.svd(self._schur, compute_uv=False)
         if not (np.isfinite(sizes).all() and sizes[-1] > 1e-13 * max(scale, sizes[0])):
             raise SingularMatrix(
-                "a way that a force is to find is not determined",
+                "a scalar unknown is not determined: the sheet does not answer to it any more",
                 value=", ".join(names),
-                cause="nothing holds the tool: it does not touch the sheet, or the sheet itself is not held",
+                cause="nothing holds a tool: it does not touch the sheet, or the sheet itself is not held",
                 remedy="drive the tool into touch first, then press it; or hold it by a spring",
             )
 

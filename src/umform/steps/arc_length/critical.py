@@ -28,8 +28,8 @@ class PathState:
         Load parameter lambda, the fraction of the way from the first to the last load.
     arc : float
         Length of the path so far.
-    tangent : ndarray, shape (3 n,)
-        Rate of the displacement with the load parameter.
+    tangent : ndarray, shape (3 n + k,)
+        Rate of displacement and scalar unknowns with the length of the path.
     slope : float
         Rate of the load parameter with the length of the path; negative where the load goes back.
     pivots : int or None
