@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,11 +66,10 @@ class Evaluated(Assembled):
         values = np.zeros(assembly.entries) if tangent else None
         border = Border.of(unknowns, dofs)
         into = Into(np.zeros(dofs), values, np.zeros(dofs), assembly.scatters, self._positions, self.ranks, border)
-        if unknowns and tangent:
-            self._move(at, into)
+        moving = self._move(at, into) if unknowns and tangent else (at, into)
         for term in self.terms:
             with self.timing.of(term.timed_as):
-                into.found[term] = term.evaluate(at, into)
+                into.found[term] = term.evaluate(*moving)
         if (self.ties or self.rows) and values is not None:
             with self.timing.ties:
                 values = assembly.reduce(values)
@@ -111,8 +111,17 @@ class Evaluated(Assembled):
             unknown.move(values, value)
         return values
 
-    def _move(self, at: At, into: Into) -> None:
-        """Rates of the residual with each scalar unknown while the unknowns at nodes are held. eq. (5.42)"""
+    def _move(self, at: At, into: Into) -> tuple[At, Into]:
+        """Rates of the residual with each scalar unknown while the unknowns at nodes are held. eq. (5.42)
+
+        For one unknown, if no predictor is asked for and no tool wants the rate of each pair, the terms add the rates
+        with their forces when they are evaluated at what is returned.
+        """
+        border = into.border
+        if len(border.unknowns) == 1 and at.du is None and not any(tool.unknowns for tool in self.tools):
+            rates, unused = border.unknowns[0].rates, replace(border, predictor=np.zeros(1))
+            along = self.displacement_of_supports(rates)
+            return replace(at, du=along, rates=rates), replace(into, predictor=border.columns[0], border=unused)
         for column, unknown in zip(into.border.columns, into.border.unknowns, strict=True):
             along = self.displacement_of_supports(unknown.rates)
             supports = bool(along.any())
@@ -126,6 +135,7 @@ class Evaluated(Assembled):
         for pair in self.contacts:
             if pair.moves_with(at.rates):
                 into.moved[pair, None] = self._rate(pair, at, into, np.zeros(at.u.size), at.rates)
+        return at, into
 
     @staticmethod
     def _rate(term: Term, at: At, into: Into, along: Floats, rates: Mapping[Control, float]) -> Floats:
