@@ -17,6 +17,7 @@ from umform.model import Model
 from umform.solution.newton import Manner, Newton
 from umform.solution.records import Converged, Failed
 from umform.solution.system import Evaluation
+from umform.solvers import Factorisation
 from umform.steps.arc_length.critical import PathState
 from umform.steps.arc_length.equation import ArcLength, Line
 from umform.steps.loop import Run
@@ -73,7 +74,7 @@ class Path:
         path = cls(model, run.newton, ArcLength(line), increment, model.time, 0.0, nothing)
         with model.with_term(path.equation):
             evaluation = path.newton.guarded(lambda: model.evaluate(model.x))
-            tangent, pivots = path.newton.guarded(lambda: path._tangent(evaluation))
+            tangent, found = path.newton.guarded(lambda: path._tangent(evaluation))
         rate = tangent / tangent[-1]
         if spherical:
             path.equation.load_weight = path._product(rate, rate)
@@ -86,7 +87,7 @@ class Path:
                 remedy="bring the tool into touch with a Move",
             )
         path.first = increment * speed
-        path.state = PathState(0.0, 0.0, rate[:-1] / speed, 1.0 / speed, pivots)
+        path.state = PathState(0.0, 0.0, rate[:-1] / speed, 1.0 / speed, found.negative_pivots, found.odd)
         return path
 
     @classmethod
@@ -146,10 +147,11 @@ class Path:
         if converged.x[-1] >= 1.0:
             converged = self._land(converged, length)
         dx, fraction = converged.x - x, float(converged.x[-1])
-        tangent, pivots = self._tangent(converged.evaluation)
+        tangent, found = self._tangent(converged.evaluation)
         tangent *= math.copysign(1.0 / math.sqrt(self._product(tangent, tangent)), self._product(dx, tangent))
         arc = state.arc + math.sqrt(self._product(dx, dx))
-        return converged, PathState(fraction, arc, tangent[:-1], float(tangent[-1]), pivots)
+        signs = found.negative_pivots, found.odd
+        return converged, PathState(fraction, arc, tangent[:-1], float(tangent[-1]), *signs)
 
     def _land(self, beyond: Converged, length: float) -> Converged:
         """Go back from a state beyond the end of the line to the end, at a fixed load."""
@@ -166,13 +168,13 @@ class Path:
             raise Failed("the last increment jumps off the path", landed.iterations)
         return Converged(landed.evaluation, beyond.iterations + landed.iterations)
 
-    def _tangent(self, evaluation: Evaluation) -> tuple[Floats, int | None]:
-        """A vector along the path, the load parameter last, and the negative pivots. eq. (5.25)"""
+    def _tangent(self, evaluation: Evaluation) -> tuple[Floats, Factorisation]:
+        """A vector along the path, the load parameter last, and what the factors tell. eq. (5.25)"""
         self.newton.check_domain(evaluation, [])
         solver, along = self.newton.ready_solver(), np.zeros_like(evaluation.x)
-        pivots = solver.factor(evaluation).negative_pivots
+        found = solver.factor(evaluation)
         along[-1] = 1.0
-        return self.model.extend(solver.solve(self.model.restrict(along))), pivots
+        return self.model.extend(solver.solve(self.model.restrict(along))), found
 
     def _product(self, one: Floats, other: Floats) -> float:
         """Product of displacements and load parameters that the arc length is measured with. eq. (5.22)"""
