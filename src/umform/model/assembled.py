@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from functools import cached_property
 from typing import Any
 
@@ -78,6 +79,15 @@ class Assembled(Supported, Loaded, Touched, Embodied, Whole):
         self.others.append(term)
         self._assembled = None
         return term
+
+    @contextmanager
+    def with_term(self, term: Term) -> Iterator[None]:
+        """Let a term that couples no nodes, an equation of scalar unknowns, add to the residual for a while."""
+        self.others.append(term)
+        try:
+            yield
+        finally:
+            self.others.remove(term)
 
     def _named(self) -> Iterable[Any]:
         """All that has columns in the history."""

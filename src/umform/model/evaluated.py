@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,8 +62,8 @@ class Evaluated(Assembled):
         u, rates = x[:dofs], rates or {}
         if rates or until is not None:
             du = self.displacement_of_supports(rates)
-        values_now, step = self._values(unknowns, x[dofs:]), self.time - self._converged_time
-        at = At(u, self.time, values_now, step, None if du is None else du[:dofs], rates, until)
+        scalars, step = dict(zip(unknowns, x[dofs:].tolist(), strict=True)), self.time - self._converged_time
+        at = At(u, self.time, self._values(scalars), step, None if du is None else du[:dofs], rates, until, scalars)
         values = np.zeros(assembly.entries) if tangent else None
         border = Border.of(unknowns, dofs)
         into = Into(np.zeros(dofs), values, np.zeros(dofs), assembly.scatters, self._positions, self.ranks, border)
@@ -83,15 +84,15 @@ class Evaluated(Assembled):
     def _evaluate_with_scalars(self, at: At, into: Into) -> None:
         """Terms with scalar unknowns come last: they sum over the ranks, which none may have left with an error."""
         local = [term for term in self.terms if not term.unknowns]
-        problem = None
+        problem, moving = None, (at, into)
         try:
             if into.values is not None:
-                self._move(at, into)
-            self._evaluate_terms(local, at, into)
+                moving = self._move(at, into)
+            self._evaluate_terms(local, *moving)
         except UmformError as error:
             problem = error
         self.ranks.agree(problem)
-        self._evaluate_terms([term for term in self.terms if term.unknowns], at, into)
+        self._evaluate_terms([term for term in self.terms if term.unknowns], *moving)
 
     def _evaluation(self, x: Floats, at: At, into: Into, values: Floats | None) -> Evaluation:
         """What the terms have added and found, together."""
@@ -122,16 +123,24 @@ class Evaluated(Assembled):
             number=self._evaluations,
         )
 
-    def _values(self, unknowns: Sequence[Global], z: Floats) -> dict[Control, float]:
+    def _values(self, scalars: Mapping[Global, float]) -> dict[Control, float]:
         """Values of all controls, with those that scalar unknowns move where these have them."""
         values = {control: control.value for control in self.controls}
-        for unknown, value in zip(unknowns, z, strict=True):
-            for control, rate in unknown.rates.items():
-                values[control] += rate * float(value - unknown.value)
+        for unknown, value in scalars.items():
+            unknown.move(values, value)
         return values
 
-    def _move(self, at: At, into: Into) -> None:
-        """Rates of the residual with each scalar unknown while the unknowns at nodes are held. eq. (5.47)"""
+    def _move(self, at: At, into: Into) -> tuple[At, Into]:
+        """Rates of the residual with each scalar unknown while the unknowns at nodes are held. eq. (5.47)
+
+        For one unknown, if no predictor is asked for and no tool wants the rate of each pair, the terms add the rates
+        with their forces when they are evaluated at what is returned.
+        """
+        border = into.border
+        if len(border.unknowns) == 1 and at.du is None and not any(tool.unknowns for tool in self.tools):
+            rates, unused = border.unknowns[0].rates, replace(border, predictor=np.zeros(1))
+            along = self.displacement_of_supports(rates)
+            return replace(at, du=along, rates=rates), replace(into, predictor=border.columns[0], border=unused)
         for column, unknown in zip(into.border.columns, into.border.unknowns, strict=True):
             along = self.displacement_of_supports(unknown.rates)
             supports = bool(along.any())
@@ -145,13 +154,14 @@ class Evaluated(Assembled):
         for pair in self.contacts:
             if pair.moves_with(at.rates):
                 into.moved[pair, None] = self._rate(pair, at, into, np.zeros(at.u.size), at.rates)
+        return at, into
 
     @staticmethod
     def _rate(term: Term, at: At, into: Into, along: Floats, rates: Mapping[Control, float]) -> Floats:
         """Rate of the forces of one term with controls, shape (3 n,)."""
         part, forces = np.zeros(at.u.size), np.zeros(at.u.size)
         scratch = Into(forces, None, part, into.scatters, into.positions, into.ranks, into.border)
-        term.evaluate(At(at.u, at.time, at.values, at.step, along, rates), scratch)
+        term.evaluate(At(at.u, at.time, at.values, at.step, along, rates, scalars=at.scalars), scratch)
         return part
 
     def recover(self, du: Floats, s: float, mixed: bool = False) -> None:

@@ -35,6 +35,11 @@ class Global:
     rates: dict[Control, float]
     value: float = 0.0
 
+    def move(self, values: dict[Control, float], value: float) -> None:
+        """Write what the controls that move with it are at a value of it into those of all controls."""
+        for control, rate in self.rates.items():
+            values[control] += rate * (value - self.value)
+
     def strip(self, bare: Global, twins: Twins) -> None:
         """With the twins of the controls that it moves."""
         bare.rates = twins.rates(self.rates)
@@ -60,6 +65,8 @@ class At:
         Rates of the controls, for the predictor.
     until : float, optional
         Time at which tools that move by a function of time arrive, for the predictor. eq. (4.37)
+    scalars : mapping of Global to float
+        Values of the scalar unknowns.
     """
 
     u: Floats
@@ -69,6 +76,7 @@ class At:
     du: Floats | None = None
     rates: Mapping[Control, float] = field(default_factory=dict)
     until: float | None = None
+    scalars: Mapping[Global, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

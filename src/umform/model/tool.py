@@ -225,6 +225,7 @@ class Tool(Term):
             border.rows[k] = border.columns[k]
             border.corner[k, k] += press.stiffness
             for other, unknown in enumerate(border.unknowns):
+                border.corner[k, other] -= sum(unknown.rates.get(force, 0.0) for force in press.forces)
                 for pair in self.pairs:
                     if (pair, unknown) in into.moved:
                         border.corner[k, other] -= self._along(press.way, into.moved[pair, unknown], at, into)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import SingularMatrix
-from umform.solution.system import Evaluation, System
+from umform.solution.system import Border, Evaluation, System
 from umform.solution.timed_solver import TimedSolver
 from umform.solvers import Factorisation
 
@@ -29,50 +29,61 @@ class Bordered:
 
     def __init__(self, system: System, solver: TimedSolver) -> None:
         self.system, self.solver = system, solver
-        self._count = 0
+        self._border: Border | None = None
+        self._eliminated = False
 
     def factor(self, evaluation: Evaluation) -> Factorisation:
-        """Factorise the tangent of an evaluation, and eliminate the unknowns at the nodes from the border.
+        """Factorise the tangent of an evaluation.
 
         Raises
         ------
         SingularMatrix
-            If the tangent is singular, or the scalar unknowns are not determined: a tool that nothing holds.
+            If the tangent is singular.
         """
         found = self.solver.factor(evaluation.values)
-        border, system = evaluation.border, self.system
-        self._count = len(border.unknowns)
-        if self._count:
-            columns = np.stack([system.restrict(column) for column in border.columns], axis=1)
-            self._rows = np.stack([system.restrict(row) for row in border.rows])
-            self._columns = self.solver.solve(columns)
-            supports = np.stack([system.displacement_of_supports(unknown.rates) for unknown in border.unknowns])
-            corner = border.corner + system.ranks.sum(border.rows @ supports.T)
-            self._schur = corner - system.ranks.sum(self._rows @ self._columns)
-            self._check([unknown.name for unknown in border.unknowns], corner)
+        self._border, self._eliminated = evaluation.border if evaluation.border.unknowns else None, False
         return found
+
+    def _eliminate(self, border: Border, at_nodes: Floats) -> Floats:
+        """Eliminate the unknowns at the nodes from the border, beside a first right-hand side; return its solution."""
+        system, ranks = self.system, self.system.ranks
+        columns = [system.restrict(column) for column in border.columns]
+        solved = self.solver.solve(np.stack([at_nodes, *columns], axis=1))
+        self._rows, self._columns = np.stack([system.restrict(row) for row in border.rows]), solved[:, 1:]
+        supports = np.stack([system.displacement_of_supports(unknown.rates) for unknown in border.unknowns])
+        corner = border.corner + ranks.sum(border.rows @ supports.T)
+        self._schur = corner - ranks.sum(self._rows @ self._columns)
+        self._check([unknown.name for unknown in border.unknowns], corner)
+        self._eliminated = True
+        return solved[:, 0]
 
     def _check(self, names: list[str], corner: Floats) -> None:
         scale = np.abs(corner).max(initial=0.0)
         sizes = np.linalg.svd(self._schur, compute_uv=False)
         if not (np.isfinite(sizes).all() and sizes[-1] > 1e-13 * max(scale, sizes[0])):
             raise SingularMatrix(
-                "a way that a force is to find is not determined",
+                "a scalar unknown is not determined: the sheet does not answer to it any more",
                 value=", ".join(names),
-                cause="nothing holds the tool: it does not touch the sheet, or the sheet itself is not held",
+                cause="nothing holds a tool: it does not touch the sheet, or the sheet itself is not held",
                 remedy="drive the tool into touch first, then press it; or hold it by a spring",
             )
 
     def solve(self, rhs: Floats) -> Floats:
-        """Solve for the unknowns at the nodes and the scalar ones behind them; shape (n + k,) or (n + k, m)."""
-        if not self._count:
+        """Solve for the unknowns at the nodes and the scalar ones behind them; shape (n + k,) or (n + k, m).
+
+        Raises
+        ------
+        SingularMatrix
+            If the scalar unknowns are not determined: a tool that nothing holds.
+        """
+        if self._border is None:
             return self.solver.solve(rhs)
         if rhs.ndim == 2:
             return np.stack([self.solve(column) for column in rhs.T], axis=1)
-        ranks, first = self.system.ranks, self.system.ranks.rank == 0
-        at_nodes = rhs[: -self._count] if first else rhs
-        below = ranks.sum(rhs[-self._count :].copy() if first else np.zeros(self._count))
-        q = self.solver.solve(np.ascontiguousarray(at_nodes))
+        ranks, first, count = self.system.ranks, self.system.ranks.rank == 0, len(self._border.unknowns)
+        at_nodes = np.ascontiguousarray(rhs[:-count] if first else rhs)
+        below = ranks.sum(rhs[-count:].copy() if first else np.zeros(count))
+        q = self.solver.solve(at_nodes) if self._eliminated else self._eliminate(self._border, at_nodes)
         z = np.linalg.solve(self._schur, below - ranks.sum(self._rows @ q))
         q = q - self._columns @ z
         return np.concatenate([q, z]) if first else q

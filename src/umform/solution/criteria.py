@@ -53,7 +53,7 @@ class Criteria:
         moved : bool
             Whether contact points came or went; two iterations more are granted then.
         """
-        displacement = largest(self._system, u)
+        displacement = largest(self._system, u, evaluation)
         floor = self.floor(displacement, evaluation)
         scale = evaluation.force_scale or 1.0
         small = norm <= max(self._residual * scale, floor) and increment <= self._increment
@@ -110,6 +110,6 @@ class Chatter:
         return 0
 
 
-def largest(system: System, u: Floats) -> float:
-    """Largest entry of a displacement, over all ranks."""
-    return system.ranks.max(float(np.abs(u).max()))
+def largest(system: System, x: Floats, evaluation: Evaluation) -> float:
+    """Largest displacement of a node, over all ranks; scalar unknowns have other units."""
+    return system.ranks.max(float(np.abs(x[: x.size - len(evaluation.border.unknowns)]).max()))

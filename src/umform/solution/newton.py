@@ -1,8 +1,7 @@
 """Newton's method on a system that can evaluate, recover, commit and revert; it knows no elements and no contact.
 
-Where an iteration goes is up to a corrector: `Newton.solve` corrects at fixed loads, `umform.steps.arc_length` along a
-path.
-Whether it has arrived is for `umform.solution.criteria`.
+What is unknown beside the nodes is for the system: the ways of pressed tools, the load along a path. Whether an
+iteration has arrived is for `umform.solution.criteria`.
 """
 
 from __future__ import annotations
@@ -11,8 +10,9 @@ import logging
 import math
 import time as clock
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,41 +37,23 @@ _T = TypeVar("_T")
 _LINE_SEARCH_TRIALS = 3
 
 
-class Corrector(Protocol):
-    """Evaluates the system and finds the increment that takes it nearer to equilibrium."""
+@dataclass(frozen=True)
+class Manner:
+    """How iterations are made.
 
-    @property
-    def line_search(self) -> bool:
-        """Whether the residual along the increment may judge its length."""
+    Attributes
+    ----------
+    line_search : bool
+        Whether the residual along an increment may judge its length.
+    reuses : bool
+        Whether the factors of the iteration before may serve for the next one.
+    mixed : bool
+        Whether the geometric stiffness is that of the stress which the last increment foresaw. eq. (5.39)
+    """
 
-    @property
-    def reuses(self) -> bool:
-        """Whether the factors of the iteration before may serve for the next one."""
-
-    @property
-    def mixed(self) -> bool:
-        """Whether the geometric stiffness is that of the stress which the last increment foresaw. eq. (5.39)"""
-
-    def evaluate(self, u: Floats, *, tangent: bool = True) -> Evaluation:
-        """Residual and tangent, or the residual alone."""
-
-    def direction(self, solver: Bordered, u: Floats, evaluation: Evaluation) -> Floats:
-        """Increment of all degrees of freedom; the solver holds the factors of the tangent."""
-
-
-class _FixedLoads:
-    """The corrector at fixed loads, supports and tools. eq. (5.5)"""
-
-    reuses = True
-
-    def __init__(self, system: System, line_search: bool, mixed: bool) -> None:
-        self.system, self.line_search, self.mixed = system, line_search, mixed
-
-    def evaluate(self, u: Floats, *, tangent: bool = True) -> Evaluation:
-        return self.system.evaluate(u, tangent=tangent)
-
-    def direction(self, solver: Bordered, u: Floats, evaluation: Evaluation) -> Floats:
-        return self.system.extend(solver.solve(-self.system.restrict(evaluation.residual)))
+    line_search: bool
+    reuses: bool
+    mixed: bool
 
 
 class Newton:
@@ -126,8 +108,8 @@ class Newton:
             If it does not converge; the system is reverted.
         """
         options = self.options
-        loads = _FixedLoads(self.system, options.line_search or line_search, self.mixed and not consistent)
-        return self.guarded(lambda: self._solve(extrapolation, loads))
+        manner = Manner(options.line_search or line_search, True, self.mixed and not consistent)
+        return self.guarded(lambda: self._solve(extrapolation, manner))
 
     def go_on(self, converged: Converged, change: Floats) -> Converged:
         """Find the equilibrium again after forces in the system have changed at the same loads, supports and tools.
@@ -149,7 +131,7 @@ class Newton:
             solver = self.ready_solver()
             solver.factor(converged.evaluation)
             du = self.system.extend(solver.solve(-self.system.restrict(change)))
-            return self.correct(converged.x, du, _FixedLoads(self.system, self.options.line_search, self.mixed))
+            return self.correct(converged.x, du, Manner(self.options.line_search, True, self.mixed))
 
         return self.guarded(work)
 
@@ -171,7 +153,7 @@ class Newton:
             self.system.revert()
             raise
 
-    def _solve(self, extrapolation: Floats | None, loads: _FixedLoads) -> Converged:
+    def _solve(self, extrapolation: Floats | None, manner: Manner) -> Converged:
         """First increment from the extrapolation, or from the tangent by eq. (5.6); then corrections."""
         system = self.system
         solver = self.ready_solver()
@@ -185,7 +167,7 @@ class Newton:
             self.check_domain(first, [])
             solver.factor(first)
             du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
-        return self.correct(u, du, loads, start)
+        return self.correct(u, du, manner, start)
 
     def prescribed_increment(self, u: Floats) -> Floats:
         """What takes the supports from ``u`` to where they are prescribed; nothing of it is left to the unknowns."""
@@ -194,16 +176,16 @@ class Newton:
         gap[: prescribed.size] = prescribed - u[: prescribed.size]
         return gap - self.system.extend(self.system.coefficients(gap))
 
-    def correct(self, u: Floats, du: Floats, corrector: Corrector, start: float | None = None) -> Converged:
+    def correct(self, u: Floats, du: Floats, manner: Manner, start: float | None = None) -> Converged:
         """Take a first increment ``du`` from ``u``, and iterate until residual and increments are small. eq. (5.9)"""
         system, options = self.system, self.options
         solver = self.ready_solver()
         start = clock.perf_counter() if start is None else start
         iterations: list[Iteration] = []
-        system.recover(du, 1.0, corrector.mixed)
+        system.recover(du, 1.0, manner.mixed)
         u = u + du
-        increment, step_length, pivots = self._relative(du, u), 1.0, None
-        evaluation = corrector.evaluate(u)
+        evaluation = system.evaluate(u)
+        increment, step_length, pivots = self._relative(du, evaluation), 1.0, None
         active = previous_active = evaluation.active
         criteria, chatter = Criteria(system, options.residual, options.increment), Chatter(system)
         reuse = Reuse(options, system.pattern.n, system.effort)
@@ -226,25 +208,25 @@ class Newton:
                 reason = f"the active set of contact chatters between {states} states"
                 raise Failed(reason, iterations, chattering=True)
 
-            if not reuse.factors_will_do(norm / scale, increment, settled=corrector.reuses and not moved):
+            if not reuse.factors_will_do(norm / scale, increment, settled=manner.reuses and not moved):
                 pivots = reuse.remember(solver.factor(evaluation))
-            du = corrector.direction(solver, u, evaluation)
+            du = system.extend(solver.solve(-r))
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
             self._record(
                 iterations, evaluation, norm / scale, increment, energy, entered, left, step_length, pivots, start
             )
-            u, evaluation, step_length = self._advance(u, du, r, corrector)
-            increment = step_length * self._relative(du, u)
+            u, evaluation, step_length = self._advance(u, du, r, manner)
+            increment = step_length * self._relative(du, evaluation)
             previous_active, active = active, evaluation.active
         raise Failed(f"no convergence in {options.max_iterations} iterations", iterations)
 
-    def _advance(self, u: Floats, du: Floats, r: Floats, corrector: Corrector) -> tuple[Floats, Evaluation, float]:
+    def _advance(self, u: Floats, du: Floats, r: Floats, manner: Manner) -> tuple[Floats, Evaluation, float]:
         """Take the increment, shortened by the line search if that is wanted. eq. (5.12)"""
         system, s = self.system, 1.0
-        system.recover(du, s, corrector.mixed)
+        system.recover(du, s, manner.mixed)
         trial = u + du
-        evaluation = corrector.evaluate(trial)
-        if not corrector.line_search:
+        evaluation = system.evaluate(trial)
+        if not manner.line_search:
             return trial, evaluation, s
         slope = system.ranks.dot(r, system.coefficients(du))
         along = self._along(du, evaluation)
@@ -252,19 +234,19 @@ class Newton:
             return trial, evaluation, s
         # The parameters go back to u, and with them the blocks that they are recovered with.
         system.undo_recover()
-        corrector.evaluate(u)
+        system.evaluate(u)
         for number in range(_LINE_SEARCH_TRIALS):
             secant = s * slope / (slope - along) if np.isfinite(along) and slope != along else 0.5 * s
             s = min(max(secant, 0.25 * s), 0.5 * s)
-            system.recover(du, s, corrector.mixed)
+            system.recover(du, s, manner.mixed)
             trial = u + s * du
             if number == _LINE_SEARCH_TRIALS - 1:
                 break
-            along = self._along(du, corrector.evaluate(trial, tangent=False))
+            along = self._along(du, system.evaluate(trial, tangent=False))
             if abs(along) <= 0.8 * abs(slope):
                 break
             system.undo_recover()
-        return trial, corrector.evaluate(trial), s
+        return trial, system.evaluate(trial), s
 
     def _along(self, du: Floats, evaluation: Evaluation) -> float:
         """Residual along an increment; infinite where a cell has none."""
@@ -325,7 +307,7 @@ class Newton:
     def _count(self, points: NDArray[np.bool_]) -> int:
         return int(self.system.ranks.sum(float(points.sum())))
 
-    def _relative(self, du: Floats, u: Floats) -> float:
+    def _relative(self, dx: Floats, evaluation: Evaluation) -> float:
         """Size of an increment over that of the displacement."""
-        displacement = largest(self.system, u)
-        return largest(self.system, du) / displacement if displacement > 0 else 0.0
+        displacement = largest(self.system, evaluation.x, evaluation)
+        return largest(self.system, dx, evaluation) / displacement if displacement > 0 else 0.0

@@ -153,10 +153,13 @@ class Factorisation:
         the solver cannot say or the matrix is not symmetric. A stable equilibrium has none.
     fill : int
         Number of entries in the factors.
+    odd : bool or None
+        Whether the determinant is negative: an odd number of real eigenvalues is; None where the solver cannot say.
     """
 
     negative_pivots: int | None
     fill: int
+    odd: bool | None = None
 
 
 class SparseSolver(Protocol):

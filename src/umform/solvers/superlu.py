@@ -16,6 +16,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
+from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU as Factors
 from scipy.sparse.linalg import splu
 
@@ -81,7 +82,9 @@ class SuperLU:
         self._size = float(size.max())
         self._lu = lu
         on_diagonal = symmetric and np.array_equal(lu.perm_r, lu.perm_c)
-        return Factorisation(int(np.count_nonzero(pivots < 0)) if on_diagonal else None, int(lu.nnz))
+        negative = int(np.count_nonzero(pivots < 0))
+        odd = (negative + (0 if on_diagonal else _transpositions(lu.perm_r, lu.perm_c))) % 2 == 1
+        return Factorisation(negative if on_diagonal else None, int(lu.nnz), odd)
 
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solve, and refine the solution once if its residual is poor."""
@@ -96,6 +99,14 @@ class SuperLU:
         result: FloatArray = np.empty_like(x)
         result[self._order] = x
         return result
+
+
+def _transpositions(rows: NDArray[np.intp], columns: NDArray[np.intp]) -> int:
+    """Number of exchanges that make one permutation of the other: whether it is odd is the sign of both together."""
+    place = np.empty_like(columns)
+    place[columns] = rows
+    steps = sparse.csr_matrix((np.ones(place.size), place, np.arange(place.size + 1)))
+    return place.size - int(connected_components(steps, directed=False, return_labels=False))
 
 
 def _minimum_degree(positions: sparse.csc_matrix) -> NDArray[np.intp]:

@@ -132,6 +132,20 @@ def test_unsymmetric(name):
     assert factorisation.negative_pivots is None
 
 
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("symmetric", [True, False])
+def test_superlu_tells_the_sign_of_the_determinant(seed, symmetric, rng):
+    """With pivots far from the diagonal too, whose order has a sign of its own."""
+    matrix = np.random.default_rng(seed).normal(size=(30, 30)) * (
+        np.random.default_rng(seed + 100).random((30, 30)) < 0.3
+    )
+    matrix += np.diag(rng.normal(size=30))
+    if symmetric:
+        matrix = matrix + matrix.T
+    _, factorisation = factored("superlu", matrix, symmetric)
+    assert factorisation.odd == (np.linalg.slogdet(matrix)[0] < 0)
+
+
 @pytest.mark.parametrize("name", GENERAL)
 def test_unsymmetric_structure(name):
     random = np.random.default_rng(3)

@@ -17,8 +17,9 @@ from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model
 from umform.model.control import Control
 from umform.solution.records import Failed
-from umform.steps.arc_length.critical import CriticalPoints, PathState
-from umform.steps.arc_length.path import Line, Path
+from umform.steps.arc_length.critical import CriticalPoints
+from umform.steps.arc_length.equation import Line
+from umform.steps.arc_length.path import Path
 from umform.steps.increment import last_residuals
 from umform.steps.loop import Run
 
@@ -148,7 +149,7 @@ class Following:
     @classmethod
     def begin(cls, run: Run, step: Arc) -> Self:
         """The loop at the beginning of the step."""
-        path = _started(run, step, run.number)
+        path = _started(run, step)
         critical = CriticalPoints(run.result, path.line.text, f"step {run.number}")
         critical.advance(path.state)
         return cls(path, critical, path.first)
@@ -156,22 +157,16 @@ class Following:
     @classmethod
     def recall(cls, run: Run, step: Arc, memory: dict[str, Any]) -> Self:
         """The loop as it stood."""
-        path = _Resumed(run, step, memory["path"])
+        line = Line(step.moved(), memory["path"]["starts"], step.targets())
+        path = Path.recall(run, line, step.increment, memory["path"])
         critical = CriticalPoints(run.result, path.line.text, f"step {run.number}")
         critical.recall(path.state, memory["critical"])
         return cls(path, critical, memory["length"], memory["count"], memory["done"])
 
     def memory(self) -> dict[str, Any]:
         """All that the loop remembers."""
-        path = self.path
         return {
-            "path": {
-                "starts": [start for start, _ in path.line.ends.values()],
-                "load_weight": path.load_weight,
-                "start_time": path.start_time,
-                "first": path.first,
-                "state": vars(path.state),
-            },
+            "path": self.path.memory(),
             "critical": self.critical.memory(),
             "length": self.length,
             "count": self.count,
@@ -217,19 +212,6 @@ class Following:
             raise _no_convergence(failure, f"step {number}, at {at}") from None
 
 
-class _Resumed(Path):
-    """A path that goes on from a state that was kept, without a look at its beginning."""
-
-    def __init__(self, run: Run, step: Arc, memory: dict[str, Any]) -> None:
-        for control, start in zip(step.moved(), memory["starts"], strict=True):
-            control.value = start
-        self.model, self.newton, self.line = run.model, run.newton, Line(step.moved(), step.targets())
-        self.load_weight, self.first = memory["load_weight"], memory["first"]
-        self.start_time, self.increment = memory["start_time"], step.increment
-        self.state = PathState(**memory["state"])
-        self.line.move(self.state.fraction)
-
-
 def _say_how_it_ended(run: Run, step: Arc, number: int, path: Path, ended: bool) -> None:
     fraction = path.state.fraction
     if fraction == 1.0:
@@ -241,12 +223,12 @@ def _say_how_it_ended(run: Run, step: Arc, number: int, path: Path, ended: bool)
         run.result.warn(f"{at}, short of its target, after {step.most} increments")
 
 
-def _started(run: Run, step: Arc, number: int) -> Path:
+def _started(run: Run, step: Arc) -> Path:
+    line = Line(step.moved(), [control.value for control in step.moved()], step.targets())
     try:
-        line = Line(step.moved(), step.targets())
-        return Path(run, line, step.increment, spherical=step.kind == "spherical")
+        return Path.begin(run, line, step.increment, spherical=step.kind == "spherical")
     except Failed as failure:
-        raise _no_convergence(failure, f"step {number}, at its beginning") from None
+        raise _no_convergence(failure, f"step {run.number}, at its beginning") from None
 
 
 def _no_convergence(failure: Failed, where: str) -> NoConvergence:

@@ -28,12 +28,14 @@ class PathState:
         Load parameter lambda, the fraction of the way from the first to the last load.
     arc : float
         Length of the path so far.
-    tangent : ndarray, shape (3 n,)
-        Rate of the displacement with the load parameter.
+    tangent : ndarray, shape (3 n + k,)
+        Rate of displacement and scalar unknowns with the length of the path.
     slope : float
         Rate of the load parameter with the length of the path; negative where the load goes back.
     pivots : int or None
         Negative pivots of the tangent, where the solver tells.
+    odd : bool or None
+        Whether the determinant of the tangent is negative, where the solver tells.
     """
 
     fraction: float
@@ -41,6 +43,23 @@ class PathState:
     tangent: Floats
     slope: float
     pivots: int | None
+    odd: bool | None = None
+
+    @property
+    def known(self) -> bool:
+        """Whether the solver tells anything of the signs of the pivots."""
+        return self.pivots is not None or self.odd is not None
+
+    def changes(self, before: PathState) -> int:
+        """How many pivots have changed their sign since another state, or whether an odd number of them have."""
+        if self.pivots is not None and before.pivots is not None:
+            return abs(self.pivots - before.pivots)
+        return int(self.negative != before.negative)
+
+    @property
+    def negative(self) -> bool:
+        """Whether the determinant is negative."""
+        return self.pivots % 2 == 1 if self.pivots is not None else bool(self.odd)
 
 
 class CriticalPoints:
@@ -59,7 +78,7 @@ class CriticalPoints:
     def __init__(self, result: History, loads: Callable[[float], str], where: str) -> None:
         self.result, self.loads, self.where = result, loads, where
         self._last: PathState | None = None
-        self._counted: PathState | None = None  # the last state with a known number of negative pivots
+        self._counted: PathState | None = None  # the last state of which signs of pivots are known
         self._turns = 0  # limit points since then
         self._silent = False
 
@@ -85,7 +104,8 @@ class CriticalPoints:
                 + self._count(last, state)
             )
         if state.pivots is None:
-            self._say_that_pivots_are_unknown()
+            self._say_that_pivots_are_unknown(state)
+        if not state.known:
             return
         if self._counted is not None:
             self._look_for_bifurcation(self._counted, state)
@@ -93,13 +113,12 @@ class CriticalPoints:
 
     def _look_for_bifurcation(self, before: PathState, state: PathState) -> None:
         """Each limit point changes the sign of one pivot; what else has changed is a bifurcation."""
-        assert before.pivots is not None and state.pivots is not None
-        change = abs(state.pivots - before.pivots)
+        change = state.changes(before)
         if change <= self._turns and (change + self._turns) % 2 == 0:
             return
         between = f"between {self.loads(before.fraction)} and {self.loads(state.fraction)}"
         self.result.note(f"{self.where}: bifurcation point {between}{self._count(before, state)}")
-        if state.pivots > before.pivots:
+        if (state.pivots or state.negative) > (before.pivots or before.negative):
             self.result.warn(
                 f"{self.where}: {between} a bifurcation point was passed: the path may be the unstable primary one; "
                 "a small imperfection of the mesh or a small disturbing load leads to the other"
@@ -108,16 +127,19 @@ class CriticalPoints:
     @staticmethod
     def _count(before: PathState, state: PathState) -> str:
         if before.pivots is None or state.pivots is None:
-            return ""
+            return "; the determinant changes its sign" if before.known and state.changes(before) else ""
         return f"; negative pivots {before.pivots} -> {state.pivots}"
 
-    def _say_that_pivots_are_unknown(self) -> None:
-        if not self._silent:
-            self._silent = True
-            self.result.note(
-                f"{self.where}: the solver {self.result.solver} does not tell the number of negative pivots; "
-                "bifurcation points may pass unseen"
-            )
+    def _say_that_pivots_are_unknown(self, state: PathState) -> None:
+        if self._silent:
+            return
+        self._silent = True
+        note = f"{self.where}: the solver {self.result.solver} does not tell the number of negative pivots"
+        if state.known:
+            note += ", but the sign of the determinant; two bifurcation points in one increment may pass unseen"
+        else:
+            note += "; bifurcation points may pass unseen"
+        self.result.note(note)
 
 
 def extremum(one: PathState, other: PathState) -> float:
