@@ -27,10 +27,11 @@ if TYPE_CHECKING:
         check_law,
     )
     from umform.mesh import Mesh
-    from umform.model import Model
+    from umform.model import Body, Model
     from umform.model.axes import cylindrical, turned
     from umform.results import fields
     from umform.run import Result, resume, solve
+    from umform.run.stages import Stage, solve_stages
     from umform.solution.options import NewtonOptions
     from umform.steps import Arc, Free, Move, Release
     from umform.surfaces import (
@@ -72,9 +73,10 @@ _HOME = {
         "check_law",
     ),
     "umform.mesh": ("Mesh",),
-    "umform.model": ("Model",),
+    "umform.model": ("Body", "Model"),
     "umform.model.axes": ("cylindrical", "turned"),
     "umform.run": ("Result", "resume", "solve"),
+    "umform.run.stages": ("Stage", "solve_stages"),
     "umform.solution.options": ("NewtonOptions",),
     "umform.steps": ("Arc", "Free", "Move", "Release"),
     "umform.surfaces": (
@@ -109,6 +111,7 @@ __all__ = [
     "J2",
     "SVK",
     "Arc",
+    "Body",
     "Box",
     "Cylinder",
     "Element",
@@ -130,6 +133,7 @@ __all__ = [
     "Result",
     "Revolved",
     "Sphere",
+    "Stage",
     "Swift",
     "Table",
     "Term",
@@ -154,6 +158,7 @@ __all__ = [
     "set_threads",
     "sheet_metals",
     "solve",
+    "solve_stages",
     "surfaces",
     "threads",
     "turned",

@@ -12,6 +12,8 @@ import numpy as np
 import umform as uf
 from umform.errors import NotFinite, SingularMatrix
 from umform.mesh import strip
+from umform.model import Body, Term
+from umform.model.term import Found, Global
 from umform.parallel.mpi_ranks import world
 from umform.parallel.outline import Outline
 from umform.parallel.run import hand_out
@@ -53,18 +55,20 @@ def dofs(share):
     return (3 * share.nodes[:, None] + np.arange(3)).ravel()
 
 
-def refused_tool():
-    """A tool of the user that is not finite at the points of one rank only."""
+def refused_tool(press=False):
+    """A tool of the user that is not finite at the points of one rank only; with a force that presses it or without."""
 
     def gap(x):
         far = x[:, 0] > 15.0
         return np.where(far, np.nan, x[:, 2] + 1.0), np.tile((0.0, 0.0, 1.0), (len(x), 1)), np.zeros((len(x), 3, 3))
 
     model = strut()
-    model.contact("lower", uf.UserSurface(gap), penalty=1.0)
+    tool = model.contact("lower", uf.UserSurface(gap), penalty=1.0)
+    if press:
+        model.press(tool, "z")
     part = shared(model)
     try:
-        part.evaluate(part.u)
+        part.evaluate(part.x)
     except NotFinite as error:
         return error.what
     return "taken"
@@ -90,6 +94,42 @@ def refused_runs():
         yield lambda given=given: uf.solve(*given, solver="petsc")
     wrong = uf.Move(push, 0.2) if world().rank == 0 else []  # of another model
     yield lambda: uf.solve(strut() if world().rank == 0 else None, wrong, solver="petsc")
+    for term in (Nothing(), Alone()):
+        odd = strut()
+        odd.add(term)
+        yield lambda odd=odd: uf.solve(odd, [], solver="petsc")
+
+
+class Nothing(Term):
+    """A term that adds nothing, and does not say what a rank gets of it."""
+
+    def evaluate(self, at, into):
+        return Found()
+
+
+class Alone(Nothing):
+    """One that does, but keeps its scalar unknown."""
+
+    def __init__(self):
+        self.unknowns = (Global("way", {}),)
+
+    def strip(self, bare, twins):
+        """Nothing grows with the mesh."""
+
+    def fill(self, piece, mesh):
+        """Nothing has been taken out."""
+
+
+def efforts():
+    """What an evaluation costs, in the whole and here: all ranks must decide alike."""
+    halves = [
+        Body(material=ELASTIC, cells=np.arange(18), name="thin"),
+        Body(material=ELASTIC, cells=np.arange(18, 36), name="thick", thickness_points=9),
+    ]
+    whole = uf.Model(strip(20.0, 4.0, 0.2, (12, 3)), bodies=halves)
+    whole.fix("x0")
+    effort = shared(whole).effort
+    return [whole.effort, *world().comm.allgather(effort)]
 
 
 def message(run):
@@ -133,7 +173,8 @@ def main():
     steel = strut(material=uf.J2(kappa=175e3, mu=80.77e3, hardening=uf.Linear(160.0, 500.0)))
     part, flat = shared(steel), flattened(steel)
     answer["failed"] = [steel.evaluate(flat).failed, part.evaluate(flat[dofs(part)]).failed]
-    answer["tool"] = refused_tool()
+    answer["effort"] = efforts()
+    answer["tool"] = [refused_tool(press) for press in (False, True)]
     answer["runs"] = [message(run) for run in refused_runs()]
     loose, rigid = Petsc(), shared(strut(clamped=False))
     loose.analyse(rigid.pattern)

@@ -16,6 +16,7 @@ import umform as uf
 from umform.deck import load
 from umform.deck.templates import template_file
 from umform.mesh import strip
+from umform.model import Body, NodalTerm
 from umform.solution.options import NewtonOptions
 
 STEEL = {"kappa": 175e3, "mu": 80.77e3}
@@ -103,6 +104,76 @@ def cut():
     return model, steps, NewtonOptions(max_iterations=7)
 
 
+def pressed():
+    """A punch that a force presses, against a pad on a spring: two ways that are unknowns."""
+    model = uf.Model(strip(20.0, 4.0, 1.0, (14, 2)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
+    model.fix("x0")
+    model.fix("x1")
+    above, below = (9.0, 0.0, 5.46), (11.5, 0.0, -5.46)
+    punch = model.contact("upper", uf.Cylinder(above, "y", 5.0), penetration=0.02, points=3, name="punch")
+    pad = model.contact("lower", uf.Cylinder(below, "y", 5.0), penetration=0.02, points=3, name="pad")
+    model.spring(pad, "z", stiffness=500.0, preload=20.0, name="gas")
+    force = model.press(punch, "z", "press")
+    return model, [uf.Move(force, -100.0, steps=1), uf.Move(force, weighing, steps=4), uf.Move(force, -50.0)], None
+
+
+class Foam(NodalTerm):
+    """A bed of springs along z that are crushed for good beyond a force, which grows with the crush."""
+
+    def __init__(self, nodes, stiffness, limit, slope):
+        super().__init__("foam", nodes, history=1)
+        self.stiffness, self.limit, self.slope = stiffness, limit, slope
+
+    each_node = ("stiffness",)
+
+    def respond(self, u, history, at):
+        k, h, crush = self.stiffness, self.slope, history[:, 0]
+        beyond = np.maximum(-k * (u[:, 2] - crush) - self.limit + h * crush, 0.0)
+        crush = crush - beyond / (k + h)
+        forces, tangents = np.zeros((len(u), 3)), np.zeros((len(u), 3, 3))
+        forces[:, 2] = k * (u[:, 2] - crush)
+        flows = beyond > 1e-9 * self.limit  # a node on its limit is no matter of round-off
+        tangents[:, 2, 2] = np.where(flows, k * h / (k + h), k)
+        return forces, tangents, crush[:, None]
+
+    def energy(self, u, history):
+        crush = history[:, 0]
+        return 0.5 * self.stiffness * (u[:, 2] - crush) ** 2, -self.limit * crush + 0.5 * self.slope * crush**2
+
+    def column_names(self):
+        return ["foam_force", "foam_crush"]
+
+    def columns(self, found, ranks):
+        force, crush = ranks.sum(float(found.forces[:, 2].sum())), ranks.max(float(-found.history.min(initial=0.0)))
+        return {"foam_force": force, "foam_crush": crush}
+
+
+def foundation():
+    """A term that is written in Python, with a history; it alone holds the sheet against falling and tilting."""
+    mesh = strip(20.0, 4.0, 0.5, (12, 2))
+    model = uf.Model(mesh, material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
+    model.fix("x0_lower", "x")
+    model.fix("y0_lower", "y")
+    nodes = mesh.nodes("lower")
+    model.add(Foam(nodes, 5.0 + 0.5 * mesh.points[nodes, 0], limit=0.4, slope=1.0))
+    weight = model.line_load("x1", "upper", (0.0, 0.0, 0.004), "weight")
+    return model, [uf.Move(weight, weighing, steps=5), uf.Move(weight, 0.0, steps=2)], None
+
+
+def two_bodies():
+    """A sheet of two laws and two numbers of points, welded in its middle; some ranks have cells of one alone."""
+    soft = uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0))
+    bodies = [
+        Body("ANS3DEAS", material=soft, cells=lambda x, y, z: x < 11.0, name="soft"),
+        Body("ANS3DEAS", material=uf.SVK(E=70e3, nu=0.3), cells=lambda x, y, z: x > 11.0, name="elastic"),
+    ]
+    model = uf.Model(strip(20.0, 4.0, 1.0, (16, 2)), bodies=bodies)
+    model.fix("x0")
+    model.contact("lower", uf.Cylinder((10.0, 0.0, -10.49), "y", 10.0), penetration=0.02, points=3, name="tool")
+    tip = model.prescribe("x1_lower", "z", "tip")
+    return model, [uf.Move(tip, downwards, steps=4), uf.Move(tip, -3.0, steps=2)], NewtonOptions(max_iterations=12)
+
+
 class Stop(Exception):
     """The end of a run in its middle."""
 
@@ -119,6 +190,12 @@ def downwards(fraction):
     return -4.0 * fraction**1.5
 
 
+def weighing(fraction):
+    """A load, or the force of a punch."""
+    trouble_at(fraction)
+    return -100.0 - 300.0 * fraction
+
+
 def trouble_at(fraction):
     """What ends a run in its middle, if that is asked for."""
     if fraction > 0.6 and TROUBLE == "stop":
@@ -128,6 +205,7 @@ def trouble_at(fraction):
 
 
 CASES = [free_bending, air_bending, hinged_strip, blown_strip, held_by_multipliers, cut]
+CASES += [pressed, foundation, two_bodies]
 
 
 def rank():

@@ -13,9 +13,11 @@ import tracemalloc
 from pathlib import Path
 
 import numpy as np
+from cases import Foam
 
 import umform as uf
 from umform.mesh import strip
+from umform.model import Body
 from umform.parallel import run
 from umform.parallel.mpi_ranks import world
 
@@ -24,13 +26,18 @@ MINE, WIDE = 10, 5
 
 
 def sheet(columns):
-    """A sheet with contact, ties, a load and a pressure."""
-    model = uf.Model(strip(float(columns), 4.0, 1.0, (columns, WIDE)), material=uf.SVK(E=210e3, nu=0.3))
+    """A sheet of two bodies, with contact, ties, a load, a pressure and a foundation."""
+    mesh, law = strip(float(columns), 4.0, 1.0, (columns, WIDE)), uf.SVK(E=210e3, nu=0.3)
+    odd = np.arange(len(mesh.connectivity)) % 2 == 1
+    bodies = [Body(material=law, cells=odd, name="odd"), Body(material=law, cells=~odd, name="even")]
+    model = uf.Model(mesh, bodies=bodies)
     model.fix("x0", "xz")
     model.hinge("x1", "z")
     end = model.prescribe("y0", "y", "end")
     model.body_force((0.0, 0.0, -0.01), "weight")
     model.pressure("upper", "pressure")
+    nodes = mesh.nodes("lower")
+    model.add(Foam(nodes, np.full(len(nodes), 0.1), limit=1.0, slope=1.0))
     model.contact("lower", uf.Cylinder((4.0, 0.0, -10.6), "y", 10.0), penalty=10.0)
     return model, [uf.Move(end, 0.01, steps=2)]
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 NAMES = ["free_bending", "air_bending", "hinged_strip", "blown_strip", "held_by_multipliers", "cut"]
+NAMES += ["pressed", "foundation", "two_bodies"]
 #: The last states are released: what is left of pressures and balances there is round-off.
 RESIDUES = ("imbalance", "point contact_pressure", "pressure")
 
@@ -34,17 +35,21 @@ def test_ranks_give_what_one_process_gives(case, ranks, found):
 
 
 def test_the_cases_are_not_easy(found):
-    """Cuts, lift-off, contact at the end of the loading, multipliers, a pressure that bends the strip."""
+    """Cuts, lift-off, contact at the end of the loading, multipliers, a pressure that bends the strip, crushed foam."""
     assert len(found(0, "cut")["iterations"]) > 2 * 3 + 5
     assert found(0, "held_by_multipliers")["history ram_active"].max() > 5
     assert found(0, "air_bending")["history die_active"].max() > 5
     assert np.abs(found(0, "blown_strip")["point displacement"]).max() > 0.5
+    assert found(0, "pressed")["history press_way"][-3] < -0.3
+    assert found(0, "pressed")["history gas_way"][-3] < -0.3
+    assert found(0, "foundation")["history foam_crush"][-1] > 0.1
+    assert found(0, "two_bodies")["cell plastic_strain_max"].max() > 0.01
     for case in NAMES:
         assert found(0, case)["imbalance"][1:].max() < 1e-9
         assert found(3, case)["imbalance"][1:].max() < 1e-9
 
 
-@pytest.mark.parametrize("case", ["cut", "held_by_multipliers"])
+@pytest.mark.parametrize("case", ["cut", "held_by_multipliers", "pressed", "foundation", "two_bodies"])
 @pytest.mark.parametrize(("first", "second"), [(2, 3), (2, 0), (0, 2)])
 def test_a_run_stopped_on_some_ranks_goes_on_on_others(case, first, second, found, tmp_path, mpi):
     solver = {True: "petsc", False: "superlu"}
@@ -65,13 +70,15 @@ def test_what_one_rank_meets_all_ranks_know(ranks, mpi):
     assert max(answer["error"]) < 1e-8
     assert answer["nan"] == "NotFinite"  # on one rank only, and refused on all
     assert answer["failed"] == [5, 5]
-    assert answer["tool"] == "g of a surface function is not finite"
-    twice, fields, other, nameless, last, step = answer["runs"]
+    np.testing.assert_allclose(answer["effort"], answer["effort"][0], rtol=1e-12)
+    assert answer["tool"] == 2 * ["g of a surface function is not finite"]
+    twice, fields, other, nameless, last, step, term, unknown = answer["runs"]
     assert twice == fields == "the history of the elements is not here"
     assert other == ("done" if ranks == 1 else "the ranks have built different models")
     assert nameless == ("done" if ranks == 1 else "the first rank has a model that cannot be sent to the others")
     assert last == (twice if ranks == 1 else "the first rank has no model")
     assert step == "a step moves a control that the model does not have"
+    assert term == unknown == "a term cannot be shared with the solver petsc"
     assert answer["loose"] == "SingularMatrix"
 
 

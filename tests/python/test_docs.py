@@ -73,7 +73,7 @@ def test_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     printed = ""
     for kind, text in blocks(page):
         if kind == "python":
-            exec(compile(text, str(page), "exec"), names)
+            exec(compile(text, str(page), "exec", dont_inherit=True), names)
         elif kind == "sh":
             printed = shell(text, folder, bin_folder=bin_folder)
         elif kind == "toml" and (name := re.match(r"# (\S+\.toml)\n", text)):

@@ -80,11 +80,14 @@ def test_every_class_has_a_sentence_of_documentation(kind):
 
 
 SOURCE = Path(umform.__file__).parent
-FILES = [SOURCE / "model" / f"{name}.py" for name in ("ties", "supports")]
-FILES += [file for folder in ("materials", "surfaces") for file in sorted((SOURCE / folder).glob("*.py"))]
+FILES = [
+    *sorted(SOURCE.glob("materials/*.py")),
+    *sorted(SOURCE.glob("surfaces/*.py")),
+    *(SOURCE / "model" / f"{name}.py" for name in ("axes", "support", "supports", "ties", "tool", "touched")),
+]
 
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", FILES, ids=lambda file: f"{file.parent.name}/{file.stem}")
 def test_what_users_meet_first_is_refused_with_place_cause_and_remedy(file):
     """Parameters of materials, tools and supports: each refusal says where, why, and what to do."""
     for node in ast.walk(ast.parse(file.read_text())):

@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
-from importlib.metadata import entry_points
+from functools import cache
+from typing import Any
 
 import typer
 
 GROUP = "umform.commands"
 
 
-def add_plugins(app: typer.Typer) -> None:
-    """Add the commands that installed packages offer.
+@cache
+def plugins() -> dict[str, Any]:
+    """Commands that installed packages offer, by their names; looked for when none of umform's own is meant.
 
-    Parameters
-    ----------
-    app : typer.Typer
-        The application. The name of an entry point becomes that of the command.
+    Returns
+    -------
+    dict of str to command of click
+        The name of an entry point becomes that of the command.
     """
+    from importlib.metadata import entry_points  # slow to import
+
+    found = {}
     for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):
+        app = typer.Typer(pretty_exceptions_enable=False)
         app.command(point.name)(point.load())
+        command = typer.main.get_command(app)
+        command.name = point.name
+        found[point.name] = command
+    return found

@@ -23,6 +23,15 @@ from umform.io.atomic import write_problem
 class Commands(TyperGroup):
     """The commands, with the one place where errors become messages and exit codes."""
 
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """A command of umform, or of another package."""
+        own = super().get_command(ctx, cmd_name)
+        return own if own is not None else _plugins().get(cmd_name)
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Names of all commands."""
+        return [*super().list_commands(ctx), *_plugins()]
+
     def invoke(self, ctx: Any) -> Any:
         """Run a command; print what goes wrong on standard error, and a traceback only with ``--debug``."""
         try:
@@ -104,9 +113,15 @@ def _forget(stream: Any) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
+def _plugins() -> dict[str, Any]:
+    from umform.cli.plugins import plugins
+
+    return plugins()
+
+
 def _options(group: TyperGroup, command: str | None) -> dict[str, str]:
     """Options of a command and of those below it, by the names that Python has for them."""
-    chosen: Any = group.commands[command or ""]
+    chosen: Any = group.commands.get(command or "") or _plugins()[command or ""]
     below = chosen.commands.values() if isinstance(chosen, TyperGroup) else [chosen]
     return {parameter.name: parameter.opts[0] for each in below for parameter in each.params}
 

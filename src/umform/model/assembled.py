@@ -16,6 +16,7 @@ from umform.model.bodies import Embodied
 from umform.model.loads import Loaded
 from umform.model.supports import Supported
 from umform.model.term import Global, Term
+from umform.model.term_checks import check_term
 from umform.model.touched import Touched
 from umform.model.whole import Whole
 from umform.ranks import ONE, Ranks
@@ -71,9 +72,10 @@ class Assembled(Supported, Loaded, Touched, Embodied, Whole):
         Raises
         ------
         InvalidValue
-            If its columns of the history are taken.
+            If its name or its columns of the history are taken, or it couples a node that is not there.
         """
         self._refuse_taken(term.column_names(), term.name)
+        check_term(term, self.terms, len(self.mesh.points))
         self.others.append(term)
         self._assembled = None
         return term
@@ -119,8 +121,9 @@ class Assembled(Supported, Loaded, Touched, Embodied, Whole):
         nodes = self.mesh.connectivity.shape[1]
         fibres = 1 if nodes == 8 else 4
         size = nodes / 8
-        points = sum(body.block.points * len(body.cells) for body in self.bodies)
-        return float(points / max(sum(len(body.cells) for body in self.bodies), 1) / 20 * size * size / fibres)
+        points = self.ranks.sum(float(sum(body.block.points * len(body.cells) for body in self.bodies)))
+        cells = self.ranks.sum(float(sum(len(body.cells) for body in self.bodies)))
+        return float(points / max(cells, 1.0) / 20 * size * size / fibres)
 
     @cached_property
     def extent(self) -> float:
@@ -164,7 +167,7 @@ class Assembled(Supported, Loaded, Touched, Embodied, Whole):
         return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))  # no copy of the matrix
 
     def extend(self, x: Floats) -> Floats:
-        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eqs. (5.17), (5.41)"""
+        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eqs. (5.17), (5.46)"""
         unknowns = self.unknowns
         if not unknowns:
             return self._extend_nodes(x)

@@ -145,7 +145,11 @@ def turned(x: Direction, y: Direction) -> Turned:
     size = float(np.linalg.norm(normal))
     if size < 1e-9:
         raise InvalidValue(
-            "two axes must not be parallel", where="turned axes", value=(x, y), remedy="give two directions in a plane"
+            "two axes must not be parallel",
+            where="turned axes",
+            value=(x, y),
+            cause="the same direction twice, or one and its opposite",
+            remedy="give two directions in a plane",
         )
     normal /= size
     frame = (first, np.cross(normal, first), normal)
@@ -181,17 +185,30 @@ def unit_normals(normals: ArrayLike, count: int) -> Floats:
             "give one normal, or one for each node",
             where="supports",
             value=f"normals of shape {given.shape}, {count} nodes",
+            cause="normals of other nodes than those that are held",
             remedy=f"an array of shape (3,) or ({count}, 3), in the order of the numbers of the nodes",
         )
     vectors = np.broadcast_to(given, (count, 3))
     sizes = np.linalg.norm(vectors, axis=1)
     if not (np.isfinite(sizes).all() and (sizes > 0.0).all()):
-        raise InvalidValue("a normal must be finite and have a length", where="supports", value=normals)
+        raise InvalidValue(
+            "a normal must be finite and have a length",
+            where="supports",
+            value=normals,
+            cause="a zero vector, or a division by zero on the way to it",
+            remedy="give finite vectors that are not zero",
+        )
     return np.asarray(vectors / sizes[:, None], dtype=np.float64)
 
 
 def _point(origin: ArrayLike) -> tuple[float, float, float]:
     point = np.asarray(origin, dtype=float)
     if point.shape != (3,) or not np.isfinite(point).all():
-        raise InvalidValue("a point has three finite coordinates", where="cylindrical axes", value=origin)
+        raise InvalidValue(
+            "a point has three finite coordinates",
+            where="cylindrical axes",
+            value=origin,
+            cause="a point of a plane, or a coordinate that is not finite",
+            remedy="a point (x, y, z) of the axis",
+        )
     return float(point[0]), float(point[1]), float(point[2])

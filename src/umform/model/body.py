@@ -66,7 +66,7 @@ class Body(Term):
     thickness_rule : {"gauss", "lobatto", "split"}, optional
         Where they lie; default gauss, but split where the default of the points is 12.
     rolling : array_like, shape (3,) or (cells, 3), optional
-        Rolling direction of the sheet: e_1 of the local axes is its projection onto the layer, eq. (1.13a). By default
+        Rolling direction of the sheet: e_1 of the local axes is its projection onto the layer, eq. (1.26). By default
         e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic law does not see.
     **options
         Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
@@ -114,8 +114,7 @@ class Body(Term):
         self.element.check_modes(self._through[0])
         self._selection, self._given_rolling = cells, rolling
         self.elsewhere = False
-        #: History that the evaluation of the converged state had read: with it that evaluation can be repeated.
-        self.before: Floats = np.empty(0)
+        self.before = np.empty(0)
 
     def _through_thickness(self, points: int | None, rule: str | None) -> tuple[int, str]:
         """Points through the thickness and their rule: what is given, else what law and element want."""
@@ -219,6 +218,10 @@ class Body(Term):
         self.before = self.block.state
         self.block.commit()
 
+    def go_back(self, before: Floats) -> None:
+        """Take the history that the evaluation of the converged state had read."""
+        self.block.restore(before, self.block.alpha)
+
     def revert(self) -> None:
         """Go back to the converged history."""
         self.block.revert()
@@ -238,9 +241,10 @@ class Body(Term):
     # Ranks ---------------------------------------------------------------------------------------------------
 
     def strip(self, bare: Self, twins: Twins) -> None:
-        """Without cells and history."""
-        for made in ("block", "mesh", "cells", "rolling", "_numbers"):
+        """Without cells and history, and without what chose them."""
+        for made in ("block", "mesh", "cells", "rolling", "_numbers", "_selection", "_given_rolling"):
             bare.__dict__.pop(made, None)
+        bare.before = np.empty(0)
 
     def piece(self, cut: Cut) -> dict[str, Any]:
         """Cells of the rank: their numbers there, as rows of this body and in the whole model; their history."""

@@ -11,6 +11,7 @@ from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
 from umform.mesh import Mesh
 from umform.model import forces
 from umform.model.evaluated import Evaluated
+from umform.model.term import At
 
 Floats = NDArray[np.float64]
 
@@ -52,7 +53,7 @@ def check_held(model: Evaluated) -> None:
     """Refuse supports that leave a rigid-body motion free, and tools that swallow the sheet."""
     problem = None
     try:
-        touched = list(_touching(model))
+        touched = [*_touching(model), *_sprung(model)]
     except ModelError as error:
         touched, problem = [], error
     model.ranks.agree(problem)
@@ -94,11 +95,11 @@ def diagnosis(model: Evaluated) -> tuple[str, str] | None:
 
     Asked when an increment has failed; None where supports hold the sheet.
     """
-    without = free_motions(model)
+    without = free_motions(model, list(_sprung(model)))
     if not without:
         return None
     try:
-        free = free_motions(model, list(_in_touch(model)))
+        free = free_motions(model, [*_in_touch(model), *_sprung(model)])
     except ModelError:
         free = without
     hold = "hold it there with fix(), symmetry() or hinge() (three points hold a sheet), or take the step in reverse"
@@ -116,6 +117,17 @@ def _in_touch(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
         if len(contact.facets) > 0:
             at = contact.locate(model.u, contact.pose)
             yield at.x[at.active], at.normal[at.active]
+
+
+def _sprung(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
+    """Positions of the nodes that terms hold at the present state, foundations for instance, and the directions."""
+    x = model.mesh.points + model.u.reshape(-1, 3)
+    at = At(model.u, model.time, {control: control.value for control in model.controls})
+    for term in model.others:
+        held = term.holds(at)
+        if held is not None:
+            nodes, directions = held
+            yield x[nodes], directions
 
 
 def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:

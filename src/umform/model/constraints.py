@@ -11,8 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from umform.mesh import Ids
 from umform.model.control import Control
@@ -87,6 +85,9 @@ class Groups:
 
     def _reduce(self, row: Numbers, place: Numbers, weight: Floats) -> None:
         """Null space and pseudo-inverse of each group, those of the same size together."""
+        from scipy.sparse import coo_array  # slow to import, and few models have supports in local axes
+        from scipy.sparse.csgraph import connected_components
+
         count, size = self._all[3], len(self.dofs)
         links = coo_array((np.ones(len(row)), (row, count + place)), shape=(count + size, count + size))
         groups, group = connected_components(links, directed=False)

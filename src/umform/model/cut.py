@@ -34,6 +34,16 @@ class Cut:
         """Degrees of freedom on the rank; negative where it has none."""
         return (3 * self.node[dofs // 3] + dofs % 3).astype(np.int32)
 
+    def nodes_of(self, nodes: Ids) -> tuple[Ids, Numbers]:
+        """Of some nodes those that the rank owns, in its numbers, and which rows of ``nodes`` they are.
+
+        A node that several ranks have is in the answer for one of them, so that what acts on it counts once.
+        """
+        here = np.zeros(len(self.nodes) + 1, dtype=bool)  # the last one stands for what is not there: -1
+        here[self.owned] = True
+        rows = np.flatnonzero(here[self.node[nodes]])
+        return self.node[nodes[rows]].astype(np.int32), rows
+
     def cells_of(self, cells: Numbers) -> tuple[Numbers, Numbers]:
         """Of some cells those on the rank, in its numbers, and which rows of ``cells`` they are."""
         rows = np.flatnonzero(self.cell[cells] >= 0)

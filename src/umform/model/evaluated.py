@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.errors import UmformError
 from umform.mesh import Mesh
 from umform.model.assembled import Assembled
 from umform.model.control import Control
@@ -66,14 +67,32 @@ class Evaluated(Assembled):
         values = np.zeros(assembly.entries) if tangent else None
         border = Border.of(unknowns, dofs)
         into = Into(np.zeros(dofs), values, np.zeros(dofs), assembly.scatters, self._positions, self.ranks, border)
-        moving = self._move(at, into) if unknowns and tangent else (at, into)
-        for term in self.terms:
-            with self.timing.of(term.timed_as):
-                into.found[term] = term.evaluate(*moving)
+        if not unknowns:
+            self._evaluate_terms(self.terms, at, into)
+        else:
+            self._evaluate_with_scalars(at, into)
         if (self.ties or self.rows) and values is not None:
             with self.timing.ties:
                 values = assembly.reduce(values)
         return self._evaluation(x, at, into, values)
+
+    def _evaluate_terms(self, terms: Iterable[Term], at: At, into: Into) -> None:
+        for term in terms:
+            with self.timing.of(term.timed_as):
+                into.found[term] = term.evaluate(at, into)
+
+    def _evaluate_with_scalars(self, at: At, into: Into) -> None:
+        """Terms with scalar unknowns come last: they sum over the ranks, which none may have left with an error."""
+        local = [term for term in self.terms if not term.unknowns]
+        problem = None
+        try:
+            if into.values is not None:
+                at, into = self._move(at, into)
+            self._evaluate_terms(local, at, into)
+        except UmformError as error:
+            problem = error
+        self.ranks.agree(problem)
+        self._evaluate_terms([term for term in self.terms if term.unknowns], at, into)
 
     def _evaluation(self, x: Floats, at: At, into: Into, values: Floats | None) -> Evaluation:
         """What the terms have added and found, together."""
@@ -112,7 +131,7 @@ class Evaluated(Assembled):
         return values
 
     def _move(self, at: At, into: Into) -> tuple[At, Into]:
-        """Rates of the residual with each scalar unknown while the unknowns at nodes are held. eq. (5.42)
+        """Rates of the residual with each scalar unknown while the unknowns at nodes are held. eq. (5.47)
 
         For one unknown, if no predictor is asked for and no tool wants the rate of each pair, the terms add the rates
         with their forces when they are evaluated at what is returned.
@@ -157,7 +176,7 @@ class Evaluated(Assembled):
 
     def prepare(self) -> None:
         """Let enhanced parameters be recovered from the converged state, after an attempt that failed."""
-        if not all(body.block.keeps_blocks for body in self.bodies):
+        if self.ranks.any(not all(body.block.keeps_blocks for body in self.bodies if len(body.cells))):
             self.evaluate(self.x)
 
     def undo_recover(self) -> None:

@@ -39,16 +39,16 @@ class Standing(Evaluated):
         Parameters
         ----------
         before : mapping of str to ndarray
-            :attr:`Body.before` of each body that had any, by its key.
+            :attr:`Term.before` of each term that had any, by its key.
 
         Returns
         -------
         Evaluation
             To the last bit what the evaluation was, with the blocks that enhanced parameters are recovered with.
         """
-        for body in self.bodies:
-            if body.key in before:
-                body.block.restore(before[body.key], body.block.alpha)
+        for term in self.terms:
+            if term.key in before:
+                term.go_back(before[term.key])
         evaluation = self.evaluate(self.x)
         self.commit(evaluation)
         return evaluation

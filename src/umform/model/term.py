@@ -7,7 +7,7 @@ what it came across, and owns its history. docs/architecture.md
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
@@ -16,173 +16,16 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.model.control import Control, Twins
 from umform.model.cut import Cut
+from umform.model.into import At, Border, Global, Into
 from umform.ranks import Ranks
+
+__all__ = ["At", "Border", "Energies", "Found", "Global", "Into", "Term", "Tree"]
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int32]
 
 #: State of a term: numbers, texts and arrays by name, which may nest. The schema of snapshots, checkpoints and ranks.
 Tree = dict[str, Any]
-
-
-@dataclass(eq=False)
-class Global:
-    """A scalar unknown without a node: the way of a tool that a force presses, a load parameter.
-
-    Attributes
-    ----------
-    name : str
-        Column of the history.
-    rates : dict of Control to float
-        Controls that move with it, and how fast: their values are what they were plus the rate times the unknown.
-    value : float
-        Converged value.
-    """
-
-    name: str
-    rates: dict[Control, float]
-    value: float = 0.0
-
-    def move(self, values: dict[Control, float], value: float) -> None:
-        """Write what the controls that move with it are at a value of it into those of all controls."""
-        for control, rate in self.rates.items():
-            values[control] += rate * (value - self.value)
-
-
-@dataclass(frozen=True)
-class At:
-    """Where terms are evaluated.
-
-    Attributes
-    ----------
-    u : ndarray, shape (3 n,)
-        Displacement.
-    time : float
-        Time.
-    values : mapping of Control to float
-        Values of all controls, those that scalar unknowns move included.
-    step : float
-        Time since the converged state.
-    du : ndarray, shape (3 n,), optional
-        Increment of the prescribed degrees of freedom, if the predictor is asked for.
-    rates : mapping of Control to float
-        Rates of the controls, for the predictor.
-    until : float, optional
-        Time at which tools that move by a function of time arrive, for the predictor. eq. (4.37)
-    scalars : mapping of Global to float
-        Values of the scalar unknowns.
-    """
-
-    u: Floats
-    time: float
-    values: Mapping[Control, float]
-    step: float = 0.0
-    du: Floats | None = None
-    rates: Mapping[Control, float] = field(default_factory=dict)
-    until: float | None = None
-    scalars: Mapping[Global, float] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Border:
-    """What scalar unknowns add to the tangent: [[K, columns], [rows, corner]], and the residuals of their equations.
-
-    Attributes
-    ----------
-    unknowns : tuple of Global
-        The scalar unknowns, in their order.
-    residual : ndarray, shape (k,)
-        Residuals of their equations.
-    columns : ndarray, shape (k, 3 n)
-        Rates of the residual with each of them.
-    rows : ndarray, shape (k, 3 n)
-        Derivatives of their equations with the displacement.
-    corner : ndarray, shape (k, k)
-        Derivatives of their equations with them.
-    predictor : ndarray, shape (k,)
-        What increments of supports and rates of controls change in their equations.
-    """
-
-    unknowns: tuple[Global, ...]
-    residual: Floats
-    columns: Floats
-    rows: Floats
-    corner: Floats
-    predictor: Floats
-
-    @classmethod
-    def of(cls, unknowns: tuple[Global, ...], dofs: int) -> Border:
-        """Nothing yet."""
-        k = len(unknowns)
-        return cls(unknowns, np.zeros(k), np.zeros((k, dofs)), np.zeros((k, dofs)), np.zeros((k, k)), np.zeros(k))
-
-    def number(self, unknown: Global) -> int:
-        """Place of a scalar unknown."""
-        return self.unknowns.index(unknown)
-
-
-@dataclass(frozen=True)
-class Into:
-    """What terms add to; arrays over all degrees of freedom, 3 * node + direction.
-
-    Attributes
-    ----------
-    residual : ndarray, shape (3 n,)
-        Internal forces minus external ones.
-    values : ndarray or None
-        Entries of the tangent; None where forces alone are asked for.
-    predictor : ndarray, shape (3 n,)
-        Tangent times the increment of the prescribed degrees of freedom, or rate of the residual.
-    scatters : mapping of Term to sequence of Scatter
-        Where the matrices of each connectivity of a term go.
-    positions : ndarray, shape (3 n,)
-        Nodes of the undeformed mesh.
-    ranks : Ranks
-        Who shares the model.
-    border : Border
-        Equations of the scalar unknowns.
-    found : dict of Term to Found
-        What the terms before have found.
-    moved : dict of (Term, Global) to ndarray, shape (3 n,)
-        Rate of the forces of a term with a scalar unknown that moves it; with None, with the rates of the controls.
-    """
-
-    residual: Floats
-    values: Floats | None
-    predictor: Floats
-    scatters: Mapping[Term, Sequence[_core.Scatter]]
-    positions: Floats
-    ranks: Ranks
-    border: Border
-    found: dict[Term, Any] = field(default_factory=dict)
-    moved: dict[tuple[Term, Global | None], Floats] = field(default_factory=dict)
-
-    def add(self, term: Term, connectivity: Ids, forces: Floats, tangents: Floats | None, at: At) -> None:
-        """Add the forces and tangents of the parts of a term that is written in Python.
-
-        Parameters
-        ----------
-        term : Term
-            The term, which couples these nodes.
-        connectivity : ndarray of int, shape (parts, nodes)
-            Nodes of each part.
-        forces : ndarray, shape (parts, nodes, 3)
-            Internal forces.
-        tangents : ndarray, shape (parts, nodes, 3, nodes, 3), optional
-            Their derivatives; symmetric if the term is.
-        at : At
-            Where the term is evaluated; with ``at.du`` the predictor gets its share.
-        """
-        np.add.at(self.residual.reshape(-1, 3), connectivity, forces)
-        if tangents is None:
-            return
-        if at.du is not None:
-            change = np.einsum("eakbl,ebl->eak", tangents, at.du.reshape(-1, 3)[connectivity])
-            np.add.at(self.predictor.reshape(-1, 3), connectivity, change)
-        if self.values is not None:
-            parts, nodes = connectivity.shape
-            by_direction = tangents.transpose(0, 2, 1, 4, 3).reshape(parts, 3 * nodes, 3 * nodes)
-            self.scatters[term][0].add(np.ascontiguousarray(by_direction), self.values)
 
 
 @dataclass(frozen=True)
@@ -258,8 +101,12 @@ class Term:
         Scalar unknowns that it brings.
     elsewhere : bool
         Whether the ranks of a run have its history.
-    rows : ndarray of int
-        On a rank: which rows of its state over the whole model are here.
+    rows : ndarray of int, optional
+        On a rank: which rows of its state over the whole model are here; None if the state has no rows.
+    before : ndarray
+        History that the evaluation of the converged state had read; empty where there is none.
+    memory : tuple of str
+        Names of the attributes that change in a run; all others say what the term is.
     """
 
     name: str = ""
@@ -268,7 +115,9 @@ class Term:
     within_bodies: bool = False
     unknowns: tuple[Global, ...] = ()
     elsewhere: bool = False
-    rows: NDArray[np.int64]
+    rows: NDArray[np.int64] | None = None
+    before: Floats = np.empty(0)
+    memory: tuple[str, ...] = ("elsewhere", "rows")
 
     @property
     def key(self) -> str:
@@ -299,6 +148,9 @@ class Term:
     def revert(self) -> None:
         """Go back to the converged history."""
 
+    def go_back(self, before: Floats) -> None:
+        """Take the history that the evaluation of the converged state had read, so that it can be repeated."""
+
     def state(self) -> Tree:
         """Converged history; empty where there is none."""
         return {}
@@ -319,10 +171,33 @@ class Term:
         return Energies()
 
     def external_forces(self, at: At) -> Floats | None:
-        """Forces from outside on the nodes, shape (3 n,), for the balance; None where it applies none."""
+        """Forces from outside on the nodes, shape (3 n,), for the balance; None where it applies none.
+
+        Their work is external work.
+        """
+        return None
+
+    def support_forces(self, at: At) -> Floats | None:
+        """Forces on the nodes of what holds the sheet, an elastic foundation for instance; shape (3 n,).
+
+        They count in the sums of forces and moments; their work is in :meth:`energies`.
+        """
+        return None
+
+    def holds(self, at: At) -> tuple[Ids, Floats] | None:
+        """Nodes (k,) that it does not let move freely, and the direction (k, 3) of each; None where it holds none.
+
+        Rigid-body motions that it resists are not refused then. A node may be there several times.
+        """
         return None
 
     # Ranks ---------------------------------------------------------------------------------------------------
+
+    @property
+    def shareable(self) -> bool:
+        """Whether it can be given to ranks: it says what each of them gets of it."""
+        kind = type(self)
+        return kind.strip is not Term.strip and kind.fill is not Term.fill
 
     def strip(self, bare: Self, twins: Twins) -> None:
         """Take out of a copy what grows with the mesh, and replace what it refers to by its twins."""

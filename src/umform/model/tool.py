@@ -130,6 +130,7 @@ class Tool(Term):
                 "a tool must be a surface",
                 where=f"tool {name}",
                 value=type(surface).__name__,
+                cause="a function or a class in place of a surface",
                 remedy="a tool of umform.surfaces, VDie or Cylinder for instance, or UserSurface(function)",
             )
         self.name, self.surface = name, surface
@@ -213,14 +214,14 @@ class Tool(Term):
     # Term ----------------------------------------------------------------------------------------------------
 
     def evaluate(self, at: At, into: Into) -> Found:
-        """Add the equations of its unknown ways: forces of sheet, press and springs balance. eq. (4.40)"""
+        """Add the equations of its unknown ways: forces of sheet, press and springs balance. eq. (4.41)"""
         border = into.border
         for press in self.presses:
             k = border.number(press.unknown)
             sheet = press.way.force(_Seen(into.residual, into.found, at.values, at.time), into.ranks)
             pressing = sum(at.values[force] for force in press.forces)
             border.residual[k] = press.stiffness * (at.values[press.way] - press.free) - sheet - pressing
-            # The potential of contact has one Hessian: its rows are its columns. eq. (4.41)
+            # The potential of contact has one Hessian: its rows are its columns. eq. (4.42)
             border.rows[k] = border.columns[k]
             border.corner[k, k] += press.stiffness
             for other, unknown in enumerate(border.unknowns):
@@ -277,7 +278,7 @@ class Tool(Term):
         bare.__dict__.pop("kernel", None)
         bare.presses = [
             Press(
-                Global(press.unknown.name, twins.rates(press.unknown.rates), press.unknown.value),
+                twins.of(press.unknown),
                 twins.of(press.way),
                 [twins.of(force) for force in press.forces],
                 press.stiffness,
@@ -307,12 +308,24 @@ def turn_of(name: str, tool: Tool, axis: Direction, about: ArrayLike) -> ToolTur
     return ToolTurn(name, axis=unit_vector(axis, "turn"), about=tuple(point.tolist()), tool=tool)
 
 
-def check_spring(stiffness: float, free: float, where: str) -> None:
+def check_spring(stiffness: float, preload: float, where: str) -> None:
     """Refuse a spring that is none."""
-    if not np.isfinite([stiffness, free]).all():
-        raise NotFinite("a spring needs finite numbers", where=where, value=f"stiffness {stiffness}, free way {free}")
+    if not np.isfinite([stiffness, preload]).all():
+        raise NotFinite(
+            "a spring needs finite numbers",
+            where=where,
+            value=f"stiffness {stiffness}, preload {preload}",
+            cause="an earlier computation",
+            remedy="give a finite stiffness and a finite preload",
+        )
     if not stiffness > 0.0:
-        raise InvalidValue("the stiffness of a spring must be positive", where=where, value=stiffness)
+        raise InvalidValue(
+            "the stiffness of a spring must be positive",
+            where=where,
+            value=stiffness,
+            cause="a sign, or a tool that a force alone presses",
+            remedy="a force per length; for a force alone model.press(tool, direction)",
+        )
 
 
 def _turned(turn: ToolTurn, angle: float) -> Pose:

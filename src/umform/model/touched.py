@@ -96,7 +96,13 @@ class Touched(Controlled):
         """
         name = name or self._free_pair_name()
         if any(other.name == name for other in self.contacts):
-            raise InvalidValue("two contacts have the same name", value=name)
+            raise InvalidValue(
+                "two contacts have the same name",
+                where=f"contact {name}",
+                value=name,
+                cause="the columns of the history and the fields go by it",
+                remedy="contact(..., name=...) with another one",
+            )
         settings = contact_settings(
             self.mesh,
             faces,

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from umform.model import Body
 from umform.model.contact import Contact, ContactPoints
 from umform.model.frame import Frame
-from umform.model.term import Tree
+from umform.model.term import Term, Tree
 from umform.parallel.mpi_ranks import MpiRanks
 from umform.parallel.places import Places
 
@@ -29,6 +29,10 @@ class Part(Protocol):
     nodes: NDArray[np.int64]
     cells: NDArray[np.int64]
     owned: NDArray[np.int64]
+
+    @property
+    def terms(self) -> list[Term]:
+        """All that adds to the residual."""
 
 
 class Gathering:
@@ -47,7 +51,7 @@ class Gathering:
         self.own_nodes = Places(share.nodes[share.owned], ranks)
         self.cells = Places(share.cells, ranks)
         #: Rows of the state of each term that has some, by its key.
-        self.rows = {term.key: Places(term.rows, ranks) for term in (*share.bodies, *share.contacts)}
+        self.rows = {term.key: Places(term.rows, ranks) for term in share.terms if term.rows is not None}
 
     # Whole arrays --------------------------------------------------------------------------------------------
 

@@ -53,7 +53,7 @@ class Outline:
             [twins.of(control) for control in model.controls],
             [twins.of(tool) for tool in model.tools],
             [twins.of(contact) for contact in model.contacts],
-            [twins.of(term) for term in model.others],
+            [_own(term, twins) for term in model.others],
             [None if tie.control is None else twins.of(tie.control) for tie in model.ties],
             [_moving(step, twins) for step in steps],
         )
@@ -77,6 +77,21 @@ class Outline:
     def pieces_for(self) -> list[Any]:
         """All that gets a piece of the mesh, in the order of the pieces of a parcel."""
         return [*self.bodies, *self.controls, *self.tools, *self.contacts, *self.others]
+
+
+def _own(term: Term, twins: Twins) -> Term:
+    """The twin of a term, whose scalar unknowns are its own."""
+    twin = twins.of(term)
+    both = [unknown.name for unknown in term.unknowns if unknown in twin.unknowns]
+    if both:
+        raise InvalidValue(
+            "a term cannot be shared with the solver petsc",
+            where=f"term {type(term).__name__} {term.name!r}",
+            value=", ".join(both),
+            cause="its strip() leaves the scalar unknowns of the whole model in the copy",
+            remedy="bare.unknowns = tuple(twins.of(unknown) for unknown in self.unknowns) in strip()",
+        )
+    return twin
 
 
 def _moving(step: Step, twins: Twins) -> Step:

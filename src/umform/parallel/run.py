@@ -110,6 +110,7 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
             cause="ranks share out single degrees of freedom and pairs of them",
             remedy="another solver in one process, or supports along x, y and z of the undeformed mesh",
         )
+    _refuse_what_cannot_be_cut(model)
     if model.elsewhere:
         raise not_here("the history of the elements")
     if ranks.rank == 0:
@@ -117,11 +118,24 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
     return Outline.of(model, steps)
 
 
+def _refuse_what_cannot_be_cut(model: Model) -> None:
+    """Refuse terms of other kinds that do not say what each rank gets of them."""
+    for term in model.others:
+        if not term.shareable:
+            raise InvalidValue(
+                "a term cannot be shared with the solver petsc",
+                where=f"term {type(term).__name__} {term.name!r}",
+                cause="it does not say what each rank gets of it",
+                remedy="derive it from NodalTerm, or give it strip(), piece() and fill(); or another solver",
+            )
+
+
 def _check_alike(model: Model, ranks: MpiRanks) -> None:
     """Refuse models that are not the same on all ranks."""
     mesh, loads = model.mesh, [load.vector for load in model.of_kind(Load)]
     facets = [contact.facets for contact in model.contacts]
-    mine = digest(mesh.points, mesh.connectivity, model.constrained(), *loads, *facets)
+    coupled = [part.ids for term in model.others for part in term.couples()]
+    mine = digest(mesh.points, mesh.connectivity, model.constrained(), *loads, *facets, *coupled)
     first = ranks.comm.bcast(mine)
     if ranks.any(mine != first):
         raise InvalidValue(
@@ -157,7 +171,7 @@ def _give_back(share: Share, result: History | None) -> None:
     for unknown, own_unknown in zip(whole.unknowns, share.unknowns, strict=True):
         unknown.value = own_unknown.value
     whole.elsewhere = True
-    for thing in (*whole.bodies, *whole.contacts):
+    for thing in (*whole.bodies, *whole.contacts, *whole.others):
         thing.elsewhere = True
         for made in ("block", "_areas", "_no_multipliers"):
             vars(thing).pop(made, None)

@@ -121,10 +121,23 @@ class _Tool:
 
 @dataclass(frozen=True)
 class _State:
-    """What the work to the next state needs of a state: displacement, external nodal forces, tools."""
+    """A state for work and sums of forces.
+
+    Attributes
+    ----------
+    u : ndarray, shape (3 n,)
+        Displacement.
+    forces : ndarray, shape (3 n,)
+        External nodal forces whose work is external.
+    all_forces : ndarray, shape (3 n,)
+        With those of foundations, whose work is among the energies.
+    tools : list of _Tool
+        Tools.
+    """
 
     u: Floats
     forces: Floats
+    all_forces: Floats
     tools: list[_Tool]
 
 
@@ -158,7 +171,7 @@ class ExternalWork:
         """Go on to the converged state of the model, which the evaluation was made at."""
         model = self.model
         tools = [_Tool.of(tool, evaluation, model.ranks) for tool in model.tools]
-        state = _State(model.u.copy(), self._nodal_forces(evaluation), tools)
+        state = _State(model.u.copy(), *self._nodal_forces(evaluation), tools)
         self.energies = energies(model, evaluation)
         if self._before is None:
             self.value = 0.0 if np.isnan(self.energies.total) else self.energies.total
@@ -186,8 +199,8 @@ class ExternalWork:
         self.imbalances = [(force, moment) for force, moment in memory["imbalances"].tolist()]
         self.value, self._largest, self._length = memory["value"], memory["largest"], memory["length"]
 
-    def _nodal_forces(self, evaluation: Evaluation) -> Floats:
-        """Dead loads, pressures and reactions on the nodes."""
+    def _nodal_forces(self, evaluation: Evaluation) -> tuple[Floats, Floats]:
+        """Dead loads, pressures and reactions on the nodes; and the same with the forces of foundations."""
         model = self.model
         forces = evaluation.residual[: model.u.size].copy()  # reactions and hinge forces
         forces[model.free] = 0.0
@@ -196,7 +209,8 @@ class ExternalWork:
             own = term.external_forces(at)
             if own is not None:
                 forces += own
-        return forces
+        held = [own for term in model.others if (own := term.support_forces(at)) is not None]
+        return forces, sum(held, start=forces)
 
     def _work(self, before: _State, state: _State) -> float:
         """Trapezoidal rule over the way from one state to the next. eqs. (5.31), (5.32)"""
@@ -207,7 +221,7 @@ class ExternalWork:
         """Resultants in the current configuration, over the largest magnitudes so far. eq. (5.34)"""
         ranks, owned = self.model.ranks, self.model.owned
         x = (self.model.mesh.points + state.u.reshape(-1, 3))[owned]
-        forces = self.model.sum_at_nodes(state.forces.reshape(-1, 3))[owned]
+        forces = self.model.sum_at_nodes(state.all_forces.reshape(-1, 3))[owned]
         force, moment = ranks.sum(forces.sum(axis=0)), ranks.sum(_moment(x, forces))
         magnitude = ranks.sum(float(np.sqrt((forces * forces).sum(axis=1)).sum()))
         for tool in state.tools:

@@ -183,7 +183,7 @@ def _tree(run: Run) -> dict[str, Any]:
             "factors": solver.memory() if isinstance(solver, Pardiso) else None,
             "loop": None if run.loop is None else run.loop.memory(),
             "model": vars(model.snapshot()),
-            "before": {body.key: body.before for body in model.bodies if body.before.size},
+            "before": {term.key: term.before for term in model.terms if model.ranks.any(term.before.size > 0)},
             "last_dx": run.last_dx,
             "result": _result_tree(run.result),
         }

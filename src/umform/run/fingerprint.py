@@ -18,7 +18,7 @@ import numpy as np
 
 import umform
 from umform.digest import digest
-from umform.model import Model, Tool
+from umform.model import Model, Term, Tool
 from umform.model.contact import Contact
 from umform.model.control import Control
 from umform.solution.newton import Newton
@@ -57,7 +57,7 @@ def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: i
         "supports and loads": text([supports, [_control(control) for control in model.controls]]),
         "contacts": text([_contact(contact) for contact in model.contacts]),
         "tools": text([_tool(tool) for tool in model.tools]),
-        "other terms": text(model.others),
+        "other terms": text([_term(term) for term in model.others]),
         "steps": text(list(steps)),
         "options": text(newton.options),
         "solver": newton.solver,
@@ -84,11 +84,28 @@ def text(value: object, depth: int = 0) -> str:
         return "{" + ", ".join(f"{inner(key)}: {inner(item)}" for key, item in value.items()) + "}"
     if isinstance(value, Control):
         return value.name
+    if isinstance(value, Term):
+        return value.key
     name = type(value).__qualname__
     if dataclasses.is_dataclass(value):
         entries = [(field.name, getattr(value, field.name)) for field in dataclasses.fields(value) if field.compare]
         return f"{name}({', '.join(f'{key}={inner(item)}' for key, item in entries)})"
-    return _function(value, depth) if callable(value) else name
+    if isinstance(value, type) or getattr(value, "__code__", None) or getattr(value, "__func__", None):
+        return _function(value, depth)
+    if isinstance(value, partial):
+        return inner([value.func, value.args, value.keywords])
+    return _object(value, depth)
+
+
+def _object(value: object, depth: int = 0) -> str:
+    """Class of an object with the code of its methods, and what the object holds: two of one class may differ."""
+    kind = type(value)
+    held = dict(sorted(getattr(value, "__dict__", {}).items()))
+    methods = [_function(part, depth) for key, part in sorted(vars(kind).items()) if hasattr(part, "__code__")]
+    if not held and not methods:
+        return getattr(value, "__qualname__", kind.__qualname__)  # of a library, in C for instance
+    check = hashlib.sha256(text([held, methods], depth + 1).encode()).hexdigest()[:32]
+    return f"{kind.__qualname__} {check}"
 
 
 def _control(control: Control) -> str:
@@ -117,10 +134,15 @@ def _tool(tool: Tool) -> str:
     return text([tool.name, tool.surface, *moved, presses])
 
 
+def _term(term: Term) -> str:
+    """All of a term but what changes in a run, and the code of its class."""
+    entries = {name: value for name, value in vars(term).items() if name not in term.memory}
+    methods = [_function(part, 0) for _, part in sorted(vars(type(term)).items()) if hasattr(part, "__code__")]
+    return f"{type(term).__qualname__} {text([entries, methods])}"
+
+
 def _function(function: Any, depth: int) -> str:
-    """Name and digest of a function, of a method with its object, or the name of another thing that can be called."""
-    if isinstance(function, partial):
-        return text([function.func, function.args, function.keywords], depth + 1)
+    """Name and digest of a function or of a method with its object, or the name of a class."""
     owner = getattr(function, "__self__", None)
     function = getattr(function, "__func__", function)
     code = getattr(function, "__code__", None)

@@ -1,6 +1,6 @@
 """Linear systems with a border: scalar unknowns beside those at the nodes, solved with the factors of the tangent.
 
-[K B; C D] [q; z] = [r; s]: K is factorised as it is, and a dense system of the few scalar unknowns remains. eq. (5.43)
+[K B; C D] [q; z] = [r; s]: K is factorised as it is, and a dense system of the few scalar unknowns remains. eq. (5.48)
 """
 
 from __future__ import annotations

@@ -222,29 +222,38 @@ class Newton:
 
     def _advance(self, u: Floats, du: Floats, r: Floats, manner: Manner) -> tuple[Floats, Evaluation, float]:
         """Take the increment, shortened by the line search if that is wanted. eq. (5.12)"""
-        system = self.system
-        s = 1.0
-        x = system.coefficients(du)
-        slope = system.ranks.dot(r, x)
-        for _ in range(_LINE_SEARCH_TRIALS):
-            system.recover(du, s, manner.mixed)
-            trial = u + s * du
-            evaluation = system.evaluate(trial)
-            if not manner.line_search:
-                break
-            along = system.ranks.dot(system.restrict(evaluation.residual), x) if evaluation.failed < 0 else np.inf
-            if abs(along) <= 0.8 * abs(slope):
-                break
-            # Evaluation is pure: put the parameters back and evaluate at u again, and nothing of the trial is left.
-            system.undo_recover()
-            system.evaluate(u)
+        system, s = self.system, 1.0
+        system.recover(du, s, manner.mixed)
+        trial = u + du
+        evaluation = system.evaluate(trial)
+        if not manner.line_search:
+            return trial, evaluation, s
+        slope = system.ranks.dot(r, system.coefficients(du))
+        along = self._along(du, evaluation)
+        if abs(along) <= 0.8 * abs(slope):
+            return trial, evaluation, s
+        # The parameters go back to u, and with them the blocks that they are recovered with.
+        system.undo_recover()
+        system.evaluate(u)
+        for number in range(_LINE_SEARCH_TRIALS):
             secant = s * slope / (slope - along) if np.isfinite(along) and slope != along else 0.5 * s
             s = min(max(secant, 0.25 * s), 0.5 * s)
-        else:
             system.recover(du, s, manner.mixed)
             trial = u + s * du
-            evaluation = system.evaluate(trial)
-        return trial, evaluation, s
+            if number == _LINE_SEARCH_TRIALS - 1:
+                break
+            along = self._along(du, system.evaluate(trial, tangent=False))
+            if abs(along) <= 0.8 * abs(slope):
+                break
+            system.undo_recover()
+        return trial, system.evaluate(trial), s
+
+    def _along(self, du: Floats, evaluation: Evaluation) -> float:
+        """Residual along an increment; infinite where a cell has none."""
+        if evaluation.failed >= 0:
+            return math.inf
+        system = self.system
+        return system.ranks.dot(system.restrict(evaluation.residual), system.coefficients(du))
 
     def ready_solver(self) -> Bordered:
         """Return the solver that has analysed the present pattern."""

@@ -116,7 +116,7 @@ class System(Protocol):
         """Unknowns in a displacement of all degrees of freedom and scalar unknowns. eq. (5.18)"""
 
     def extend(self, x: Floats) -> Floats:
-        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eq. (5.17)"""
+        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eqs. (5.17), (5.46)"""
 
     def prescribed_displacement(self) -> Floats:
         """Displacement that the supports prescribe, zero elsewhere, shape (3 n,)."""
@@ -127,8 +127,8 @@ class System(Protocol):
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry of the tangent."""
 
-    def evaluate(self, x: Floats, du: Floats | None = None) -> Evaluation:
-        """Residual and tangent."""
+    def evaluate(self, x: Floats, du: Floats | None = None, *, tangent: bool = True) -> Evaluation:
+        """Residual and tangent, or the residual alone, which leaves the blocks of enhanced parameters as they are."""
 
     def recover(self, du: Floats, s: float, mixed: bool = False) -> None:
         """Update condensed parameters; the next tangent may be mixed, of the stress that the increment foresaw."""

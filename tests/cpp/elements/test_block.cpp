@@ -89,7 +89,7 @@ void check_inside_out() {
         CHECK(evaluate(elements, row).failed == -1);
         row.stretch(e, 2, -1.0);  // a mirror image: E is zero
         const Outcome outcome = evaluate(elements, row);
-        CHECK(outcome.failed == e && outcome.failure == Failure::inverted);
+        CHECK(outcome.failed == e && outcome.failure == Failure::Inverted);
         CHECK(std::isnan(elements.energy(row.u.data()).elastic));
         std::vector<double> K(24 * 24), f(24);
         const std::string what = message([&] { elements.element(e, row.u.data(), K.data(), f.data()); });
@@ -114,7 +114,7 @@ void check_points() {
     const Row row;
     ShellBlockOf<8> along_x = block(row, Curious{}), along_y = block(row, Curious{}, {0.0, 3.0, 0.1});
     along_x.step = along_y.step = 0.25;
-    CHECK(evaluate(along_x, row).failure == Failure::law);
+    CHECK(evaluate(along_x, row).failure == Failure::Law);
     CHECK(evaluate(along_y, row).failed == -1);
     along_y.step = 0.5;
     CHECK(evaluate(along_y, row).failed == 0);

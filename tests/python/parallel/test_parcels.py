@@ -13,6 +13,7 @@ from umform.deck import load
 from umform.deck.templates import template_file
 from umform.errors import InvalidValue
 from umform.mesh import strip
+from umform.model import Body, NodalTerm
 from umform.model.control import Prescribed
 from umform.model.dead_load import Load
 from umform.model.pressure import Pressure
@@ -27,8 +28,21 @@ def wave(fraction):
     return np.sin(fraction)
 
 
+class Bed(NodalTerm):
+    """Springs of their own stiffness below each node, which remember something."""
+
+    each_node = ("stiffness",)
+
+    def __init__(self, nodes, stiffness):
+        super().__init__("bed", nodes, history=2)
+        self.stiffness = stiffness
+
+    def respond(self, u, history, at):
+        return self.stiffness[:, None] * u, self.stiffness[:, None, None] * np.eye(3), history
+
+
 def sheet(cells=12, motion=None):
-    """Everything that a share may have: supports, ties, loads, a pressure, two contacts, a tool that is driven."""
+    """All that a share may have: supports, ties, loads, a pressure, contacts, a tool that is driven, a foundation."""
     model = uf.Model(strip(float(cells), 4.0, 1.0, (cells, 4)), material=uf.SVK(E=210e3, nu=0.3))
     model.hinge(lambda x, y, z: (x < 1e-9) & (y < 2.5), "xz")
     end = model.prescribe_midline("x1", "z", "end")
@@ -41,6 +55,8 @@ def sheet(cells=12, motion=None):
     stroke = model.drive(punch, "-z", "stroke")
     if motion is not None:
         model.set_motion(die, motion)
+    nodes = model.mesh.nodes("lower")
+    model.add(Bed(nodes, 1.0 + np.arange(len(nodes))))
     return model, [uf.Move([end, stroke], [0.1, wave], steps=2), uf.Release(stroke)]
 
 
@@ -123,17 +139,32 @@ def test_controls_ties_and_contacts_are_parted_too():
 def test_a_begun_state_goes_along():
     model, _ = sheet()
     model.block.restore(model.block.state, np.random.default_rng(3).normal(size=model.block.alpha.shape))
-    contact = model.contacts[1]
-    count = len(contact.block.gaps)
-    contact.restore({"history": np.arange(float(count)).reshape(len(contact.facets), -1, 1)})
+    begun = model.contacts[1].state()["history"]
+    begun[..., 0] = np.arange(float(begun[..., 0].size)).reshape(begun[..., 0].shape)
+    model.contacts[1].restore({"history": begun})
     cut = parcels(model)
     (bodies,), (_, punch) = pieces(cut, model, "bodies"), pieces(cut, model, "contacts")
-    for one, body, (_, facets, of_points) in zip(cut, bodies, punch, strict=True):
-        np.testing.assert_array_equal(one.cells[body["cells"]], body["rows"])
-        np.testing.assert_array_equal(body["numbers"], body["rows"])
-        np.testing.assert_array_equal(body["history"]["history"], model.block.state[body["rows"]])
-        np.testing.assert_array_equal(body["history"]["alpha"], model.block.alpha[body["rows"]])
-        np.testing.assert_array_equal(of_points["history"][:, 0, 0], 9.0 * facets)
+    for one, body, (_, facets, contact) in zip(cut, bodies, punch, strict=True):
+        rows, history = body["rows"], body["history"]
+        np.testing.assert_array_equal(one.cells[body["cells"]], rows)
+        np.testing.assert_array_equal(history["history"], model.block.state[rows])
+        np.testing.assert_array_equal(history["alpha"], model.block.alpha[rows])
+        np.testing.assert_array_equal(contact["history"][:, 0, 0], 9.0 * facets)
+
+
+def test_each_node_of_a_term_is_on_one_rank_with_what_belongs_to_it():
+    model, _ = sheet()
+    (bed,) = model.others
+    bed.history = np.random.default_rng(4).normal(size=bed.history.shape)
+    cut = parcels(model)
+    (mine,) = pieces(cut, model, "others")
+    nodes = np.concatenate([one.nodes[part["nodes"]] for one, part in zip(cut, mine, strict=True)])
+    np.testing.assert_array_equal(np.sort(nodes), bed.nodes)
+    for one, part in zip(cut, mine, strict=True):
+        assert np.isin(part["nodes"], one.owned).all()
+        np.testing.assert_array_equal(one.nodes[part["nodes"]], bed.nodes[part["rows"]])
+        np.testing.assert_array_equal(part["stiffness"], bed.stiffness[part["rows"]])
+        np.testing.assert_array_equal(part["history"], bed.history[part["rows"]])
 
 
 def test_a_parcel_and_the_outline_know_nothing_of_the_size_of_the_whole():
@@ -142,6 +173,21 @@ def test_a_parcel_and_the_outline_know_nothing_of_the_size_of_the_whole():
     assert size_of(parcels(small[0])[1]) == size_of(parcels(large[0])[1]) > 0
     assert size_of(parcels(large[0])[2]) > 10 * size_of(parcels(small[0])[2])
     assert len(pickle.dumps(Outline.of(*small))) == len(pickle.dumps(Outline.of(*large)))
+
+
+def test_what_chose_the_cells_of_bodies_stays_with_the_first_rank():
+    sizes = []
+    for columns in (12, 120):
+        mesh = strip(float(columns), 4.0, 1.0, (columns, 4))
+        left = np.arange(len(mesh.connectivity)) < 24
+        rolling = np.tile((1.0, 0.0, 0.0), (24, 1))
+        law = uf.SVK(E=210e3, nu=0.3)
+        bodies = [
+            Body(material=law, cells=left, name="left", rolling=rolling),
+            Body(material=law, cells=np.flatnonzero(~left), name="right"),
+        ]
+        sizes.append(len(pickle.dumps(Outline.of(uf.Model(mesh, bodies=bodies)))))
+    assert sizes[0] == sizes[1]
 
 
 def test_an_outline_is_the_same_on_the_other_side():

@@ -37,7 +37,7 @@ class Given:
     def prescribed_displacement(self):
         return np.zeros(1)
 
-    def evaluate(self, u, du=None):
+    def evaluate(self, u, du=None, *, tangent=True):
         self.count += 1
         residual = np.array([self.residuals[min(self.count, len(self.residuals)) - 1]])
         return SimpleNamespace(

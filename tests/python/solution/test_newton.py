@@ -253,9 +253,9 @@ class Scalar:
     def displacement_of_supports(self, values):
         return np.zeros(1)
 
-    def evaluate(self, x, du=None):
+    def evaluate(self, x, du=None, *, tangent=True):
         at = float(x[0])
-        self.calls.append("evaluate")
+        self.calls.append("evaluate" if tangent else "forces")
         return SimpleNamespace(
             x=x, residual=np.array([self.residual(at)]), values=np.array([self.slope(at)]), predictor=np.zeros(1),
             force_scale=self.scale, failed=4 if abs(at) > 1e6 else -1, failure="is out of its domain", round_off=0.0,
@@ -296,8 +296,12 @@ def test_each_trial_of_the_line_search_is_taken_back_before_the_next():
     Newton(system, NewtonOptions(line_search=True)).solve()
     at = [k for k, call in enumerate(system.calls) if call == "undo"]
     assert at
-    for k in at:  # trial, undo, evaluation at the point of departure, next trial
-        assert system.calls[k - 2 : k + 3] == ["recover", "evaluate", "undo", "evaluate", "recover"]
+    for k in at:
+        if system.calls[k - 1] == "evaluate":  # the whole step: the blocks at the point of departure are wanted again
+            assert system.calls[k - 2 : k + 3] == ["recover", "evaluate", "undo", "evaluate", "recover"]
+        else:  # a shorter one asks for forces alone, which leave these blocks as they are
+            assert system.calls[k - 2 : k + 2] == ["recover", "forces", "undo", "recover"]
+    assert "forces" in system.calls
 
 
 # Giving up --------------------------------------------------------------------------------------------------

@@ -20,22 +20,22 @@ struct Target {
 
 /// Why an element has no residual.
 enum class Failure : char {
-    none,
-    inverted,   // det J of the current configuration is not positive at a Gauss point
-    law,        // its law has no answer
-    condensed,  // its enhanced parameters cannot be eliminated
+    None,
+    Inverted,   // det J of the current configuration is not positive at a Gauss point
+    Law,        // its law has no answer
+    Condensed,  // its enhanced parameters cannot be eliminated
 };
 
 /// Why an element has no residual, in words that follow "cell 7 "; empty if it has one.
 inline const char* describe(Failure failure) {
     switch (failure) {
-        case Failure::none:
+        case Failure::None:
             return "";
-        case Failure::inverted:
+        case Failure::Inverted:
             return "is turned inside out: det F is not positive at one of its Gauss points";
-        case Failure::law:
+        case Failure::Law:
             return "is strained beyond the domain of its material law, or the law found no stress";
-        case Failure::condensed:
+        case Failure::Condensed:
             return "is strained so far that its enhanced parameters cannot be eliminated";
     }
     return "";
@@ -45,7 +45,7 @@ inline const char* describe(Failure failure) {
 /// residual is measured against.
 struct Outcome {
     int failed = -1;
-    Failure failure = Failure::none;
+    Failure failure = Failure::None;
     double force_scale_squared = 0.0;
 };
 

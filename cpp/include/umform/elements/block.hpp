@@ -56,7 +56,7 @@ class ShellBlockOf final : public ShellBlock {
             for (int lane = 0; lane < batch.count; ++lane) {
                 const int e = batch.element[lane];
                 failed_[e] = failures[lane];
-                if (failed_[e] != Failure::none) continue;
+                if (failed_[e] != Failure::None) continue;
                 const std::array<double, size>& f = w.results.f[lane];
                 scale_[e] = dot(f, f);
                 scatter_element<Nodes>(part_, scatter, e, w.results.K[lane].data(), f.data(), target, !symmetric());
@@ -64,7 +64,7 @@ class ShellBlockOf final : public ShellBlock {
         });
         Outcome outcome;
         for (int e = 0; e < part_.size(); ++e) {
-            if (failed_[e] != Failure::none && outcome.failed < 0) outcome.failed = e, outcome.failure = failed_[e];
+            if (failed_[e] != Failure::None && outcome.failed < 0) outcome.failed = e, outcome.failure = failed_[e];
             outcome.force_scale_squared += scale_[e];
         }
         return outcome;
@@ -229,9 +229,9 @@ class ShellBlockOf final : public ShellBlock {
                      const LaneTrials& trial, Workspace& w) const {
         Failures failures{};
         LaneMask good = strains(batch, u, alpha_, w);
-        mark(good, Failure::inverted, failures);
+        mark(good, Failure::Inverted, failures);
         good = respond(batch, good, trial, w);
-        mark(good | !batch.filled(), Failure::law, failures);
+        mark(good | !batch.filled(), Failure::Law, failures);
         if (!any(good)) return failures;
         const bool corrected = tangent && !correction.empty();  // only the geometric stiffness knows the correction
         if (corrected) {
@@ -239,7 +239,7 @@ class ShellBlockOf final : public ShellBlock {
             element_.quadratic_strains(w.u, w.shell);
         }
         element_.integrate({tangent, corrected}, w.shell);
-        mark(element_.condense(tangent, w.shell), Failure::condensed, failures);
+        mark(element_.condense(tangent, w.shell), Failure::Condensed, failures);
         w.results.set_forces(w.shell.f.data());
         if (!tangent) return failures;
         if (symmetric())
@@ -251,11 +251,11 @@ class ShellBlockOf final : public ShellBlock {
 
     static void mark(LaneMask good, Failure why, Failures& failures) {
         for (int lane = 0; lane < lane_count; ++lane)
-            if (!good[lane] && failures[lane] == Failure::none) failures[lane] = why;
+            if (!good[lane] && failures[lane] == Failure::None) failures[lane] = why;
     }
 
     void require(int e, Failure failure) const {
-        if (failure != Failure::none)
+        if (failure != Failure::None)
             throw std::domain_error("cell " + std::to_string(number_of(e)) + " " + describe(failure));
     }
 

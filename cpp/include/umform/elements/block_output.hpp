@@ -32,8 +32,8 @@ void ShellBlockOf<Nodes>::fields(const double* u, const PointFields& out) {
     std::vector<double> scratch(history_.stride());  // trial stays as it is
     for (int e = 0; e < part_.size(); ++e) {
         const Batch batch = alone(e);
-        require(e, strains(batch, u, alpha_, w)[0] ? Failure::none : Failure::inverted);
-        require(e, respond(batch, true, filled(scratch.data()), w)[0] ? Failure::none : Failure::law);
+        require(e, strains(batch, u, alpha_, w)[0] ? Failure::None : Failure::Inverted);
+        require(e, respond(batch, true, filled(scratch.data()), w)[0] ? Failure::None : Failure::Law);
         for (int q = 0; q < points(); ++q) {
             const std::size_t at = static_cast<std::size_t>(e) * points() + q;
             for (int p = 0; p < 6; ++p) {

@@ -1,0 +1,178 @@
+"""A run in stages: each has a mesh, bodies and tools of its own, and begins where the one before has ended.
+
+One stage is a run of :func:`umform.solve`. Between two of them a part may be trimmed, meshed again or laid into other
+tools.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from umform.errors import InvalidValue
+from umform.model import Model, Snapshot
+from umform.run.execute import resume, solve
+from umform.run.result import Result
+from umform.steps import Step
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A stretch of a run with one mesh and one set of bodies.
+
+    Parameters
+    ----------
+    name : str
+        For results and checkpoints: letters, digits, hyphens and underscores.
+    build : callable
+        Gets the result of the stage before, None for the first one, and returns the model and its steps.
+    """
+
+    name: str
+    build: Callable[[Result | None], tuple[Model, Sequence[Step] | Step]]
+
+    def __post_init__(self) -> None:
+        if not re.fullmatch(r"[\w-]+", self.name):
+            raise InvalidValue(
+                "the name of a stage has letters, digits, hyphens and underscores",
+                value=self.name,
+                cause="it is the name of its checkpoint, too",
+                remedy="a name such as draw or trim-1",
+            )
+
+
+class StagedResult:
+    """Results of the stages of a run, in their order.
+
+    Attributes
+    ----------
+    results : dict of str to Result
+        Result of each stage by its name.
+    """
+
+    def __init__(self) -> None:
+        self.results: dict[str, Result] = {}
+
+    def __getitem__(self, name: str) -> Result:
+        """Result of a stage."""
+        if name not in self.results:
+            raise InvalidValue(
+                "the run has no such stage", value=name, remedy="one of " + (", ".join(self.results) or "none so far")
+            )
+        return self.results[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.results)
+
+    def __len__(self) -> int:
+        return len(self.results)
+
+    def table(self) -> dict[str, Any]:
+        """Histories of all stages below each other, with the column ``stage``; NaN where a stage lacks a column."""
+        columns = dict.fromkeys(name for result in self.results.values() for name in result.columns())
+        rows = {name: len(result) for name, result in self.results.items()}
+        table: dict[str, Any] = {"stage": np.repeat(list(rows), list(rows.values()))}
+        for column in columns:
+            parts = [
+                result[column] if column in result.columns() else np.full(len(result), np.nan)
+                for result in self.results.values()
+            ]
+            table[column] = np.concatenate(parts)
+        return table
+
+
+def solve_stages(
+    stages: Sequence[Stage], *, checkpoints: str | PathLike[str] | None = None, **options: Any
+) -> StagedResult:
+    """Run stages one after the other.
+
+    Parameters
+    ----------
+    stages : sequence of Stage
+        What happens, in a row.
+    checkpoints : str or PathLike, optional
+        Folder for the checkpoint of each stage. Stages whose checkpoint lies there already are taken up from it, to
+        the same bits; so the same call continues a run that was stopped.
+    **options
+        See :func:`umform.solve`; they hold for all stages.
+
+    Returns
+    -------
+    StagedResult
+
+    Raises
+    ------
+    InvalidValue
+        If two stages have the same name.
+    NoConvergence, FileProblem
+        See :func:`umform.solve` and :func:`umform.resume`. An exception carries the results of the stages so far as its
+        attribute ``stages``.
+    """
+    names = [stage.name for stage in stages]
+    if not names or len(set(names)) < len(names):
+        raise InvalidValue("stages have different names, and there is one at least", value=", ".join(names))
+    reached, before = StagedResult(), None
+    for number, stage in enumerate(stages, start=1):
+        file = None if checkpoints is None else Path(checkpoints) / f"{number}-{stage.name}.h5"
+        if file is not None:
+            file.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            before = _result_of(stage, before, file, options)
+        except BaseException as error:
+            error.stages = reached  # type: ignore[attr-defined]
+            raise
+        reached.results[stage.name] = before
+    return reached
+
+
+def _result_of(stage: Stage, before: Result | None, file: Path | None, options: dict[str, Any]) -> Result:
+    model, steps = stage.build(before)
+    if file is not None and file.exists():
+        return resume(file, model, steps, **options)
+    return solve(model, steps, checkpoint=file, **options)
+
+
+def continued(model: Model, before: Result) -> Model:
+    """Let a model of the same mesh and bodies begin in the state that a run has ended in.
+
+    Parameters
+    ----------
+    model : Model
+        The model of the next stage, with tools, supports and loads of its own. Supports that are put in place later
+        with ``here=True`` hold the nodes where they are then.
+    before : Result
+        Result of the stage before.
+
+    Returns
+    -------
+    Model
+        The model.
+
+    Raises
+    ------
+    InvalidValue
+        If the meshes or the bodies differ.
+    """
+    old = before.model
+    same = np.array_equal(old.mesh.connectivity, model.mesh.connectivity) and np.array_equal(
+        old.mesh.points, model.mesh.points
+    )
+    bodies = [(body.name, body.element, body.material, body.cells.tolist()) for body in model.bodies]
+    if not same or bodies != [(b.name, b.element, b.material, b.cells.tolist()) for b in old.bodies]:
+        raise InvalidValue(
+            "a stage continues with the mesh and the bodies of the stage before",
+            where="continued()",
+            cause="another mesh, element or law",
+            remedy="build the model from the mesh and the bodies of the stage before; values on another mesh are not "
+            "interpolated",
+        )
+    state = old.snapshot()
+    terms = {body.key: state.terms[body.key] for body in old.bodies}
+    model.restore(Snapshot(state.u, terms=terms))
+    return model
