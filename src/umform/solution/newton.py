@@ -10,7 +10,6 @@ import logging
 import math
 import time as clock
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeVar
 
@@ -21,7 +20,7 @@ from umform.errors import NotFinite, SingularMatrix
 from umform.solution.bordered import Bordered
 from umform.solution.criteria import Chatter, Criteria, largest
 from umform.solution.factor_reuse import Reuse
-from umform.solution.options import NewtonOptions
+from umform.solution.options import Manner, NewtonOptions
 from umform.solution.records import Converged, Failed, Iteration
 from umform.solution.system import Evaluation, System
 from umform.solution.timed_solver import TimedSolver
@@ -35,25 +34,6 @@ _T = TypeVar("_T")
 
 #: Each trial is at least a quarter of the one before: thin sheets, whose energy is a narrow bent valley, creep else.
 _LINE_SEARCH_TRIALS = 3
-
-
-@dataclass(frozen=True)
-class Manner:
-    """How iterations are made.
-
-    Attributes
-    ----------
-    line_search : bool
-        Whether the residual along an increment may judge its length.
-    reuses : bool
-        Whether the factors of the iteration before may serve for the next one.
-    mixed : bool
-        Whether the geometric stiffness is that of the stress which the last increment foresaw. eq. (5.39)
-    """
-
-    line_search: bool
-    reuses: bool
-    mixed: bool
 
 
 class Newton:

@@ -46,3 +46,22 @@ class NewtonOptions:
             raise InvalidValue("tolerances and iterations must be positive", where="NewtonOptions", value=self)
         if self.factor_cost is not None and not self.factor_cost >= 0:
             raise InvalidValue("a cost is zero or more", where="factor_cost", value=self.factor_cost)
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How iterations are made.
+
+    Attributes
+    ----------
+    line_search : bool
+        Whether the residual along an increment may judge its length.
+    reuses : bool
+        Whether the factors of the iteration before may serve for the next one.
+    mixed : bool
+        Whether the geometric stiffness is that of the stress which the last increment foresaw. eq. (5.39)
+    """
+
+    line_search: bool
+    reuses: bool
+    mixed: bool

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.model import Model
-from umform.solution.newton import Manner, Newton
+from umform.solution.newton import Newton
+from umform.solution.options import Manner
 from umform.solution.records import Converged, Failed
 from umform.solution.system import Evaluation
 from umform.solvers import Factorisation
