@@ -149,7 +149,7 @@ lint-python: $(VENV)/.dev
 
 lint-imports: $(VENV)/.dev
 	$(SAY) 'direction of imports'
-	@PYTHONPATH=src $(BIN)/lint-imports --no-cache > $(BUILD)/imports.log || { cat $(BUILD)/imports.log; exit 1; }
+	@PYTHONPATH=src $(BIN)/lint-imports --no-cache --no-logo > $(VENV)/imports.log || { cat $(VENV)/imports.log; exit 1; }
 
 lint-types: $(VENV)/.dev
 	$(SAY) 'mypy'

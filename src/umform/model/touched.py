@@ -17,7 +17,8 @@ from umform.model.contact.settings import contact_settings
 from umform.model.controls import Controlled
 from umform.model.now import Now
 from umform.model.term import Global
-from umform.model.tool import Motion, Press, Tool, ToolForce, ToolMotion, ToolTurn, check_spring, turn_of
+from umform.model.tool import Motion, Tool
+from umform.model.tool_controls import Press, ToolForce, ToolMotion, ToolTurn, check_spring, turn_of
 from umform.surfaces import Direction, Surface, unit_vector
 
 

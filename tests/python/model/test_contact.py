@@ -13,7 +13,7 @@ from umform import materials as mt
 from umform.errors import InvalidValue, NoConvergence, NotFinite, RigidBodyMotion
 from umform.mesh import strip
 from umform.model import Model, forces
-from umform.model.contact.pair import hat_functions
+from umform.model.contact.points import hat_functions
 from umform.results import fields
 from umform.run import solve
 from umform.solution.options import NewtonOptions

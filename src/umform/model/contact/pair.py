@@ -3,29 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
-from functools import cached_property, partial
-from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
 from umform.errors import ModelError
-from umform.mesh import FACE_NODES, Ids, Mesh, Selector
+from umform.mesh import Mesh
 from umform.model.contact.found import ContactFound, ContactPoints
-from umform.model.contact.settings import ContactSettings
-from umform.model.control import Control, Twins
-from umform.model.cut import Cut
-from umform.model.elsewhere import not_here
-from umform.model.term import At, Energies, Found, Into, Term, Tree
-from umform.model.tool import Pose, Tool
+from umform.model.contact.points import PairPoints, hat_functions
+from umform.model.control import Control
+from umform.model.term import At, Energies, Found, Into, Tree
+from umform.model.tool import Pose
 from umform.ranks import Ranks
 
 Floats = NDArray[np.float64]
 
 
-class Contact(Term):
+class Contact(PairPoints):
     """Frictionless contact of faces with one tool, held by a penalty and, where wanted, multipliers.
 
     docs/theory, chapter 4. Made by :meth:`umform.Model.contact`.
@@ -46,85 +41,6 @@ class Contact(Term):
 
     timed_as = "contact"
     within_bodies = True
-
-    def __init__(self, mesh: Mesh, faces: Selector, tool: Tool, settings: ContactSettings, name: str) -> None:
-        self.name = name
-        self.tool = tool
-        self._settings, self._penalty = settings, settings.penalty
-        self._meet(mesh, mesh.face_set(faces))
-        self.elsewhere = False
-        self._last: ContactFound | None = None
-
-    def _meet(self, mesh: Mesh, faces: Ids) -> None:
-        #: Rows (cell, number of the face), and the nodes of these facets.
-        self.faces: Ids = faces
-        self.facets: Ids = mesh.facets_of(faces)
-        #: Nodes of all cells that bear a facet, those of the far face too.
-        self.nodes: Ids = np.unique(mesh.connectivity[faces[:, 0]])
-        self._mesh_points = mesh.points
-
-    # Settings ------------------------------------------------------------------------------------------------
-
-    @property
-    def points(self) -> int | str:
-        """Gauss points per direction and facet, or "nodes"; fixed when the pair is made."""
-        return self._settings.points
-
-    @property
-    def allowed(self) -> float | None:
-        """Penetration that is allowed; None where only a penalty was given."""
-        return self._settings.allowed
-
-    @allowed.setter
-    def allowed(self, value: float | None) -> None:
-        self._settings = replace(self._settings, allowed=value)
-
-    @property
-    def augmented(self) -> bool:
-        """Whether multipliers take the penetration away that is not allowed."""
-        return self._settings.augmented
-
-    @property
-    def penalty(self) -> float:
-        """Pressure per penetration."""
-        return self._penalty
-
-    @penalty.setter
-    def penalty(self, value: float) -> None:
-        self._penalty = value
-        if "block" in vars(self):
-            self.block.penalty = value
-
-    @cached_property
-    def block(self) -> _core.ContactBlock:
-        """The contact points: made when first asked for.
-
-        Raises
-        ------
-        ModelError
-            If the model was solved on many ranks: each had the points of its own facets.
-        """
-        if self.elsewhere:
-            raise self._not_here()
-        at_nodes = isinstance(self.points, str)
-        per_side = 1 if isinstance(self.points, str) else self.points
-        law = _core.penalty_law(self.penalty)
-        block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self.tool.kernel, law)
-        block.name = f"contact {self.name}"
-        return block
-
-    @property
-    def symmetric(self) -> bool:  # type: ignore[override]
-        """Whether the tangent of its law is."""
-        return self.block.symmetric
-
-    @property
-    def multipliers(self) -> Floats:
-        """Multipliers of the converged state at the contact points; zero without augmentation."""
-        return self.block.state[:, 0]
-
-    def _not_here(self) -> ModelError:
-        return not_here(f"the state of contact {self.name}")
 
     # Term ----------------------------------------------------------------------------------------------------
 
@@ -171,42 +87,6 @@ class Contact(Term):
             return np.zeros_like(x)
         (rotation, shift), (rotation_then, shift_then) = pose, self.tool.pose(at.values, at.until)
         return (x - shift) @ rotation @ rotation_then.T + shift_then - x
-
-    def _found(self, scale: float, u: Floats, pose: Pose) -> ContactFound:
-        """What the kernel knows now of the points that are held, copied; the rest is measured when it is asked for."""
-        block = self.block
-        held = block.found()
-        multiplier = block.multipliers if self.augmented else self._no_multipliers
-        measure = partial(self._measured, u, pose)
-        return ContactFound(
-            scale,
-            held.round_off_squared,
-            held=held,
-            measure=measure,
-            area=self._areas,
-            multiplier=multiplier,
-            penalty=self.penalty,
-        )
-
-    @cached_property
-    def _areas(self) -> Floats:
-        return self.block.areas
-
-    @cached_property
-    def _no_multipliers(self) -> Floats:
-        return np.zeros(self._areas.size)
-
-    def _measured(self, u: Floats, pose: Pose) -> tuple[Floats, Floats, Floats]:
-        """Positions, gaps and normals of all points at a displacement, with the tool in a pose."""
-        self.block.set_pose(*pose)
-        self.block.locate(u)
-        return self.block.positions, self.block.gaps, self.block.normals
-
-    def locate(self, u: Floats, pose: Pose) -> ContactFound:
-        """What would be found at a displacement, with the tool in a pose; no force and no tangent."""
-        self.block.set_pose(*pose)
-        self.block.locate(u)
-        return self._found(0.0, u, pose)
 
     def stand(self, found: ContactFound) -> None:
         """Keep what was found at the converged state."""
@@ -321,12 +201,6 @@ class Contact(Term):
         weight = self.penalty * np.where(found.active, way, 0.0) * found.area
         self._spread(weight[:, None] * found.held_normal, change)
 
-    def _spread(self, forces: Floats, change: Floats) -> None:
-        """Add forces (points, 3) at the contact points to their nodes. eq. (4.9)"""
-        N = self.block.shape_values
-        nodal = np.einsum("qa,eqk->eak", N, forces.reshape(len(self.facets), len(N), 3))
-        np.add.at(change.reshape(-1, 3), self.facets, nodal)
-
     # Output --------------------------------------------------------------------------------------------------
 
     def at_nodes(
@@ -357,55 +231,3 @@ class Contact(Term):
         total, area, gap, known = add(shares).T
         pressure = np.divide(total, area, out=np.zeros(count), where=area > 0)
         return pressure, np.divide(gap, known, out=np.full(count, np.nan), where=known > 0)
-
-    @property
-    def pose(self) -> Pose:
-        """Where its tool stands now: rotation and shift."""
-        return self.tool.pose_now
-
-    def gap(self, x: Floats, pose: Pose | None = None) -> Floats:
-        """Signed distance of positions (n, 3) to the tool, where it stands now or in a pose; shape (n,)."""
-        rotation, shift = self.pose if pose is None else pose
-        return self.tool.kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0]
-
-    # Ranks ---------------------------------------------------------------------------------------------------
-
-    def strip(self, bare: Self, twins: Twins) -> None:
-        """Without faces and points, of the twin of its tool."""
-        for made in ("block", "_areas", "_no_multipliers", "faces", "facets", "nodes", "_mesh_points", "_last"):
-            bare.__dict__.pop(made, None)
-        bare.tool = twins.of(self.tool)
-
-    def piece(self, cut: Cut) -> tuple[Ids, NDArray[np.int64], Tree | None]:
-        """Faces of the rank, which rows of this contact they are, and their history if there is any yet."""
-        faces, rows = cut.faces_of(self.faces)
-        history = {name: values[rows] for name, values in self.state().items()} if "block" in vars(self) else None
-        return faces, rows, history
-
-    def fill(self, piece: tuple[Ids, NDArray[np.int64], Tree | None], mesh: Any) -> None:
-        """Take faces and history."""
-        faces, self.rows, history = piece
-        self._last = None
-        self._meet(mesh, faces)
-        if history is not None:
-            self.restore(history)
-
-
-def hat_functions(N: Floats) -> Floats:
-    """Piecewise bilinear functions between the nodes of a face at the places where its shape functions are N.
-
-    Parameters
-    ----------
-    N : ndarray, shape (points, nodes)
-        Shape functions of a face of 4 or 9 nodes.
-
-    Returns
-    -------
-    ndarray, shape (points, nodes)
-        N itself on 4-node faces; on 9-node faces the hats (1 - |r - r_a|)(1 - |s - s_a|) of their four quarters.
-    """
-    if N.shape[1] == 4:
-        return N
-    distance = np.abs((N @ FACE_NODES)[:, None, :] - FACE_NODES)
-    hats: Floats = np.maximum(1.0 - distance, 0.0).prod(axis=-1)
-    return hats
