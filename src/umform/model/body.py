@@ -79,6 +79,7 @@ class Body(Term):
     """
 
     timed_as = "elements"
+    fixed = ("element", "material", "thickness_points", "thickness_rule", "rolling")
 
     def __init__(
         self,

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.model.control import Control, Twins
 from umform.model.cut import Cut
+from umform.model.frozen import Frozen
 from umform.model.into import At, Border, Global, Into
 from umform.ranks import Ranks
 
@@ -84,7 +85,7 @@ class Energies:
         return self.elastic + self.plastic + self.contact
 
 
-class Term:
+class Term(Frozen):
     """Something that adds to the residual; a new kind of it says what differs from nothing.
 
     Attributes

@@ -54,6 +54,7 @@ class Tool(Term):
     """
 
     timed_as = "contact"
+    fixed = ("surface",)
 
     def __init__(self, name: str, surface: Surface, now: Now) -> None:
         if not isinstance(surface, Surface):

@@ -263,3 +263,23 @@ def test_a_solver_sees_the_border_only_where_there_is_one():
     solver.factor(evaluation)
     whole = solver.solve(model.restrict(np.ones(model.u.size + 1)))
     assert whole.size == plain.size + 1
+
+
+def test_what_is_fixed_when_a_thing_is_made_cannot_be_set():
+    """A setting that would have no effect any more is refused, and the kernels keep what they have."""
+    model, punch = beam()
+    contact, body = model.contacts[0], model.bodies[0]
+    for thing, name, value in (
+        (contact, "points", 5),
+        (contact, "tool", punch),
+        (punch, "surface", Plane()),
+        (body, "material", STEEL),
+        (body, "element", body.element),
+        (body, "thickness_points", 9),
+    ):
+        before = getattr(thing, name)
+        with pytest.raises(InvalidValue, match=f"{name} is fixed"):
+            setattr(thing, name, value)
+        assert getattr(thing, name) is before
+    contact.penalty = 2e4  # effective
+    assert model.evaluate(model.x).found[contact].penalty == contact.block.penalty == 2e4

@@ -26,6 +26,8 @@ Floats = NDArray[np.float64]
 class PairPoints(Term):
     """Facets, their points in the kernel, and what is measured at them; see :class:`umform.model.contact.Contact`."""
 
+    fixed = ("tool", "name")
+
     def __init__(self, mesh: Mesh, faces: Selector, tool: Tool, settings: ContactSettings, name: str) -> None:
         self.name = name
         self.tool = tool
@@ -48,6 +50,10 @@ class PairPoints(Term):
     def points(self) -> int | str:
         """Gauss points per direction and facet, or "nodes"; fixed when the pair is made."""
         return self._settings.points
+
+    @points.setter
+    def points(self, value: object) -> None:
+        self.refuse("points", value)
 
     @property
     def allowed(self) -> float | None:
@@ -165,7 +171,7 @@ class PairPoints(Term):
         """Without faces and points, of the twin of its tool."""
         for made in ("block", "_areas", "_no_multipliers", "faces", "facets", "nodes", "_mesh_points", "_last"):
             bare.__dict__.pop(made, None)
-        bare.tool = twins.of(self.tool)
+        bare.__dict__["tool"] = twins.of(self.tool)
 
     def piece(self, cut: Cut) -> tuple[Ids, NDArray[np.int64], Tree | None]:
         """Faces of the rank, which rows of this contact they are, and their history if there is any yet."""

@@ -74,9 +74,9 @@ class Arc:
     >>> from umform.mesh import strip
     >>> mesh = strip(10.0, 1.0, 0.2, (8, 1)).transformed(lambda x: x + [0.0, 0.0, 0.5] * (1 - (x[:, :1] / 10.0) ** 2))
     >>> model = Model(mesh, material=SVK(E=1000.0, nu=0.0))
-    >>> model.symmetry("x0", "x")
-    >>> model.hinge("x1", "xz")
-    >>> model.fix(lambda x, y, z: y < y.min() + 1e-9, "y")
+    >>> _ = model.symmetry("x0", "x")
+    >>> _ = model.hinge("x1", "xz")
+    >>> _ = model.fix(lambda x, y, z: y < y.min() + 1e-9, "y")
     >>> load = model.force("x0", (0.0, 0.0, -0.25), "load")
     >>> result = solve(model, Arc(load, to=1.0, increment=0.05))
     >>> float(result["load"][-1])
