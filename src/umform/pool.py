@@ -50,7 +50,7 @@ def run_all(
         How many at a time; default: as many as this process may use processors, at most one a task. With one,
         everything happens here.
     tick : callable
-        Is told the part of the costs that is done.
+        Called with the part of the costs that is done.
 
     Raises
     ------

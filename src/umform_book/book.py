@@ -45,7 +45,7 @@ def chosen(names: Sequence[str]) -> list[Case]:
     Raises
     ------
     InvalidValue
-        If there is no such case; the nearest name is told.
+        If there is no such case; the message has the nearest name.
     """
     known = cases()
     for name in names:
@@ -104,7 +104,7 @@ def run_cases(
     processes : int, optional
         How many run at a time; default: the processors.
     tick : callable
-        Is told what is done and which part of the whole it is.
+        Called with what is done and which part of the whole it is.
 
     Returns
     -------

@@ -27,7 +27,7 @@ def study(
     Parameters
     ----------
     page : Page
-        Is told how far it is.
+        Called with the part that is done.
     variants : sequence of Variant
         The elements.
     divisions : sequence of int

@@ -54,7 +54,7 @@ class CellType:
     meshio_type : str
         Name in meshio, which has the node order of VTK.
     degrees : tuple of int, optional
-        Degrees along r, s and t, which VTK must be told of its Lagrange cells; empty for all others.
+        Degrees along r, s and t, which VTK needs for its Lagrange cells; empty for all others.
     """
 
     name: str

@@ -29,7 +29,7 @@ class Standing(Evaluated):
         self.u, self._converged_time = evaluation.u.copy(), evaluation.time
 
     def stand(self, evaluation: Evaluation) -> None:
-        """Let contacts know what was found at the converged state, where no commit has told them."""
+        """Let contacts know what was found at the converged state, where there was no commit."""
         for contact in self.contacts:
             contact.stand(evaluation.found[contact])
 

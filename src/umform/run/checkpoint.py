@@ -104,7 +104,7 @@ class Checkpoints:
 
 
 def read_checkpoint(path: str | PathLike[str]) -> dict[str, Any]:
-    """What a checkpoint holds; its ``note`` is what :func:`umform.solve` was told to keep with it.
+    """What a checkpoint holds; its ``note`` is what :func:`umform.solve` was asked to keep with it.
 
     Raises
     ------
@@ -115,7 +115,7 @@ def read_checkpoint(path: str | PathLike[str]) -> dict[str, Any]:
 
 
 def read_note(path: str | PathLike[str]) -> dict[str, Any]:
-    """What :func:`umform.solve` was told to keep in a checkpoint, without the state, which may be large.
+    """What :func:`umform.solve` was asked to keep in a checkpoint, without the state, which may be large.
 
     Raises
     ------

@@ -30,7 +30,7 @@ def cost_of_factors(fill: int, equations: int, effort: float) -> float:
 
 
 class Reuse:
-    """Decides for the iterations of one increment, and hands on what the last factorisation told.
+    """Decides for the iterations of one increment, and hands on what is known of the last factorisation.
 
     Parameters
     ----------

@@ -53,7 +53,7 @@ def equilibrium(
 
 
 def _tangent(model: Model, newton: Newton, before: Mapping[Control, float], time: float) -> Floats | None:
-    """Increment along the tangent of the last converged state, which goes with the tools that touch it. eq. (4.36)
+    """Increment along the tangent of the last converged state: the sheet follows the tools that touch it. eq. (4.36)
 
     None where nothing holds the sheet there but a tool that is still to come.
     """

@@ -1,6 +1,6 @@
 """MKL, the library of the PyPI package `mkl`: where it lies, and how it is loaded.
 
-MKL is told to use the GNU OpenMP runtime, the one of umform's kernels, so that there is one pool of threads;
+MKL is made to use the GNU OpenMP runtime, the one of umform's kernels, so that there is one pool of threads;
 the environment variable ``MKL_THREADING_LAYER`` overrules this.
 """
 

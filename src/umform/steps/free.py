@@ -54,7 +54,7 @@ class Free:
 
 
 class Freeing(Moving):
-    """Moves the load that takes the place of a support, which goes with the first increment that converges."""
+    """Moves the load that takes the place of a support; the support is gone once the first increment converges."""
 
     @classmethod
     def begin(cls, run: Run, step: Free) -> Self:  # type: ignore[override]

@@ -18,7 +18,7 @@ LAYERS = (
 
 
 class Known(TypedDict, total=False):
-    """What a check is told of a deviation whose cause is known; nothing where there is none."""
+    """Known cause of a check's deviation; nothing where there is none."""
 
     known: float
     cause: str

@@ -32,7 +32,7 @@ DISTORTED = ((BEND8, 25), (BEND8, 50), (BEND18, 12), (BEND18, 25))
 #: Expected of distorted elements of length h or less.
 WITHIN = 0.03
 LEAN = (
-    "sides that lean by 45 degrees: the error goes with their span along the strip, not with the length of the "
+    "sides that lean by 45 degrees: the error is proportional to their span along the strip, not to the length of the "
     "elements; two over the width halve it"
 )
 

@@ -26,7 +26,7 @@ Key = tuple[str, float]
 
 @dataclass(frozen=True)
 class Fold:
-    """A strip with its marks: displacements at which forces are told."""
+    """A strip with its marks: displacements at which forces are given."""
 
     strip: Strip
     marks: tuple[float, ...]

@@ -36,7 +36,7 @@ class Arc:
     turns back where the load does (snap-through) and the displacements turn back where they do (snap-back). The step
     ends when the load parameter reaches 1, exactly; or after ``most`` increments, or when ``until`` says so. The time
     goes on with the length of the path, by ``increment`` in the first increment. Limit points and bifurcation points
-    are told in ``result.events``.
+    are listed in ``result.events``.
 
     Parameters
     ----------
