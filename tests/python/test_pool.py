@@ -15,6 +15,12 @@ from umform.pool import run_all
 _STARTED: list[int] = []
 
 
+@pytest.fixture(autouse=True)
+def importable(monkeypatch, pytestconfig):
+    """Processes of the pool find the functions of this file by its name."""
+    monkeypatch.syspath_prepend(pytestconfig.rootpath)
+
+
 def double(number):
     _STARTED.append(number)
     if number < 0:

@@ -85,6 +85,10 @@ class Groups:
 
     def _reduce(self, row: Numbers, place: Numbers, weight: Floats) -> None:
         """Null space and pseudo-inverse of each group, those of the same size together."""
+        self.count, self.unknown, self.place, self.weight = 0, *_stacked([])
+        self._inverse = _stacked([])
+        if len(self.dofs) == 0:
+            return
         from scipy.sparse import coo_array  # slow to import, and few models have supports in local axes
         from scipy.sparse.csgraph import connected_components
 
@@ -95,7 +99,6 @@ class Groups:
         dofs_in, at_dof = _counted(group[count:], groups)
         columns: list[tuple[Numbers, Numbers, Floats]] = []
         inverse: list[tuple[Numbers, Numbers, Floats]] = []
-        self.count = 0
         for r, m in sorted(set(zip(rows_in.tolist(), dofs_in.tolist(), strict=True))):
             if r == 0 or m == 0:
                 continue

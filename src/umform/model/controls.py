@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import chain, count
 from typing import Any, TypeVar
 
 from umform.errors import InvalidValue
@@ -80,5 +81,5 @@ class Controlled:
     def _name(self, base: str) -> str:
         """A name that no control has, and whose columns are free."""
         taken = self._columns()
-        free = (name for name in (base, *(f"{base}{k}" for k in range(2, 10**6))))
+        free = chain([base], (f"{base}{k}" for k in count(2)))
         return next(name for name in free if name not in taken and f"{name}_force" not in taken)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import count
 from typing import TypeVar
 
 import numpy as np
@@ -127,7 +128,7 @@ class Held(Controlled):
         taken = {support.name for support in self._holders} | {control.name for control in self.controls}
         if name in taken:
             raise InvalidValue("the name of a support is taken", value=name, remedy="give it another name")
-        free = next(text for k in range(1, 10**6) if (text := f"support{k}") not in taken)
+        free = next(text for k in count(1) if (text := f"support{k}") not in taken)
         return Support(name or free, kind, directions or "all", nodes, base=self.u.copy() if base else None)
 
     def _hold(self, support: Support) -> Support:

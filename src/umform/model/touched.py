@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import count
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -128,7 +129,7 @@ class Touched(Controlled):
 
     def _free_pair_name(self) -> str:
         taken = {pair.name for pair in self.contacts} | {tool.name for tool in self.tools}
-        return next(name for k in range(len(taken) + 1, 10**6) if (name := f"tool{k}") not in taken)
+        return next(name for k in count(len(taken) + 1) if (name := f"tool{k}") not in taken)
 
     def _law_of(self, faces: Selector) -> Material:
         """Law of the body that most of the faces belong to."""
