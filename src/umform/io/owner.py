@@ -57,7 +57,16 @@ def _runs(pid: int) -> bool:
         return False
     except (PermissionError, OverflowError):  # it is somebody else's
         return True
-    return True
+    return not _has_ended(pid)
+
+
+def _has_ended(pid: int) -> bool:
+    """Whether only the number of a process is left, as its parent has not asked how it ended: often so in containers."""
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    except OSError:  # no Linux, or gone meanwhile
+        return False
+    return state[:1] in (["Z"], ["X"])
 
 
 def _machine() -> str:
