@@ -61,7 +61,7 @@ def _runs(pid: int) -> bool:
 
 
 def _has_ended(pid: int) -> bool:
-    """Whether only the number of a process is left, as its parent has not asked how it ended: often so in containers."""
+    """Whether only the number of a process is left, as its parent has not waited for it: often so in containers."""
     try:
         state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     except OSError:  # no Linux, or gone meanwhile
