@@ -122,23 +122,7 @@ def _build(
         tie_E33: bool = tied,
         compatible_E12: bool = False,
     ) -> Element:
-        if thickness == 0 and (thickness_modes_count != 0 or thickness_order != 1):
-            raise InvalidValue(
-                f"{name} has no enhanced thickness strain",
-                value=f"thickness_order={thickness_order}, thickness_modes={thickness_modes_count}",
-                remedy="take one of the elements with EAS in their name"
-                if cell == "hex8"
-                else "take DISP9K3DEAS or MI9K3DEAS",
-            )
-        if thickness > 0 and thickness_modes_count not in (1, 4, 9):
-            raise InvalidValue("the number of thickness modes must be 1, 4 or 9", value=thickness_modes_count)
-        if 9 in (thickness_modes_count, order_modes_count) and cell == "hex8":
-            raise InvalidValue(
-                f"{name} cannot tell nine thickness modes apart",
-                value=9,
-                cause="at 2 x 2 Gauss points r² and s² are constants",
-                remedy="take 4, or an element with 18 nodes",
-            )
+        _check_thickness(name, cell, thickness, thickness_modes_count, thickness_order, order_modes_count)
         if membrane == 0 and membrane_modes_count != 0:
             raise InvalidValue(f"{name} has no enhanced membrane strain", remedy="take EAS3DEAS")
         if membrane > 0 and membrane_modes_count not in (4, 5, 7):
@@ -167,6 +151,27 @@ def _build(
         )
 
     return make
+
+
+def _check_thickness(name: str, cell: str, thickness: int, count: int, order: int, order_count: int) -> None:
+    """Refuse thickness modes that an element with ``thickness`` modes of its own cannot have."""
+    if thickness == 0 and (count != 0 or order != 1):
+        raise InvalidValue(
+            f"{name} has no enhanced thickness strain",
+            value=f"thickness_order={order}, thickness_modes={count}",
+            remedy="take one of the elements with EAS in their name"
+            if cell == "hex8"
+            else "take DISP9K3DEAS or MI9K3DEAS",
+        )
+    if thickness > 0 and count not in (1, 4, 9):
+        raise InvalidValue("the number of thickness modes must be 1, 4 or 9", value=count)
+    if 9 in (count, order_count) and cell == "hex8":
+        raise InvalidValue(
+            f"{name} cannot tell nine thickness modes apart",
+            value=9,
+            cause="at 2 x 2 Gauss points r² and s² are constants",
+            remedy="take 4, or an element with 18 nodes",
+        )
 
 
 _MITC9 = MITC9_MEMBRANE + MITC9_IN_PLANE_SHEAR + MITC9_SHEAR
