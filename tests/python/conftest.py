@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import signal
 from collections.abc import Mapping
 from dataclasses import is_dataclass
 from types import SimpleNamespace
@@ -16,6 +17,13 @@ from umform import materials as mt
 from umform.mesh import FACE_NODES, Mesh, strip
 from umform.model import Model
 from umform.surfaces import Cylinder
+
+
+def pytest_configure():
+    """Hear Ctrl-C, which a shell without job control lets everything in the background ignore."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
 
 #: One law of each kind; the plastic one yields at a strain of 0.001, so that the states of the tests are plastic.
 MATERIALS = {
