@@ -160,23 +160,18 @@ class Tool(Term):
                 border.corner[k, other] -= sum(unknown.rates.get(force, 0.0) for force in press.forces)
                 for pair in self.pairs:
                     if (pair, unknown) in into.moved:
-                        border.corner[k, other] -= self._along(press.way, into.moved[pair, unknown], at, into)
+                        border.corner[k, other] -= self._along(press.way, into.moved[pair, unknown], into)
             border.predictor[k] -= sum(at.rates.get(force, 0.0) for force in press.forces)
             for pair in self.pairs:
                 if (pair, None) in into.moved:
-                    border.predictor[k] -= self._along(press.way, into.moved[pair, None], at, into)
+                    border.predictor[k] -= self._along(press.way, into.moved[pair, None], into)
             if at.du is not None:
                 border.predictor[k] += into.ranks.sum(float(border.rows[k] @ at.du))
         return Found()
 
-    def _along(self, way: ToolMotion | ToolTurn, column: Floats, at: At, into: Into) -> float:
-        """Sum of nodal forces (3 n,) along a way: their resultant or their moment."""
-        forces = column.reshape(-1, 3)
-        if isinstance(way, ToolMotion):
-            return into.ranks.sum(float(forces.sum(axis=0) @ np.asarray(way.direction)))
-        axis, point = self.axis_of(way, at.values, at.time)
-        arms = (into.positions + at.u).reshape(-1, 3) - point
-        return into.ranks.sum(float(np.cross(arms, forces).sum(axis=0) @ axis))
+    def _along(self, way: ToolMotion, column: Floats, into: Into) -> float:
+        """Resultant of nodal forces (3 n,) along a way."""
+        return into.ranks.sum(float(column.reshape(-1, 3).sum(axis=0) @ np.asarray(way.direction)))
 
     def resultant(self, found: Mapping[Term, Any], ranks: Ranks) -> tuple[Floats, Floats]:
         """Force of the sheet on it and moment about the origin, over all pairs. eq. (4.17)"""

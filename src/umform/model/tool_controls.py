@@ -71,7 +71,7 @@ class Press:
     ----------
     unknown : Global
         The way that is found.
-    way : ToolMotion or ToolTurn
+    way : ToolMotion
         The control that it moves.
     forces : list of ToolForce
         Controls of the forces on the tool along the way.
@@ -80,7 +80,7 @@ class Press:
     """
 
     unknown: Global
-    way: ToolMotion | ToolTurn
+    way: ToolMotion
     forces: list[ToolForce]
     stiffness: float = 0.0
     free: float = 0.0
