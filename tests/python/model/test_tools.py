@@ -144,6 +144,27 @@ def test_the_predictor_of_a_turning_tool_is_a_derivative(rng):
     np.testing.assert_allclose(found, difference, atol=2e-6 * np.abs(difference).max())
 
 
+@pytest.mark.parametrize("moved", ["turn", "press", "sheet"])
+def test_the_predictor_of_a_pressed_tool_is_a_derivative(moved, rng):
+    """In its equation too: a turn of the tool, the force and the sheet move the balance of forces."""
+    model, punch = beam(mt.SVK(E=210e3, nu=0.3))
+    turn, press = model.turn(punch, "y", (15.0, 0.0, 0.0), "tilt"), model.press(punch, "z", "press")
+    rates = {"turn": {turn: 0.7}, "press": {press: 900.0}, "sheet": {}}[moved]
+    x, du = model.x.copy(), rng.normal(size=model.u.size) * (moved == "sheet")
+    x[: du.size] += 1e-3 * rng.normal(size=du.size)
+    x[-1] = -0.05
+
+    def equation(fraction):
+        turn.value, press.value = 0.02 + fraction * rates.get(turn, 0.0), -50.0 + fraction * rates.get(press, 0.0)
+        return model.evaluate(x + fraction * np.append(du, 0.0)).residual[-1]
+
+    difference = (equation(1e-6) - equation(-1e-6)) / 2e-6
+    turn.value, press.value = 0.02, -50.0
+    found = model.evaluate(x, du=du if moved == "sheet" else None, rates=rates or None).predictor[-1]
+    assert abs(difference) > 1.0
+    assert found == pytest.approx(difference, rel=1e-6)
+
+
 def test_turns_come_first_in_the_order_in_which_they_were_made():
     model, punch = beam()
     first, second = model.turn(punch, "z", (1.0, 0.0, 0.0), "first"), model.turn(punch, "x", (0.0, 2.0, 0.0), "second")
