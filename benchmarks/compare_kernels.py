@@ -46,7 +46,7 @@ def answers(core: str) -> dict[str, np.ndarray]:
                 results[f"failed {case}"] = np.array([float(evaluation.failed)])
                 if evaluation.failed >= 0:
                     break
-                model.recover(0.01 * u, 0.7)
+                model.recover(0.007 * u)
                 model.commit(evaluation)
                 results[f"alpha {case}"], results[f"history {case}"] = model.block.alpha, model.block.state
                 try:

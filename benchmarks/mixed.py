@@ -74,7 +74,7 @@ def cost_of_an_evaluation(element: str) -> float:
     for _ in range(15):
         for mixed, times in seconds.items():
             model.revert()
-            model.recover(u, 1.0, mixed)
+            model.recover(u, mixed)
             start = time.process_time()
             model.evaluate(u)
             times.append(time.process_time() - start)

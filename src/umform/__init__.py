@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from umform.run import Result, resume, solve
     from umform.run.stages import Stage, solve_stages
     from umform.solution.options import NewtonOptions
-    from umform.steps import Arc, Free, Move, Release
+    from umform.steps import Arc, Free, Move, Pace, Release
     from umform.surfaces import (
         Box,
         Cylinder,
@@ -78,7 +78,7 @@ _HOME = {
     "umform.run": ("Result", "resume", "solve"),
     "umform.run.stages": ("Stage", "solve_stages"),
     "umform.solution.options": ("NewtonOptions",),
-    "umform.steps": ("Arc", "Free", "Move", "Release"),
+    "umform.steps": ("Arc", "Free", "Move", "Pace", "Release"),
     "umform.surfaces": (
         "Box",
         "Cylinder",
@@ -125,6 +125,7 @@ __all__ = [
     "NeoHooke",
     "NeoHookePower",
     "NewtonOptions",
+    "Pace",
     "Perfect",
     "Plane",
     "Profile",

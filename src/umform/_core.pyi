@@ -293,9 +293,9 @@ class ShellBlock:
         Numbers of the cells for messages, where they are a part of a larger mesh.
         """
 
-    def recover(self, du: NDArray[float64], s: float, mixed: bool = False) -> None:
+    def recover(self, du: NDArray[float64], mixed: bool = False) -> None:
         """
-        Update the enhanced parameters after u += s du; mixed: the geometric stiffness is of the foreseen stress.
+        Update the enhanced parameters after u += du; mixed: the geometric stiffness is of the foreseen stress.
         """
 
     @property
@@ -304,8 +304,8 @@ class ShellBlock:
         Whether enhanced parameters can be recovered from the converged state without an evaluation there.
         """
 
-    def undo_recover(self) -> None:
-        """Take the last recover back."""
+    def shorten(self, part: float) -> None:
+        """Shorten what the last recover has changed to a part of it."""
 
     def commit(self) -> None:
         """Make the trial history the converged one."""

@@ -15,6 +15,8 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from types import TracebackType
 
+from umform.attempts import Attempts
+
 
 class Part:
     """Adds up what is spent inside of its ``with`` blocks, which never stand in each other.
@@ -67,6 +69,8 @@ class Timing:
         Rows and frames of the result, checkpoints.
     files : Part
         Tables, fields, pictures and pages after the run.
+    attempts : Attempts
+        Evaluations, those that were thrown away, and strategies.
     """
 
     def __init__(self) -> None:
@@ -80,11 +84,15 @@ class Timing:
         self.solve = Part("solve")
         self.output = Part("history, frames")
         self.files = Part("files")
+        self.attempts = Attempts()
 
     @property
     def parts(self) -> list[Part]:
         """All parts of the run and the files, without the whole."""
-        return [part for part in vars(self).values() if part is not self.run]
+        return [part for name, part in self._clocks() if name != "run"]
+
+    def _clocks(self) -> list[tuple[str, Part]]:
+        return [(name, part) for name, part in vars(self).items() if isinstance(part, Part)]
 
     def of(self, name: str) -> Part:
         """The part with the name of an attribute."""
@@ -111,7 +119,7 @@ class Timing:
 
     def record(self) -> dict[str, dict[str, float]]:
         """Seconds and calls by the names of the attributes, for JSON."""
-        parts = {name: {"seconds": part.seconds, "calls": part.calls} for name, part in vars(self).items()}
+        parts = {name: {"seconds": part.seconds, "calls": part.calls} for name, part in self._clocks()}
         return {**parts, "rest": {"seconds": self.rest}}
 
     @classmethod
@@ -119,7 +127,8 @@ class Timing:
         """All of several runs together."""
         whole = cls()
         for timing in timings:
-            for into, part in zip(vars(whole).values(), vars(timing).values(), strict=True):
+            whole.attempts.add(timing.attempts)
+            for (_, into), (_, part) in zip(whole._clocks(), timing._clocks(), strict=True):
                 into.seconds += part.seconds
                 into.calls += part.calls
         return whole

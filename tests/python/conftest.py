@@ -79,7 +79,7 @@ class OneElement:
             if self.block.modes == 0 or np.abs(f - last).max() <= 1e-15 * np.abs(f).max():
                 return
             last = f
-            self.block.recover(np.zeros(u.size), 1.0)
+            self.block.recover(np.zeros(u.size))
 
     def __call__(self, u):
         """Condensed tangent and force of the element at u."""

@@ -9,6 +9,7 @@ import typer
 from umform.cli.root import console
 
 if TYPE_CHECKING:
+    from umform.attempts import Attempts
     from umform.timing import Timing
 
 Timed = Annotated[bool, typer.Option("--timing", help="Show where the time went.")]
@@ -28,4 +29,23 @@ def show_timing(timing: Timing, title: str = "Where the time went") -> None:
     table.add_section()
     runs = f"{timing.run.calls} run{'s' if timing.run.calls > 1 else ''}"
     table.add_row("all", f"{timing.total:.3f}", "100.0", runs, "")
+    console().print(table)
+    _show_attempts(timing.attempts)
+
+
+def _show_attempts(attempts: Attempts) -> None:
+    """Print how often each strategy was tried and won, and why attempts were given up."""
+    from rich import box
+    from rich.table import Table
+
+    title = f"{attempts.evaluations} evaluations, {100 * attempts.share:.1f} % of them thrown away"
+    table = Table("strategy", title=title, box=box.SIMPLE_HEAD)
+    for name in ("tried", "won"):
+        table.add_column(name, justify="right")
+    for name, tried, won in attempts.rows():
+        table.add_row(name, str(tried), str(won))
+    if attempts.causes:
+        table.add_section()
+    for cause, count in attempts.causes.most_common():
+        table.add_row(f"given up: {cause}", str(count), "")
     console().print(table)

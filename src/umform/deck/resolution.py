@@ -177,8 +177,9 @@ def ways(deck: Deck, problem: Problem) -> Iterator[Finding]:
             way, stands[name] = abs(to - stands[name]), to
             if not isinstance(deck.contents.controls[name], Displacement | MidLine | Drive) or not np.isfinite(way):
                 continue
-            part = way / step.increments
-            text = f"{name} moves by {way:.4g}, {part:.3g} in an increment"
+            part = way / step.increments if step.increments is not None else 0.0
+            each = "at a pace" if step.increments is None else f"{part:.3g} in an increment"
+            text = f"{name} moves by {way:.4g}, {each}"
             if way > span:
                 yield warning(about, f"{text}: farther than the sheet is long", "check the units and the target")
             elif problem.contacts and part > _WAY * thickness:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from umform import steps
 from umform.deck.parts import Count, Name, Part, Positive
@@ -18,8 +18,33 @@ Supports = Mapping[str, Support]
 Targets = Annotated[dict[Name, float], Field(min_length=1)]
 Cuts = Annotated[int, Field(ge=0, le=40)]
 Grow = Annotated[float, Field(ge=1)]
+#: A part of a step.
+Share = Annotated[float, Field(gt=0, le=1)]
+#: Increments of a step at a pace, roughly.
+_AT_A_PACE = 40
 #: Increments of a release until its force is zero, roughly: it grows from a thousandth to a twentieth of the way.
 _OF_A_RELEASE = 30
+
+
+class Pace(Part):
+    """Limits of what may happen in one increment."""
+
+    first: Share = steps.Pace.first
+    """First increment, as a part of the step."""
+    largest: Share = steps.Pace.largest
+    """Largest increment, as a part of the step."""
+    turn: Positive = steps.Pace.turn
+    """Degrees that a fibre through the thickness turns."""
+    strain: Positive = steps.Pace.strain
+    """Growth of the plastic strain at a point."""
+    contact: Positive = steps.Pace.contact
+    """Share of the contact points that come and go."""
+    iterations: Count = steps.Pace.iterations
+    """Iterations of Newton's method that the size is adapted to."""
+
+    def build(self) -> steps.Pace:
+        """The limits."""
+        return steps.Pace(**self.model_dump())
 
 
 class Move(Part):
@@ -29,22 +54,33 @@ class Move(Part):
     """The word move."""
     to: Targets
     """End value of each control."""
-    increments: Annotated[int, Field(ge=1, le=1_000_000)] = 10
-    """Number of equal increments."""
+    increments: Annotated[int, Field(ge=1, le=1_000_000)] | None = None
+    """Number of equal increments; by default their size follows what happens in them, see pace."""
+    pace: Pace | None = None
+    """Limits of what may happen in one increment, where their number is not given."""
     cuts: Cuts = 10
     """How often an increment may be halved."""
     grow: Grow = 1.0
-    """Largest increment over the nominal one."""
+    """Largest increment over the nominal one, where their number is given."""
+
+    @model_validator(mode="after")
+    def _one_of_both(self) -> Move:
+        if self.increments is not None and self.pace is not None:
+            raise ValueError("give the number of increments or their pace, not both")
+        return self
 
     def build(self, controls: Controls, supports: Supports) -> steps.Step:
         """The step."""
         moved = [controls[name] for name in self.to]
-        return steps.Move(moved, list(self.to.values()), steps=self.increments, cuts=self.cuts, grow=self.grow)
+        limits = None if self.pace is None else self.pace.build()
+        return steps.Move(
+            moved, list(self.to.values()), steps=self.increments or limits, cuts=self.cuts, grow=self.grow
+        )
 
     @property
     def expected(self) -> int:
         """About how many increments it takes."""
-        return self.increments
+        return self.increments if self.increments is not None else _AT_A_PACE
 
 
 class Release(Part):
@@ -146,8 +182,8 @@ class Solution(Part):
     """Tolerance of the increment, relative to the largest displacement."""
     max_iterations: Annotated[int, Field(ge=1, le=1000)] = 25
     """Iterations before an increment is cut."""
-    line_search: bool = False
-    """Shorten increments that do not bring the residual down."""
+    line_search: bool | None = None
+    """Shorten increments that go too far; default: where there is contact or a law with a history."""
     extrapolate: bool = True
     """Start an increment from the extrapolated last one."""
     mixed: bool | None = None

@@ -206,13 +206,13 @@ class Body(Term):
         failed = failed if failed < 0 else int(self.cells[failed])
         return BodyFound(scale, failed=failed, failure=failure, flows=self.block.flowing)
 
-    def recover(self, du: Floats, s: float, mixed: bool) -> None:
+    def recover(self, du: Floats, mixed: bool) -> None:
         """Update the enhanced parameters. eq. (2.19)"""
-        self.block.recover(du, s, mixed)
+        self.block.recover(du, mixed)
 
-    def undo_recover(self) -> None:
-        """Take the last :meth:`recover` back."""
-        self.block.undo_recover()
+    def shorten(self, part: float) -> None:
+        """Shorten the last change of the enhanced parameters. eq. (5.12)"""
+        self.block.shorten(part)
 
     def commit(self, found: Found) -> None:
         """Make the trial history the converged one."""

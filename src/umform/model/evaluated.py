@@ -97,6 +97,7 @@ class Evaluated(Assembled):
     def _evaluation(self, x: Floats, at: At, into: Into, values: Floats | None) -> Evaluation:
         """What the terms have added and found, together."""
         self._evaluations += 1
+        self.timing.attempts.evaluations += 1
         k, found = len(into.border.unknowns), into.found
         scale = round_off = 0.0
         for one in found.values():
@@ -164,22 +165,22 @@ class Evaluated(Assembled):
         term.evaluate(At(at.u, at.time, at.values, at.step, along, rates, scalars=at.scalars), scratch)
         return part
 
-    def recover(self, du: Floats, s: float, mixed: bool = False) -> None:
-        """Update the enhanced parameters after ``u += s du``. eq. (2.19)
+    def recover(self, du: Floats, mixed: bool = False) -> None:
+        """Update the enhanced parameters after ``u += du``. eq. (2.19)
 
         With ``mixed`` the tangent of the evaluation that follows has the geometric stiffness of the stress that
-        ``s du`` foresaw instead of the present one. eq. (5.39)
+        ``du`` foresaw instead of the present one. eq. (5.39)
         """
         with self.timing.recovery:
             for term in self.terms:
-                term.recover(du[: self.u.size], s, mixed)
+                term.recover(du[: self.u.size], mixed)
 
     def prepare(self) -> None:
         """Let enhanced parameters be recovered from the converged state, after an attempt that failed."""
         if self.ranks.any(not all(body.block.keeps_blocks for body in self.bodies if len(body.cells))):
             self.evaluate(self.x)
 
-    def undo_recover(self) -> None:
-        """Take the last :meth:`recover` back."""
+    def shorten(self, part: float) -> None:
+        """Shorten the change of the last :meth:`recover` to a part of it. eq. (5.12)"""
         for term in self.terms:
-            term.undo_recover()
+            term.shorten(part)

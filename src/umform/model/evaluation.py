@@ -84,6 +84,24 @@ class Evaluation:
         joined: NDArray[np.uint8] = _joined([found.flowing for found in self.found.values()], np.dtype(np.uint8))
         return joined
 
+    def at_points(self, chosen: NDArray[np.bool_]) -> str:
+        """Where some of the contact points are, in words for a message: ": 3 points of die, one near (12, 0, 0.5)".
+
+        Parameters
+        ----------
+        chosen : ndarray of bool
+            As long as :attr:`active`.
+        """
+        places, start = [], 0
+        for term, found in self.found.items():
+            own = chosen[start : start + found.active.size]
+            start += found.active.size
+            if own.any():
+                near = ", ".join(f"{x:.4g}" for x in found.x[np.argmax(own)])
+                count = int(own.sum())
+                places.append(f"{count} point{'s' if count > 1 else ''} of {term.name}, one near ({near})")
+        return ": " + "; ".join(places) if places else ""
+
     def touching(self, ranks: Ranks) -> bool:
         """Whether a tool holds the sheet anywhere."""
         return ranks.any(bool(self.active.any()))

@@ -137,11 +137,11 @@ class Term(Frozen):
         """Add residual and tangent; changes no converged history."""
         raise NotImplementedError
 
-    def recover(self, du: Floats, s: float, mixed: bool) -> None:
-        """Update parameters that were condensed, after ``u += s du``."""
+    def recover(self, du: Floats, mixed: bool) -> None:
+        """Update parameters that were condensed, after ``u += du``."""
 
-    def undo_recover(self) -> None:
-        """Take the last :meth:`recover` back."""
+    def shorten(self, part: float) -> None:
+        """Shorten the change of the last :meth:`recover` to a part of it."""
 
     def commit(self, found: Found) -> None:
         """Make the trial history that belongs to ``found`` the converged one."""

@@ -14,6 +14,7 @@ from umform.report.versions import versions
 from umform.results.penetration import penetrations
 
 if TYPE_CHECKING:
+    from umform.attempts import Attempts
     from umform.results.history import History
 
 
@@ -92,7 +93,15 @@ def _time(result: History) -> str:
         [name, f"{seconds:.2f}", f"{100 * share:.1f}", "" if calls is None else str(calls)]
         for name, seconds, share, calls in result.timing.rows()
     ]
-    return parts.table(["", "s", "%", "calls"], rows)
+    return parts.table(["", "s", "%", "calls"], rows) + _attempts(result.timing.attempts)
+
+
+def _attempts(attempts: Attempts) -> str:
+    """How often each strategy was tried and won, and what was thrown away."""
+    rows = [[name, str(tried), str(won)] for name, tried, won in attempts.rows()]
+    rows += [[f"given up: {cause}", str(count), ""] for cause, count in attempts.causes.most_common()]
+    share = f"{attempts.evaluations} evaluations, {100 * attempts.share:.1f} % of them thrown away"
+    return parts.table([share, "tried", "won"], rows)
 
 
 def settings(result: History) -> dict[str, object]:

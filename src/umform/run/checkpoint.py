@@ -22,6 +22,7 @@ from umform.model.contact import ContactPoints
 from umform.model.frame import Frame
 from umform.ranks import ONE, Ranks
 from umform.results.history import History
+from umform.solution.habits import Habits
 from umform.solution.records import Iteration
 from umform.solvers.pardiso import Pardiso
 from umform.steps.loop import Run
@@ -165,7 +166,7 @@ def take_up(run: Run, checkpoints: Checkpoints) -> dict[str, Any] | None:
     checkpoints.note = tree["note"]
     run.model.restore(Snapshot(**tree["model"]))
     run.evaluation = run.model.repeat(tree["before"])
-    run.number, run.last_dx = tree["number"], tree["last_dx"]
+    run.number, run.last_dx, run.habits = tree["number"], tree["last_dx"], Habits(**tree["habits"])
     solver = run.newton.ready_solver().solver.solver
     if isinstance(solver, Pardiso):
         solver.recall(tree["factors"])
@@ -185,6 +186,7 @@ def _tree(run: Run) -> dict[str, Any]:
             "model": vars(model.snapshot()),
             "before": {term.key: term.before for term in model.terms if model.ranks.any(term.before.size > 0)},
             "last_dx": run.last_dx,
+            "habits": vars(run.habits),
             "result": _result_tree(run.result),
         }
     )

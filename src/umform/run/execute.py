@@ -23,7 +23,8 @@ from umform.steps.arc_length.arc import Arc, Following
 from umform.steps.arc_length.checks import refuse_on_an_arc
 from umform.steps.free import Free, Freeing
 from umform.steps.loop import Run
-from umform.steps.move import Move, Moving
+from umform.steps.move import Move
+from umform.steps.moving import loop_of
 from umform.steps.release import Release, Releasing
 from umform.timing import new_timing
 
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from umform.run.checkpoint import Checkpoints
 
 _Work = Callable[[Model, Sequence[Step]], Result]
-_LOOPS: dict[type, Any] = {Move: Moving, Release: Releasing, Arc: Following, Free: Freeing}
+_LOOPS: dict[type, Any] = {Release: Releasing, Arc: Following, Free: Freeing}
 
 
 def solve(
@@ -154,7 +155,7 @@ def resume(
             memory = take_up(run, checkpoints)
             if memory is not None:
                 step = steps[run.number - 1]
-                run.loop = _LOOPS[type(step)].recall(run, step, memory)
+                run.loop = _loop(step).recall(run, step, memory)
             _go_on(run, steps, progress, checkpoints)
             return result
 
@@ -228,7 +229,7 @@ def _ready(result: Result, solver: str, options: NewtonOptions | None, frames: i
     model.check()
     evaluation = model.evaluate(model.x)
     model.stand(evaluation)
-    run = Run(model, Newton(model, options, solver, timing), result, evaluation, frames)
+    run = Run(model, Newton(model, options, solver, timing), result, evaluation, frames=frames)
     run.result.solver = run.newton.solver
     return run
 
@@ -268,10 +269,15 @@ def _go_on(run: Run, steps: Sequence[Step], progress: bool | None, checkpoints: 
             raise
 
 
+def _loop(step: Step) -> Any:
+    """The loop of a step."""
+    return loop_of(step) if isinstance(step, Move) else _LOOPS[type(step)]
+
+
 def _finish(run: Run, step: Step) -> None:
     """Take a step to its end, from its beginning or from where it stands."""
     if run.loop is None:
-        run.loop = _LOOPS[type(step)].begin(run, step)
+        run.loop = _loop(step).begin(run, step)
     while not run.loop.done:
         run.pause()
         run.loop.advance(run, step)

@@ -79,15 +79,27 @@ class Criteria:
         return _EPS * system.largest_entry(evaluation.values) * length * math.sqrt(system.pattern.n)
 
 
-class Chatter:
-    """Sees contact points go in and out in a cycle while the residual does not fall any more."""
+class Cycle:
+    """Sees contact points come and go in a cycle while the residual does not fall.
+
+    Attributes
+    ----------
+    stays : bool
+        Whether a cycle was seen again after the first one was to be broken.
+    """
 
     def __init__(self, system: System) -> None:
         self._system = system
-        self._seen: list[bytes] = []
+        self._states: list[bytes] = []
+        self._begin = self._count = 0
 
-    def states(self, active: NDArray[np.bool_], residuals: Sequence[float]) -> int:
-        """Number of active sets that follow each other in a cycle, 0 for none; asked once in each iteration.
+    @property
+    def stays(self) -> bool:
+        """Whether a cycle was seen again."""
+        return self._count > 1
+
+    def seen(self, active: NDArray[np.bool_], residuals: Sequence[float]) -> bool:
+        """Whether two or three active sets have just followed each other twice; asked once in each iteration.
 
         Parameters
         ----------
@@ -96,18 +108,42 @@ class Chatter:
         residuals : sequence of float
             Those of the iterations before.
         """
-        ranks, seen = self._system.ranks, self._seen
+        ranks = self._system.ranks
         if not ranks.any(active.size > 0):
-            return 0
-        seen.append(ranks.join(np.packbits(active).tobytes()))
+            return False
+        self._states.append(ranks.join(np.packbits(active).tobytes()))
         for period in (2, 3):
-            if len(seen) < 3 * period or len(residuals) < 2 * period:
+            states = self._states[self._begin :][-2 * period :]
+            if len(states) < 2 * period or len(residuals) < period + 1:
                 continue
-            tail = seen[-period:]
-            cycle = tail == seen[-2 * period : -period] == seen[-3 * period : -2 * period] and len(set(tail)) > 1
+            cycle = states[:period] == states[period:] and len(set(states)) > 1
             if cycle and residuals[-1] > 0.5 * residuals[-1 - period]:
-                return len(set(tail))
-        return 0
+                self._begin, self._count = len(self._states), self._count + 1
+                return True
+        return False
+
+
+class Stall:
+    """Sees a residual that has not fallen by a tenth for a number of iterations.
+
+    Attributes
+    ----------
+    patience : int
+        That number.
+    """
+
+    patience = 8
+
+    def __init__(self) -> None:
+        self._least, self._since = math.inf, 0
+
+    def seen(self, norm: float) -> bool:
+        """Whether it has not; asked once in each iteration."""
+        if norm < 0.9 * self._least:
+            self._least, self._since = norm, 0
+        else:
+            self._since += 1
+        return self._since >= self.patience
 
 
 def largest(system: System, x: Floats, evaluation: Evaluation) -> float:

@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 
 from umform.errors import NotFinite, SingularMatrix
 from umform.solution.bordered import Bordered
-from umform.solution.criteria import Chatter, Criteria, largest
+from umform.solution.criteria import Criteria, Cycle, Stall, largest
 from umform.solution.factor_reuse import Reuse
+from umform.solution.line_search import shortened
 from umform.solution.options import Manner, NewtonOptions
-from umform.solution.records import Converged, Failed, Iteration
+from umform.solution.records import Cause, Converged, Failed, Iteration
 from umform.solution.system import Evaluation, System
 from umform.solution.timed_solver import TimedSolver
 from umform.solvers import Pattern, make_solver
@@ -32,8 +33,8 @@ log = logging.getLogger("umform.newton")
 Floats = NDArray[np.float64]
 _T = TypeVar("_T")
 
-#: Each trial is at least a quarter of the one before: thin sheets, whose energy is a narrow bent valley, creep else.
-_LINE_SEARCH_TRIALS = 3
+#: A residual this large, over the force scale, is far from equilibrium.
+_FAR = 0.1
 
 
 class Newton:
@@ -67,9 +68,26 @@ class Newton:
             return self.options.mixed
         return self.system.smooth
 
-    def solve(
-        self, extrapolation: Floats | None = None, *, line_search: bool = False, consistent: bool = False
-    ) -> Converged:
+    @cached_property
+    def searches(self) -> bool:
+        """Whether increments that go too far are shortened. eq. (5.12)"""
+        if self.options.line_search is not None:
+            return self.options.line_search
+        return not self.system.smooth
+
+    def manner(self, *, consistent: bool = False, wary: bool = False) -> Manner:
+        """How iterations are made, with the options of the user.
+
+        Parameters
+        ----------
+        consistent : bool
+            Take the consistent tangent even if the options ask for the mixed one.
+        wary : bool
+            Give up as soon as the tangent is indefinite far from equilibrium.
+        """
+        return Manner(self.searches, True, self.mixed and not consistent, wary)
+
+    def solve(self, extrapolation: Floats | None = None, manner: Manner | None = None) -> Converged:
         """Find the equilibrium at the present loads, supports and tools, starting from the converged state.
 
         Parameters
@@ -77,19 +95,15 @@ class Newton:
         extrapolation : ndarray, shape (3 n,), optional
             Guess of the increment of this step; prescribed entries are overwritten. Without it the first increment is
             that of the tangent. It is recovered with the blocks of the last evaluation, which must be at ``system.u``.
-        line_search : bool
-            Search along the increments even if the options do not ask for it.
-        consistent : bool
-            Take the consistent tangent even if the options ask for the mixed one.
+        manner : Manner, optional
+            How to iterate; default: as the options say.
 
         Raises
         ------
         Failed
             If it does not converge; the system is reverted.
         """
-        options = self.options
-        manner = Manner(options.line_search or line_search, True, self.mixed and not consistent)
-        return self.guarded(lambda: self._solve(extrapolation, manner))
+        return self.guarded(lambda: self._solve(extrapolation, manner or self.manner()))
 
     def go_on(self, converged: Converged, change: Floats) -> Converged:
         """Find the equilibrium again after forces in the system have changed at the same loads, supports and tools.
@@ -111,7 +125,7 @@ class Newton:
             solver = self.ready_solver()
             solver.factor(converged.evaluation)
             du = self.system.extend(solver.solve(-self.system.restrict(change)))
-            return self.correct(converged.x, du, Manner(self.options.line_search, True, self.mixed))
+            return self.correct(converged.x, du, self.manner())
 
         return self.guarded(work)
 
@@ -128,7 +142,8 @@ class Newton:
         except (SingularMatrix, NotFinite) as error:
             self.system.revert()
             what = ", ".join(filter(None, (error.what, error.where)))
-            raise Failed(what, [], singular=isinstance(error, SingularMatrix)) from error
+            cause = Cause.SINGULAR if isinstance(error, SingularMatrix) else Cause.OTHER
+            raise Failed(what, [], cause) from error
         except BaseException:  # an error of a user's function or an interrupt too leaves no trace
             self.system.revert()
             raise
@@ -162,12 +177,13 @@ class Newton:
         solver = self.ready_solver()
         start = clock.perf_counter() if start is None else start
         iterations: list[Iteration] = []
-        system.recover(du, 1.0, manner.mixed)
+        system.recover(du, manner.mixed)
         u = u + du
         evaluation = system.evaluate(u)
         increment, step_length, pivots = self._relative(du, evaluation), 1.0, None
         active = previous_active = evaluation.active
-        criteria, chatter = Criteria(system, options.residual, options.increment), Chatter(system)
+        criteria, cycle = Criteria(system, options.residual, options.increment), Cycle(system)
+        stall = Stall() if manner.line_search else None
         reuse = Reuse(options, system.pattern.n, system.effort)
 
         for _ in range(options.max_iterations):
@@ -184,56 +200,40 @@ class Newton:
                     iterations, evaluation, norm / scale, increment, 0.0, entered, left, step_length, pivots, start
                 )
                 return Converged(evaluation, iterations)
-            if states := chatter.states(active, [record.residual for record in iterations]):
-                reason = f"the active set of contact chatters between {states} states"
-                raise Failed(reason, iterations, chattering=True)
+            longest = 0.5 if cycle.seen(active, [record.residual for record in iterations]) else 1.0
+            if cycle.stays:
+                where = evaluation.at_points(active != previous_active)
+                raise Failed(f"contact comes and goes in a cycle{where}", iterations, Cause.CYCLE)
+            if stall is not None and stall.seen(norm):
+                raise Failed(f"the residual has not fallen for {stall.patience} iterations", iterations, Cause.STALL)
 
             if not reuse.factors_will_do(norm / scale, increment, settled=manner.reuses and not moved):
                 pivots = reuse.remember(solver.factor(evaluation))
+                if manner.wary and pivots and norm > _FAR * scale:
+                    reason = f"the tangent has {pivots} negative pivots far from equilibrium"
+                    raise Failed(reason, iterations, Cause.INDEFINITE)
             du = system.extend(solver.solve(-r))
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
             self._record(
                 iterations, evaluation, norm / scale, increment, energy, entered, left, step_length, pivots, start
             )
-            u, evaluation, step_length = self._advance(u, du, r, manner)
+            u, evaluation, step_length = self._advance(u, du, r, manner, longest)
             increment = step_length * self._relative(du, evaluation)
             previous_active, active = active, evaluation.active
-        raise Failed(f"no convergence in {options.max_iterations} iterations", iterations)
+        raise Failed(f"no convergence in {options.max_iterations} iterations", iterations, Cause.ITERATIONS)
 
-    def _advance(self, u: Floats, du: Floats, r: Floats, manner: Manner) -> tuple[Floats, Evaluation, float]:
-        """Take the increment, shortened by the line search if that is wanted. eq. (5.12)"""
-        system, s = self.system, 1.0
-        system.recover(du, s, manner.mixed)
-        trial = u + du
-        evaluation = system.evaluate(trial)
-        if not manner.line_search:
-            return trial, evaluation, s
-        slope = system.ranks.dot(r, system.coefficients(du))
-        along = self._along(du, evaluation)
-        if abs(along) <= 0.8 * abs(slope):
-            return trial, evaluation, s
-        # The parameters go back to u, and with them the blocks that they are recovered with.
-        system.undo_recover()
-        system.evaluate(u)
-        for number in range(_LINE_SEARCH_TRIALS):
-            secant = s * slope / (slope - along) if np.isfinite(along) and slope != along else 0.5 * s
-            s = min(max(secant, 0.25 * s), 0.5 * s)
-            system.recover(du, s, manner.mixed)
-            trial = u + s * du
-            if number == _LINE_SEARCH_TRIALS - 1:
-                break
-            along = self._along(du, system.evaluate(trial, tangent=False))
-            if abs(along) <= 0.8 * abs(slope):
-                break
-            system.undo_recover()
-        return trial, system.evaluate(trial), s
-
-    def _along(self, du: Floats, evaluation: Evaluation) -> float:
-        """Residual along an increment; infinite where a cell has none."""
-        if evaluation.failed >= 0:
-            return math.inf
-        system = self.system
-        return system.ranks.dot(system.restrict(evaluation.residual), system.coefficients(du))
+    def _advance(
+        self, u: Floats, du: Floats, r: Floats, manner: Manner, longest: float
+    ) -> tuple[Floats, Evaluation, float]:
+        """Take the increment, or a part of it where it goes too far. eq. (5.12)"""
+        system, length = self.system, longest
+        system.recover(du, manner.mixed)
+        if length < 1.0:
+            system.shorten(length)
+        evaluation = system.evaluate(u + length * du)
+        if manner.line_search:
+            evaluation, length = shortened(system, u, du, r, evaluation, length)
+        return evaluation.x, evaluation, length
 
     def ready_solver(self) -> Bordered:
         """Return the solver that has analysed the present pattern."""
@@ -282,7 +282,7 @@ class Newton:
     def check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:
         """Fail where a cell has no residual: it is turned inside out, or its law has no answer."""
         if evaluation.failed >= 0:
-            raise Failed(f"cell {evaluation.failed} {evaluation.failure}", iterations)
+            raise Failed(f"cell {evaluation.failed} {evaluation.failure}", iterations, Cause.CELL)
 
     def _count(self, points: NDArray[np.bool_]) -> int:
         return int(self.system.ranks.sum(float(points.sum())))

@@ -19,8 +19,9 @@ class NewtonOptions:
         Tolerance of the increment, relative to the largest displacement.
     max_iterations : int
         Iterations before a step is given up.
-    line_search : bool
-        Shorten increments that do not bring the residual along them down.
+    line_search : bool, optional
+        Shorten increments that go too far, see :mod:`umform.solution.line_search`. Default: where there is contact or a
+        law with a history.
     extrapolate : bool
         Start a step from the extrapolated last one instead of the tangent.
     factor_cost : float, optional
@@ -36,7 +37,7 @@ class NewtonOptions:
     residual: float = 1e-9
     increment: float = 1e-6
     max_iterations: int = 25
-    line_search: bool = False
+    line_search: bool | None = None
     extrapolate: bool = True
     factor_cost: float | None = None
     mixed: bool | None = None
@@ -55,13 +56,16 @@ class Manner:
     Attributes
     ----------
     line_search : bool
-        Whether the residual along an increment may judge its length.
+        Whether increments that go too far are shortened, and iterations end when the residual does not fall. eq. (5.12)
     reuses : bool
         Whether the factors of the iteration before may serve for the next one.
     mixed : bool
         Whether the geometric stiffness is that of the stress which the last increment foresaw. eq. (5.39)
+    wary : bool
+        Whether iterations end where the tangent is indefinite far from equilibrium.
     """
 
     line_search: bool
     reuses: bool
     mixed: bool
+    wary: bool = False

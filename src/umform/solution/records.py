@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import Any
 
 import numpy as np
@@ -47,17 +48,26 @@ class Iteration:
     switched: int = 0
 
 
-class Failed(Exception):
-    """A step that did not converge: why, and the iterations so far. Steps turn it into a cut or an error."""
+class Cause(StrEnum):
+    """Why an attempt did not converge."""
 
-    def __init__(
-        self, reason: str, iterations: list[Iteration], *, chattering: bool = False, singular: bool = False
-    ) -> None:
+    CELL = "cell without an answer"
+    CYCLE = "contact in a cycle"
+    INDEFINITE = "indefinite tangent far from equilibrium"
+    SINGULAR = "singular tangent"
+    STALL = "residual does not fall"
+    ITERATIONS = "too many iterations"
+    OTHER = "other"
+
+
+class Failed(Exception):
+    """An attempt that did not converge: why, and the iterations so far. Steps turn it into a cut or an error."""
+
+    def __init__(self, reason: str, iterations: list[Iteration], cause: Cause = Cause.OTHER) -> None:
         super().__init__(reason)
         self.reason = reason
         self.iterations = iterations
-        self.chattering = chattering
-        self.singular = singular
+        self.cause = cause
 
 
 @dataclass(frozen=True)

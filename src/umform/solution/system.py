@@ -77,6 +77,9 @@ class Evaluation(Protocol):
     def active(self) -> NDArray[np.bool_]:
         """Which contact points tools hold."""
 
+    def at_points(self, chosen: NDArray[np.bool_]) -> str:
+        """Where some of the contact points are, in words."""
+
     @property
     def flowing(self) -> NDArray[np.uint8]:
         """1 for each point of the material whose history the evaluation has changed, else 0."""
@@ -130,11 +133,11 @@ class System(Protocol):
     def evaluate(self, x: Floats, du: Floats | None = None, *, tangent: bool = True) -> Evaluation:
         """Residual and tangent, or the residual alone, which leaves the blocks of enhanced parameters as they are."""
 
-    def recover(self, du: Floats, s: float, mixed: bool = False) -> None:
+    def recover(self, du: Floats, mixed: bool = False) -> None:
         """Update condensed parameters; the next tangent may be mixed, of the stress that the increment foresaw."""
 
-    def undo_recover(self) -> None:
-        """Take the last update back."""
+    def shorten(self, part: float) -> None:
+        """Shorten the last update to a part of it."""
 
     def revert(self) -> None:
         """Forget everything since the last commit."""

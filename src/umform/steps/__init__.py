@@ -3,8 +3,9 @@
 from umform.steps.arc_length.arc import Arc
 from umform.steps.free import Free
 from umform.steps.move import Move
+from umform.steps.pace import Pace
 from umform.steps.release import Release
 
 Step = Move | Release | Arc | Free
 
-__all__ = ["Arc", "Free", "Move", "Release", "Step"]
+__all__ = ["Arc", "Free", "Move", "Pace", "Release", "Step"]

@@ -10,7 +10,8 @@ from umform.model.control import Control
 from umform.model.removal import put_supports, states_of_supports
 from umform.model.support import Support
 from umform.steps.loop import Run
-from umform.steps.move import Move, Moving
+from umform.steps.move import Move
+from umform.steps.moving import Marching
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ class Free:
         return Move(self.moved(), [0.0], self.steps, self.cuts, self.grow)
 
 
-class Freeing(Moving):
+class Freeing(Marching):
     """Moves the load that takes the place of a support; the support is gone once the first increment converges."""
 
     @classmethod

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import replace
 
 from umform.errors import NoConvergence
 from umform.model.checks import diagnosis
 from umform.model.control import Control
 from umform.solution.augmentation import augmented
-from umform.solution.records import Converged, Failed, Iteration
-from umform.solution.starts import equilibrium
+from umform.solution.records import Cause, Converged, Failed, Iteration
+from umform.solution.strategies import Increment, equilibrium
 from umform.steps.loop import Run
 
 log = logging.getLogger("umform.steps")
@@ -29,12 +31,17 @@ def take_increment(
     try:
         starts = dict(zip(controls, before, strict=True))
         guess = None if extrapolation is None or run.last_dx is None else extrapolation * run.last_dx
-        converged = equilibrium(model, run.newton, starts, time_before, guess)
+        increment = Increment(
+            model, run.newton, run.habits, starts, time_before, guess, run.evaluation.touching(model.ranks)
+        )
+        converged = equilibrium(increment)
         try:
-            converged = augmented(model, run.newton, converged)
+            with _counted(run):
+                converged = augmented(model, run.newton, converged)
         except Failed as failure:  # a smaller increment would end in the same pass: it is taken as the penalty has it
             log.info("%s in a pass of the multipliers: they stay what they were", failure.reason)
-            converged = equilibrium(model, run.newton, starts, time_before, None)
+            model.prepare()
+            converged = equilibrium(replace(increment, guess=converged.x - x_before))
     except BaseException:  # no convergence, Ctrl-C, a user's function: the last converged state stands
         for control, value in zip(controls, before, strict=True):
             control.value = value
@@ -46,6 +53,12 @@ def take_increment(
     return converged
 
 
+def _counted(run: Run) -> AbstractContextManager[None]:
+    """Count the passes of multipliers, where there are any."""
+    multiplied = any(contact.augmented for contact in run.model.contacts)
+    return run.newton.timing.attempts.trying("multipliers") if multiplied else nullcontext()
+
+
 def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], values: Sequence[float]) -> NoConvergence:
     """Error for the step under way, which could not bring the controls to the values."""
     goal = ", ".join(f"{c.name} = {v:.6g}" for c, v in zip(controls, values, strict=True))
@@ -53,10 +66,10 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
         failure.reason,
         (
             "look at the last converged state (it is kept): buckling, a pinched sheet, folded elements; "
-            "else take more steps, fewer contact jumps (more contact points), a softer penalty or line_search=True"
+            "else take more steps, fewer contact jumps (more contact points), or a softer penalty"
         ),
     )
-    loose = diagnosis(run.model) if failure.singular else None
+    loose = diagnosis(run.model) if failure.cause is Cause.SINGULAR else None
     if loose is not None:
         cause, remedy = f"{cause}: {loose[0]}", loose[1]
     return NoConvergence(

@@ -17,6 +17,7 @@ from umform.model import Evaluation, Model
 from umform.model.control import Control
 from umform.progress import Tick, silent
 from umform.results.history import History
+from umform.solution.habits import Habits
 from umform.solution.newton import Newton
 from umform.solution.records import Converged
 
@@ -55,6 +56,8 @@ class Run:
         The last increment of displacement and scalar unknowns, for the extrapolation.
     evaluation : Evaluation
         That of the converged state.
+    habits : Habits
+        What earlier increments have taught.
     tick, pause : callable
         Shows where the run stands; writes checkpoints and stops the run, between increments.
     """
@@ -63,6 +66,7 @@ class Run:
     newton: Newton
     result: History
     evaluation: Evaluation
+    habits: Habits = field(default_factory=Habits)
     frames: int = 60
     number: int = 1
     loop: Loop | None = None

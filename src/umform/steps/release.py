@@ -112,6 +112,8 @@ class Releasing:
         model, control = run.model, step.control
         before, value = run.evaluation, control.value
         saved, touching = model.snapshot(), before.touching(model.ranks)
+        attempts = run.newton.timing.attempts
+        mark = attempts.mark()
         target = _next_release(value, self.force, self.before, self.bound, self.size, self.finest)
         if self.failures and self.bound is None and target != value:
             target = _short_of_zero(value, self.force, self.before, target)
@@ -137,6 +139,7 @@ class Releasing:
             lifted = zero = zero or abs(force) <= _hidden(run, before, converged, target - value)
         resolution = 1e-6 * abs(self.start_value)
         if (force * self.force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
+            attempts.take_back(mark, "release beyond zero force")
             self._go_back(run, saved, before, target, resolution if lifted else 0.0)
             if not lifted:
                 self.size, self.before = (target - value) * self.force / (self.force - force), None

@@ -70,7 +70,7 @@ class ArcBending(Bending):
         w = self.w + self.rate * (curvature - self.curvature)
         model.revert()
         model.evaluate(model.u)
-        model.recover(self._displacement(curvature, w) - model.u, 1.0)
+        model.recover(self._displacement(curvature, w) - model.u)
         directions = self._directions(curvature)
         for iteration in range(_ITERATIONS):
             u = self._displacement(curvature, w)
@@ -84,7 +84,7 @@ class ArcBending(Bending):
             K = directions.T @ (stiffness(model, evaluation) @ directions)
             # Without hardening the neutral line may lie anywhere between two points: the shortest step then.
             dw = -np.linalg.lstsq(K, residual, rcond=1e-9)[0]
-            model.recover(directions @ dw, 1.0)
+            model.recover(directions @ dw)
             w = w + dw
             if np.abs(w).max() > 10.0 * self.thickness:  # far from any sheet
                 break

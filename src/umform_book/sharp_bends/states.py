@@ -104,12 +104,12 @@ def stretch(model: Model, stretches: Floats, path: Sequence[float]) -> Evaluatio
         u = (X * (stretches**part - 1.0)).ravel()
         model.revert()
         model.evaluate(model.u)
-        model.recover(u - model.u, 1.0)
+        model.recover(u - model.u)
         for _ in range(_ITERATIONS):
             evaluation = model.evaluate(u)
             if evaluation.failed >= 0:
                 raise SolveError("an element failed in a homogeneous state", value=stretches)
-            model.recover(np.zeros(u.size), 1.0)
+            model.recover(np.zeros(u.size))
         evaluation = model.evaluate(u)
         model.commit(evaluation)
     return evaluation

@@ -164,20 +164,20 @@ def test_internal_work_is_the_work_of_the_nodal_forces(build, materials, name):
 
 
 @pytest.mark.parametrize("name", CATALOGUE)
-def test_undo_recover_and_revert_take_the_parameters_back(build, materials, name):
+def test_shorten_and_revert_take_the_parameters_back(build, materials, name):
     one = build.one_element(name, materials["neo-hooke"])
     u = one.displacement()
-    before = one.block.element(0, u)
+    before, du = one.block.element(0, u), one.displacement(0.1)
 
     def evaluate_and_recover():
         f, values = np.zeros(u.size), np.zeros(one.pattern.indices.size)
         one.block.evaluate(u, one.scatter, f, values, None, None)
-        one.block.recover(one.displacement(0.1), 0.7)
+        one.block.recover(du)
 
     evaluate_and_recover()
     changed = one.block.element(0, u)
     assert (one.block.modes == 0) == (changed[1] == before[1]).all()
-    one.block.undo_recover()
+    one.block.shorten(0.0)
     np.testing.assert_array_equal(one.block.element(0, u)[0], before[0])
     evaluate_and_recover()
     evaluate_and_recover()
@@ -186,13 +186,32 @@ def test_undo_recover_and_revert_take_the_parameters_back(build, materials, name
     np.testing.assert_array_equal(one.block.element(0, u)[1], before[1])
 
 
+@pytest.mark.parametrize("name", ["EAS3DEAS", "MI9K3DEAS"])
+def test_shorten_takes_a_part_of_the_change_of_the_parameters(build, materials, name):
+    one = build.one_element(name, materials["neo-hooke"])
+    u, du = one.displacement(), one.displacement(0.1)
+
+    def parameters(*parts):
+        one.block.restore(one.block.state, np.zeros_like(one.block.alpha))
+        one.block.evaluate(u, one.scatter, np.zeros(u.size), np.zeros(one.pattern.indices.size), None, None)
+        one.block.recover(du)
+        for part in parts:
+            one.block.shorten(part)
+        one.block.commit()
+        return one.block.alpha.copy()
+
+    whole = parameters()
+    assert np.abs(whole).max() > 0
+    np.testing.assert_allclose(parameters(0.5, 0.25), 0.125 * whole, rtol=1e-14)
+
+
 def test_recover_solves_for_the_parameters_after_a_linear_step(build, materials):
     """For a linear law and a tiny displacement one recovery makes the parameters stationary."""
     one = build.one_element("EAS3DEAS", materials["svk"])
     u = one.displacement(1e-9)
     f, values = np.zeros(u.size), np.zeros(one.pattern.indices.size)
     one.block.evaluate(np.zeros(u.size), one.scatter, f, values, None, None)
-    one.block.recover(u, 1.0)
+    one.block.recover(u)
     once = one.block.element(0, u)[1]
     settled = one(u)[1]
     assert np.abs(once - settled).max() < 1e-7 * np.abs(settled).max()

@@ -48,9 +48,9 @@ def test_recover_takes_the_blocks_of_the_last_tangent(one):
         evaluate(element, u, tangent=True)
         if elsewhere:
             evaluate(element, u + du, tangent=False)
-        element.block.recover(du, 0.5)
+        element.block.recover(du)
         _, f, _ = evaluate(element, u, tangent=False)
-        element.block.undo_recover()
+        element.block.shorten(0.0)
         return f
 
     np.testing.assert_array_equal(recovered(elsewhere=True), recovered(elsewhere=False))

@@ -77,7 +77,7 @@ def test_a_symmetric_law_on_the_full_path_is_what_it_was(build, element):
         element_.block.evaluate(
             u, element_.scatter, np.zeros(u.size), np.zeros(element_.pattern.indices.size), None, None
         )
-        element_.block.recover(du, 0.5)
+        element_.block.recover(0.5 * du)
     (K, f), (L, g) = (element_.block.element(0, u + 0.5 * du) for element_ in (one, other))
     np.testing.assert_allclose(L, K, atol=1e-11 * np.abs(K).max())
     np.testing.assert_allclose(g, f, atol=1e-11 * np.abs(f).max())

@@ -50,7 +50,7 @@ def attained(model, iterations=6):
         norms.append(float(np.linalg.norm(r)))
         solver.factor(evaluation)
         du = model.extend(solver.solve(-r))
-        model.recover(du, 1.0)
+        model.recover(du)
         u += du
     model.revert()
     evaluation = model.evaluate(model.u)

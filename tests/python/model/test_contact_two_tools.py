@@ -9,8 +9,9 @@ from umform import materials as mt
 from umform.mesh import strip
 from umform.model import Model
 from umform.run import resume, solve
-from umform.solution import starts
+from umform.solution.habits import Habits
 from umform.solution.newton import Newton
+from umform.solution.strategies import Increment
 from umform.steps import Move, Release
 from umform.steps.loop import Run
 from umform.surfaces import Cylinder, Punch, VDie
@@ -82,7 +83,7 @@ def test_all_elements_slide_around_the_shoulder_without_a_chatter():
     assert (model.mesh.points[lower[over(x[lower])], 0] > 8.0).any()
 
 
-def test_the_tangent_goes_with_a_driven_tool():
+def test_the_tangent_follows_a_driven_tool():
     """Its first residual is of second order in the way of the tool; at the new place of the tool it is of the first."""
     model, stroke = vdie(penalty=1e5)
     solve(model, Move(stroke, 2.0, steps=10), frames=0)
@@ -92,9 +93,9 @@ def test_the_tangent_goes_with_a_driven_tool():
         model.evaluate(model.u)
         newton = Newton(model)
         stroke.value = 2.0 - way
-        du = starts._tangent(model, newton, {stroke: 2.0}, model.time)
+        du = Increment(model, newton, Habits(), {stroke: 2.0}, model.time, None, True).tangent()
         assert stroke.value == 2.0 - way  # to the last bit
-        model.recover(du, 1.0)
+        model.recover(du)
         norms.append(np.linalg.norm(model.restrict(model.evaluate(model.u + du).residual)))
         model.revert()
         stroke.value = 2.0

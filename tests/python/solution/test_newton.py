@@ -17,7 +17,7 @@ from umform.ranks import ONE
 from umform.run import solve
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
-from umform.solution.records import Failed
+from umform.solution.records import Cause, Failed
 from umform.solvers import Pattern
 from umform.steps import Move
 
@@ -134,16 +134,16 @@ def test_tangent_of_a_whole_model_is_the_derivative_of_its_residual(plastic, bui
     assert build.relative_error(K @ du[model.free], slope) < 1e-7
 
 
-def test_undo_recover_and_revert_leave_no_trace(plastic, assert_same):
+def test_shorten_and_revert_leave_no_trace(plastic, assert_same):
     model, u = plastic.model, plastic.u
     clean = numbers(model.evaluate(u))
     before = state_of(model)
-    model.recover(1e-3 * u, 0.5)
+    model.recover(1e-3 * u)
     assert not np.array_equal(model.evaluate(u).residual, clean[0])
-    model.undo_recover()
+    model.shorten(0.0)
     assert_same(numbers(model.evaluate(u)), clean)
     for _ in range(3):
-        model.recover(1e-3 * u, 1.0)
+        model.recover(1e-3 * u)
         model.evaluate(u)
     model.revert()
     assert_same(numbers(model.evaluate(u)), clean)
@@ -260,13 +260,14 @@ class Scalar:
             x=x, residual=np.array([self.residual(at)]), values=np.array([self.slope(at)]), predictor=np.zeros(1),
             force_scale=self.scale, failed=4 if abs(at) > 1e6 else -1, failure="is out of its domain", round_off=0.0,
             active=np.array(self.active(at), dtype=bool), flowing=np.zeros(0, dtype=np.uint8), border=Border.of((), 1),
+            at_points=lambda chosen: f": {int(chosen.sum())} points",
         )  # fmt: skip
 
-    def recover(self, du, s, mixed=False):
+    def recover(self, du, mixed=False):
         self.calls.append("recover")
 
-    def undo_recover(self):
-        self.calls.append("undo")
+    def shorten(self, part):
+        self.calls.append("shorten")
 
     def commit(self, evaluation):
         self.calls.append("commit")
@@ -281,51 +282,89 @@ def arc_tangent(start):
 
 def test_line_search_tames_a_step_that_diverges_without():
     with pytest.raises(Failed):
-        Newton(arc_tangent(3.0), NewtonOptions(max_iterations=20)).solve()
+        Newton(arc_tangent(3.0), NewtonOptions(max_iterations=20, line_search=False)).solve()
     system = arc_tangent(3.0)
     # The first increment is that of the predictor and never shortened: from 3 it lands at -9.5.
     converged = Newton(system, NewtonOptions(line_search=True)).solve()
     assert abs(converged.x[0]) < 1e-6
     assert min(record.step_length for record in converged.iterations) < 1.0
-    assert "undo" in system.calls
-    assert system.calls.count("recover") > len(converged.iterations)
 
 
-def test_each_trial_of_the_line_search_is_taken_back_before_the_next():
+def test_a_shorter_increment_costs_one_evaluation_and_none_where_the_full_one_will_do():
     system = arc_tangent(3.0)
-    Newton(system, NewtonOptions(line_search=True)).solve()
-    at = [k for k, call in enumerate(system.calls) if call == "undo"]
-    assert at
-    for k in at:
-        if system.calls[k - 1] == "evaluate":  # the whole step: the blocks at the point of departure are wanted again
-            assert system.calls[k - 2 : k + 3] == ["recover", "evaluate", "undo", "evaluate", "recover"]
-        else:  # a shorter one asks for forces alone, which leave these blocks as they are
-            assert system.calls[k - 2 : k + 2] == ["recover", "forces", "undo", "recover"]
-    assert "forces" in system.calls
+    converged = Newton(system, NewtonOptions(line_search=True)).solve()
+    recoveries, trials = system.calls.count("recover"), system.calls.count("shorten")
+    assert trials >= 1
+    assert recoveries == len(converged.iterations)
+    # One evaluation for the predictor, one for each increment, one for each shorter one.
+    assert system.calls.count("evaluate") == 1 + recoveries + trials
+    assert "forces" not in system.calls
+    at = system.calls.index("shorten")
+    assert system.calls[at - 2 : at + 2] == ["recover", "evaluate", "shorten", "evaluate"]
+
+
+def test_an_increment_out_of_the_domain_of_a_law_is_shortened_to_a_quarter():
+    """From 1 the full increment leads to -1e7; beyond 1e6 there is no residual."""
+    system = Scalar(lambda x: 1.0 if x == 2.0 else x, lambda x: 1e-7 if x == 1.0 else 1.0, start=2.0)
+    with pytest.raises(Failed, match="cell 4"):
+        Newton(system, NewtonOptions(line_search=False)).solve()
+    converged = Newton(system, NewtonOptions(line_search=True)).solve()
+    assert abs(converged.x[0]) < 1e-6
+    assert 1 / 64 in [record.step_length for record in converged.iterations]
+
+
+def test_by_default_there_is_a_line_search_where_the_residual_is_not_smooth():
+    rough, smooth = arc_tangent(3.0), arc_tangent(3.0)
+    smooth.smooth = True
+    assert [Newton(system).searches for system in (rough, smooth)] == [True, False]
+    assert not Newton(rough, NewtonOptions(line_search=False)).searches
+    assert Newton(smooth, NewtonOptions(line_search=True)).searches
 
 
 # Giving up --------------------------------------------------------------------------------------------------
 
 
-def test_an_active_set_that_alternates_without_progress_is_chattering():
+def test_a_cycle_of_contact_that_stays_ends_the_iterations():
     """Out of touch it is pulled in, in touch it is pushed out: no equilibrium."""
     system = Scalar(lambda x: x + 1 if x >= 0 else x - 1, lambda x: 1.0, 1.0, lambda x: [x < 0, True])
-    with pytest.raises(Failed, match="chatters between 2 states") as caught:
-        Newton(system).solve()
-    assert caught.value.chattering
-    assert 4 <= len(caught.value.iterations) <= 10
-    assert {(record.entered, record.left) for record in caught.value.iterations[1:]} == {(1, 0), (0, 1)}
+    with pytest.raises(Failed, match="comes and goes in a cycle: 1 points") as caught:
+        Newton(system, NewtonOptions(line_search=False)).solve()
+    assert caught.value.cause is Cause.CYCLE
+    assert 6 <= len(caught.value.iterations) <= 10
+    assert {(record.entered, record.left) for record in caught.value.iterations[1:4]} == {(1, 0), (0, 1)}
     assert system.calls[-1] == "revert"
 
 
-def test_a_cycle_of_three_states_is_chattering_too():
+def test_a_cycle_of_contact_is_broken_by_half_an_increment():
+    """Stiff in touch, soft out of touch: full increments lead from -3 to 3 and back, half of one to the equilibrium."""
+    system = Scalar(
+        lambda x: 1.0 if x > 2.0 else -1.0 if x < -2.0 else x, lambda x: 1 / 6 if abs(x) > 2.0 else 1.0, 9.0,
+        lambda x: [x < 0],
+    )  # fmt: skip
+    converged = Newton(system, NewtonOptions(line_search=False)).solve()
+    assert abs(converged.x[0]) < 1e-6
+    lengths = [record.step_length for record in converged.iterations]
+    assert lengths.count(0.5) == 1
+    assert len(lengths) <= 8
+
+
+def test_a_cycle_of_three_states_ends_the_iterations_too():
     """From 1 to 2 to 3 and back to 1."""
     system = Scalar(
-        lambda x: {1: -1.0, 2: -1.0, 3: 2.0}[round(x)], lambda x: 1.0, 1.0, lambda x: [round(x) == k for k in (1, 2, 3)]
+        lambda x: (2.0, -1.0, -1.0)[round(x) % 3], lambda x: 1.0, 1.0, lambda x: [round(x) % 3 == k for k in range(3)]
     )
-    with pytest.raises(Failed, match="chatters between 3 states") as caught:
-        Newton(system).solve()
-    assert caught.value.chattering
+    with pytest.raises(Failed, match="comes and goes in a cycle") as caught:
+        Newton(system, NewtonOptions(line_search=False)).solve()
+    assert caught.value.cause is Cause.CYCLE
+
+
+def test_a_residual_that_does_not_fall_ends_the_search():
+    """Pushed on for ever with the same force."""
+    system = Scalar(lambda x: -1.0 - 1e-9 * x, lambda x: 1.0)
+    with pytest.raises(Failed, match="has not fallen for 8 iterations") as caught:
+        Newton(system, NewtonOptions(line_search=True)).solve()
+    assert caught.value.cause is Cause.STALL
+    assert len(caught.value.iterations) == 8
 
 
 def test_an_active_set_that_alternates_while_the_residual_falls_is_not_chattering():
@@ -343,7 +382,7 @@ def test_a_step_that_does_not_end_fails_with_its_records():
     newton.callbacks.append(seen.append)
     with pytest.raises(Failed, match="no convergence in 7 iterations") as caught:
         newton.solve()
-    assert not caught.value.chattering
+    assert caught.value.cause is Cause.ITERATIONS
     assert [record.number for record in caught.value.iterations] == list(range(1, 8))
     assert seen == caught.value.iterations
     assert system.calls[-1] == "revert"

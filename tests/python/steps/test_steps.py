@@ -35,13 +35,13 @@ def failing(monkeypatch):
     def install(*numbers, max_iterations=2):
         calls = []
 
-        def solve_or_fail(self, extrapolation=None, **how):
+        def solve_or_fail(self, extrapolation=None, manner=None):
             calls.append(self.system.time)
             options = self.options
             if len(calls) in numbers:
                 self.options = replace(options, max_iterations=max_iterations, residual=1e-300, increment=1e-300)
             try:
-                return original(self, extrapolation, **how)
+                return original(self, extrapolation, manner)
             finally:
                 self.options = options
 
@@ -105,10 +105,10 @@ def test_a_cut_step_meets_the_run_with_the_same_increments_and_leaves_no_trace(b
         return case.model, case.punch
 
     model, punch = run()
-    calls = failing(*range(2, 7))  # the second increment: extrapolation, tangent, line search, two softer penalties
+    calls = failing(*range(2, 6))  # the second increment: extrapolation, tangent, two softer penalties
     result = solve(model, Move(punch, -2.0, steps=4), options=TIGHT, frames=0)
     failing()
-    assert calls[:8] == [0.25, *5 * [0.5], 0.375, 0.5]
+    assert calls[:8] == [0.25, *4 * [0.5], 0.375, 0.5]
     np.testing.assert_allclose(result["time"][:4], [0, 0.25, 0.375, 0.5])
     assert result["time"][-1] == 1.0
     other, control = run()
@@ -160,12 +160,15 @@ def test_after_a_cut_the_nominal_marks_are_met_again_and_the_increments_grow_bac
 
 
 def test_a_cut_on_the_way_to_a_mark_is_one_of_that_way(build, failing):
-    """Back at its nominal size, an increment shortened to meet a mark fails: half of what was tried comes next."""
+    """Back at its nominal size, an increment shortened to meet a mark fails: half of what was tried comes next.
+
+    It had grown before: six easy increments, not three, are asked for before it grows again.
+    """
     model, pull = build.bar()
     calls = failing(2, 3, 7, 8)
     result = solve(model, Move(pull, 0.1, steps=4), options=ONE_TRY, frames=0)
     assert calls[:10] == pytest.approx([0.25, 0.5, 0.5, 0.375, 0.5, 0.625, 0.75, 0.75, 0.6875, 0.75])
-    np.testing.assert_allclose(result["time"][5:], [0.6875, 0.75, 0.8125, 0.9375, 1.0], atol=1e-14)
+    np.testing.assert_allclose(result["time"][5:], [0.6875, 0.75, 0.8125, 0.875, 0.9375, 1.0], atol=1e-14)
 
 
 def test_increments_grow_up_to_their_limit_while_newton_is_at_ease(build):
@@ -445,20 +448,20 @@ def test_an_interrupt_carries_the_result_and_leaves_the_last_converged_state(mon
 
 
 def test_chattering_is_a_warning_of_the_result(build, monkeypatch):
-    from umform.solution.records import Failed
+    from umform.solution.records import Cause, Failed
 
     original, calls = Newton.solve, []
 
-    def chatter_once(self, extrapolation=None, **how):
+    def chatter_once(self, extrapolation=None, manner=None):
         calls.append(1)
-        if len(calls) <= 4:  # the tangent, a line search, two softer penalties
-            raise Failed("the active set of contact chatters between 2 states", [], chattering=True)
-        return original(self, extrapolation, **how)
+        if len(calls) <= 3:  # the tangent, two softer penalties
+            raise Failed("contact comes and goes in a cycle", [], Cause.CYCLE)
+        return original(self, extrapolation, manner)
 
     monkeypatch.setattr(Newton, "solve", chatter_once)
     case = build.free_bending((8, 1))
     result = solve(case.model, Move(case.punch, -0.5, steps=2), frames=0)
     assert len(result.warnings) == 1
-    assert "chatters" in result.warnings[0]
+    assert "in a cycle" in result.warnings[0]
     assert "step 1" in result.warnings[0]
     assert result["punch"][-1] == -0.5

@@ -70,7 +70,7 @@ class ShellBlockOf final : public ShellBlock {
         return outcome;
     }
 
-    void recover_enhanced(const double* du, double s) override {
+    void recover_enhanced(const double* du) override {
         const int modes = element_.modes();
         const Eliminated& from = from_kept_ ? kept_ : last_;
         if (from.y.empty()) return;  // nothing has been evaluated yet
@@ -81,7 +81,7 @@ class ShellBlockOf final : public ShellBlock {
                 const std::size_t row = static_cast<std::size_t>(b) * modes + m;
                 Lanes sum = 0.0;
                 for (int i = 0; i < size; ++i) sum += from.Y[row * size + i] * w.u[i];
-                const Lanes change = from.y[row] + s * sum;
+                const Lanes change = from.y[row] + sum;
                 for (int lane = 0; lane < batch.count; ++lane)
                     alpha_[static_cast<std::size_t>(batch.element[lane]) * modes + m] -= change[lane];
             }

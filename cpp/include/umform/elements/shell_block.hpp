@@ -36,19 +36,20 @@ class ShellBlock {
     /// K, f of one element before its scatter, condensed; for tests and eigenvalues.
     virtual void element(int e, const double* u, double* K, double* f) = 0;
 
-    /// alpha -= Kaa^-1 (ra + s Kad du) with the blocks of the last `evaluate` with a tangent, or with those of the converged state
+    /// alpha -= Kaa^-1 (ra + Kad du) with the blocks of the last `evaluate` with a tangent, or with those of the converged state
     /// if there was none since `commit` or `revert`. eq. (2.19) If `mixed`, the evaluations that follow take the geometric stiffness from the stress that the
-    /// correction s du foresaw. eq. (5.39)
-    void recover(const double* du, double s, bool mixed) {
+    /// correction du foresaw. eq. (5.39)
+    void recover(const double* du, bool mixed) {
         alpha_before_ = alpha_;
         correction_.resize(mixed ? dofs() : 0);
-        for (std::size_t i = 0; i < correction_.size(); ++i) correction_[i] = s * du[i];
-        if (modes() > 0) recover_enhanced(du, s);
+        for (std::size_t i = 0; i < correction_.size(); ++i) correction_[i] = du[i];
+        if (modes() > 0) recover_enhanced(du);
     }
-    /// Takes the last `recover` back.
-    void undo_recover() {
-        alpha_ = alpha_before_;
-        correction_.clear();
+    /// Shortens what the last `recover` has changed to a part of it. eq. (5.12)
+    void shorten(double part) {
+        for (std::size_t i = 0; i < alpha_.size(); ++i)
+            alpha_[i] = alpha_before_[i] + part * (alpha_[i] - alpha_before_[i]);
+        for (double& c : correction_) c *= part;
     }
 
     void commit() {
@@ -86,7 +87,7 @@ class ShellBlock {
 
   protected:
     std::int32_t number_of(int e) const { return numbers_.empty() ? e : numbers_[e]; }
-    virtual void recover_enhanced(const double* du, double s) = 0;
+    virtual void recover_enhanced(const double* du) = 0;
     virtual void keep_blocks() = 0;
     virtual void return_to_kept_blocks() = 0;
     virtual void forget_blocks() = 0;

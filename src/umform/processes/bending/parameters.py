@@ -61,7 +61,7 @@ class FreeBending:
     solver : str
         Sparse solver.
     line_search : bool
-        Shorten increments of Newton's method that do not bring the residual down.
+        Shorten increments of Newton's method that go too far.
 
     Raises
     ------
@@ -96,7 +96,7 @@ class FreeBending:
     thickness_order: int = 1
     tie_E33: bool = False
     solver: str = "auto"
-    line_search: bool = False
+    line_search: bool = True
 
     def __post_init__(self) -> None:
         check_parameters({field.name: getattr(self, field.name) for field in fields(self)})

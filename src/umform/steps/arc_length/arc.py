@@ -16,7 +16,7 @@ import numpy as np
 from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model
 from umform.model.control import Control
-from umform.solution.records import Failed
+from umform.solution.records import Cause, Failed
 from umform.steps.arc_length.critical import CriticalPoints
 from umform.steps.arc_length.equation import Line
 from umform.steps.arc_length.path import Path
@@ -204,7 +204,7 @@ class Following:
         """Halve an arc length that failed, or give up."""
         number, path = run.number, self.path
         self.length = 0.5 * tried
-        if failure.chattering:
+        if failure.cause is Cause.CYCLE:
             run.result.warn(f"step {number}, time {run.model.time:.4f}: {failure.reason}; the arc length is cut")
         log.info("step %d: %s; arc length cut to %.3g of the first", number, failure.reason, self.length / path.first)
         if self.length < path.first / 2**step.cuts:

@@ -125,7 +125,8 @@ class Path:
         model, time_before = self.model, self.model.time
         try:
             with model.with_term(self.equation):
-                converged, state = self.newton.guarded(lambda: self._correct(length))
+                with self.newton.timing.attempts.trying("arc"):
+                    converged, state = self.newton.guarded(lambda: self._correct(length))
                 model.commit(converged.evaluation)
         except BaseException:  # no convergence, Ctrl-C, a user's function: the last converged state stands
             model.time = time_before

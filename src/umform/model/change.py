@@ -1,0 +1,35 @@
+"""How much a body has changed from one converged state to the next: turning of its fibres, plastic strain."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model.body import Body
+
+Floats = NDArray[np.float64]
+
+
+def turned(body: Body, before: Floats, after: Floats) -> float:
+    """Largest angle in degrees that a fibre through the thickness has turned between two displacements, (3 n,)."""
+    X, cells = body.mesh.points, body.connectivity
+    half = cells.shape[1] // 2
+    pairs = np.unique(np.stack([cells[:, :half].ravel(), cells[:, half:].ravel()], axis=1), axis=0)
+    fibres = [_fibres(X + u.reshape(-1, 3), pairs) for u in (before, after)]
+    chord = np.linalg.norm(fibres[1] - fibres[0], axis=1).max()
+    return float(np.degrees(2.0 * np.arcsin(min(0.5 * chord, 1.0))))
+
+
+def _fibres(x: Floats, pairs: NDArray[np.int32]) -> Floats:
+    """Unit vectors from the lower to the upper node of each pair."""
+    d = x[pairs[:, 1]] - x[pairs[:, 0]]
+    return np.asarray(d / np.linalg.norm(d, axis=1)[:, None])
+
+
+def strained(body: Body) -> float:
+    """Largest growth of the accumulated plastic strain in the last increment; zero for laws that name none ``eqps``."""
+    names = body.block.state_names
+    if "eqps" not in names or not body.before.size:
+        return 0.0
+    column = sum(size for name, size in names.items() if list(names).index(name) < list(names).index("eqps"))
+    return float((body.block.state[..., column] - body.before.reshape(body.block.state.shape)[..., column]).max())

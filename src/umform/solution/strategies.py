@@ -1,0 +1,183 @@
+"""The list of strategies: where Newton's method starts an increment from, and what is tried when it fails.
+
+They are tried in their order until one leads to the equilibrium. docs/theory, 4.13; how often each is tried and wins is
+counted in `umform.attempts`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model import Model
+from umform.model.control import Control
+from umform.solution.habits import Habits
+from umform.solution.newton import Newton
+from umform.solution.records import Cause, Converged, Failed
+from umform.solution.softening import softened
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Increment:
+    """An increment that is to be made: the controls have their new values.
+
+    Attributes
+    ----------
+    model, newton, habits
+        What is solved and how, and what earlier increments have taught.
+    before : mapping of Control to float
+        Values of the controls at the converged state.
+    time : float
+        Time there.
+    guess : ndarray, shape (3 n + k,), optional
+        The last increment, extrapolated.
+    touched : bool
+        Whether a tool held the sheet at the converged state.
+    """
+
+    model: Model
+    newton: Newton
+    habits: Habits
+    before: Mapping[Control, float]
+    time: float
+    guess: Floats | None
+    touched: bool
+
+    @property
+    def wary(self) -> bool:
+        """Whether an indefinite tangent far from equilibrium ends an attempt: softer penalties lead there sooner."""
+        return self.touches and self.habits.stable
+
+    @property
+    def touches(self) -> bool:
+        """Whether there is contact."""
+        return bool(self.model.contacts)
+
+    def tangent(self) -> Floats | None:
+        """Increment along the tangent of the converged state: the sheet follows the tools that touch it. eq. (4.36)
+
+        None where nothing holds the sheet there but a tool that is still to come, and without contact: then Newton's
+        method takes the tangent at the new values, eq. (5.6).
+        """
+        if not self.touches:
+            return None
+        model, newton = self.model, self.newton
+        after, time_after = {control: control.value for control in self.before}, model.time
+        rates = {control: after[control] - value for control, value in self.before.items()}
+
+        def increment() -> Floats:
+            evaluation = model.evaluate(model.x, rates=rates, until=time_after)
+            newton.check_domain(evaluation, [])
+            solver = newton.ready_solver()
+            solver.factor(evaluation)
+            return model.extend(solver.solve(-model.restrict(evaluation.residual + evaluation.predictor)))
+
+        _put(self.before, self.time, model)
+        try:
+            return newton.guarded(increment)
+        except Failed:
+            return None
+        finally:
+            _put(after, time_after, model)
+
+
+@dataclass(frozen=True)
+class Strategy:
+    """One way to an equilibrium.
+
+    Attributes
+    ----------
+    name : str
+        For tables.
+    serves : callable
+        Whether it can help an increment.
+    attempt : callable
+        The equilibrium, or Failed.
+    """
+
+    name: str
+    serves: Callable[[Increment], bool]
+    attempt: Callable[[Increment], Converged]
+
+
+STRATEGIES = (
+    # The last increment again, in proportion: no evaluation is needed to begin with.
+    Strategy(
+        "extrapolation",
+        lambda at: at.guess is not None and at.newton.options.extrapolate and at.habits.extrapolates,
+        lambda at: at.newton.solve(at.guess, at.newton.manner(wary=at.wary)),
+    ),
+    Strategy(
+        "tangent",
+        lambda at: True,
+        lambda at: at.newton.solve(at.tangent(), at.newton.manner(wary=at.wary)),
+    ),
+    # It may cross a sudden change of shape where the mixed tangent of eq. (5.39) does not.
+    Strategy(
+        "consistent tangent",
+        lambda at: at.newton.mixed,
+        lambda at: at.newton.solve(at.tangent(), at.newton.manner(consistent=True, wary=at.wary)),
+    ),
+    # A stiff tool may come to where nothing touched before: with a soft one the sheet finds its shape first.
+    Strategy(
+        "softer penalties",
+        lambda at: at.touches,
+        lambda at: softened(at.model, at.newton, at.tangent()),
+    ),
+)
+
+
+def equilibrium(increment: Increment) -> Converged:
+    """Equilibrium at the present values of the controls, by the first strategy that leads there.
+
+    Raises
+    ------
+    Failed
+        If none does; the model is reverted. It is the failure with the penalty of the user, of the last start.
+    """
+    attempts, failures = increment.newton.timing.attempts, []
+    for strategy in STRATEGIES:
+        if not strategy.serves(increment):
+            continue
+        try:
+            with attempts.trying(strategy.name):
+                converged = strategy.attempt(increment)
+        except Failed as failure:
+            failures.append((strategy.name, failure))
+            attempts.causes[_cause(strategy.name, failure, increment.touched)] += 1
+        else:
+            increment.habits.learn(
+                failed=[name for name, _ in failures],
+                won=strategy.name,
+                negative_pivots=converged.iterations[-1].negative_pivots,
+            )
+            return converged
+    plain = [failure for name, failure in failures if name != "softer penalties"]
+    if any(failure.cause is Cause.SINGULAR for failure in plain):
+        plain[-1].cause = Cause.SINGULAR
+    raise plain[-1]
+
+
+def _cause(strategy: str, failure: Failed, touched: bool) -> str:
+    """What an attempt failed of, as a user would say it."""
+    entered = any(record.entered for record in failure.iterations)
+    if failure.cause is Cause.CYCLE:
+        return "cycle of contact"
+    if not touched and entered:
+        return "first touch"
+    if failure.cause is Cause.SINGULAR and touched:
+        return "points of contact lost"
+    if strategy == "extrapolation":
+        return f"extrapolation too far: {failure.cause}"
+    return str(failure.cause)
+
+
+def _put(values: Mapping[Control, float], time: float, model: Model) -> None:
+    for control, value in values.items():
+        control.value = value
+    model.time = time

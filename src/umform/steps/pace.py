@@ -1,0 +1,126 @@
+"""How far an increment may go where its size follows from what happens in it. docs/theory, 5.5"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue
+from umform.model import Model
+from umform.model.change import strained, turned
+from umform.solution.records import Converged
+
+Floats = NDArray[np.float64]
+
+#: From one increment to the next the size changes by these factors at most.
+_LEAST, _MOST = 0.5, 2.0
+#: So many contact points, or more, may come or go without a thought.
+_FEW_POINTS = 8
+
+
+@dataclass(frozen=True)
+class Pace:
+    """Limits of what may happen in one increment; half of them give finer increments, for a study of convergence.
+
+    Parameters
+    ----------
+    first : float
+        First increment, as a part of the step.
+    largest : float
+        Largest increment, as a part of the step.
+    turn : float
+        Angle that a fibre through the thickness turns, in degrees.
+    strain : float
+        Growth of the accumulated plastic strain at a point of the material.
+    contact : float
+        Share of the contact points in touch that come and go.
+    iterations : int
+        Iterations of Newton's method that the size is adapted to.
+    """
+
+    first: float = 0.01
+    largest: float = 0.1
+    turn: float = 2.0
+    strain: float = 0.01
+    contact: float = 1.0
+    iterations: int = 6
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if not (np.isfinite(value) and value > 0):
+                raise InvalidValue("a limit of the pace must be positive", where=f"Pace, {name}", value=value)
+        if not self.first <= self.largest <= 1.0:
+            raise InvalidValue(
+                "increments of a pace are parts of the step",
+                where="Pace",
+                value=f"first = {self.first}, largest = {self.largest}",
+                remedy="first <= largest <= 1",
+            )
+
+    def factor(self, happened: Happened) -> float:
+        """Size of the next increment over that of the one in which this has happened."""
+        limits = [
+            math.sqrt(self.iterations / happened.iterations),
+            _ratio(self.turn, happened.turn),
+            _ratio(self.strain, happened.strain),
+            _ratio(self.contact, happened.contact),
+        ]
+        return min(max(min(limits), _LEAST), _MOST)
+
+
+@dataclass(frozen=True)
+class Happened:
+    """What has happened in an increment, in the terms of :class:`Pace`.
+
+    Attributes
+    ----------
+    turn : float
+        Largest angle that a fibre has turned, in degrees.
+    strain : float
+        Largest growth of the accumulated plastic strain.
+    contact : float
+        Contact points that have come or gone, over those in touch; zero for a few.
+    iterations : int
+        Of Newton's method.
+    """
+
+    turn: float
+    strain: float
+    contact: float
+    iterations: int
+
+    @classmethod
+    def between(
+        cls, model: Model, x_before: Floats, active_before: NDArray[np.bool_], converged: Converged
+    ) -> Happened:
+        """What has happened until a converged state, which is committed.
+
+        Parameters
+        ----------
+        model : Model
+            At the converged state.
+        x_before : ndarray, shape (3 n + k,)
+            Displacement of the state before.
+        active_before : ndarray of bool
+            Contact points in touch there.
+        converged : Converged
+            The increment.
+        """
+        ranks, active = model.ranks, converged.evaluation.active
+        changed, held = ranks.sum(float((active != active_before).sum())), ranks.sum(float(active.sum()))
+        bodies = [body for body in model.bodies if len(body.cells)]
+        turn = max((turned(body, x_before[: model.u.size], model.u) for body in bodies), default=0.0)
+        strain = max((strained(body) for body in bodies), default=0.0)
+        return cls(
+            turn=ranks.max(turn),
+            strain=ranks.max(strain),
+            contact=changed / max(held, 1.0) if changed > _FEW_POINTS else 0.0,
+            iterations=len(converged.iterations),
+        )
+
+
+def _ratio(limit: float, value: float) -> float:
+    return limit / value if value > 0.0 else math.inf
