@@ -45,6 +45,7 @@ def measured(elements: int, increments: int, solver: str, line_search: bool) -> 
     """One run in this process."""
     import umform as uf
     from attempts import attempts
+    from umform.errors import NoConvergence
 
     uf.set_threads(1)
     model, step = build(round(math.sqrt(elements)), increments=increments)
@@ -53,7 +54,7 @@ def measured(elements: int, increments: int, solver: str, line_search: bool) -> 
     with attempts() as made:
         try:
             result, failure = uf.solve(model, step, solver=solver, options=options, frames=0, progress=False), ""
-        except uf.NoConvergence as error:
+        except NoConvergence as error:
             result, failure = error.result, str(error)  # type: ignore[attr-defined]
     cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
     iterations, timing = int(result["iterations"].sum()), result.timing
