@@ -27,14 +27,15 @@ import numpy as np
 import record
 import umform as uf
 from attempts import attempts
-from jobs import COUNT, Done, job
+from jobs import COUNT, Done, Job, job
 from robust_page import explanations, page, table
 from umform.errors import NoConvergence, UmformError
 
 #: CPU seconds after which a job counts as one that hangs; wall seconds may be as many times more.
 LIMIT, PATIENCE = 100, 10
-#: Largest imbalance of forces and moments; drift of the energies over the largest energy, for increments are coarse.
-FORCES, ENERGIES = 1e-6, 0.05
+#: Largest imbalance of forces and moments. A drift of the energies above the second number, over the largest energy,
+#: must be that of coarse increments: by increments of half the size it must fall to this part of it, or below.
+FORCES, ENERGIES, FALLS = 1e-6, 0.02, 0.6
 #: Jobs of all kinds that the ordinary tests run: the cheapest ones.
 SAMPLE: tuple[int, ...] = ()
 
@@ -47,46 +48,49 @@ def outcome(number: int) -> dict[str, Any]:
     """Run a job in this process, and say what came of it."""
     logging.getLogger("umform").addHandler(logging.NullHandler())
     uf.set_threads(1)
-    task, start = job(number), time.process_time()
-    results, reason, ended = list[uf.Result](), "", "arrived"
-    with attempts() as made:
-        try:
+    task, start, done = job(number), time.process_time(), Done([])
+    ended, reason = "arrived", ""
+    try:
+        with attempts() as made:
             done = task.run()
-            results, reason = done.results, imbalance(done)
-            ended = "wrong" if reason else "arrived"
-        except NoConvergence as error:
-            ended, reason = "no convergence", f"{error.where}: {error.cause}; {error.value}"
-        except UmformError as error:
-            ended, reason = ("error" if made.evaluations else "refused"), " ".join(str(error).split())
-        except OutOfTime:
-            ended, reason = "out of time", "the limit of CPU seconds is reached"
+        reason = imbalance(task, done)
+        ended = "wrong" if reason else "arrived"
+    except NoConvergence as error:
+        ended, reason = "no convergence", f"{error.where}: {error.cause}; {error.value}"
+    except UmformError as error:
+        ended, reason = ("error" if made.evaluations else "refused"), " ".join(str(error).split())
+    except OutOfTime:
+        ended, reason = "out of time", "the limit of CPU seconds is reached"
     return {
         "number": number,
         "kind": task.kind,
         "outcome": ended,
         "reason": reason,
         "CPU s": round(time.process_time() - start, 2),
-        "increments": sum(len(result) - 1 for result in results),
-        "iterations": int(sum(result["iterations"].sum() for result in results)),
+        "increments": sum(len(result) - 1 for result in done.results),
+        "iterations": int(sum(result["iterations"].sum() for result in done.results)),
         "evaluations": made.evaluations,
         "share thrown away": round(made.share, 3),
         "failed attempts": dict(made.failures.most_common()),
-        "drift": max((float(np.abs(result.balance().drift).max()) for result in results), default=None),
+        "drift": drift(done),
     }
 
 
-def imbalance(done: Done) -> str:
+def drift(done: Done) -> float:
+    """Largest drift of the energies in all runs of a job."""
+    return max(float(np.abs(result.balance().drift).max()) for result in done.results) if done.results else 0.0
+
+
+def imbalance(task: Job, done: Done) -> str:
     """What does not balance in what a job gave; nothing if all does."""
-    found = []
-    for result in done.results:
-        balance = result.balance()
-        found += [
-            ("forces", float(balance.force_imbalance[1:].max()), FORCES),
-            ("moments", float(balance.moment_imbalance[1:].max()), FORCES),
-            ("energies", float(np.abs(balance.drift).max()), ENERGIES),
-        ]
+    balances = [result.balance() for result in done.results]
+    found = [("forces", float(balance.force_imbalance[1:].max()), FORCES) for balance in balances]
+    found += [("moments", float(balance.moment_imbalance[1:].max()), FORCES) for balance in balances]
     found += [(name, *pair) for name, pair in done.deviations.items()]
-    return "; ".join(f"{name} off by {off:.2g}, {most:g} allowed" for name, off, most in found if not off <= most)
+    coarse = drift(done)
+    if coarse > ENERGIES:
+        found.append(("energies with increments of half the size", drift(task.finer().run()), FALLS * coarse))
+    return "; ".join(f"{name} off by {off:.2g}, {most:.2g} allowed" for name, off, most in found if not off <= most)
 
 
 def in_a_process(number: int, limit: int = LIMIT) -> dict[str, Any]:

@@ -41,7 +41,9 @@ def draw(drawing: Drawing) -> dict[str, Any]:
         "increment": drawing.one_of((0.00625, 0.00625, 0.0125, 0.02, 0.03, 0.05)),
         "part": drawing.between(0.15, 0.97),
     }
-    if keys["layers"] == 2 and keys["element"] != "BEND8":  # minutes else
+    if die < 70:  # a long way, which would take minutes
+        keys |= {"layers": 1, "increment": max(0.0125, keys["increment"])}
+    if keys["layers"] == 2 and keys["element"] != "BEND8":
         keys["elements_per_thickness"] = min(1.5, keys["elements_per_thickness"])
     if drawing.chance(0.3):
         keys["penetration"] = thickness / drawing.one_of((50, 100, 500, 1000))

@@ -17,7 +17,7 @@ def draw_contact(drawing: Drawing, thickness: float, young: float, nodes: int = 
         "augmented": drawing.chance(0.25),
     }
     if drawing.chance(0.4):
-        keys["penalty"] = drawing.ratio(3e-4, 0.3) * young / thickness
+        keys["penalty"] = drawing.ratio(3e-4, 3.0) * young / thickness
     elif drawing.chance(0.5):
         keys["penetration"] = thickness / drawing.one_of((50, 100, 200, 500))
     return keys

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import umform as uf
@@ -46,7 +46,7 @@ KINDS: dict[str, Kind] = {
     "air bend with free edges": Kind(air_bends.draw_wide, air_bends.run, air_bends.case),
     "stroke for an angle": Kind(air_bends.draw_search, air_bends.search, air_bends.case),
     "strip over a cylinder": Kind(strips.draw, strips.run, strips.case),
-    "wide sheet over a cylinder": Kind(strips.draw_wide, strips.run_wide),
+    "wide sheet with free edges": Kind(strips.draw_wide, strips.run_wide),
     "sections of users": Kind(profiles.draw, profiles.run, profiles.tools),
     "plate under a tool": Kind(plates.draw, plates.run),
 }
@@ -56,7 +56,7 @@ _SHARES = {
     "air bend with free edges": 3,
     "stroke for an angle": 2,
     "strip over a cylinder": 7,
-    "wide sheet over a cylinder": 3,
+    "wide sheet with free edges": 3,
     "sections of users": 4,
     "plate under a tool": 3,
 }
@@ -74,6 +74,12 @@ class Job:
     def run(self) -> Done:
         """Do it; raises what umform raises."""
         return Done(*KINDS[self.kind].run(self.keys))
+
+    def finer(self) -> Job:
+        """The same with increments of half the size."""
+        steps = self.keys.get("steps")
+        halved = {"increment": 0.5 * self.keys["increment"]} if steps is None else {"steps": 2 * steps}
+        return replace(self, keys=self.keys | halved)
 
 
 def job(number: int) -> Job:

@@ -9,7 +9,7 @@ import numpy as np
 import umform as uf
 from jobs.contacts import HAIR, draw_contact
 from jobs.drawing import Drawing
-from jobs.pressing import pressed
+from jobs.pressing import increments, pressed
 from umform import sheet_metals
 from umform.surfaces import Surface
 
@@ -26,6 +26,7 @@ def draw(drawing: Drawing) -> dict[str, Any]:
     edges = drawing.one_of(("clamped", "clamped", "supported", "ring"))
     cells = drawing.whole(8, 16) // (nodes // 8)
     young = sheet_metals.get(metal).young
+    stroke = half * drawing.between(0.03, 0.2)
     return {
         "metal": metal,
         "thickness": thickness,
@@ -38,8 +39,8 @@ def draw(drawing: Drawing) -> dict[str, Any]:
         "radius": half * drawing.between(0.15, 0.5),
         "edge_radius": thickness * drawing.ratio(1.0, 5.0),
         "die_radius": thickness * drawing.ratio(2.0, 6.0),
-        "stroke": half * drawing.between(0.03, 0.2),
-        "increment": thickness * drawing.ratio(0.05, 0.5),
+        "stroke": stroke,
+        "steps": increments(drawing, stroke, thickness),
         "contacts": [draw_contact(drawing, thickness, young, nodes) for _ in range(2)],
         "line_search": drawing.chance(0.5),
         "unload": drawing.chance(0.6),

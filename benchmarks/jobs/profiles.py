@@ -7,7 +7,7 @@ from typing import Any
 import umform as uf
 from jobs.contacts import HAIR, draw_contact
 from jobs.drawing import Drawing
-from jobs.pressing import pressed
+from jobs.pressing import increments, pressed
 from umform import sheet_metals
 from umform.surfaces import Arc, Line, Surface
 
@@ -24,6 +24,7 @@ def draw(drawing: Drawing) -> dict[str, Any]:
     young = sheet_metals.get(metal).young
     plane = drawing.chance(0.6)
     width = thickness if plane else drawing.ratio(1.0, 10.0) * thickness
+    stroke = span * drawing.between(0.05, 0.4)
     return {
         "metal": metal,
         "thickness": thickness,
@@ -39,8 +40,8 @@ def draw(drawing: Drawing) -> dict[str, Any]:
         "nose": drawing.ratio(0.3, 3.0) * thickness,
         "nose_radius": drawing.ratio(0.5, 3.0) * thickness,
         "nose_slope": drawing.between(0.3, 3.0),
-        "stroke": span * drawing.between(0.05, 0.4),
-        "increment": thickness * drawing.ratio(0.03, 0.3),
+        "stroke": stroke,
+        "steps": increments(drawing, stroke, thickness),
         "contacts": [draw_contact(drawing, thickness, young, nodes) for _ in range(2)],
         "line_search": drawing.chance(0.7),
         "unload": drawing.chance(0.7),

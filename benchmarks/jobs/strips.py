@@ -7,7 +7,7 @@ from typing import Any
 import umform as uf
 from jobs.contacts import HAIR, draw_contact
 from jobs.drawing import Drawing
-from jobs.pressing import pressed
+from jobs.pressing import increments, pressed
 from umform import sheet_metals
 from umform.processes.bending.case import build, free_bending
 from umform.processes.bending.parameters import FreeBending
@@ -33,10 +33,10 @@ def draw(drawing: Drawing) -> dict[str, Any]:
         "radius": radius,
         "tool_x": tool_x,
         "stroke": stroke,
-        "steps": max(10, round(stroke / (thickness * drawing.ratio(0.03, 0.5)))),
+        "steps": increments(drawing, stroke, thickness),
         "yield_stress": drawing.between(80.0, 900.0),
         "hardening": drawing.one_of((0.0, 0.0, 300.0, 1000.0, 3000.0)),
-        "penalty": drawing.ratio(20.0, 5000.0) / thickness,
+        "penalty": drawing.ratio(20.0, 50_000.0) / thickness,
         "mesh": (cells, drawing.one_of((1, 1, 2, 3))),
         "element": element,
         "contact": drawing.one_of((1, 2, 2, 3, 4, 5, "nodes") if eight else (3, 4, 5, "nodes")),
@@ -64,12 +64,13 @@ def run(keys: dict[str, Any]) -> tuple[list[uf.Result], dict[str, tuple[float, f
 
 
 def draw_wide(drawing: Drawing) -> dict[str, Any]:
-    """A quarter of a sheet that lies on two cylinders and is pressed down by a third one, or by a ball."""
+    """A quarter of a wide sheet: on blocks under a cylinder or a ball, or on cylinders and pushed along a line."""
     thickness = drawing.one_of((0.5, 0.8, 1.0, 1.5, 2.0, 3.0))
     metal = drawing.one_of(sheet_metals.names())
     eight = drawing.chance(0.8)
     span = drawing.between(8.0, 20.0) * thickness
     young = sheet_metals.get(metal).young
+    stroke = span * drawing.between(0.05, 0.35)
     cells = (drawing.whole(12, 24), drawing.whole(3, 8)) if eight else (drawing.whole(8, 14), drawing.whole(2, 4))
     return {
         "metal": metal,
@@ -80,10 +81,10 @@ def draw_wide(drawing: Drawing) -> dict[str, Any]:
         "length": span * drawing.between(1.3, 1.7),
         "width": span * drawing.between(0.3, 2.0),
         "support": drawing.ratio(1.0, 5.0) * thickness,
-        "punch": drawing.one_of(("cylinder", "cylinder", "ball")),
+        "punch": drawing.one_of(("cylinder", "ball", "line", "line")),
         "punch_radius": drawing.ratio(2.0, 10.0) * thickness,
-        "stroke": span * drawing.between(0.05, 0.35),
-        "increment": thickness * drawing.ratio(0.05, 0.3),
+        "stroke": stroke,
+        "steps": increments(drawing, stroke, thickness),
         "contacts": [draw_contact(drawing, thickness, young, 8 if eight else 18) for _ in range(2)],
         "line_search": drawing.chance(0.7),
         "unload": drawing.chance(0.7),
@@ -98,10 +99,14 @@ def run_wide(keys: dict[str, Any]) -> tuple[list[uf.Result], dict[str, tuple[flo
     model = uf.Model(mesh, keys["element"], material=sheet_metals.get(keys["metal"]).law)
     model.symmetry("x0", normal="x")
     model.symmetry("y0", normal="y")
-    support = uf.Cylinder(centre=(keys["span"], 0.0, (HAIR - 0.5) * t - r), axis="y", radius=r)
+    under, above = keys["contacts"]
+    if keys["punch"] == "line":  # nothing but the line holds the sheet until it has come down to a contact point
+        support = uf.Cylinder(centre=(keys["span"], 0.0, -0.5 * t - r), axis="y", radius=r)
+        model.contact("lower", support, name="support", **under)
+        return pressed(model, model.prescribe("x0_lower", "z", name="stroke"), keys, sign=-1)
+    block = uf.WipingDie(r, origin=(-keys["span"], 0.0, (HAIR - 0.5) * t)).mirrored("x")
+    model.contact("lower", block, name="support", **under)
     centre = (0.0, 0.0, (0.5 - HAIR) * t + R)
     tool = uf.Sphere(centre, R) if keys["punch"] == "ball" else uf.Cylinder(centre, "y", R)
-    under, above = keys["contacts"]
-    model.contact("lower", support, name="support", **under)
     punch = model.drive(model.contact("upper", tool, name="punch", **above), "-z", name="stroke")
     return pressed(model, punch, keys)
