@@ -21,6 +21,7 @@ import numpy as np
 import record
 
 SIZES = (1_000, 2_500, 10_000, 40_000, 160_000)
+MARKS = "<!-- dome -->", "<!-- /dome -->"
 #: Sizes that the exponents are fitted to, and what they should be at most.
 LARGE, GOALS = 10_000, {"s per iteration": 1.3, "peak GB": 1.1}
 
@@ -39,6 +40,12 @@ def build(cells: int, thickness: float = 1.0, increments: int = 10) -> tuple[Any
     sphere = uf.Sphere(centre=(0, 0, 20.0 + 0.5 * thickness), radius=20.0)
     contact = model.contact("upper", sphere, penalty=200.0, points=2)
     return model, uf.Move(model.drive(contact, "z", name="punch"), to=-8.0, steps=increments)
+
+
+def one_iteration(timing: Any) -> float:
+    """Wall seconds of one evaluation with its recovery and contact, one factorisation and one solution, on average."""
+    parts = (timing.elements, timing.recovery, timing.contact, timing.factorisation, timing.solve)
+    return float(sum(part.seconds / max(1, part.calls) for part in parts))
 
 
 def measured(elements: int, increments: int, solver: str, line_search: bool) -> dict[str, Any]:
@@ -72,7 +79,7 @@ def measured(elements: int, increments: int, solver: str, line_search: bool) -> 
         "thrown away": made.thrown,
         "share thrown away": made.share,
         "share beyond accepted iterations": 1.0 - iterations / made.evaluations,
-        "s per iteration": cpu / made.evaluations,
+        "s per iteration": cpu / wall * one_iteration(timing),
         "us per element and accepted iteration": 1e6 * cpu / (count * max(1, iterations)),
         "factorisation s": timing.factorisation.seconds,
         "elements s": timing.elements.seconds,
@@ -84,43 +91,58 @@ def measured(elements: int, increments: int, solver: str, line_search: bool) -> 
     }
 
 
-def exponent(rows: list[dict[str, Any]], name: str) -> float:
-    """Slope of the logarithm of a column over that of the elements, from 10 000 of them on; NaN without two sizes."""
+def exponents(rows: list[dict[str, Any]]) -> dict[str, float]:
+    """Slopes of the logarithms of the columns with a goal over that of the elements; none without two large sizes."""
     large = [row for row in rows if row["elements"] >= LARGE]
     if len(large) < 2:
-        return math.nan
-    n, values = (np.log([row[key] for row in large]) for key in ("elements", name))
-    return float(np.polyfit(n, values, 1)[0])
+        return {}
+    n = np.log([row["elements"] for row in large])
+    return {name: float(np.polyfit(n, np.log([row[name] for row in large]), 1)[0]) for name in GOALS}
 
 
-def report(rows: list[dict[str, Any]]) -> dict[str, float]:
-    """Print table, causes and exponents; give the exponents."""
-    names = {
-        "elements": "d",
-        "CPU s": ".1f",
-        "wall s": ".1f",
-        "peak GB": ".2f",
-        "increments": "d",
-        "iterations": "d",
-        "evaluations": "d",
-        "factorisations": "d",
-        "share thrown away": ".1%",
-        "share beyond accepted iterations": ".1%",
-        "us per element and accepted iteration": ".1f",
-    }
-    print("| " + " | ".join(names) + " |\n|" + "---:|" * len(names))
-    for row in rows:
-        print("| " + " | ".join(format(row[name], form) for name, form in names.items()) + " |")
-    for row in rows:
-        for reason, count in row["failed attempts"].items():
-            print(f"{row['elements']} elements, {row['solver']}: {count} attempts failed: {reason}")
-        if row["failure"]:
-            print(f"{row['elements']} elements did not arrive: {row['failure']}")
-    exponents = {name: exponent(rows, name) for name in GOALS}
-    for name, value in exponents.items():
-        if not math.isnan(value):
-            print(f"{name} grows with the elements to the power of {value:.2f}, goal {GOALS[name]:g}")
-    return exponents
+#: Columns of the table, and how their numbers are written.
+COLUMNS = {
+    "elements": "d",
+    "CPU s": ".1f",
+    "wall s": ".1f",
+    "s per iteration": ".3f",
+    "peak GB": ".2f",
+    "increments": "d",
+    "iterations": "d",
+    "evaluations": "d",
+    "factorisations": "d",
+    "share thrown away": ".0%",
+    "share beyond accepted iterations": ".0%",
+    "us per element and accepted iteration": ".1f",
+}
+
+
+def table(rows: list[dict[str, Any]]) -> str:
+    """All sizes in Markdown, and how time and memory grow."""
+    lines = ["| " + " | ".join(COLUMNS) + " |", "|" + "---:|" * len(COLUMNS)]
+    lines += ["| " + " | ".join(format(row[name], form) for name, form in COLUMNS.items()) + " |" for row in rows]
+    for name, value in exponents(rows).items():
+        verdict = "met" if value <= GOALS[name] else "missed"
+        words = f"{name} grows with the elements to the power of {value:.2f}, from {LARGE} of them on"
+        lines += ["", f"{words}; the goal is {GOALS[name]:g}: {verdict}."]
+    return "\n".join(lines)
+
+
+def failures(rows: list[dict[str, Any]]) -> str:
+    """Why attempts failed, and sizes that did not arrive."""
+    lines = [
+        f"{row['elements']} elements, {row['solver']}: {count} attempts failed: {reason}"
+        for row in rows
+        for reason, count in row["failed attempts"].items()
+    ]
+    return "\n".join(lines + [f"{row['elements']} elements: {row['failure']}" for row in rows if row["failure"]])
+
+
+def write_page(path: Path, text: str) -> None:
+    """Put the table between its marks in a page."""
+    page = path.read_text(encoding="utf-8")
+    before, rest = page.split(MARKS[0])
+    path.write_text(f"{before}{MARKS[0]}\n{text}\n{MARKS[1]}{rest.split(MARKS[1])[1]}", encoding="utf-8")
 
 
 def draw(rows: list[dict[str, Any]], path: Path) -> None:
@@ -165,6 +187,7 @@ def main() -> None:
     parser.add_argument(
         "--plot", type=Path, metavar="FILE", help="draw all sizes of the file of --json, or of this run"
     )
+    parser.add_argument("--page", type=Path, help="page that gets the table between its marks")
     parser.add_argument("--inside", action="store_true", help=argparse.SUPPRESS)
     record.add_option(parser)
     arguments = parser.parse_args()
@@ -182,8 +205,10 @@ def main() -> None:
         rows[row["elements"]] = row
         record.write(arguments.json, f"dome {row['elements']}", row)
     ordered = [rows[elements] for elements in sorted(rows)]
-    exponents = report(ordered)
-    record.write(arguments.json, "dome exponents", {k: v for k, v in exponents.items() if not math.isnan(v)})
+    print(f"{table(ordered)}\n\n{failures(ordered)}")
+    record.write(arguments.json, "dome exponents", exponents(ordered))
+    if arguments.page is not None:
+        write_page(arguments.page, table(ordered))
     if arguments.plot is not None:
         draw(ordered, arguments.plot)
 

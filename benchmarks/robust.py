@@ -28,7 +28,7 @@ import record
 import umform as uf
 from attempts import attempts
 from jobs import COUNT, Done, Job, job
-from robust_page import explanations, page, table
+from robust_page import page, table
 from umform.errors import NoConvergence, UmformError
 
 #: CPU seconds after which a job counts as one that hangs; wall seconds may be as many times more.
@@ -128,6 +128,7 @@ def inside(number: int, limit: int) -> None:
     """What the process of a job does: the answer is its last line."""
 
     def stop(signum: int, frame: object) -> None:
+        signal.signal(signal.SIGXCPU, signal.SIG_IGN)  # it comes again each second
         raise OutOfTime
 
     signal.signal(signal.SIGXCPU, stop)
@@ -174,7 +175,7 @@ def main() -> None:
     print(table(outcomes))
     record.write(arguments.json, "robust", {"jobs": outcomes})
     if arguments.page is not None:
-        arguments.page.write_text(page(outcomes, explanations()), encoding="utf-8")
+        arguments.page.write_text(page(outcomes), encoding="utf-8")
     return None
 
 

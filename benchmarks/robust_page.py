@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+from jobs import COUNT, job
 
 EXPLANATIONS = Path(__file__).with_name("robust_failures.toml")
 GOAL = 0.995
@@ -37,8 +41,25 @@ _Outcomes = Sequence[Mapping[str, Any]]
 
 
 def explanations() -> dict[int, str]:
-    """Why jobs fail, by their numbers."""
-    return {int(number): text for number, text in tomllib.loads(EXPLANATIONS.read_text(encoding="utf-8")).items()}
+    """Why jobs fail, by their numbers.
+
+    Raises
+    ------
+    SystemExit
+        If they are of other jobs than those that are drawn now.
+    """
+    stored, now = tomllib.loads(EXPLANATIONS.read_text(encoding="utf-8")), drawn()
+    if stored["drawn"] != now:
+        raise SystemExit(
+            f"{EXPLANATIONS.name}: jobs are drawn in another way since: look at all failures again; now '{now}'"
+        )
+    return {int(number): text for number, text in stored["failures"].items()}
+
+
+def drawn() -> str:
+    """Digest of all jobs."""
+    text = json.dumps([job(number).keys for number in range(COUNT)], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def check(outcomes: _Outcomes, known: Mapping[int, str]) -> None:
@@ -87,8 +108,9 @@ def table(outcomes: _Outcomes) -> str:
     return "\n".join([*rows, "", *failures]).rstrip()
 
 
-def page(outcomes: _Outcomes, known: Mapping[int, str]) -> str:
+def page(outcomes: _Outcomes) -> str:
     """The page, whose failures are all explained."""
+    known = explanations()
     check(outcomes, known)
     numbers = table(outcomes).split("\n\n")[0]
     share = rate(outcomes)

@@ -117,15 +117,20 @@ def test_reuse(run):
 
 
 def test_dome(run, tmp_path):
-    picture = tmp_path / "dome.png"
-    lines, numbers = run("dome", "--elements", "4", "9", "--plot", str(picture), benchmark="dome 9")
+    picture, page = tmp_path / "dome.png", tmp_path / "page.md"
+    page.write_text("before\n<!-- dome -->\nold\n<!-- /dome -->\nafter\n")
+    words = ("--elements", "4", "9", "--plot", str(picture), "--page", str(page))
+    lines, numbers = run("dome", *words, benchmark="dome 9")
     assert picture.stat().st_size > 10_000
     rows = {int(line.split("|")[1]): line.split("|")[2:-1] for line in lines[2:4]}
     assert list(rows) == [4, 9]
-    assert int(rows[9][3]) == numbers["increments"] == 10
-    assert int(rows[9][4]) == numbers["iterations"] < numbers["evaluations"]
+    assert int(rows[9][4]) == numbers["increments"] == 10
+    assert int(rows[9][5]) == numbers["iterations"] < numbers["evaluations"]
+    assert 0.0 < numbers["s per iteration"] * numbers["iterations"] < 1.5 * numbers["CPU s"]
     assert numbers["way"] == -8.0
     assert numbers["failure"] == ""
+    text = page.read_text().splitlines()
+    assert text == ["before", "<!-- dome -->", *lines[:4], "<!-- /dome -->", "after"]
     lines, _ = run("dome", "--elements", benchmark="dome 9")
     assert [line for line in lines if line.startswith("| 9 ")]  # the file is enough for the table
 
@@ -134,8 +139,8 @@ def test_exponents_of_the_dome_are_slopes_of_the_large_sizes(script):
     rows = [{"elements": n, "s per iteration": 3.0 * n**1.25, "peak GB": 7.0 * n} for n in (10_000, 40_000, 160_000)]
     rows.insert(0, {"elements": 1000, "s per iteration": 1e9, "peak GB": 1e9})
     dome = script("dome")
-    assert [dome.exponent(rows, name) for name in dome.GOALS] == pytest.approx([1.25, 1.0])
-    assert math.isnan(dome.exponent(rows[:2], "peak GB"))
+    assert dome.exponents(rows) == pytest.approx({"s per iteration": 1.25, "peak GB": 1.0})
+    assert dome.exponents(rows[:2]) == {}
 
 
 def test_attempts_count_what_the_model_was_put_back_from(script):
