@@ -17,16 +17,16 @@ _ELEMENTS = (*["ANS3DEAS"] * 4, "EAS3DEAS", "EAS3DEAS", "BEND8", "MI9K3DEAS")
 
 
 def draw(drawing: Drawing) -> dict[str, Any]:
-    """A plate, square or not, some ten to fifty times as wide as it is thick."""
+    """A plate, square or not, some twenty to two hundred times as wide as it is thick."""
     thickness = drawing.one_of((0.5, 0.8, 1.0, 1.5, 2.0))
     metal = drawing.one_of(sheet_metals.names())
     element = drawing.one_of(_ELEMENTS)
     nodes = 18 if element == "MI9K3DEAS" else 8
-    half = drawing.ratio(10.0, 50.0) * thickness
+    half = drawing.ratio(10.0, 100.0) * thickness
     edges = drawing.one_of(("clamped", "clamped", "supported", "ring"))
-    cells = drawing.whole(8, 16) // (nodes // 8)
+    cells = drawing.whole(8, 26) // (nodes // 8)
     young = sheet_metals.get(metal).young
-    stroke = half * drawing.between(0.03, 0.2)
+    stroke = half * drawing.between(0.03, 0.3)
     return {
         "metal": metal,
         "thickness": thickness,

@@ -12,7 +12,7 @@ from umform.model.control import Control
 def increments(drawing: Drawing, stroke: float, thickness: float) -> int:
     """How many increments somebody takes: by the thickness of the sheet, or just a round number."""
     if drawing.chance(0.3):
-        return drawing.one_of((10, 10, 20, 40))
+        return drawing.one_of((5, 10, 10, 20, 40))
     return min(400, max(10, round(stroke / (thickness * drawing.ratio(0.03, 0.5)))))
 
 

@@ -64,9 +64,10 @@ def test_errors_are_told_apart(robust, monkeypatch, error, ended):
 
 def result(force=0.0, drift=0.0):
     """A run that does not balance."""
-    rows = [9.0, force]  # the first is that of the start, which need not be in equilibrium
+    rows = [9.0, 9.0, force]  # the start need not be in equilibrium, and before a first touch there is round-off alone
+    energies = {"elastic": np.array([5.0, 1e-14, 1.0]), "plastic": np.zeros(3), "contact": np.zeros(3)}
     balance = SimpleNamespace(
-        force_imbalance=np.array(rows), moment_imbalance=np.zeros(2), drift=np.array([0.0, -drift])
+        force_imbalance=np.array(rows), moment_imbalance=np.zeros(3), drift=np.array([0.0, 0.0, -drift]), **energies
     )
     return SimpleNamespace(balance=lambda: balance)
 
