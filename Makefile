@@ -28,7 +28,7 @@ unexport PYTHONPATH PYTHONHOME
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
 .PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-stubs lint-format lint-cpp stubs \
-        format bench compare peers clean
+        format bench dome robust compare peers clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -70,6 +70,12 @@ bench: env  ## time kernels, a run and the sparse solvers; the numbers go to bui
 	@$(BIN)/python benchmarks/kernels.py --json $(JSON) $(ARGS)
 	@$(BIN)/python benchmarks/run.py --json $(JSON)
 	@$(BIN)/python benchmarks/sparse.py --json $(JSON)
+
+dome: env  ## a sphere pressed into sheets of up to 160 000 elements: time, memory, evaluations thrown away (an hour)
+	@$(BIN)/python benchmarks/dome.py --json build/dome.json --plot docs/images/dome.png --page docs/performance.md $(ARGS)
+
+robust: env  ## 300 random jobs and how many arrive (some 10 minutes of CPU); writes docs/robust-rate.md
+	@$(BIN)/python benchmarks/robust.py --json build/robust.json --page docs/robust-rate.md $(ARGS)
 
 compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)

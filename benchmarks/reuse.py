@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+import dome
 import umform as uf
 from umform.processes.air_bending import brake
 from umform.processes.air_bending.parameters import AirBending
@@ -23,8 +24,6 @@ from umform.solution.factor_reuse import cost_of_factors
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 
-LAW = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
-
 
 def plate(cells: int) -> tuple[uf.Model, uf.Move]:
     """A clamped elastic plate, 50 x 50 x 1, whose far edge goes up by 20."""
@@ -33,19 +32,6 @@ def plate(cells: int) -> tuple[uf.Model, uf.Move]:
     model.fix("x0")
     edge = model.prescribe("x1_lower", "z", name="edge")
     return model, uf.Move(edge, to=20.0, steps=5)
-
-
-def dome(cells: int) -> tuple[uf.Model, uf.Move]:
-    """A quarter of a clamped sheet, 50 x 50 x 1, and a sphere of radius 20 that goes 8 deep."""
-    mesh = uf.mesh.strip(length=50.0, width=50.0, thickness=1.0, cells=(cells, cells))
-    model = uf.Model(mesh, "ANS3DEAS", material=LAW)
-    model.symmetry("x0", normal="x")
-    model.symmetry("y0", normal="y")
-    model.fix("x1")
-    model.fix("y1")
-    contact = model.contact("upper", uf.Sphere(centre=(0, 0, 20.5), radius=20.0), penalty=200.0, points=2)
-    punch = model.drive(contact, "z", name="edge")
-    return model, uf.Move(punch, to=-8.0, steps=10)
 
 
 def best(work: Callable[..., Any], *arguments: object) -> tuple[float, Any]:
@@ -67,7 +53,7 @@ def costs(cells: int) -> None:
         "free bending 24x1": bending.build(FreeBending())[0],
         "air bending": brake.build(AirBending())[0],
         "air bending, 40 wide": brake.build(AirBending(width=40.0, width_elements=10))[0],
-        **{f"dome {count}x{count}": dome(count)[0] for count in (cells // 2, cells)},
+        **{f"dome {count}x{count}": dome.build(count)[0] for count in (cells // 2, cells)},
     }
     for label, model in models.items():
         pattern, solver = model.pattern, Newton(model).ready_solver()
@@ -98,15 +84,16 @@ def main() -> None:
         return
     print(f"{'':<8}{'factors':<10}{'factorisations':>15}{'solves':>8}{'of all %':>9}{'CPU s':>8}   force")
     for name in arguments.case or ("plate", "dome"):
-        build = {"plate": plate, "dome": dome}[name]
+        build = {"plate": plate, "dome": dome.build}[name]
         for label, cost in (("new", 0.0), ("reused", arguments.cost)):
             model, step = build(arguments.cells)
             start = time.process_time()
             result = uf.solve(model, step, options=NewtonOptions(factor_cost=cost), frames=0, progress=False)
             seconds, timing = time.process_time() - start, result.timing
             share = 100 * timing.factorisation.seconds / timing.total
+            force = result[f"{step.moved()[0].name}_force"][-1]
             counts = f"{timing.factorisation.calls:>15}{timing.solve.calls:>8}{share:>9.0f}"
-            print(f"{name:<8}{label:<10}{counts}{seconds:>8.2f}   {result['edge_force'][-1]:.10g}", flush=True)
+            print(f"{name:<8}{label:<10}{counts}{seconds:>8.2f}   {force:.10g}", flush=True)
 
 
 if __name__ == "__main__":

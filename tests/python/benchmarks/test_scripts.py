@@ -116,6 +116,52 @@ def test_reuse(run):
     assert last(new, 1) == pytest.approx(last(reused, 1), rel=1e-6)  # the force does not lean on the factors
 
 
+def test_dome(run, tmp_path):
+    picture, page = tmp_path / "dome.png", tmp_path / "page.md"
+    page.write_text("before\n<!-- dome -->\nold\n<!-- /dome -->\nafter\n")
+    words = ("--elements", "4", "9", "--plot", str(picture), "--page", str(page))
+    lines, numbers = run("dome", *words, benchmark="dome 9")
+    assert picture.stat().st_size > 10_000
+    rows = {int(line.split("|")[1]): line.split("|")[2:-1] for line in lines[2:4]}
+    assert list(rows) == [4, 9]
+    assert int(rows[9][4]) == numbers["increments"] == 10
+    assert int(rows[9][5]) == numbers["iterations"] < numbers["evaluations"]
+    assert 0.0 < numbers["s per iteration"] * numbers["iterations"] < 1.5 * numbers["CPU s"]
+    assert numbers["way"] == -8.0
+    assert numbers["failure"] == ""
+    text = page.read_text().splitlines()
+    assert text == ["before", "<!-- dome -->", *lines[:4], "<!-- /dome -->", "after"]
+    lines, _ = run("dome", "--elements", benchmark="dome 9")
+    assert [line for line in lines if line.startswith("| 9 ")]  # the file is enough for the table
+
+
+def test_exponents_of_the_dome_are_slopes_of_the_large_sizes(script):
+    rows = [{"elements": n, "s per iteration": 3.0 * n**1.25, "peak GB": 7.0 * n} for n in (10_000, 40_000, 160_000)]
+    rows.insert(0, {"elements": 1000, "s per iteration": 1e9, "peak GB": 1e9})
+    dome = script("dome")
+    assert dome.exponents(rows) == pytest.approx({"s per iteration": 1.25, "peak GB": 1.0})
+    assert dome.exponents(rows[:2]) == {}
+
+
+def test_attempts_count_what_the_model_was_put_back_from(script):
+    """A run that arrives at once throws nothing away; one of few iterations throws whole attempts away."""
+    attempts, build = script("attempts").attempts, script("dome").build
+    counts = {}
+    for iterations in (25, 5):
+        model, step = build(3)
+        options = uf.NewtonOptions(max_iterations=iterations)
+        with attempts() as made:
+            result = uf.solve(model, step, options=options, frames=0, progress=False)
+        counts[iterations] = made
+        assert made.evaluations == result.timing.elements.calls
+        assert made.evaluations - made.thrown >= result["iterations"].sum()
+    assert counts[25].thrown == 0
+    assert not counts[25].failures
+    assert 0.0 < counts[5].share < 1.0
+    assert counts[5].failures["no convergence in N iterations"] > 0
+    assert uf.Model.evaluate.__name__ == "evaluate"
+
+
 def test_sparse(run):
     _, numbers = run("sparse", "--case", "strip 24x1", benchmark="sparse")
     times = {name: number for name, number in numbers.items() if "analysis" not in name}

@@ -1,0 +1,202 @@
+"""How many of 300 random jobs arrive: bends, strips, sections of users and plates, each in a process with a time limit.
+
+    python benchmarks/robust.py --json build/robust.json --page docs/robust-rate.md
+    python benchmarks/robust.py --job 117
+
+A job has arrived if its steps are at their end and forces and energies balance.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import logging
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import record
+import umform as uf
+from attempts import attempts
+from jobs import COUNT, Done, Job, job
+from robust_page import drawn, failures, page, table
+from umform.errors import NoConvergence, UmformError
+
+#: CPU seconds after which a job counts as one that hangs; wall seconds may be as many times more.
+LIMIT, PATIENCE = 100, 10
+#: Largest imbalance of forces and moments. A drift of the energies above the second number, over the largest energy,
+#: must be that of coarse increments: by increments of half the size it must fall to this part of it, or below.
+FORCES, ENERGIES, FALLS = 1e-6, 0.02, 0.6
+#: Part of the largest energy below which forces are round-off: a sheet that nothing touches yet.
+NOTHING = 1e-12
+#: Jobs of all kinds that the ordinary tests run: the cheapest ones.
+SAMPLE: tuple[int, ...] = ()
+
+
+class OutOfTime(BaseException):
+    """The limit of CPU seconds is reached."""
+
+
+def outcome(number: int) -> dict[str, Any]:
+    """Run a job in this process, and say what came of it."""
+    logging.getLogger("umform").addHandler(logging.NullHandler())
+    uf.set_threads(1)
+    task, start, done = job(number), time.process_time(), Done([])
+    ended, reason = "arrived", ""
+    try:
+        with attempts() as made:
+            done = task.run()
+        reason = imbalance(task, done)
+        ended = "wrong" if reason else "arrived"
+    except NoConvergence as error:
+        ended, reason = "no convergence", f"{error.where}: {error.cause}; {error.value}"
+    except UmformError as error:
+        ended, reason = ("error" if made.evaluations else "refused"), " ".join(str(error).split())
+    except OutOfTime:
+        ended, reason = "out of time", "the limit of CPU seconds is reached"
+    return {
+        "number": number,
+        "kind": task.kind,
+        "outcome": ended,
+        "reason": reason,
+        "CPU s": round(time.process_time() - start, 2),
+        "increments": sum(len(result) - 1 for result in done.results),
+        "iterations": int(sum(result["iterations"].sum() for result in done.results)),
+        "evaluations": made.evaluations,
+        "share thrown away": round(made.share, 3),
+        "failed attempts": dict(made.failures.most_common()),
+        "drift": drift(done),
+    }
+
+
+def drift(done: Done) -> float:
+    """Largest drift of the energies in all runs of a job."""
+    return max(float(np.abs(result.balance().drift).max()) for result in done.results) if done.results else 0.0
+
+
+def imbalance(task: Job, done: Done) -> str:
+    """What does not balance in what a job gave; nothing if all does."""
+    found = []
+    for balance in (result.balance() for result in done.results):
+        stored = np.abs(balance.elastic + balance.plastic + balance.contact)
+        loaded = (stored > NOTHING * stored.max()) & (np.arange(len(stored)) > 0)  # the start may be out of it
+        found += [("forces", float(balance.force_imbalance[loaded].max(initial=0.0)), FORCES)]
+        found += [("moments", float(balance.moment_imbalance[loaded].max(initial=0.0)), FORCES)]
+    found += [(name, *pair) for name, pair in done.deviations.items()]
+    coarse = drift(done)
+    if coarse > ENERGIES:
+        found.append(("energies with increments of half the size", drift(task.finer().run()), FALLS * coarse))
+    return "; ".join(f"{name} off by {off:.2g}, {most:.2g} allowed" for name, off, most in found if not off <= most)
+
+
+def in_a_process(number: int, limit: int = LIMIT) -> dict[str, Any]:
+    """Run a job in a process of its own, which may die or hang."""
+    threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+    command = [sys.executable, __file__, "--inside", str(number), "--limit", str(limit)]
+    lost = {
+        "number": number,
+        "kind": job(number).kind,
+        "CPU s": float(limit),
+        "evaluations": 0,
+        "share thrown away": 0.0,
+    }
+    try:
+        done = subprocess.run(
+            command,
+            capture_output=True,
+            text=True,
+            env={**os.environ, **threads},
+            timeout=limit * PATIENCE,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return {**lost, "outcome": "hang", "reason": f"no answer in {limit * PATIENCE} s"}
+    if done.returncode == -signal.SIGKILL:
+        return {**lost, "outcome": "hang", "reason": "killed: it did not hear that its CPU time was over"}
+    if done.returncode != 0:
+        last = (done.stderr.strip().splitlines() or ["nothing said"])[-1]
+        return {**lost, "outcome": "crash", "reason": f"ended with {done.returncode}: {last}"}
+    answer: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
+    return answer
+
+
+def inside(number: int, limit: int) -> None:
+    """What the process of a job does: the answer is its last line."""
+
+    def stop(signum: int, frame: object) -> None:
+        signal.signal(signal.SIGXCPU, signal.SIG_IGN)  # it comes again each second
+        raise OutOfTime
+
+    signal.signal(signal.SIGXCPU, stop)
+    resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 20))
+    print(json.dumps(outcome(number)))
+
+
+def run(numbers: Sequence[int], processes: int, limit: int) -> list[dict[str, Any]]:
+    """All of some jobs, so many at a time, with a line for each as it ends."""
+    outcomes = []
+    with ThreadPoolExecutor(processes) as pool:
+        for one in pool.map(lambda number: in_a_process(number, limit), numbers):
+            outcomes.append(one)
+            print(
+                f"{one['number']:4d}  {one['kind']:<28}{one['CPU s']:>7.1f} s  {one['outcome']}  {one['reason']}",
+                flush=True,
+            )
+    return outcomes
+
+
+def known(path: Path | None) -> dict[int, dict[str, Any]]:
+    """What a file has of earlier runs of the same jobs, by their numbers."""
+    if path is None or not path.is_file():
+        return {}
+    kept = json.loads(path.read_text()).get("benchmarks", {}).get("robust", {}).get("numbers", {})
+    return {one["number"]: one for one in kept["jobs"]} if kept.get("drawn") == drawn() else {}
+
+
+def show(number: int) -> None:
+    """Print one job with all that it was drawn as, and what comes of it."""
+    print(json.dumps(job(number).keys, indent=1))
+    print(json.dumps(outcome(number), indent=1))
+
+
+def main() -> None:
+    """Run the jobs, print the table and the failures, write the page."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--job", type=int, metavar="NUMBER", help="one job in this process, with all its numbers")
+    parser.add_argument("--jobs", type=int, nargs="*", default=range(COUNT), metavar="NUMBER",
+                        help="default: all; those that are in the file of --json already stay there")  # fmt: skip
+    parser.add_argument("--sample", action="store_true", help="those that the tests run")
+    parser.add_argument("--processes", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--limit", type=int, default=LIMIT, help="CPU seconds of a job")
+    parser.add_argument("--page", type=Path, metavar="FILE", help="write the page with the explanations of failures")
+    parser.add_argument("--inside", type=int, help=argparse.SUPPRESS)
+    record.add_option(parser)
+    arguments = parser.parse_args()
+    if arguments.job is not None:
+        return show(arguments.job)
+    if arguments.inside is not None:
+        return inside(arguments.inside, arguments.limit)
+    numbers = SAMPLE if arguments.sample else arguments.jobs
+    found = known(arguments.json)
+    found |= {one["number"]: one for one in run(numbers, arguments.processes, arguments.limit)}
+    outcomes = [found[number] for number in sorted(found)]
+    print(f"{table(outcomes)}\n\n{failures(outcomes)}")
+    record.write(arguments.json, "robust", {"drawn": drawn(), "jobs": outcomes})
+    if arguments.page is not None:
+        if len(outcomes) < COUNT:
+            parser.error(f"the page is of all jobs, {COUNT - len(outcomes)} are missing")
+        arguments.page.write_text(page(outcomes), encoding="utf-8")
+    return None
+
+
+if __name__ == "__main__":
+    main()

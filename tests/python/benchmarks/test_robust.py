@@ -1,0 +1,141 @@
+"""Random jobs arrive and balance; what does not arrive is told apart, and has to be explained."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from umform.errors import InvalidValue, NoConvergence
+
+#: How many jobs the sample has.
+SAMPLE = 40
+
+
+@pytest.fixture
+def robust(script):
+    return script("robust")
+
+
+@pytest.mark.parametrize("which", range(SAMPLE))
+def test_the_sample_arrives(robust, which):
+    ended = robust.outcome(robust.SAMPLE[which])
+    assert (ended["outcome"], ended["reason"]) == ("arrived", "")
+    assert ended["increments"] > 0
+
+
+def test_the_sample_has_jobs_of_all_kinds(robust):
+    assert len(set(robust.SAMPLE)) == SAMPLE
+    jobs = [robust.job(number) for number in robust.SAMPLE]
+    kinds = robust.page.__globals__["job"].__globals__["KINDS"]
+    assert {job.kind for job in jobs} == set(kinds)
+
+
+def test_a_number_is_always_the_same_job(robust):
+    for number in (0, 11, 13, 20, 23, 27):
+        assert robust.job(number) == robust.job(number)
+        assert robust.job(number).keys != robust.job(number + 30).keys
+        assert robust.job(number).kind == robust.job(number + 30).kind
+
+
+def test_finer_jobs_have_increments_of_half_the_size(robust):
+    strip, bend = robust.job(13), robust.job(0)
+    assert strip.finer().keys["steps"] == 2 * strip.keys["steps"]
+    assert bend.finer().keys["increment"] == 0.5 * bend.keys["increment"]
+
+
+@pytest.mark.parametrize(
+    ("error", "ended"),
+    [
+        (NoConvergence("no", where="step 1", cause="chatter"), "no convergence"),
+        (InvalidValue("a word"), "refused"),
+    ],
+)
+def test_errors_are_told_apart(robust, monkeypatch, error, ended):
+    def failing(task):
+        raise error
+
+    monkeypatch.setattr(robust.Job, "run", failing)
+    found = robust.outcome(0)
+    assert found["outcome"] == ended
+    assert (error.cause or error.what) in found["reason"]
+
+
+def result(force=0.0, drift=0.0):
+    """A run that does not balance."""
+    rows = [9.0, 9.0, force]  # the start need not be in equilibrium, and before a first touch there is round-off alone
+    energies = {"elastic": np.array([5.0, 1e-14, 1.0]), "plastic": np.zeros(3), "contact": np.zeros(3)}
+    balance = SimpleNamespace(
+        force_imbalance=np.array(rows), moment_imbalance=np.zeros(3), drift=np.array([0.0, 0.0, -drift]), **energies
+    )
+    return SimpleNamespace(balance=lambda: balance)
+
+
+def test_a_run_without_balance_is_wrong(robust, monkeypatch):
+    task = robust.job(13)
+    assert robust.imbalance(task, robust.Done([result()])) == ""
+    assert robust.imbalance(task, robust.Done([result(force=1e-3)])) == "forces off by 0.001, 1e-06 allowed"
+    assert robust.imbalance(task, robust.Done([], {"angle": (0.2, 0.1)})) == "angle off by 0.2, 0.1 allowed"
+    assert robust.imbalance(task, robust.Done([], {"angle": (np.nan, 0.1)}))
+    for finer, said in ((0.02, ""), (0.08, "energies with increments of half the size off by 0.08, 0.048 allowed")):
+        monkeypatch.setattr(robust.Job, "run", lambda job, finer=finer: robust.Done([result(drift=finer)]))
+        assert robust.imbalance(task, robust.Done([result(drift=0.08)])) == said
+
+
+def test_a_process_that_takes_too_long_or_dies_is_told(robust, monkeypatch, tmp_path):
+    slow = tmp_path / "slow.py"
+    slow.write_text(
+        "import sys\n"
+        f"sys.path.insert(0, {str(robust.__file__).removesuffix('/robust.py')!r})\n"
+        "import robust\n"
+        "def forever(task):\n"
+        "    while True: pass\n"
+        "robust.Job.run = forever\n"
+        "robust.inside(int(sys.argv[2]), 2)\n"
+    )
+    dying = tmp_path / "dying.py"
+    dying.write_text("import os\nos.abort()\n")
+    monkeypatch.setattr(robust, "__file__", str(slow))
+    assert robust.in_a_process(3)["outcome"] == "out of time"
+    monkeypatch.setattr(robust, "__file__", str(dying))
+    assert robust.in_a_process(3)["outcome"] == "crash"
+
+
+def outcome(number: int, ended: str = "arrived") -> dict[str, object]:
+    """What a job of the page needs."""
+    return {
+        "number": number,
+        "kind": "air bend" if number < 8 else "plate under a tool",
+        "outcome": ended,
+        "reason": "why" if ended != "arrived" else "",
+        "CPU s": 1.0 + number,
+        "evaluations": 10,
+        "share thrown away": 0.5,
+    }
+
+
+def test_failures_must_be_explained_and_explanations_must_be_needed(script):
+    page = script("robust_page")
+    outcomes = [outcome(0), outcome(1, "no convergence")]
+    page.check(outcomes, {1: "a limit point"})
+    for known in ({}, {0: "old", 1: "a limit point"}):
+        with pytest.raises(SystemExit, match=r"no explanation of the jobs \[1?\]; jobs \[0?\] arrive"):
+            page.check(outcomes, known)
+
+
+def test_the_page_has_the_rate_and_each_failure(script, monkeypatch):
+    page = script("robust_page")
+    monkeypatch.setattr(page, "explanations", lambda: {1: "a limit point"})
+    text = page.page([outcome(0), outcome(1, "no convergence"), outcome(28), outcome(29)])
+    assert "\n75.0% arrive; the goal is 99.5%, and that none hangs: missed.\n" in text
+    assert "| air bend | 2 | 50.0% | 2.0 | 2.0 | 20 | 50% |" in text
+    assert "* **Job 1**, air bend, no convergence: a limit point" in text
+
+
+def test_explanations_are_of_the_jobs_that_are_drawn(script, monkeypatch):
+    page = script("robust_page")
+    page.explanations()
+    monkeypatch.setattr(page, "drawn", lambda: "other")
+    with pytest.raises(SystemExit, match="drawn in another way"):
+        page.explanations()
