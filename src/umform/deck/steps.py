@@ -183,11 +183,11 @@ class Solution(Part):
     max_iterations: Annotated[int, Field(ge=1, le=1000)] = 25
     """Iterations before an increment is cut."""
     line_search: bool | None = None
-    """Shorten increments that go too far; default: where there is contact or a law with a history."""
+    """Shorten increments that go too far; default: where a law has a history."""
     extrapolate: bool = True
     """Start an increment from the extrapolated last one."""
     mixed: bool | None = None
-    """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets without contact."""
+    """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets."""
 
     def build(self) -> NewtonOptions:
         """Options of Newton's method."""

@@ -158,9 +158,14 @@ class Assembled(Supported, Loaded, Touched, Embodied, Whole):
         return self._assembly().unknowns.extend(q)
 
     @property
+    def elastic(self) -> bool:
+        """Whether no law has a history."""
+        return all(body.block.state_size == 0 for body in self.bodies)
+
+    @property
     def smooth(self) -> bool:
         """Whether there is neither contact nor a law with a history."""
-        return not self.contacts and all(body.block.state_size == 0 for body in self.bodies)
+        return self.elastic and not self.contacts
 
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry of the tangent."""

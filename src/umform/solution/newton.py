@@ -64,16 +64,7 @@ class Newton:
     @cached_property
     def mixed(self) -> bool:
         """Whether tangents have the geometric stiffness of the stress that the last increment foresaw. eq. (5.39)"""
-        if self.options.mixed is not None:
-            return self.options.mixed
-        return self.system.smooth
-
-    @cached_property
-    def searches(self) -> bool:
-        """Whether increments that go too far are shortened. eq. (5.12)"""
-        if self.options.line_search is not None:
-            return self.options.line_search
-        return not self.system.smooth
+        return self.system.elastic if self.options.mixed is None else self.options.mixed
 
     def manner(self, *, consistent: bool = False, wary: bool = False) -> Manner:
         """How iterations are made, with the options of the user.
@@ -85,7 +76,10 @@ class Newton:
         wary : bool
             Give up as soon as the tangent is indefinite far from equilibrium.
         """
-        return Manner(self.searches, True, self.mixed and not consistent, wary)
+        search = self.options.line_search
+        if search is None:  # in elastic sheets, whose energy is a narrow bent valley, it creeps
+            search = not self.system.elastic
+        return Manner(search, True, self.mixed and not consistent, wary)
 
     def solve(self, extrapolation: Floats | None = None, manner: Manner | None = None) -> Converged:
         """Find the equilibrium at the present loads, supports and tools, starting from the converged state.
@@ -183,7 +177,7 @@ class Newton:
         increment, step_length, pivots = self._relative(du, evaluation), 1.0, None
         active = previous_active = evaluation.active
         criteria, cycle = Criteria(system, options.residual, options.increment), Cycle(system)
-        stall = Stall() if manner.line_search else None
+        stall = None if system.smooth else Stall()
         reuse = Reuse(options, system.pattern.n, system.effort)
 
         for _ in range(options.max_iterations):

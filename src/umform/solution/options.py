@@ -20,8 +20,7 @@ class NewtonOptions:
     max_iterations : int
         Iterations before a step is given up.
     line_search : bool, optional
-        Shorten increments that go too far, see :mod:`umform.solution.line_search`. Default: where there is contact or a
-        law with a history.
+        Shorten increments that go too far, see :mod:`umform.solution.line_search`. Default: where a law has a history.
     extrapolate : bool
         Start a step from the extrapolated last one instead of the tangent.
     factor_cost : float, optional
@@ -30,8 +29,7 @@ class NewtonOptions:
         makes new ones always.
     mixed : bool, optional
         Take the geometric stiffness from the stress that the last increment foresaw, not from the present one: thin
-        elastic sheets take larger steps and fewer iterations. eq. (5.39) Default: where there is neither
-        contact nor a law with a history.
+        elastic sheets take larger steps and fewer iterations. eq. (5.39) Default: where no law has a history.
     """
 
     residual: float = 1e-9

@@ -109,6 +109,10 @@ class System(Protocol):
         """Largest extent of the undeformed body along an axis."""
 
     @property
+    def elastic(self) -> bool:
+        """Whether no law has a history."""
+
+    @property
     def smooth(self) -> bool:
         """Whether there is neither contact nor a law with a history."""
 

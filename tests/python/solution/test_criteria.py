@@ -18,7 +18,7 @@ class Given:
     """A system of one unknown with slope 1 whose n-th evaluation has a given residual and active set."""
 
     effort = extent = 1.0
-    smooth = False
+    elastic = smooth = False
     ranks = ONE
 
     def __init__(self, residuals, active):
