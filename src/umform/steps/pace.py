@@ -38,15 +38,15 @@ class Pace:
     contact : float
         Share of the contact points in touch that come and go.
     iterations : int
-        Iterations of Newton's method that the size is adapted to.
+        Iterations of Newton's method at which the size is kept: with half of them it may double.
     """
 
     first: float = 0.01
     largest: float = 0.1
     turn: float = 2.0
-    strain: float = 0.01
+    strain: float = 0.02
     contact: float = 1.0
-    iterations: int = 6
+    iterations: int = 12
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
@@ -63,7 +63,7 @@ class Pace:
     def factor(self, happened: Happened) -> float:
         """Size of the next increment over that of the one in which this has happened."""
         limits = [
-            math.sqrt(self.iterations / happened.iterations),
+            self.iterations / happened.iterations,
             _ratio(self.turn, happened.turn),
             _ratio(self.strain, happened.strain),
             _ratio(self.contact, happened.contact),

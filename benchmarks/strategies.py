@@ -1,0 +1,106 @@
+"""What becomes of the attempts of Newton's method: strategies tried and won, what was thrown away and why.
+
+``python benchmarks/strategies.py --page docs/attempts.md`` writes the tables between the marks of the page.
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+import umform as uf
+from dome import build as dome
+from umform.attempts import Attempts
+from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.search import find_stroke
+from umform.processes.bending.case import free_bending
+from umform.processes.bending.parameters import FreeBending
+from umform.processes.bending.showcase import Selection
+from umform.timing import Timing, timings
+from umform_book.book import Order, cases, chapters, run_case
+
+MARKS = "<!-- attempts -->", "<!-- /attempts -->"
+
+
+def domes(cells: int, increments: int | None) -> Callable[[], object]:
+    """A sphere that is pressed into a clamped sheet."""
+
+    def run() -> object:
+        model, move = dome(cells)
+        return uf.solve(model, uf.Move(move.control, move.to, steps=increments), frames=0, progress=False)
+
+    return run
+
+
+def demo() -> None:
+    """The 14 runs of ``umform demo free-bending``."""
+    for case in Selection().runs(FreeBending()):
+        free_bending(case, frames=0, progress=False)
+
+
+def contact_chapter() -> None:
+    """The chapter of the verification book about contact, on its short meshes."""
+    chapter = next(chapter for chapter in chapters() if chapter.title == "Contact")
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "images").mkdir()
+        for case in chapter.cases:
+            assert case.name in cases()
+            run_case(Order(case.name, Path(folder), short=True))
+
+
+WORKLOADS: dict[str, Callable[[], object]] = {
+    "dome, 1 024 elements, 10 increments": domes(32, 10),
+    "dome, 2 500 elements, 10 increments": domes(50, 10),
+    "dome, 2 500 elements, 4 increments": domes(50, 4),
+    "dome, 2 500 elements, at a pace": domes(50, None),
+    "dome, 10 000 elements, 10 increments": domes(100, 10),
+    "demo, 14 runs of 300 increments": demo,
+    "stroke for 90 degrees in air bending": lambda: find_stroke(AirBending(), 90.0, progress=False),
+    "chapter of contact in the book": contact_chapter,
+}
+
+
+def attempts(work: Callable[[], object]) -> Attempts:
+    """The counts of all runs in some work."""
+    with timings() as runs:
+        work()
+    return Timing.sum(runs).attempts
+
+
+def tables(found: dict[str, Attempts]) -> str:
+    """Two tables in Markdown: shares and strategies by workload, causes over all of them."""
+    names = list(dict.fromkeys(name for one in found.values() for name in one.tried))
+    lines = [
+        "| | evaluations | thrown away | " + " | ".join(names) + " |",
+        "|---|---:|---:|" + "---:|" * len(names),
+    ]
+    for workload, one in found.items():
+        shares = [f"{one.won[name]} of {one.tried[name]}" if one.tried[name] else "" for name in names]
+        lines.append(f"| {workload} | {one.evaluations} | {100 * one.share:.1f} % | " + " | ".join(shares) + " |")
+    whole = Attempts()
+    for one in found.values():
+        whole.add(one)
+    lines += ["", "| attempts given up, all runs above | |", "|---|---:|"]
+    lines += [f"| {cause} | {count} |" for cause, count in whole.causes.most_common()]
+    return "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    """Run the workloads one after the other."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--only", choices=list(WORKLOADS), action="append", metavar="NAME", help="default: all")
+    parser.add_argument("--page", type=Path, help="page that gets the tables between its marks")
+    arguments = parser.parse_args()
+    uf.set_threads(1)
+    text = tables({name: attempts(WORKLOADS[name]) for name in arguments.only or WORKLOADS})
+    print(text)
+    if arguments.page:
+        page = arguments.page.read_text(encoding="utf-8")
+        before, rest = page.split(MARKS[0])
+        arguments.page.write_text(f"{before}{MARKS[0]}\n\n{text}\n{MARKS[1]}{rest.split(MARKS[1])[1]}", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
