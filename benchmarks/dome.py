@@ -21,7 +21,6 @@ import numpy as np
 import record
 
 SIZES = (1_000, 2_500, 10_000, 40_000, 160_000)
-MARKS = "<!-- dome -->", "<!-- /dome -->"
 #: Sizes that the exponents are fitted to, and what they should be at most.
 LARGE, GOALS = 10_000, {"s per iteration": 1.3, "peak GB": 1.1}
 
@@ -48,23 +47,22 @@ def one_iteration(timing: Any) -> float:
     return float(sum(part.seconds / max(1, part.calls) for part in parts))
 
 
-def measured(elements: int, increments: int, solver: str, line_search: bool) -> dict[str, Any]:
+def measured(elements: int, increments: int, solver: str) -> dict[str, Any]:
     """One run in this process."""
     import umform as uf
-    from attempts import attempts
     from umform.errors import NoConvergence
 
     uf.set_threads(1)
     model, step = build(round(math.sqrt(elements)), increments=increments)
-    count, options = len(model.mesh.connectivity), uf.NewtonOptions(line_search=line_search)
+    count = len(model.mesh.connectivity)
     cpu, wall = time.process_time(), time.perf_counter()
-    with attempts() as made:
-        try:
-            result, failure = uf.solve(model, step, solver=solver, options=options, frames=0, progress=False), ""
-        except NoConvergence as error:
-            result, failure = error.result, str(error)  # type: ignore[attr-defined]
+    try:
+        result, failure = uf.solve(model, step, solver=solver, frames=0, progress=False), ""
+    except NoConvergence as error:
+        result, failure = error.result, str(error)  # type: ignore[attr-defined]
     cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
     iterations, timing = int(result["iterations"].sum()), result.timing
+    attempts = timing.attempts
     return {
         "elements": count,
         "equations": model.pattern.n,
@@ -74,11 +72,11 @@ def measured(elements: int, increments: int, solver: str, line_search: bool) -> 
         "peak GB": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e9,
         "increments": len(result) - 1,
         "iterations": iterations,
-        "evaluations": made.evaluations,
+        "evaluations": attempts.evaluations,
         "factorisations": timing.factorisation.calls,
-        "thrown away": made.thrown,
-        "share thrown away": made.share,
-        "share beyond accepted iterations": 1.0 - iterations / made.evaluations,
+        "thrown away": attempts.thrown,
+        "share thrown away": attempts.share,
+        "share beyond accepted iterations": 1.0 - iterations / attempts.evaluations,
         "s per iteration": cpu / wall * one_iteration(timing),
         "us per element and accepted iteration": 1e6 * cpu / (count * max(1, iterations)),
         "factorisation s": timing.factorisation.seconds,
@@ -86,7 +84,7 @@ def measured(elements: int, increments: int, solver: str, line_search: bool) -> 
         "force": float(result["punch_force"][-1]),
         "way": float(result["punch"][-1]),
         "drift": float(np.abs(result.balance().drift).max()),
-        "failed attempts": dict(made.failures.most_common()),
+        "failed attempts": dict(attempts.causes.most_common()),
         "failure": failure,
     }
 
@@ -138,13 +136,6 @@ def failures(rows: list[dict[str, Any]]) -> str:
     return "\n".join(lines + [f"{row['elements']} elements: {row['failure']}" for row in rows if row["failure"]])
 
 
-def write_page(path: Path, text: str) -> None:
-    """Put the table between its marks in a page."""
-    page = path.read_text(encoding="utf-8")
-    before, rest = page.split(MARKS[0])
-    path.write_text(f"{before}{MARKS[0]}\n{text}\n{MARKS[1]}{rest.split(MARKS[1])[1]}", encoding="utf-8")
-
-
 def draw(rows: list[dict[str, Any]], path: Path) -> None:
     """Time of an iteration, memory and share thrown away, against the elements."""
     from umform.plotting import Picture, house_style, save
@@ -183,7 +174,6 @@ def main() -> None:
     parser.add_argument("--elements", type=int, nargs="*", default=SIZES, help=what)
     parser.add_argument("--increments", type=int, default=10)
     parser.add_argument("--solver", default="auto")
-    parser.add_argument("--line-search", action="store_true")
     parser.add_argument(
         "--plot", type=Path, metavar="FILE", help="draw all sizes of the file of --json, or of this run"
     )
@@ -192,12 +182,11 @@ def main() -> None:
     record.add_option(parser)
     arguments = parser.parse_args()
     if arguments.inside:
-        row = measured(arguments.elements[0], arguments.increments, arguments.solver, arguments.line_search)
+        row = measured(arguments.elements[0], arguments.increments, arguments.solver)
         print(json.dumps(row))
         return
     rows = known(arguments.json)
     words = ["--increments", str(arguments.increments), "--solver", arguments.solver]
-    words += ["--line-search"] * arguments.line_search
     for elements in arguments.elements:
         command = [sys.executable, __file__, "--inside", "--elements", str(elements), *words]
         output = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
@@ -208,7 +197,7 @@ def main() -> None:
     print(f"{table(ordered)}\n\n{failures(ordered)}")
     record.write(arguments.json, "dome exponents", exponents(ordered))
     if arguments.page is not None:
-        write_page(arguments.page, table(ordered))
+        record.put(arguments.page, "dome", table(ordered))
     if arguments.plot is not None:
         draw(ordered, arguments.plot)
 

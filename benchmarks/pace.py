@@ -15,14 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
+import record
 import umform as uf
 from dome import build as dome
 from umform.processes.air_bending import brake
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.bending import case as bending
 from umform.processes.bending.parameters import FreeBending
-
-MARKS = "<!-- pace -->", "<!-- /pace -->"
 
 Floats = NDArray[np.float64]
 #: Model and the control that moves, how far it goes, and how many equal increments are compared with.
@@ -99,9 +98,7 @@ def main() -> None:
     text = "\n".join(lines) + "\n"
     print(text)
     if arguments.page:
-        page = arguments.page.read_text(encoding="utf-8")
-        before, rest = page.split(MARKS[0])
-        arguments.page.write_text(f"{before}{MARKS[0]}\n\n{text}\n{MARKS[1]}{rest.split(MARKS[1])[1]}", encoding="utf-8")
+        record.put(arguments.page, "pace", text)
 
 
 if __name__ == "__main__":

@@ -26,10 +26,10 @@ import numpy as np
 
 import record
 import umform as uf
-from attempts import attempts
 from jobs import COUNT, Done, Job, job
 from robust_page import drawn, failures, page, table
 from umform.errors import NoConvergence, UmformError
+from umform.timing import Timing, timings
 
 #: CPU seconds after which a job counts as one that hangs; wall seconds may be as many times more.
 LIMIT, PATIENCE = 100, 10
@@ -56,16 +56,17 @@ def outcome(number: int) -> dict[str, Any]:
     task, start, done = job(number), time.process_time(), Done([])
     ended, reason = "arrived", ""
     try:
-        with attempts() as made:
+        with timings() as runs:
             done = task.run()
         reason = imbalance(task, done)
         ended = "wrong" if reason else "arrived"
     except NoConvergence as error:
         ended, reason = "no convergence", f"{error.where}: {error.cause}; {error.value}"
     except UmformError as error:
-        ended, reason = ("error" if made.evaluations else "refused"), " ".join(str(error).split())
+        ended, reason = ("error" if Timing.sum(runs).attempts.evaluations else "refused"), " ".join(str(error).split())
     except OutOfTime:
         ended, reason = "out of time", "the limit of CPU seconds is reached"
+    made = Timing.sum(runs).attempts
     return {
         "number": number,
         "kind": task.kind,
@@ -76,7 +77,7 @@ def outcome(number: int) -> dict[str, Any]:
         "iterations": int(sum(result["iterations"].sum() for result in done.results)),
         "evaluations": made.evaluations,
         "share thrown away": round(made.share, 3),
-        "failed attempts": dict(made.failures.most_common()),
+        "failed attempts": dict(made.causes.most_common()),
         "drift": drift(done),
     }
 

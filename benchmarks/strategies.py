@@ -10,6 +10,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+import record
 import umform as uf
 from dome import build as dome
 from umform.attempts import Attempts
@@ -20,8 +21,6 @@ from umform.processes.bending.parameters import FreeBending
 from umform.processes.bending.showcase import Selection
 from umform.timing import Timing, timings
 from umform_book.book import Order, cases, chapters, run_case
-
-MARKS = "<!-- attempts -->", "<!-- /attempts -->"
 
 
 def domes(cells: int, increments: int | None) -> Callable[[], object]:
@@ -97,9 +96,7 @@ def main() -> None:
     text = tables({name: attempts(WORKLOADS[name]) for name in arguments.only or WORKLOADS})
     print(text)
     if arguments.page:
-        page = arguments.page.read_text(encoding="utf-8")
-        before, rest = page.split(MARKS[0])
-        arguments.page.write_text(f"{before}{MARKS[0]}\n\n{text}\n{MARKS[1]}{rest.split(MARKS[1])[1]}", encoding="utf-8")
+        record.put(arguments.page, "attempts", text)
 
 
 if __name__ == "__main__":

@@ -143,25 +143,6 @@ def test_exponents_of_the_dome_are_slopes_of_the_large_sizes(script):
     assert dome.exponents(rows[:2]) == {}
 
 
-def test_attempts_count_what_the_model_was_put_back_from(script):
-    """A run that arrives at once throws nothing away; one of few iterations throws whole attempts away."""
-    attempts, build = script("attempts").attempts, script("dome").build
-    counts = {}
-    for iterations in (25, 5):
-        model, step = build(3)
-        options = uf.NewtonOptions(max_iterations=iterations)
-        with attempts() as made:
-            result = uf.solve(model, step, options=options, frames=0, progress=False)
-        counts[iterations] = made
-        assert made.evaluations == result.timing.elements.calls
-        assert made.evaluations - made.thrown >= result["iterations"].sum()
-    assert counts[25].thrown == 0
-    assert not counts[25].failures
-    assert 0.0 < counts[5].share < 1.0
-    assert counts[5].failures["no convergence in N iterations"] > 0
-    assert uf.Model.evaluate.__name__ == "evaluate"
-
-
 def test_sparse(run):
     _, numbers = run("sparse", "--case", "strip 24x1", benchmark="sparse")
     times = {name: number for name, number in numbers.items() if "analysis" not in name}
