@@ -31,7 +31,14 @@ def _superlu() -> SparseSolver:
     return SuperLU()
 
 
+def _multifrontal() -> SparseSolver:
+    from .multifrontal import Multifrontal
+
+    return Multifrontal()
+
+
 _factories: dict[str, Callable[[], SparseSolver]] = {
+    "multifrontal": _multifrontal,
     "pardiso": Pardiso,
     "banded": Banded,
     "superlu": _superlu,

@@ -19,8 +19,8 @@ from umform.solvers import Factorisation, Pattern, banded, make_solver, mkl, par
 
 MAPS = Path("/proc/self/maps")
 needs_mkl = pytest.mark.skipif(not pardiso.available(), reason="MKL is not installed")
-SYMMETRIC = ["superlu", "banded", pytest.param("pardiso", marks=needs_mkl)]
-GENERAL = ["superlu", pytest.param("pardiso", marks=needs_mkl)]
+SYMMETRIC = ["multifrontal", "superlu", "banded", pytest.param("pardiso", marks=needs_mkl)]
+GENERAL = ["multifrontal", "superlu", pytest.param("pardiso", marks=needs_mkl)]
 
 
 def stored(matrix, symmetric=True):
