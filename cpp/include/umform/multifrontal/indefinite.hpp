@@ -67,6 +67,7 @@ class Indefinite {
         int done = 0;
         for (int end = begin + count; begin + done < end;) {
             const int now = try_block(begin + done, end - begin - done);
+            update(begin + done, now, end, begin + count);
             done += now;
             if (begin + done < end) exchange(begin + done, --end);
         }
