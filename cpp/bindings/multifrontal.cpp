@@ -6,11 +6,11 @@
 
 #include "arrays.hpp"
 #include "umform/assembly/threads.hpp"
+#include "umform/multifrontal/elimination.hpp"
 #include "umform/multifrontal/factors.hpp"
 #include "umform/multifrontal/pivots.hpp"
 #include "umform/multifrontal/residual.hpp"
 #include "umform/multifrontal/substitution.hpp"
-#include "umform/ordering/sheet_order.hpp"
 
 using namespace umform;
 
@@ -44,13 +44,8 @@ class Multifrontal {
     std::unique_ptr<Factors> factors_;
 
     void plan(const std::int32_t* indptr, const std::int32_t* indices, const Columns& columns) {
-        const SheetOrder order(indptr, indices, rows().n);
-        std::vector<std::int32_t> vertices = order.vertices;
-        if (vertices.empty()) {
-            vertices.resize(order.quotient.graph.size());
-            for (std::size_t k = 0; k < vertices.size(); ++k) vertices[k] = static_cast<std::int32_t>(k);
-        }
-        plan_ = std::make_unique<Plan>(rows(), symmetric_, order.quotient, vertices);
+        const Quotient quotient = make_quotient(indptr, indices, rows().n);
+        plan_ = std::make_unique<Plan>(rows(), symmetric_, quotient, eliminate(quotient));
         plan_->map_entries(rows(), columns);
     }
 };

@@ -39,12 +39,11 @@ struct Plan {
     std::int64_t factor_size = 0;                    // numbers that are stored
     std::int64_t fill = 0;                           // entries of the factors: without the upper triangles of L
 
-    Plan(const Rows& matrix, bool is_symmetric, const Quotient& quotient, const std::vector<std::int32_t>& order)
+    Plan(const Rows& matrix, bool is_symmetric, const Quotient& quotient, const Supernodes& tree)
         : n(matrix.n), symmetric(is_symmetric), place(matrix.n), equation(matrix.n) {
         const int vertices = quotient.graph.size();
         std::vector<std::int32_t> weight(vertices, 0);
         for (const int v : quotient.group) ++weight[v];
-        const Supernodes tree(quotient.graph, weight, order);
         std::vector<std::int32_t> begin(vertices);
         number(tree, weight, quotient.group, begin);
         make_fronts(tree, weight, begin);

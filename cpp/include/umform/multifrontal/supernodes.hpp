@@ -31,9 +31,19 @@ struct Supernodes {
         sort();
     }
 
+    /// Multiplications of a symmetric factorisation, and as many again where it is not.
+    double work() const {
+        double sum = 0.0;
+        for (const Node& node : nodes) {
+            const double p = static_cast<double>(node.columns), m = static_cast<double>(node.height);
+            sum += 0.5 * p * (m * m - m * p + p * p / 3.0);
+        }
+        return sum;
+    }
+
   private:
     static constexpr std::int64_t kTiny = 24, kSmall = 96;  // columns of a supernode
-    static constexpr double kFillTiny = 0.5, kFillSmall = 0.12, kFillLarge = 0.03;  // share of zeros that may be added
+    static constexpr double kFillTiny = 0.5, kFillSmall = 0.08, kFillLarge = 0.03;  // share of zeros that may be added
 
     /// Structure of each column from those of its children.
     void eliminate(const Graph& graph, const std::vector<std::int32_t>& weight, const std::vector<std::int32_t>& order) {
