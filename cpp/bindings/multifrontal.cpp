@@ -20,8 +20,8 @@ namespace {
 class Multifrontal {
   public:
     Multifrontal(const InputIds& indptr, const InputIds& indices, bool symmetric)
-        : indptr_(indptr.data(), indptr.data() + indptr.size()), indices_(indices.data(), indices.data() + indices.size()),
-          symmetric_(symmetric) {
+        : indptr_(indptr.data(), indptr.data() + indptr.size()),
+          indices_(indices.data(), indices.data() + indices.size()), symmetric_(symmetric) {
         const Columns columns(rows());
         if (symmetric) {
             plan(indptr_.data(), indices_.data(), columns);
@@ -74,7 +74,9 @@ void bind_multifrontal(nb::module_& m) {
             functions.set_threads = reinterpret_cast<Blas::SetThreads>(set_threads);
             functions.get_threads = reinterpret_cast<Blas::GetThreads>(get_threads);
         },
-        nb::arg("api"), nb::arg("set_threads"), nb::arg("get_threads"), "Take BLAS from capsules of Cython's kind.");
+        nb::arg("api"), nb::arg("set_threads"), nb::arg("get_threads"),
+        nb::sig("def set_blas(api: dict[str, object], set_threads: int, get_threads: int) -> None"),
+        "Take BLAS from capsules of Cython's kind.");
     nb::class_<Outcome>(m, "Outcome", "How a factorisation has ended.")
         .def_prop_ro("done", [](const Outcome& o) { return o.state == Outcome::done; })
         .def_prop_ro("not_positive", [](const Outcome& o) { return o.state == Outcome::not_positive; })
@@ -94,9 +96,11 @@ void bind_multifrontal(nb::module_& m) {
             },
             nb::arg("indptr"), nb::arg("indices"), nb::arg("symmetric"),
             nb::sig("def __init__(self, indptr: NDArray[int32], indices: NDArray[int32], symmetric: bool) -> None"))
-        .def_prop_ro("fill", [](const Multifrontal& s) { return s.plan().fill; }, "Entries of the factors.")
-        .def_prop_ro("stored", [](const Multifrontal& s) { return s.plan().factor_size; }, "Numbers kept for them.")
-        .def_prop_ro("fronts", [](const Multifrontal& s) { return s.plan().fronts.size(); })
+        .def_prop_ro(
+            "fill", [](const Multifrontal& s) { return s.plan().fill; }, "Entries of the factors.")
+        .def_prop_ro(
+            "bytes", [](Multifrontal& s) { return 8 * (s.plan().factor_size + s.factors().schedule().peak); },
+            "Memory of the factors and of what is on the way to them, on one thread.")
         .def(
             "factor",
             [](Multifrontal& s, const Input& values, bool positive) {
@@ -136,6 +140,6 @@ void bind_multifrontal(nb::module_& m) {
                 const std::size_t n = sizes.size();
                 return to_numpy(std::move(sizes), {n});
             },
-            nb::arg("values"),
-            nb::sig("def column_sizes(self, values: NDArray[float64]) -> NDArray[float64]"), "Largest entry of each column.");
+            nb::arg("values"), nb::sig("def column_sizes(self, values: NDArray[float64]) -> NDArray[float64]"),
+            "Largest entry of each column.");
 }

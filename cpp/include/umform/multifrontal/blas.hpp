@@ -7,7 +7,8 @@ namespace umform {
 
 /// The few functions of BLAS that fronts need, with 32-bit integers, and how to keep its own threads out.
 struct Blas {
-    using Gemm = void (*)(char*, char*, int*, int*, int*, double*, double*, int*, double*, int*, double*, double*, int*);
+    using Gemm = void (*)(char*, char*, int*, int*, int*, double*, double*, int*, double*, int*, double*, double*,
+                          int*);
     using Trsm = void (*)(char*, char*, char*, char*, int*, int*, double*, double*, int*, double*, int*);
     using Gemv = void (*)(char*, int*, int*, double*, double*, int*, double*, int*, double*, double*, int*);
     using Trsv = void (*)(char*, char*, char*, int*, double*, int*, double*, int*);
@@ -42,10 +43,11 @@ struct Blas {
         int step = 1;
         if (m == 0 || n == 0) return;
         if (columns == 1)
-            gemv_(&transposed, &m, &n, &minus, const_cast<double*>(a), &lda, const_cast<double*>(x), &step, &one, y, &step);
+            gemv_(&transposed, &m, &n, &minus, const_cast<double*>(a), &lda, const_cast<double*>(x), &step, &one, y,
+                  &step);
         else
-            gemm(transposed, 'N', transposed == 'N' ? m : n, columns, transposed == 'N' ? n : m, -1.0, a, lda, x, ldx, 1.0, y,
-                 ldy);
+            gemm(transposed, 'N', transposed == 'N' ? m : n, columns, transposed == 'N' ? n : m, -1.0, a, lda, x, ldx,
+                 1.0, y, ldy);
     }
 
     /// X = op(T)^-1 X for few columns.

@@ -42,7 +42,8 @@ struct BunchKaufman {
             std::copy_n(a + j + static_cast<std::ptrdiff_t>(j) * ld, size - j, entry[j] + j);
             exchange[j] = j, below[j] = 0.0;
         }
-        while (done < size && step(size)) {}
+        while (done < size && step(size)) {
+        }
     }
 
   private:

@@ -37,7 +37,8 @@ inline int narrow_cholesky(double* a, int ld, int rows, int columns) {
 inline constexpr int block_width = 64;
 
 /// C -= A B^T on and below the diagonal of C, of n columns and `rows` rows; A has k columns, B is the first n rows of its kind.
-inline void update_lower(int rows, int n, int k, const double* a, int lda, const double* b, int ldb, double* c, int ldc) {
+inline void update_lower(int rows, int n, int k, const double* a, int lda, const double* b, int ldb, double* c,
+                         int ldc) {
     for (int j = 0; j < n; j += block_width) {
         const int width = std::min(block_width, n - j);
         blas().gemm('N', 'T', rows - j, width, k, -1.0, a + j, lda, b + j, ldb, 1.0,

@@ -143,7 +143,10 @@ class Factors {
             front.own.grow(m * p + beside);
             front.a = front.own.data();
         }
-        std::fill_n(front.a, m * p + beside, 0.0);
+        if (kind_ == Kind::unsymmetric)
+            std::fill_n(front.a, m * p + beside, 0.0);
+        else
+            for (std::size_t j = 0; j < p; ++j) std::fill_n(front.a + j * m + j, m - j, 0.0);
         int next = planned.pivots;
         for (int k = 0; k < count; ++k) {
             const int c = plan_.children[begin + k];
@@ -155,9 +158,9 @@ class Factors {
             front.columns = front.rows;
             for (int k = 0; k < count; ++k) {
                 const Eliminated& child = fronts_[plan_.children[begin + k]];
-                front.rows.insert(front.rows.end(), child.rows.begin() + (child.left() > 0 ? child.done : child.rows.size()), child.rows.end());
-                front.columns.insert(front.columns.end(), child.columns.begin() + (child.left() > 0 ? child.done : child.columns.size()),
-                                     child.columns.end());
+                if (child.left() == 0) continue;
+                front.rows.insert(front.rows.end(), child.rows.begin() + child.done, child.rows.end());
+                front.columns.insert(front.columns.end(), child.columns.begin() + child.done, child.columns.end());
             }
         }
     }
@@ -200,8 +203,8 @@ class Factors {
         for (std::int64_t k = planned.entries; k < end; ++k) {
             if (target[k] < p * m) {
                 const int row = target[k] % m, column = target[k] / m;
-                front.a[(row < p ? row : row + delayed) + static_cast<std::ptrdiff_t>(column) * front.size]
-                    += values_[source[k]];
+                front.a[(row < p ? row : row + delayed) + static_cast<std::ptrdiff_t>(column) * front.size] +=
+                    values_[source[k]];
             } else {
                 front.b()[target[k] - p * m] += values_[source[k]];
             }
@@ -324,7 +327,8 @@ class Factors {
         double* c = front.update + left + static_cast<std::ptrdiff_t>(left + first) * order;
         const double* a = front.a + p;
         if (kind_ == Kind::positive) {
-            blas().gemm('N', 'T', m - p - first, last - first, q, -1.0, a + first, m, a + first, m, 0.0, c + first, order);
+            blas().gemm('N', 'T', m - p - first, last - first, q, -1.0, a + first, m, a + first, m, 0.0, c + first,
+                        order);
         } else if (kind_ == Kind::symmetric) {
             std::vector<std::int32_t> none;
             std::vector<double> scaled;

@@ -81,7 +81,8 @@ class Indefinite {
             if (block.exchange[k] > k) exchange(begin + k, begin + block.exchange[k]);
         const int under = begin + count, height = rows_ - under;
         kept_.resize(static_cast<std::size_t>(count) * (rows_ - begin));
-        for (int k = 0; k < count; ++k) std::copy_n(at(begin, begin + k), rows_ - begin, &kept_[k * std::size_t(rows_ - begin)]);
+        for (int k = 0; k < count; ++k)
+            std::copy_n(at(begin, begin + k), rows_ - begin, &kept_[k * std::size_t(rows_ - begin)]);
         SmallTriangle triangle;
         take_triangle(block.entry[0], panel_width, block.done, true, triangle);
         solve_rows(triangle, block.done, at(under, begin), rows_, height);

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
+#include <limits>
+#include <new>
 #include <vector>
 
 #include "structure.hpp"
@@ -17,10 +18,10 @@ namespace umform {
 struct Front {
     int first = 0, pivots = 0, size = 0;  // place of the first pivot; rows that may be eliminated, all rows
     int parent = -1;
-    std::int64_t rows = 0;       // begin of the places of the other rows in Plan::rows, and in Plan::seat
-    std::int64_t entries = 0;    // begin of the entries of the matrix in Plan::source
-    std::int64_t factor = 0;     // begin of the columns of the factor
-    std::int64_t work = 0;       // multiplications of the subtree that ends here
+    std::int64_t rows = 0;     // begin of the places of the other rows in Plan::rows, and in Plan::seat
+    std::int64_t entries = 0;  // begin of the entries of the matrix in Plan::source
+    std::int64_t factor = 0;   // begin of the columns of the factor
+    std::int64_t work = 0;     // multiplications of the subtree that ends here
     int updates() const { return size - pivots; }
 };
 
@@ -31,13 +32,13 @@ struct Front {
 struct Plan {
     int n = 0;
     bool symmetric = true;
-    std::vector<std::int32_t> place, equation;       // [equation] -> place, [place] -> equation
-    std::vector<Front> fronts;                       // children before parents, subtrees together
+    std::vector<std::int32_t> place, equation;           // [equation] -> place, [place] -> equation
+    std::vector<Front> fronts;                           // children before parents, subtrees together
     std::vector<std::int32_t> children_start, children;  // fronts of which the parent is front f
-    std::vector<std::int32_t> rows, seat;            // place of each row of an update; its row in the front of the parent
-    std::vector<std::int32_t> source, target;        // entry of the matrix, place in the columns of its front
-    std::int64_t factor_size = 0;                    // numbers that are stored
-    std::int64_t fill = 0;                           // entries of the factors: without the upper triangles of L
+    std::vector<std::int32_t> rows, seat;      // place of each row of an update; its row in the front of the parent
+    std::vector<std::int32_t> source, target;  // entry of the matrix, place in the columns of its front
+    std::int64_t factor_size = 0;              // numbers that are stored
+    std::int64_t fill = 0;                     // entries of the factors: without the upper triangles of L
 
     Plan(const Rows& matrix, bool is_symmetric, const Quotient& quotient, const Supernodes& tree)
         : n(matrix.n), symmetric(is_symmetric), place(matrix.n), equation(matrix.n) {
@@ -64,7 +65,8 @@ struct Plan {
     }
 
     std::int64_t end_of_entries(int f) const {
-        return f + 1 < static_cast<int>(fronts.size()) ? fronts[f + 1].entries : static_cast<std::int64_t>(source.size());
+        return f + 1 < static_cast<int>(fronts.size()) ? fronts[f + 1].entries
+                                                       : static_cast<std::int64_t>(source.size());
     }
 
   private:
@@ -94,6 +96,7 @@ struct Plan {
                 for (int k = 0; k < weight[v]; ++k) rows.push_back(begin[v] + k);
             front.factor = factor_size;
             const std::int64_t p = front.pivots, m = front.size;
+            if (2 * p * m > std::numeric_limits<std::int32_t>::max()) throw std::bad_alloc();
             factor_size += p * m + (symmetric ? 0 : p * (m - p));
             fill += p * m - p * (p - 1) / 2;
             for (std::int64_t k = 0; k < p; ++k) front.work += (m - k) * (m - k) / (symmetric ? 2 : 1);

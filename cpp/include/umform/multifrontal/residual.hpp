@@ -10,8 +10,8 @@
 namespace umform {
 
 /// R = B - K X for columns of length n; of a symmetric matrix the upper triangle is given.
-inline void residual(const Rows& rows, bool symmetric, const double* values, const double* b, const double* x, int columns,
-                     double* r) {
+inline void residual(const Rows& rows, bool symmetric, const double* values, const double* b, const double* x,
+                     int columns, double* r) {
     for (int j = 0; j < columns; ++j, b += rows.n, x += rows.n, r += rows.n) {
         std::copy_n(b, rows.n, r);
         for (int i = 0; i < rows.n; ++i) {

@@ -22,6 +22,7 @@ class Schedule {
     std::vector<std::uint8_t> above;  // [front] is it above the units?
     std::vector<std::uint8_t> depth;  // even or odd
     std::size_t even = 0, odd = 0;    // numbers in the two stacks of a unit
+    std::size_t peak = 0;             // numbers in updates at one time, on one thread
     bool worth_a_team = false;
 
     explicit Schedule(const Plan& plan) : above(plan.fronts.size(), 0), depth(plan.fronts.size(), 0) {
@@ -33,7 +34,8 @@ class Schedule {
         const std::int64_t limit = std::max(kUnit, total / kUnits);
         std::vector<std::int32_t> first(count);
         for (int f = 0; f < count; ++f)
-            first[f] = plan.children_start[f] < plan.children_start[f + 1] ? first[plan.children[plan.children_start[f]]] : f;
+            first[f] =
+                plan.children_start[f] < plan.children_start[f + 1] ? first[plan.children[plan.children_start[f]]] : f;
         for (int f = count - 1; f >= 0; --f) {
             const int parent = plan.fronts[f].parent;
             if (parent >= 0) depth[f] = depth[parent] ^ 1U;
@@ -44,6 +46,7 @@ class Schedule {
             if (above[f] == 0 && (parent < 0 || above[parent] != 0)) units.push_back({first[f], f});
         }
         for (const Unit& unit : units) measure(plan, unit);
+        find_peak(plan);
     }
 
     /// Calls alone(unit, thread) for each unit and together(front, thread) for each front above, children first.
@@ -79,6 +82,18 @@ class Schedule {
   private:
     static constexpr std::int64_t kSmall = 20'000'000, kUnit = 1'000'000;  // multiplications
     static constexpr std::int64_t kUnits = 48;
+
+    void find_peak(const Plan& plan) {
+        std::size_t held = 0;
+        const auto square = [&](int f) {
+            return static_cast<std::size_t>(plan.fronts[f].updates()) * plan.fronts[f].updates();
+        };
+        for (std::size_t f = 0; f < plan.fronts.size(); ++f) {
+            held += square(static_cast<int>(f));
+            peak = std::max(peak, held);
+            for (int k = plan.children_start[f]; k < plan.children_start[f + 1]; ++k) held -= square(plan.children[k]);
+        }
+    }
 
     /// What the stacks of a unit hold at most.
     void measure(const Plan& plan, const Unit& unit) {

@@ -61,7 +61,8 @@ class Substitution {
         const int u = planned.updates(), p = front.pivots, q = front.done, m = front.size;
         double* hand_on = carried_.data() + planned.rows * columns_;
         std::fill_n(hand_on, static_cast<std::size_t>(u) * columns_, 0.0);
-        for (int k = plan_.children_start[f]; k < plan_.children_start[f + 1]; ++k) take_over(plan_.children[k], planned, hand_on);
+        for (int k = plan_.children_start[f]; k < plan_.children_start[f + 1]; ++k)
+            take_over(plan_.children[k], planned, hand_on);
         std::vector<double>& y = scratch.pivots;
         y.resize(static_cast<std::size_t>(p) * columns_);
         for (int j = 0; j < columns_; ++j)
@@ -118,11 +119,13 @@ class Substitution {
         if (factors_.kind() == Kind::unsymmetric) {
             const double* beside = front.a + static_cast<std::ptrdiff_t>(q) * m;
             blas().subtract('N', q, left, beside, m, z.data(), order, y.data(), q, columns_);
-            blas().subtract('T', m - p, q, front.b(), std::max(1, m - p), z.data() + left, order, y.data(), q, columns_);
+            blas().subtract('T', m - p, q, front.b(), std::max(1, m - p), z.data() + left, order, y.data(), q,
+                            columns_);
             blas().divide('U', 'N', 'N', q, front.a, m, y.data(), q, columns_);
         } else {
             blas().subtract('T', order, q, front.a + q, m, z.data(), order, y.data(), q, columns_);
-            blas().divide('L', 'T', factors_.kind() == Kind::positive ? 'N' : 'U', q, front.a, m, y.data(), q, columns_);
+            blas().divide('L', 'T', factors_.kind() == Kind::positive ? 'N' : 'U', q, front.a, m, y.data(), q,
+                          columns_);
         }
         for (int j = 0; j < columns_; ++j)
             for (int t = 0; t < q; ++t) found(factors_.column(f, t), j) = y[j * q + t];

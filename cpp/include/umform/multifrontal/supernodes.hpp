@@ -42,11 +42,12 @@ struct Supernodes {
     }
 
   private:
-    static constexpr std::int64_t kTiny = 24, kSmall = 96;  // columns of a supernode
+    static constexpr std::int64_t kTiny = 24, kSmall = 96;                          // columns of a supernode
     static constexpr double kFillTiny = 0.5, kFillSmall = 0.08, kFillLarge = 0.03;  // share of zeros that may be added
 
     /// Structure of each column from those of its children.
-    void eliminate(const Graph& graph, const std::vector<std::int32_t>& weight, const std::vector<std::int32_t>& order) {
+    void eliminate(const Graph& graph, const std::vector<std::int32_t>& weight,
+                   const std::vector<std::int32_t>& order) {
         const int size = graph.size();
         std::vector<std::int32_t> when(size), mark(size, -1), owner(size, -1), child(size, -1), sibling(size, -1), rows;
         for (int t = 0; t < size; ++t) when[order[t]] = t;
@@ -118,8 +119,8 @@ struct Supernodes {
             if (p < 0) continue;
             Node &node = nodes[s], &parent = nodes[p];
             const std::int64_t columns = node.columns + parent.columns, height = node.columns + parent.height;
-            const std::int64_t zeros
-                = node.zeros + parent.zeros + node.columns * (parent.height - (node.height - node.columns));
+            const std::int64_t zeros =
+                node.zeros + parent.zeros + node.columns * (parent.height - (node.height - node.columns));
             const std::int64_t entries = columns * height - columns * (columns - 1) / 2;
             const double share = columns <= kTiny ? kFillTiny : columns <= kSmall ? kFillSmall : kFillLarge;
             if (static_cast<double>(zeros) > share * static_cast<double>(entries)) continue;
@@ -145,7 +146,9 @@ struct Supernodes {
         std::vector<std::vector<std::int32_t>> children(count + 1);
         for (int s = 0; s < count; ++s) children[nodes[s].parent < 0 ? count : nodes[s].parent].push_back(s);
         std::vector<std::int64_t> peak(count, 0);
-        const auto update = [&](int s) { return (nodes[s].height - nodes[s].columns) * (nodes[s].height - nodes[s].columns); };
+        const auto update = [&](int s) {
+            return (nodes[s].height - nodes[s].columns) * (nodes[s].height - nodes[s].columns);
+        };
         for (int s = 0; s < count; ++s) {
             std::sort(children[s].begin(), children[s].end(), [&](int a, int b) {
                 const std::int64_t more = (peak[a] - update(a)) - (peak[b] - update(b));

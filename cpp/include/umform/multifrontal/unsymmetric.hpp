@@ -139,8 +139,8 @@ class Unsymmetric {
         blas().trsm('L', 'L', 'N', 'U', count, width, at(begin, begin), rows_, at(begin, first), rows_);
         blas().gemm('N', 'N', rows_ - next, width, count, -1.0, at(next, begin), rows_, at(begin, first), rows_, 1.0,
                     at(next, first), rows_);
-        blas().gemm('N', 'T', beyond_, width, count, -1.0, row_beyond(begin), std::max(1, beyond_), at(first, begin), rows_,
-                    1.0, row_beyond(first), std::max(1, beyond_));
+        blas().gemm('N', 'T', beyond_, width, count, -1.0, row_beyond(begin), std::max(1, beyond_), at(first, begin),
+                    rows_, 1.0, row_beyond(first), std::max(1, beyond_));
     }
 
     void exchange_rows(int p, int q) {

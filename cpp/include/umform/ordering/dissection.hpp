@@ -21,7 +21,8 @@ namespace umform {
 class Dissection {
   public:
     explicit Dissection(const Graph& graph, bool solid = false)
-        : solid_(solid), graph_(graph), order_(graph.size()), part_(graph.size(), 0), local_(graph.size(), 0), best_(graph.size(), 0) {
+        : solid_(solid), graph_(graph), order_(graph.size()), part_(graph.size(), 0), local_(graph.size(), 0),
+          best_(graph.size(), 0) {
         for (auto& steps : steps_) steps.resize(graph.size());
         std::iota(order_.begin(), order_.end(), 0);
     }

@@ -47,8 +47,9 @@ class MinimumDegree {
     std::vector<std::int32_t> weight_;  // equations; 0 of a vertex that is no variable any more
     std::vector<std::vector<std::int32_t>> neighbours_, elements_, coupled_;
     std::vector<std::int32_t> degree_, mark_;
-    std::vector<std::int32_t> reach_, outside_, seen_;  // of an element: equations that it has coupled; those beyond the new one
-    std::vector<std::vector<std::int32_t>> joined_;  // vertices that go with one
+    std::vector<std::int32_t> reach_, outside_,
+        seen_;  // of an element: equations that it has coupled; those beyond the new one
+    std::vector<std::vector<std::int32_t>> joined_;    // vertices that go with one
     std::vector<std::int32_t> first_, next_, before_;  // lists of the vertices of each degree
     std::vector<std::int32_t> order_, todo_;
     std::vector<std::pair<std::uint64_t, std::int32_t>> keys_;
@@ -124,7 +125,8 @@ class MinimumDegree {
                 weight_[v] = 0;
                 continue;
             }
-            degree_[v] = static_cast<std::int32_t>(std::min({left_ - weight_[v], degree_[v] + beside, beside + degree}));
+            degree_[v] =
+                static_cast<std::int32_t>(std::min({left_ - weight_[v], degree_[v] + beside, beside + degree}));
             keys_.emplace_back(key, v);
         }
         join();
