@@ -16,19 +16,33 @@ struct SmallTriangle {
     double inverse[panel_width];
 };
 
+namespace detail {
+
+using Vector [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+inline constexpr int deep = 8;  // rows that are worked on at once
+
+/// Copies up to eight numbers; all of them by registers, which a loop of the compiler's own choice does not do.
+inline void copy_rows(const double* from, int count, double* to) {
+    if (count == deep) {
+        for (int h = 0; h < 2; ++h)
+            *reinterpret_cast<Vector*>(to + 4 * h) = *reinterpret_cast<const Vector*>(from + 4 * h);
+        return;
+    }
+    for (int i = 0; i < count; ++i) to[i] = from[i];
+}
+
+}  // namespace detail
+
 /// X := X L^-T for rows of X in the columns of a matrix: each row goes through the columns of L one after the other. Eight
 /// rows at once, four columns in registers.
 inline void solve_rows(const SmallTriangle& lower, int width, double* x, int ld, int rows) {
-    using Vector [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-    constexpr int deep = 8;
-    alignas(32) double buffer[panel_width][deep];
+    using detail::Vector;
+    constexpr int deep = detail::deep;
+    alignas(32) double buffer[panel_width][deep] = {};
     for (int first = 0; first < rows; first += deep) {
         const int count = std::min(deep, rows - first);
-        for (int j = 0; j < width; ++j) {
-            const double* column = x + first + static_cast<std::ptrdiff_t>(j) * ld;
-            for (int i = 0; i < deep; ++i) buffer[j][i] = i < count ? column[i] : 0.0;
-        }
-        for (int j = width; j % 4 != 0; ++j) std::fill_n(buffer[j], deep, 0.0);
+        for (int j = 0; j < width; ++j)
+            detail::copy_rows(x + first + static_cast<std::ptrdiff_t>(j) * ld, count, buffer[j]);
         for (int j = 0; j < width; j += 4) {
             Lanes::Vector sum[4][2];
             for (int b = 0; b < 4; ++b)
@@ -50,10 +64,8 @@ inline void solve_rows(const SmallTriangle& lower, int width, double* x, int ld,
                 }
             }
         }
-        for (int j = 0; j < width; ++j) {
-            double* column = x + first + static_cast<std::ptrdiff_t>(j) * ld;
-            for (int i = 0; i < count; ++i) column[i] = buffer[j][i];
-        }
+        for (int j = 0; j < width; ++j)
+            detail::copy_rows(buffer[j], count, x + first + static_cast<std::ptrdiff_t>(j) * ld);
     }
 }
 
