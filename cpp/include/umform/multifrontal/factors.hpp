@@ -296,10 +296,10 @@ class Factors {
             front.update = front.own_update.data();
         }
         if (left > 0) copy_left(front);
-        const int beyond = front.size - front.pivots, blocks = (beyond + kBlock - 1) / kBlock;
+        const int beyond = front.size - front.pivots, width = block_of(beyond), blocks = (beyond + width - 1) / width;
         const std::span<const Child> children = worker.children;
         share(blocks, beyond >= kLarge, [&](int k) {
-            const int first = k * kBlock, last = std::min(beyond, first + kBlock);
+            const int first = k * width, last = std::min(beyond, first + width);
             multiply(front, first, last);
             for (const Child& child : children)
                 if (child.sorted) add_beyond(child, front, first, last);
@@ -307,7 +307,10 @@ class Factors {
         for (const Child& child : children)
             if (!child.sorted) add_unsorted(child, front, false);
     }
-    static constexpr int kBlock = 96;
+
+    /// Columns of a block of an update. What a block of a symmetric update has above the diagonal is wasted: few columns are
+    /// best in small updates. They depend on the update alone, so that its bits do.
+    int block_of(int beyond) const { return kind_ == Kind::unsymmetric ? 192 : beyond < 400 ? 48 : 96; }
 
     /// Rows and columns that could not be eliminated.
     void copy_left(Eliminated& front) {
