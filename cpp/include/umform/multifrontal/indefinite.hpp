@@ -43,7 +43,7 @@ class Indefinite {
 
   private:
     double* a_;
-    int rows_, columns_, done_ = 0;
+    int rows_, columns_, done_ = 0, next_ = 0;  // where the search goes on
     bool exchanged_ = false;
     std::vector<double>& below_;
     std::vector<std::int32_t>& order_;
@@ -179,11 +179,14 @@ class Indefinite {
 
     /// Looks for a pivot in all columns that are left and eliminates it; false if there is none.
     bool search(int& empty) {
-        for (int c = done_; c < columns_; ++c) {
+        const int left = columns_ - done_;
+        for (int k = 0; k < left; ++k) {
+            const int c = done_ + (next_ + k) % left;
             int r = -1;
             const double most = largest(c, -1, r), d = *at(c, c);
             if (d == 0.0 && most == 0.0) return empty = c, false;
             if (std::abs(d) >= tolerance * most && d != 0.0) {
+                next_ = c - done_;
                 exchange(c, done_);
                 eliminate_one();
                 return true;
@@ -193,6 +196,7 @@ class Indefinite {
             const TwoByTwo pivot(d, rest(c, r), *at(r, r));
             double x = largest(c, r, unused), y = largest(r, c, unused);
             if (!pivot.bounded(x, y, 1.0 / tolerance)) continue;
+            next_ = c - done_;
             exchange(c, done_);
             exchange(r == done_ ? c : r, done_ + 1);
             eliminate_two();

@@ -35,7 +35,8 @@ class Block {
     std::size_t size_ = 0;
 };
 
-/// Blocks that are given back and taken again, by several threads.
+/// Blocks that are given back and taken again, by several threads. Where none fits, smaller ones make room for a new one:
+/// updates grow towards the root, and what is kept stays near to what is needed at one time.
 class Pool {
   public:
     Block take(std::size_t size) {
@@ -47,13 +48,19 @@ class Pool {
                 free_.erase(found);
                 return block;
             }
+            for (std::size_t freed = 0; freed < size && !free_.empty() && free_.begin()->first < size;) {
+                const auto largest = std::prev(free_.lower_bound(size));
+                freed += largest->first;
+                free_.erase(largest);
+            }
         }
         return Block(size);
     }
     void give(Block block) {
         if (block.size() == 0) return;
         const std::lock_guard lock(mutex_);
-        free_.emplace(block.size(), std::move(block));
+        const std::size_t size = block.size();
+        free_.emplace(size, std::move(block));
     }
 
   private:

@@ -39,7 +39,7 @@ class Unsymmetric {
 
   private:
     double *a_, *b_;
-    int rows_, columns_, beyond_, done_ = 0;
+    int rows_, columns_, beyond_, done_ = 0, next_ = 0;  // where the search goes on
     bool exchanged_ = false;
     std::vector<std::int32_t>&row_order_, &column_order_;
     std::vector<double> kept_;
@@ -162,8 +162,9 @@ class Unsymmetric {
 
     /// Looks for a pivot in all columns that are left and eliminates it; false if there is none.
     bool search(int& empty) {
-        const int k = done_;
-        for (int c = k; c < columns_; ++c) {
+        const int k = done_, left = columns_ - done_;
+        for (int tried = 0; tried < left; ++tried) {
+            const int c = k + (next_ + tried) % left;
             const double* x = at(0, c);
             double most = 0.0;
             int best = k;
@@ -173,6 +174,7 @@ class Unsymmetric {
                 if (std::abs(x[i]) > std::abs(x[best])) best = i;
             if (most == 0.0) return empty = c, false;
             if (!(std::abs(x[best]) >= tolerance * most)) continue;
+            next_ = c - k;
             exchange_columns(k, c);
             exchange_rows(k, best);
             const double inverse = 1.0 / *at(k, k);
