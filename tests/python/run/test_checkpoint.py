@@ -57,7 +57,11 @@ def bar():
     for face, normal in (("x0", "x"), ("y0", "y"), ("lower", "z")):
         model.symmetry(face, normal=normal)
     pull = model.prescribe("x1", "x", "pull")
-    return model, [Move(pull, 0.2, steps=5), Release(pull, increment=5e-3), Move(pull, 0.3, steps=3)], {"solver": "banded"}
+    return (
+        model,
+        [Move(pull, 0.2, steps=5), Release(pull, increment=5e-3), Move(pull, 0.3, steps=3)],
+        {"solver": "banded"},
+    )
 
 
 def block():
