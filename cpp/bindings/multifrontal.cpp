@@ -78,8 +78,8 @@ void bind_multifrontal(nb::module_& m) {
         nb::sig("def set_blas(api: dict[str, object], set_threads: int, get_threads: int) -> None"),
         "Take BLAS from capsules of Cython's kind.");
     nb::class_<Outcome>(m, "Outcome", "How a factorisation has ended.")
-        .def_prop_ro("done", [](const Outcome& o) { return o.state == Outcome::done; })
-        .def_prop_ro("not_positive", [](const Outcome& o) { return o.state == Outcome::not_positive; })
+        .def_prop_ro("done", [](const Outcome& o) { return o.state == Outcome::Done; })
+        .def_prop_ro("not_positive", [](const Outcome& o) { return o.state == Outcome::NotPositive; })
         .def_ro("equation", &Outcome::equation, "That of the pivot which has ended it; -1 if there is none.");
     nb::class_<Pivots>(m, "Pivots", "What the pivots tell.")
         .def_ro("negative", &Pivots::negative)
@@ -105,7 +105,7 @@ void bind_multifrontal(nb::module_& m) {
             "factor",
             [](Multifrontal& s, const Input& values, bool positive) {
                 nb::gil_scoped_release release;
-                const Kind kind = !s.symmetric() ? Kind::unsymmetric : positive ? Kind::positive : Kind::symmetric;
+                const Kind kind = !s.symmetric() ? Kind::Unsymmetric : positive ? Kind::Positive : Kind::Symmetric;
                 return s.factors().factor(kind, values.data(), thread_count());
             },
             nb::arg("values"), nb::arg("positive"),

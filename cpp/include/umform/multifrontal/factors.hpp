@@ -17,11 +17,11 @@
 
 namespace umform {
 
-enum class Kind : std::uint8_t { positive, symmetric, unsymmetric };
+enum class Kind : std::uint8_t { Positive, Symmetric, Unsymmetric };
 
 /// How a factorisation has ended.
 struct Outcome {
-    enum State : std::uint8_t { done, not_positive, singular } state = done;
+    enum State : std::uint8_t { Done, NotPositive, Singular } state = Done;
     int equation = -1;  // of the pivot that has ended it
 };
 
@@ -48,7 +48,7 @@ class Factors {
     explicit Factors(const Plan& plan) : plan_(plan), schedule_(plan), fronts_(plan.fronts.size()) {}
 
     Outcome factor(Kind kind, const double* values, int threads) {
-        kind_ = kind, values_ = values, state_ = Outcome::done, equation_ = -1;
+        kind_ = kind, values_ = values, state_ = Outcome::Done, equation_ = -1;
         storage_.grow(plan_.factor_size);
         if (static_cast<int>(workers_.size()) < threads) workers_ = std::vector<Worker>(threads);
         const OneBlasThread alone;
@@ -99,15 +99,15 @@ class Factors {
     std::vector<Worker> workers_;
     Block storage_;
     Pool pool_;
-    Kind kind_ = Kind::positive;
+    Kind kind_ = Kind::Positive;
     const double* values_ = nullptr;
-    std::atomic<Outcome::State> state_{Outcome::done};
+    std::atomic<Outcome::State> state_{Outcome::Done};
     int equation_ = -1;
 
     static constexpr int kLarge = 256;  // rows of an update that is shared among threads
 
     void process(int f, Worker& worker, bool stack) {
-        if (state_.load(std::memory_order_relaxed) != Outcome::done) return;
+        if (state_.load(std::memory_order_relaxed) != Outcome::Done) return;
         Eliminated& front = fronts_[f];
         open(f, front, worker);
         add_entries(f, front);
@@ -119,7 +119,7 @@ class Factors {
 
     void stop(Outcome::State state, int place) {
 #pragma omp critical(umform_outcome)
-        if (state_ == Outcome::done) {
+        if (state_ == Outcome::Done) {
             equation_ = place < 0 ? -1 : plan_.equation[place];
             state_ = state;
         }
@@ -135,7 +135,7 @@ class Factors {
         for (int k = 0; k < count; ++k) delayed += fronts_[plan_.children[begin + k]].left();
         front.pivots = planned.pivots + delayed, front.size = planned.size + delayed;
         front.rows.clear(), front.columns.clear();
-        const std::size_t p = front.pivots, m = front.size, beside = kind_ == Kind::unsymmetric ? p * (m - p) : 0;
+        const std::size_t p = front.pivots, m = front.size, beside = kind_ == Kind::Unsymmetric ? p * (m - p) : 0;
         if (delayed == 0) {
             front.own = Block();
             front.a = storage_.data() + planned.factor;
@@ -143,7 +143,7 @@ class Factors {
             front.own.grow(m * p + beside);
             front.a = front.own.data();
         }
-        if (kind_ == Kind::unsymmetric)
+        if (kind_ == Kind::Unsymmetric)
             std::fill_n(front.a, m * p + beside, 0.0);
         else
             for (std::size_t j = 0; j < p; ++j) std::fill_n(front.a + j * m + j, m - j, 0.0);
@@ -153,7 +153,7 @@ class Factors {
             seat(fronts_[c], plan_.fronts[c], planned.pivots, delayed, next, worker.children[k]);
             next += fronts_[c].left();
         }
-        if (kind_ != Kind::positive) {
+        if (kind_ != Kind::Positive) {
             for (int k = 0; k < planned.pivots; ++k) front.rows.push_back(planned.first + k);
             front.columns = front.rows;
             for (int k = 0; k < count; ++k) {
@@ -218,9 +218,9 @@ class Factors {
         for (int j = 0; j < child.split; ++j) {
             const double* column = from + static_cast<std::ptrdiff_t>(j) * child.order;
             double* to = front.a + static_cast<std::ptrdiff_t>(child.seat[j]) * front.size;
-            add_column(child, column, to, kind_ == Kind::unsymmetric ? 0 : j);
+            add_column(child, column, to, kind_ == Kind::Unsymmetric ? 0 : j);
         }
-        if (kind_ != Kind::unsymmetric) return;
+        if (kind_ != Kind::Unsymmetric) return;
         const int beyond = front.size - front.pivots;
         for (int j = child.split; j < child.order; ++j) {
             const double* column = from + static_cast<std::ptrdiff_t>(j) * child.order;
@@ -243,10 +243,10 @@ class Factors {
     void add_unsorted(const Child& child, Eliminated& front, bool pivots) {
         const int p = front.pivots, order = front.order(), shift = front.left() - p, beyond = front.size - p;
         for (int j = 0; j < child.order; ++j)
-            for (int i = kind_ == Kind::unsymmetric ? 0 : j; i < child.order; ++i) {
+            for (int i = kind_ == Kind::Unsymmetric ? 0 : j; i < child.order; ++i) {
                 const double value = child.front->update[i + static_cast<std::ptrdiff_t>(j) * child.order];
                 int row = child.seat[i], column = child.seat[j];
-                if (kind_ != Kind::unsymmetric && row < column) std::swap(row, column);
+                if (kind_ != Kind::Unsymmetric && row < column) std::swap(row, column);
                 if ((std::min(row, column) < p) != pivots) continue;
                 if (!pivots)
                     front.update[row + shift + static_cast<std::ptrdiff_t>(column + shift) * order] += value;
@@ -258,15 +258,15 @@ class Factors {
     }
 
     bool eliminate(int f, Eliminated& front) {
-        if (kind_ == Kind::positive) {
+        if (kind_ == Kind::Positive) {
             const int failed = cholesky(front.a, front.size, front.size, front.pivots);
             front.done = front.pivots;
-            if (failed >= 0) stop(Outcome::not_positive, plan_.fronts[f].first + failed);
+            if (failed >= 0) stop(Outcome::NotPositive, plan_.fronts[f].first + failed);
             return failed < 0;
         }
         int empty = -1;
         bool exchanged = front.pivots != plan_.fronts[f].pivots;
-        if (kind_ == Kind::symmetric) {
+        if (kind_ == Kind::Symmetric) {
             Indefinite work(front.a, front.size, front.pivots, front.below, front.columns);
             front.done = work.run(empty);
             exchanged |= work.exchanged();
@@ -278,7 +278,7 @@ class Factors {
         }
         const bool stuck = plan_.fronts[f].parent < 0 && front.left() > 0;
         if (empty >= 0 || stuck) {
-            stop(Outcome::singular, front.columns[empty >= 0 ? empty : front.done]);
+            stop(Outcome::Singular, front.columns[empty >= 0 ? empty : front.done]);
             return false;
         }
         if (!exchanged && front.left() == 0) front.rows.clear(), front.columns.clear();
@@ -310,7 +310,7 @@ class Factors {
 
     /// Columns of a block of an update. What a block of a symmetric update has above the diagonal is wasted: few columns are
     /// best in small updates. They depend on the update alone, so that its bits do.
-    int block_of(int beyond) const { return kind_ == Kind::unsymmetric ? 192 : beyond < 400 ? 48 : 96; }
+    int block_of(int beyond) const { return kind_ == Kind::Unsymmetric ? 192 : beyond < 400 ? 48 : 96; }
 
     /// Rows and columns that could not be eliminated.
     void copy_left(Eliminated& front) {
@@ -318,7 +318,7 @@ class Factors {
         for (int j = 0; j < left; ++j) {
             const double* column = front.a + static_cast<std::ptrdiff_t>(front.done + j) * front.size + front.done;
             std::copy_n(column, order, front.update + static_cast<std::ptrdiff_t>(j) * order);
-            if (kind_ != Kind::unsymmetric) continue;
+            if (kind_ != Kind::Unsymmetric) continue;
             const double* row = front.b() + static_cast<std::ptrdiff_t>(front.done + j) * beyond;
             for (int i = 0; i < beyond; ++i) front.update[j + static_cast<std::ptrdiff_t>(left + i) * order] = row[i];
         }
@@ -329,10 +329,10 @@ class Factors {
         const int p = front.pivots, m = front.size, order = front.order(), left = front.left(), q = front.done;
         double* c = front.update + left + static_cast<std::ptrdiff_t>(left + first) * order;
         const double* a = front.a + p;
-        if (kind_ == Kind::positive) {
+        if (kind_ == Kind::Positive) {
             blas().gemm('N', 'T', m - p - first, last - first, q, -1.0, a + first, m, a + first, m, 0.0, c + first,
                         order);
-        } else if (kind_ == Kind::symmetric) {
+        } else if (kind_ == Kind::Symmetric) {
             std::vector<std::int32_t> none;
             std::vector<double> scaled;
             Indefinite(front.a, m, p, front.below, none).scale_rows(0, q, p + first, last - first, scaled);
@@ -351,7 +351,7 @@ class Factors {
         for (; j < child.order && child.seat[j] < front.pivots + last; ++j) {
             const double* column = child.front->update + static_cast<std::ptrdiff_t>(j) * child.order;
             double* to = front.update + static_cast<std::ptrdiff_t>(child.seat[j] + shift) * order + shift;
-            add_column(child, column, to, kind_ == Kind::unsymmetric ? child.split : j);
+            add_column(child, column, to, kind_ == Kind::Unsymmetric ? child.split : j);
         }
     }
 

@@ -26,8 +26,8 @@ struct Pivots {
                 const int column = factors.column(f, t);
                 partner[factors.row(f, t)] = column;
                 double& here = size[plan.equation[column]];
-                here = factors.kind() == Kind::positive ? d * d : d;
-                if (factors.kind() != Kind::symmetric || front.below[t] == 0.0) {
+                here = factors.kind() == Kind::Positive ? d * d : d;
+                if (factors.kind() != Kind::Symmetric || front.below[t] == 0.0) {
                     negative += here < 0.0 ? 1 : 0;
                     continue;
                 }

@@ -67,11 +67,11 @@ class Substitution {
         y.resize(static_cast<std::size_t>(p) * columns_);
         for (int j = 0; j < columns_; ++j)
             for (int t = 0; t < p; ++t) y[j * p + t] = right(factors_.row(f, t), j);
-        const char unit = factors_.kind() == Kind::positive ? 'N' : 'U';
+        const char unit = factors_.kind() == Kind::Positive ? 'N' : 'U';
         blas().divide('L', 'N', unit, q, front.a, m, y.data(), p, columns_);
         blas().subtract('N', p - q, q, front.a + q, m, y.data(), p, y.data() + q, p, columns_);
         blas().subtract('N', u, q, front.a + p, m, y.data(), p, hand_on, u, columns_);
-        if (factors_.kind() == Kind::symmetric) divide_by_diagonal(front, y.data(), p);
+        if (factors_.kind() == Kind::Symmetric) divide_by_diagonal(front, y.data(), p);
         for (int j = 0; j < columns_; ++j)
             for (int t = 0; t < p; ++t) right(factors_.row(f, t), j) = y[j * p + t];
     }
@@ -116,7 +116,7 @@ class Substitution {
             for (int t = 0; t < left; ++t) z[j * order + t] = found(factors_.column(f, q + t), j);
             for (int t = left; t < order; ++t) z[j * order + t] = found(plan_.rows[planned.rows + t - left], j);
         }
-        if (factors_.kind() == Kind::unsymmetric) {
+        if (factors_.kind() == Kind::Unsymmetric) {
             const double* beside = front.a + static_cast<std::ptrdiff_t>(q) * m;
             blas().subtract('N', q, left, beside, m, z.data(), order, y.data(), q, columns_);
             blas().subtract('T', m - p, q, front.b(), std::max(1, m - p), z.data() + left, order, y.data(), q,
@@ -124,7 +124,7 @@ class Substitution {
             blas().divide('U', 'N', 'N', q, front.a, m, y.data(), q, columns_);
         } else {
             blas().subtract('T', order, q, front.a + q, m, z.data(), order, y.data(), q, columns_);
-            blas().divide('L', 'T', factors_.kind() == Kind::positive ? 'N' : 'U', q, front.a, m, y.data(), q,
+            blas().divide('L', 'T', factors_.kind() == Kind::Positive ? 'N' : 'U', q, front.a, m, y.data(), q,
                           columns_);
         }
         for (int j = 0; j < columns_; ++j)
