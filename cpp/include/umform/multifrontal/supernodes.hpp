@@ -43,7 +43,7 @@ struct Supernodes {
 
   private:
     static constexpr std::int64_t kTiny = 24, kSmall = 96;                          // columns of a supernode
-    static constexpr double kFillTiny = 0.5, kFillSmall = 0.08, kFillLarge = 0.03;  // share of zeros that may be added
+    static constexpr double tiny_fill = 0.5, small_fill = 0.08, large_fill = 0.03;  // share of zeros that may be added
 
     /// Structure of each column from those of its children.
     void eliminate(const Graph& graph, const std::vector<std::int32_t>& weight,
@@ -122,7 +122,7 @@ struct Supernodes {
             const std::int64_t zeros =
                 node.zeros + parent.zeros + node.columns * (parent.height - (node.height - node.columns));
             const std::int64_t entries = columns * height - columns * (columns - 1) / 2;
-            const double share = columns <= kTiny ? kFillTiny : columns <= kSmall ? kFillSmall : kFillLarge;
+            const double share = columns <= kTiny ? tiny_fill : columns <= kSmall ? small_fill : large_fill;
             if (static_cast<double>(zeros) > share * static_cast<double>(entries)) continue;
             into[s] = p;
             node.pivots.insert(node.pivots.end(), parent.pivots.begin(), parent.pivots.end());
