@@ -104,10 +104,9 @@ test-long: dev  ## the long verification runs
 
 BENDING := tests/verification/test_free_bending.py
 PARDISO_TESTS := tests/python/solvers tests/python/test_threads.py '$(BENDING)::test_forces_of_the_table[12x1 MI9K3DEAS 3]' \
-    $(BENDING)::test_auto_takes_pardiso_for_18_nodes \
     $(BENDING)::test_threads_beside_pardiso_give_the_same_bits
 
-# The extra goes into .venv, where `auto` may choose PARDISO from then on: .ci/run calls this after `make test`.
+# The extra goes into .venv: .ci/run calls this after `make test`.
 pardiso: dev  ## put MKL (the extra "pardiso", some 700 MB) into .venv; "make clean" takes it out again
 	$(SAY) 'Putting MKL (the extra "pardiso", some 700 MB) into $(VENV); "make clean" takes it out again'
 	@$(BIN)/python tools/requirements.py pardiso > $(BUILD)/pardiso.txt

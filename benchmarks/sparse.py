@@ -1,112 +1,152 @@
-"""How the sparse solvers compare: time of a factorisation with the analysis kept, as ratios to the fastest one; and
-what the analysis takes, that of the choice among them (`auto`) too, as ratios to the same factorisation.
+"""How the sparse solvers compare: analysis, factorisation with the analysis kept, solve, and peak memory.
 
-A second table has what the order of a sheet does for PARDISO, beside the order that PARDISO finds itself.
-
-Tangents of flat sheets at rest. The solvers that are installed take turns, so that a shared machine troubles all alike.
+Tangents of flat sheets: as they are at rest (positive), moved down until some eigenvalues are negative (indefinite),
+and with another lower than upper triangle (unsymmetric). Each measurement has a process of its own, which gives its
+best of some factorisations; solvers take turns, so that a shared machine troubles all alike. Milliseconds of CPU time
+on one thread, by the clock on several. Memory is what the process grows by from the analysis on: the model and its
+matrix are not counted.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
+import os
+import re
+import subprocess
+import sys
 import time
+from pathlib import Path
 
 import numpy as np
 
 import record
 import umform as uf
-from umform.solvers import available, make_solver
-from umform.solvers.pardiso import Pardiso
+from umform.solvers import Pattern, available, make_solver
 
-#: Name, elements along and across, cell, repetitions.
-CASES = (
-    ("strip 24x1", (24, 1), "hex8", 50),
-    ("strip 48x2", (48, 2), "hex8", 30),
-    ("strip 24x2, 18 nodes", (24, 2), "hex18", 20),
-    ("sheet 20x20", (20, 20), "hex8", 10),
-    ("sheet 40x40", (40, 40), "hex8", 3),
-)
-
-#: Sheets of the second table: elements along and across, cell, repetitions; in blocks from 100 000 equations on.
-SHEETS = (((48, 48), "hex8", 20), ((100, 100), "hex8", 5), ((50, 50), "hex18", 5), ((300, 120), "hex8", 2))
-
-
-class Metis(Pardiso):
-    """PARDISO with the order that it finds itself."""
-
-    name = "metis"
-
-    def _order(self) -> None:
-        return None
+#: Elements along and across, cell, factorisations in a process.
+CASES = {
+    "strip 24x1": ((24, 1), "hex8", 50),
+    "strip 48x2": ((48, 2), "hex8", 50),
+    "strip 24x2, 18 nodes": ((24, 2), "hex18", 50),
+    "sheet 20x20": ((20, 20), "hex8", 20),
+    "sheet 40x40": ((40, 40), "hex8", 10),
+    "sheet 100x100": ((100, 100), "hex8", 5),
+    "sheet 50x50, 18 nodes": ((50, 50), "hex18", 5),
+    "sheet 200x200": ((200, 200), "hex8", 3),
+    "sheet 316x316": ((316, 316), "hex8", 2),
+}
+KINDS = ("positive", "indefinite", "unsymmetric")
+#: What is measured: milliseconds, and megabytes.
+COLUMNS = ("analysis", "factor", "solve", "MB")
+TIMES = COLUMNS[:3]
 
 
-def tangent(cells: tuple[int, int], cell: str) -> tuple[uf.Model, np.ndarray]:
-    """Model of a clamped sheet and the entries of its tangent at rest."""
+def tangent(cells: tuple[int, int], cell: str, kind: str = "positive") -> tuple[Pattern, np.ndarray]:
+    """Pattern and entries of the tangent of a clamped sheet."""
     mesh = uf.mesh.strip(length=float(cells[0]), width=float(cells[1]), thickness=0.5, cells=cells, cell=cell)
     model = uf.Model(mesh, "ANS3DEAS" if cell == "hex8" else "MI9K3DEAS", material=uf.SVK(E=210e3, nu=0.3))
     model.fix("x0")
-    return model, model.evaluate(np.zeros_like(model.u)).values
+    pattern, values = model.pattern, model.evaluate(np.zeros_like(model.u)).values.copy()
+    diagonal = pattern.indptr[:-1]
+    if kind == "indefinite":
+        values[diagonal] -= 1e-4 * values[diagonal].mean()
+    return unsymmetric(pattern, values) if kind == "unsymmetric" else (pattern, values)
 
 
-def orders() -> dict[str, float]:
-    """Print what PARDISO takes with both orders: best CPU milliseconds, and millions of entries of the factors."""
-    numbers: dict[str, float] = {}
-    columns = "".join(f"{what:>10}{'METIS':>9}" for what in ("analysis", "factor", "fill"))
-    print(f"\n{'ms, and 1e6 entries':<24}{'n':>7}{columns}")
-    for cells, cell, repeat in SHEETS:
-        model, values = tangent(cells, cell)
-        solvers = (Pardiso(), Metis())
-        took = np.full((3, 2), np.inf)
-        for _ in range(repeat):
-            for k, solver in enumerate(solvers):
-                begin = time.process_time()
-                solver.analyse(model.pattern)
-                middle = time.process_time()
-                fill = solver.factor(values).fill
-                end = time.process_time()
-                took[:, k] = np.minimum(took[:, k], (1e3 * (middle - begin), 1e3 * (end - middle), 1e-6 * fill))
-        label = f"sheet {cells[0]}x{cells[1]}, {cell}"
-        row = "".join(f"{own:>10.1f}{metis:>9.1f}" for own, metis in took)
-        print(f"{label:<24}{model.pattern.n:>7}{row}")
-        for what, (own, metis) in zip(("analysis, ms", "factor, ms", "fill, 1e6"), took, strict=True):
-            numbers |= {f"{label}, {what}": own, f"{label}, METIS, {what}": metis}
-    return numbers
+def unsymmetric(pattern: Pattern, values: np.ndarray) -> tuple[Pattern, np.ndarray]:
+    """The whole matrix, its lower triangle a tenth smaller than the upper one."""
+    from scipy import sparse
+
+    upper = sparse.csr_matrix((values, pattern.indices, pattern.indptr), shape=(pattern.n, pattern.n))
+    matrix = (upper + 0.9 * sparse.triu(upper, 1).T).tocsr()
+    matrix.sort_indices()
+    whole = Pattern(pattern.n, matrix.indptr.astype(np.int32), matrix.indices.astype(np.int32), symmetric=False)
+    return whole, matrix.data
+
+
+def resident(what: str) -> float:
+    """Megabytes of this process: VmRSS now, VmHWM at most; 0 where the system does not say."""
+    status = Path("/proc/self/status")
+    found = re.search(rf"{what}:\s+(\d+)", status.read_text()) if status.is_file() else None
+    return int(found[1]) / 1e3 if found else 0.0
+
+
+def forget_peak() -> None:
+    """Count the peak from here on, where the system can."""
+    if (peak := Path("/proc/self/clear_refs")).exists():
+        peak.write_text("5")
+
+
+def measure(case: str, kind: str, name: str, threads: int) -> dict[str, float]:
+    """Milliseconds, megabytes and millions of entries of one solver, in this process."""
+    uf.set_threads(threads)
+    cells, cell, repeat = CASES[case]
+    pattern, values = tangent(cells, cell, kind)
+    make_solver(tangent((2, 2), "hex8")[0], name)  # what is imported once
+    clock = time.process_time if threads == 1 else time.perf_counter
+    forget_peak()
+    before, start = resident("VmRSS"), clock()
+    solver = make_solver(pattern, name)
+    took = {"n": pattern.n, "analysis": clock() - start, "factor": np.inf, "solve": np.inf}
+    rhs = np.ones(pattern.n)
+    for _ in range(repeat + 1):
+        start = clock()
+        took["fill"] = solver.factor(values).fill / 1e6
+        middle = clock()
+        solver.solve(rhs)
+        took["factor"], took["solve"] = min(took["factor"], middle - start), min(took["solve"], clock() - middle)
+    return took | {what: 1e3 * took[what] for what in TIMES} | {"MB": resident("VmHWM") - before}
+
+
+def apart(*arguments: str, threads: int) -> dict[str, float] | None:
+    """Measure in a new process; None if the solver refuses."""
+    environment = os.environ | {"OMP_NUM_THREADS": str(threads), "MKL_NUM_THREADS": str(threads)}
+    command = [sys.executable, __file__, "--one", *arguments, str(threads)]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    return json.loads(done.stdout) if done.returncode == 0 else None
+
+
+def rounded(number: float) -> str:
+    """A number with three digits at least."""
+    return f"{number:.0f}" if number >= 100 else f"{number:.3g}"
 
 
 def main() -> None:
     """Run the benchmark."""
+    names = [name for name, here in available().items() if here]
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--case", choices=[case[0] for case in CASES], action="append", help="default: all")
+    parser.add_argument("--case", choices=CASES, action="append", help="default: up to 40x40")
+    parser.add_argument("--kind", choices=KINDS, action="append", help="default: positive")
+    parser.add_argument("--solver", choices=names, action="append", help="default: all that are installed")
+    parser.add_argument("--threads", type=int, nargs="+", default=[1])
+    parser.add_argument("--rounds", type=int, default=3, help="processes for each number, of which the best counts")
+    parser.add_argument("--one", nargs=4, metavar=("CASE", "KIND", "SOLVER", "THREADS"), help="measure here, as JSON")
     record.add_option(parser)
     arguments = parser.parse_args()
+    if arguments.one:
+        *which, threads = arguments.one
+        print(json.dumps(measure(*which, int(threads))))
+        return
     numbers: dict[str, float] = {}
-    names = [name for name, here in available().items() if here]
-    columns = "".join(f"{name:>10}" for name in names)
-    print(f"{'fastest factorisation = 1':<24}{'n':>7}{columns}   {'auto':>10}{columns}   (analysis)")
-    for label, cells, cell, repeat in CASES:
-        if arguments.case and label not in arguments.case:
-            continue
-        model, values = tangent(cells, cell)
-        best = dict.fromkeys(names, np.inf)
-        analysis, solvers = {}, {}
-        for name in ("auto", *names):
-            start = time.perf_counter()
-            solvers[name] = make_solver(model.pattern, name)
-            analysis[name] = time.perf_counter() - start
-        del solvers["auto"]
-        for _ in range(repeat):
-            for name, solver in solvers.items():
-                start = time.perf_counter()
-                solver.factor(values)
-                best[name] = min(best[name], time.perf_counter() - start)
-        fastest = min(best.values())
-        ratios = "".join(f"{best[name] / fastest:>10.1f}" for name in names)
-        analyses = "".join(f"{seconds / fastest:>10.1f}" for seconds in analysis.values())
-        print(f"{label:<24}{model.pattern.n:>8}{ratios}   {analyses}")
-        numbers |= {f"{label}, {name}, ms": 1e3 * best[name] for name in names}
-        numbers |= {f"{label}, {name}, analysis, ms": 1e3 * seconds for name, seconds in analysis.items()}
-    if "pardiso" in names:
-        numbers |= orders()
+    print(f"| sheet | equations | matrix | threads | solver | {' | '.join(COLUMNS)} | fill, 1e6 |")
+    print("|---|---:|---|---:|---|---:|---:|---:|---:|---:|")
+    for case in arguments.case or list(CASES)[:5]:
+        for kind in arguments.kind or KINDS[:1]:
+            for threads in arguments.threads:
+                best: dict[str, dict[str, float]] = {}
+                for _ in range(arguments.rounds):
+                    for name in arguments.solver or names:
+                        took = apart(case, kind, name, threads=threads)
+                        known = best.get(name, took)
+                        if took and known:
+                            best[name] = {what: min(took[what], known[what]) for what in took}
+                for name, took in best.items():
+                    cells = " | ".join(rounded(took[what]) for what in COLUMNS)
+                    row = f"| {case} | {took['n']:.0f} | {kind} | {threads} | {name} | {cells} | {took['fill']:.3g} |"
+                    print(row, flush=True)
+                    label = f"{case}, {kind}, {threads} threads, {name}"
+                    numbers |= {f"{label}, {what}": took[what] for what in COLUMNS}
     record.write(arguments.json, "sparse", numbers)
 
 

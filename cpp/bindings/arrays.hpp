@@ -50,6 +50,7 @@ void bind_quadrature(nb::module_& m);
 void bind_materials(nb::module_& m);
 void bind_surfaces(nb::module_& m);
 void bind_sparse(nb::module_& m);
+void bind_multifrontal(nb::module_& m);
 void bind_blocks(nb::module_& m);
 void bind_contact(nb::module_& m);
 void bind_loads(nb::module_& m);

@@ -13,6 +13,7 @@ NB_MODULE(_core, m) {
     bind_materials(m);
     bind_surfaces(m);
     bind_sparse(m);
+    bind_multifrontal(m);
     bind_blocks(m);
     bind_contact(m);
     bind_loads(m);

@@ -232,6 +232,63 @@ class SheetOrder:
     def blocks(self) -> BlockPattern:
         """The matrix in blocks, one row of them for each group."""
 
+def set_blas(api: dict[str, object], set_threads: int, get_threads: int) -> None:
+    """Take BLAS from capsules of Cython's kind."""
+
+class Outcome:
+    """How a factorisation has ended."""
+
+    @property
+    def done(self) -> bool: ...
+
+    @property
+    def not_positive(self) -> bool: ...
+
+    @property
+    def equation(self) -> int:
+        """That of the pivot which has ended it; -1 if there is none."""
+
+class Pivots:
+    """What the pivots tell."""
+
+    @property
+    def negative(self) -> int: ...
+
+    @property
+    def odd(self) -> bool:
+        """Whether the determinant is negative."""
+
+    @property
+    def size(self) -> NDArray[float64]:
+        """Pivot of each equation."""
+
+class Multifrontal:
+    """Multifrontal factors of matrices with one pattern."""
+
+    def __init__(self, indptr: NDArray[int32], indices: NDArray[int32], symmetric: bool) -> None: ...
+
+    @property
+    def fill(self) -> int:
+        """Entries of the factors."""
+
+    @property
+    def bytes(self) -> int:
+        """
+        Memory of the factors and of what is on the way to them, on one thread.
+        """
+
+    def factor(self, values: NDArray[float64], positive: bool) -> Outcome: ...
+
+    def pivots(self) -> Pivots: ...
+
+    def solve(self, b: NDArray[float64], x: NDArray[float64]) -> None:
+        """Solve for rows of b, each a right-hand side."""
+
+    def residual(self, values: NDArray[float64], b: NDArray[float64], x: NDArray[float64], r: NDArray[float64]) -> None: ...
+
+    def column_sizes(self, values: NDArray[float64]) -> NDArray[float64]:
+        """Largest entry of each column."""
+
 class Tying:
     """One row of an assumed-strain rule."""
 

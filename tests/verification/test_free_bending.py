@@ -104,12 +104,6 @@ def test_18_nodes_need_three_contact_points():
 
 
 @needs_pardiso
-def test_auto_takes_pardiso_for_18_nodes():
-    """So the row 12x1 MI9K3DEAS of the table is one of PARDISO where MKL is installed."""
-    assert run((12, 1), "MI9K3DEAS", 3).solver == "pardiso"
-
-
-@needs_pardiso
 def test_threads_beside_pardiso_give_the_same_bits():
     """MKL and the kernels share a pool of threads; what the kernels add up does not depend on its size."""
     model, punch = build(FreeBending(mesh=(48, 2), **RECOMMENDED))

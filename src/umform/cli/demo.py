@@ -59,7 +59,7 @@ def free_bending(
     stroke: Annotated[float, _option("Largest displacement.", _SOLUTION)] = Default.stroke,
     steps: Annotated[int, _option("Increments up to the stroke.", _SOLUTION)] = Default.steps,
     unload: Annotated[bool, _option("Release to zero force.", _SOLUTION)] = Default.unload,
-    solver: Annotated[str, _option("auto, banded, pardiso or superlu.", _SOLUTION)] = Default.solver,
+    solver: Annotated[str, _option("auto, multifrontal, banded, pardiso or superlu.", _SOLUTION)] = Default.solver,
     line_search: Annotated[
         bool, _option("Shorten Newton's increments that go too far.", _SOLUTION, "--line-search/--no-line-search")
     ] = Default.line_search,

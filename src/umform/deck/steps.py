@@ -175,7 +175,7 @@ class Solution(Part):
     """Sparse solver and Newton's method."""
 
     solver: Annotated[str, Field(min_length=1)] = "auto"
-    """auto, banded, pardiso, superlu, or petsc for many ranks."""
+    """auto, multifrontal, banded, pardiso, superlu, or petsc for many ranks."""
     residual: Positive = 1e-9
     """Tolerance of the residual, relative to the element forces."""
     increment: Positive = 1e-6

@@ -24,7 +24,7 @@ from umform.ranks import ONE, Ranks
 from umform.results.history import History
 from umform.solution.habits import Habits
 from umform.solution.records import Iteration
-from umform.solvers.pardiso import Pardiso
+from umform.solvers.protocol import Remembering
 from umform.steps.loop import Run
 
 _KIND = "checkpoint of umform"
@@ -168,7 +168,7 @@ def take_up(run: Run, checkpoints: Checkpoints) -> dict[str, Any] | None:
     run.evaluation = run.model.repeat(tree["before"])
     run.number, run.last_dx, run.habits = tree["number"], tree["last_dx"], Habits(**tree["habits"])
     solver = run.newton.ready_solver().solver.solver
-    if isinstance(solver, Pardiso):
+    if isinstance(solver, Remembering):
         solver.recall(tree["factors"])
     _recall_result(run.result, tree["result"], run.evaluation)
     memory: dict[str, Any] | None = tree["loop"]
@@ -180,8 +180,8 @@ def _tree(run: Run) -> dict[str, Any]:
     return model.whole_state(
         {
             "number": run.number,
-            # The one solver with a memory: after an indefinite matrix it tries other factors than Cholesky's.
-            "factors": solver.memory() if isinstance(solver, Pardiso) else None,
+            # After an indefinite matrix a solver with a memory tries other factors than those of Cholesky.
+            "factors": solver.memory() if isinstance(solver, Remembering) else None,
             "loop": None if run.loop is None else run.loop.memory(),
             "model": vars(model.snapshot()),
             "before": {term.key: term.before for term in model.terms if model.ranks.any(term.before.size > 0)},

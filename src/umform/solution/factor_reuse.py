@@ -20,7 +20,7 @@ _FALL = 3.0
 _SLOW = 0.2
 #: Nanoseconds, whose ratios alone count: of a factorisation for each entry of the factors times their mean number in a
 #: column, of a solve for each of them, of an evaluation of effort 1 for each equation. benchmarks/reuse.py prints them.
-_FACTOR, _SOLVE, _EVALUATE = 0.09, 1.5, 1250.0
+_FACTOR, _SOLVE, _EVALUATE = 0.055, 1.5, 1450.0
 
 
 def cost_of_factors(fill: int, equations: int, effort: float) -> float:

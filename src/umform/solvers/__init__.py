@@ -1,8 +1,7 @@
 """Sparse solvers: the protocol, one file per solver, and the choice among them.
 
-``auto`` takes the fastest one present: the banded Cholesky solver for symmetric matrices of narrow band (long
-strips), else PARDISO, else SuperLU. A solver of your own joins with `register`.
-The ratios in these files were measured on a machine with two cores; ``benchmarks/sparse.py`` prints those of yours.
+``auto`` takes umform's own multifrontal solver, which is as fast as the fastest of the others, from strips to large
+sheets (``benchmarks/sparse.py``). The others are there to compare with. A solver of your own joins with `register`.
 """
 
 from __future__ import annotations
@@ -12,17 +11,14 @@ from collections.abc import Callable
 
 from ..errors import InvalidValue
 from . import pardiso
-from .band_order import wider_than
 from .banded import Banded
+from .multifrontal import Multifrontal
 from .pardiso import Pardiso
 from .protocol import Factorisation, Pattern, SparseSolver
 
 __all__ = ["Factorisation", "Pattern", "SparseSolver", "available", "make_solver", "register"]
 
 _log = logging.getLogger("umform.solvers")
-
-# Up to these bandwidths the banded solver is ahead of PARDISO and of SuperLU.
-_NARROW_FOR_PARDISO, _NARROW_FOR_SUPERLU = 32, 128
 
 
 def _superlu() -> SparseSolver:
@@ -32,6 +28,7 @@ def _superlu() -> SparseSolver:
 
 
 _factories: dict[str, Callable[[], SparseSolver]] = {
+    "multifrontal": Multifrontal,
     "pardiso": Pardiso,
     "banded": Banded,
     "superlu": _superlu,
@@ -66,10 +63,11 @@ def make_solver(pattern: Pattern, name: str = "auto") -> SparseSolver:
     pattern : Pattern
         Where the matrix has entries.
     name : str, optional
-        One of `available`, or ``auto`` for the fastest one present.
+        One of `available`, or ``auto`` for the fastest one.
     """
     if name == "auto":
-        return _fastest(pattern)
+        name = "multifrontal"
+        _log.info("solver: %s", name)
     if name not in _factories:
         raise InvalidValue(
             "There is no solver of this name",
@@ -79,19 +77,3 @@ def make_solver(pattern: Pattern, name: str = "auto") -> SparseSolver:
     solver = _factories[name]()
     solver.analyse(pattern)
     return solver
-
-
-def _fastest(pattern: Pattern) -> SparseSolver:
-    """Return the solver that `auto` stands for, and say in one line of log which and what would be faster."""
-    has_pardiso = available()["pardiso"]
-    narrow = _NARROW_FOR_PARDISO if has_pardiso else _NARROW_FOR_SUPERLU
-    hint = "" if has_pardiso else '; faster: pip install "umform[pardiso]"'
-    if pattern.symmetric and not wider_than(narrow, pattern):
-        banded = Banded()
-        banded.analyse(pattern)
-        if banded.bandwidth <= narrow:
-            _log.info("solver: banded%s", hint if banded.bandwidth > _NARROW_FOR_PARDISO else "")
-            return banded
-    name = "pardiso" if has_pardiso else "superlu"
-    _log.info("solver: %s%s", name, hint)
-    return make_solver(pattern, name)

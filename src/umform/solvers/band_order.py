@@ -15,9 +15,6 @@ from .protocol import IntArray, Pattern
 
 IntIndex = NDArray[np.intp]
 
-#: So many steps tell a sheet from a strip.
-_FAR = 200
-
 
 def orders(pattern: Pattern) -> Iterator[IntIndex]:
     """Yield ways to number the equations one after the other along the strip: the place of each."""
@@ -38,23 +35,6 @@ def orders(pattern: Pattern) -> Iterator[IntIndex]:
 def bandwidth(places: IntIndex, rows: IntArray, columns: IntArray) -> int:
     """Return how far the entries lie from the diagonal at most."""
     return int(np.abs(places[rows] - places[columns]).max())
-
-
-def wider_than(bandwidth: int, pattern: Pattern) -> bool:
-    """Whether a short walk over the graph shows that the band of no order is so narrow.
-
-    In a band of half width b the equations that k steps lead to from one equation are at most 2 k b. Here the steps go
-    up in the rows that are stored; in a sheet they find a number that grows with k^2.
-    """
-    seen = np.zeros(pattern.n, dtype=bool)
-    seen[0] = True
-    front, count, steps = np.zeros(1, dtype=np.int64), 0, 0
-    while len(front) and count <= 2 * steps * bandwidth and steps < _FAR:
-        front = np.unique(np.concatenate([pattern.indices[pattern.indptr[k] : pattern.indptr[k + 1]] for k in front]))
-        front = front[~seen[front]]
-        seen[front] = True
-        count, steps = count + len(front), steps + 1
-    return count > 2 * steps * bandwidth
 
 
 def _inverse(order: IntIndex) -> IntIndex:

@@ -1,4 +1,4 @@
-"""MKL PARDISO, called directly in the library of the PyPI package `mkl`: the fastest but for narrow bands.
+"""MKL PARDISO, called directly in the library of the PyPI package `mkl`: another solver to compare with.
 
 The equations of a sheet are put in order here (`umform._core.SheetOrder`): those of a fibre are one vertex, and
 the separators are minimal cuts. PARDISO's own METIS orders each equation by itself, which takes longer and leaves

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -187,6 +187,17 @@ class SparseSolver(Protocol):
         """Return x of K x = rhs, for one right-hand side (1D) or for the columns of several (2D)."""
 
 
+@runtime_checkable
+class Remembering(Protocol):
+    """A solver whose answers depend on the matrices before to the last bit: a checkpoint keeps what it remembers."""
+
+    def memory(self) -> int:
+        """What later answers follow from, beside the values."""
+
+    def recall(self, kind: int) -> None:
+        """Go on as a solver that remembered this."""
+
+
 # A pivot below this part of its diagonal entry is rounding error. Rounding leaves 1e-14 and more of a pivot that
 # should vanish, growing with the mesh, so that a loose part of a large one may pass; a sheet that is free as a whole is
 # refused before, by the model. Thin beams that are well held come near: 7e-13 for one of 1/3750 of its length.
@@ -223,7 +234,7 @@ def check_accuracy(solver: str, error: float) -> None:
             where=f"solver {solver!r}",
             value=f"residual {error:.1e}",
             cause="the matrix needs pivots far from the diagonal, or is nearly singular",
-            remedy="choose the solver 'superlu', and check the supports",
+            remedy="check the supports, and the sizes of the stiffnesses; compare with another solver",
         )
 
 

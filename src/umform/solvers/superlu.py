@@ -1,4 +1,4 @@
-"""SuperLU through SciPy: the solver of the base install, for any matrix.
+"""SuperLU through SciPy, for any matrix: another solver to compare with.
 
 SciPy cannot keep SuperLU's symbolic work, but it can keep the ordering, which is found once a pattern; the values are
 gathered in that order, which saves about a tenth of each call. A sheet is ordered as for PARDISO

@@ -49,10 +49,10 @@ def test_old_factors_that_disappoint_are_not_used_on():
     assert decision(5.0, *FAST, (2e-9, 1e-8)) == [False, True, True]
 
 
-def test_sheets_beyond_some_thousand_elements_have_dear_factors():
-    """Entries of sheets of 625 and 3600 elements, as PARDISO counts them; a strip in a band; no factors at all."""
-    assert cost_of_factors(418_241, 3_650, 1.0) < 1.0
-    assert cost_of_factors(3_667_377, 21_360, 1.0) > 1.5
+def test_sheets_beyond_some_ten_thousand_elements_have_dear_factors():
+    """Entries of sheets of 3600 and 40 000 elements, as the multifrontal solver counts them; a strip; no factors."""
+    assert cost_of_factors(3_520_000, 21_360, 1.0) < 1.0
+    assert cost_of_factors(55_070_000, 241_200, 1.0) > 1.5
     assert cost_of_factors(300 * 24, 300, 1.0) < 0.05
     assert cost_of_factors(0, 300, 1.0) == 0.0
 

@@ -1,17 +1,13 @@
-"""The walk that spares wide matrices the search for a narrow band."""
+"""Orders that make the band of a strip narrow."""
 
 from __future__ import annotations
-
-import logging
 
 import numpy as np
 import pytest
 
 import umform as uf
-from umform import solvers
 from umform.solvers import Pattern
-from umform.solvers.band_order import bandwidth, orders, wider_than
-from umform.solvers.banded import Banded
+from umform.solvers.band_order import bandwidth, orders
 
 
 def pattern_of(along, across, cell="hex8"):
@@ -29,30 +25,6 @@ def shuffled(pattern, seed=0):
     order = np.lexsort((j, i))
     indptr = np.searchsorted(i[order], np.arange(pattern.n + 1)).astype(np.int32)
     return Pattern(pattern.n, indptr, j[order].astype(np.int32), True)
-
-
-@pytest.mark.parametrize("cells", [(24, 1), (48, 2), (10, 4), (6, 6), (20, 20)])
-@pytest.mark.parametrize("order", [lambda pattern: pattern, shuffled])
-def test_it_never_says_wider_than_what_is_found(cells, order):
-    pattern = order(pattern_of(*cells))
-    banded = Banded()
-    banded.analyse(pattern)
-    assert not wider_than(banded.bandwidth, pattern)
-    assert wider_than(0, pattern)
-
-
-def test_sheets_are_found_wide_and_strips_are_not():
-    assert wider_than(32, pattern_of(40, 40))
-    assert wider_than(32, pattern_of(20, 20, "hex18"))
-    assert not wider_than(32, pattern_of(100, 1))
-
-
-def test_a_wide_matrix_is_not_searched_for_a_band(monkeypatch, caplog):
-    pattern = pattern_of(60, 60)
-    monkeypatch.setattr(Banded, "analyse", lambda self, pattern: pytest.fail("searched"))
-    with caplog.at_level(logging.INFO, logger="umform.solvers"):
-        solver = solvers.make_solver(pattern)
-    assert solver.name in ("pardiso", "superlu")
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -11,7 +11,7 @@ from umform.solution.options import NewtonOptions
 from umform.solvers import pardiso
 
 needs_mkl = pytest.mark.skipif(not pardiso.available(), reason="MKL is not installed")
-GENERAL = ["superlu", pytest.param("pardiso", marks=needs_mkl), "auto"]
+GENERAL = ["multifrontal", "superlu", pytest.param("pardiso", marks=needs_mkl), "auto"]
 
 
 def plate():

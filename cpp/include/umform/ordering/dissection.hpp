@@ -20,13 +20,14 @@ namespace umform {
 /// for the fewest vertices that part the ends. Nothing is random: an order depends on the graph and its numbering alone.
 class Dissection {
   public:
-    explicit Dissection(const Graph& graph)
-        : graph_(graph), order_(graph.size()), part_(graph.size(), 0), local_(graph.size(), 0), best_(graph.size(), 0) {
+    explicit Dissection(const Graph& graph, bool solid = false)
+        : solid_(solid), graph_(graph), order_(graph.size()), part_(graph.size(), 0), local_(graph.size(), 0),
+          best_(graph.size(), 0) {
         for (auto& steps : steps_) steps.resize(graph.size());
         std::iota(order_.begin(), order_.end(), 0);
     }
 
-    /// The vertices in their order of elimination; none if the graph is not that of a sheet.
+    /// The vertices in their order of elimination; none if the graph is not that of a sheet, or of a solid if that is asked for.
     std::vector<std::int32_t> run() {
         todo_.emplace_back(0, graph_.size());
         while (!todo_.empty()) {
@@ -34,7 +35,7 @@ class Dissection {
             todo_.pop_back();
             if (end - begin <= kSmall || !connected(begin, end)) continue;
             find_separator(end - begin);
-            if (end - begin >= kLarge && fewest_ > kSheet * std::sqrt(end - begin)) return {};
+            if (end - begin >= kLarge && fewest_ > most(end - begin)) return {};
             if (fewest_ <= end - begin) place(begin);
         }
         return std::move(order_);
@@ -44,9 +45,9 @@ class Dissection {
     static constexpr int kSmall = 4;         // parts up to this size are left as they are
     static constexpr double kMiddle = 0.35;  // share of the vertices among which the separator is sought
     static constexpr double kGood = 1.05;  // a separator is good enough at so many times the mean number at a distance
-    // A square of m vertices is parted by sqrt(m) of them, a cube by m^(2/3): solids are left to those who know them.
-    static constexpr double kSheet = 2.0;
+    static constexpr double kWide = 2.0;   // so many times what parts a square or a cube, and the graph is none
     static constexpr int kLarge = 1000;
+    bool solid_;
     const Graph& graph_;
     std::vector<std::int32_t> order_, part_, local_, found_, sorted_, count_;
     std::vector<std::int32_t> members_;   // of the part that is being cut
@@ -55,6 +56,11 @@ class Dissection {
     std::vector<std::int8_t> side_, best_;
     Between between_;
     int parts_ = 0, fewest_ = 0;
+
+    /// A square of m vertices is parted by sqrt(m) of them, a cube by m^(2/3).
+    double most(int size) const {
+        return kWide * (solid_ ? std::cbrt(static_cast<double>(size) * size) : std::sqrt(size));
+    }
 
     /// Appends to `found_` what can be reached from a vertex within its part, with the steps it takes; the part is renamed.
     void search(int from, std::vector<std::int32_t>& steps) {

@@ -1,0 +1,145 @@
+#include <cstring>
+#include <memory>
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "arrays.hpp"
+#include "umform/assembly/threads.hpp"
+#include "umform/multifrontal/elimination.hpp"
+#include "umform/multifrontal/factors.hpp"
+#include "umform/multifrontal/pivots.hpp"
+#include "umform/multifrontal/residual.hpp"
+#include "umform/multifrontal/substitution.hpp"
+
+using namespace umform;
+
+namespace {
+
+/// A pattern of its own, the plan for it, and factors.
+class Multifrontal {
+  public:
+    Multifrontal(const InputIds& indptr, const InputIds& indices, bool symmetric)
+        : indptr_(indptr.data(), indptr.data() + indptr.size()),
+          indices_(indices.data(), indices.data() + indices.size()), symmetric_(symmetric) {
+        const Columns columns(rows());
+        if (symmetric) {
+            plan(indptr_.data(), indices_.data(), columns);
+        } else {
+            const UpperTriangle upper(rows(), columns);
+            plan(upper.indptr.data(), upper.indices.data(), columns);
+        }
+        factors_ = std::make_unique<Factors>(*plan_);
+    }
+
+    Rows rows() const { return {indptr_.data(), indices_.data(), static_cast<int>(indptr_.size()) - 1}; }
+    bool symmetric() const { return symmetric_; }
+    const Plan& plan() const { return *plan_; }
+    Factors& factors() { return *factors_; }
+
+  private:
+    std::vector<std::int32_t> indptr_, indices_;
+    bool symmetric_;
+    std::unique_ptr<Plan> plan_;
+    std::unique_ptr<Factors> factors_;
+
+    void plan(const std::int32_t* indptr, const std::int32_t* indices, const Columns& columns) {
+        const Quotient quotient = make_quotient(indptr, indices, rows().n);
+        plan_ = std::make_unique<Plan>(rows(), symmetric_, quotient, eliminate(quotient));
+        plan_->map_entries(rows(), columns);
+    }
+};
+
+/// Address of a function of BLAS that takes 32-bit integers by address.
+template <class Function>
+Function take(const nb::dict& api, const char* name) {
+    const nb::object capsule = api[name];
+    const char* signature = PyCapsule_GetName(capsule.ptr());
+    if (signature == nullptr || std::strstr(signature, "int *") == nullptr || std::strstr(signature, "long") != nullptr)
+        throw std::invalid_argument(std::string("BLAS function with unknown integers: ") + name);
+    return reinterpret_cast<Function>(PyCapsule_GetPointer(capsule.ptr(), signature));
+}
+
+}  // namespace
+
+void bind_multifrontal(nb::module_& m) {
+    m.def(
+        "set_blas",
+        [](const nb::dict& api, std::uintptr_t set_threads, std::uintptr_t get_threads) {
+            Blas& functions = blas();
+            functions.gemm_ = take<Blas::Gemm>(api, "dgemm");
+            functions.gemv_ = take<Blas::Gemv>(api, "dgemv");
+            functions.trsm_ = take<Blas::Trsm>(api, "dtrsm");
+            functions.trsv_ = take<Blas::Trsv>(api, "dtrsv");
+            functions.set_threads = reinterpret_cast<Blas::SetThreads>(set_threads);
+            functions.get_threads = reinterpret_cast<Blas::GetThreads>(get_threads);
+        },
+        nb::arg("api"), nb::arg("set_threads"), nb::arg("get_threads"),
+        nb::sig("def set_blas(api: dict[str, object], set_threads: int, get_threads: int) -> None"),
+        "Take BLAS from capsules of Cython's kind.");
+    nb::class_<Outcome>(m, "Outcome", "How a factorisation has ended.")
+        .def_prop_ro("done", [](const Outcome& o) { return o.state == Outcome::Done; })
+        .def_prop_ro("not_positive", [](const Outcome& o) { return o.state == Outcome::NotPositive; })
+        .def_ro("equation", &Outcome::equation, "That of the pivot which has ended it; -1 if there is none.");
+    nb::class_<Pivots>(m, "Pivots", "What the pivots tell.")
+        .def_ro("negative", &Pivots::negative)
+        .def_ro("odd", &Pivots::odd, "Whether the determinant is negative.")
+        .def_prop_ro(
+            "size", [](const Pivots& p) { return to_numpy(p.size, {p.size.size()}); },
+            nb::sig("def size(self) -> NDArray[float64]"), "Pivot of each equation.");
+    nb::class_<Multifrontal>(m, "Multifrontal", "Multifrontal factors of matrices with one pattern.")
+        .def(
+            "__init__",
+            [](Multifrontal* self, const InputIds& indptr, const InputIds& indices, bool symmetric) {
+                nb::gil_scoped_release release;
+                new (self) Multifrontal(indptr, indices, symmetric);
+            },
+            nb::arg("indptr"), nb::arg("indices"), nb::arg("symmetric"),
+            nb::sig("def __init__(self, indptr: NDArray[int32], indices: NDArray[int32], symmetric: bool) -> None"))
+        .def_prop_ro(
+            "fill", [](const Multifrontal& s) { return s.plan().fill; }, "Entries of the factors.")
+        .def_prop_ro(
+            "bytes", [](Multifrontal& s) { return 8 * (s.plan().factor_size + s.factors().schedule().peak); },
+            "Memory of the factors and of what is on the way to them, on one thread.")
+        .def(
+            "factor",
+            [](Multifrontal& s, const Input& values, bool positive) {
+                nb::gil_scoped_release release;
+                const Kind kind = !s.symmetric() ? Kind::Unsymmetric : positive ? Kind::Positive : Kind::Symmetric;
+                return s.factors().factor(kind, values.data(), thread_count());
+            },
+            nb::arg("values"), nb::arg("positive"),
+            nb::sig("def factor(self, values: NDArray[float64], positive: bool) -> Outcome"))
+        .def("pivots", [](Multifrontal& s) { return Pivots(s.factors()); })
+        .def(
+            "solve",
+            [](Multifrontal& s, const Input& b, const Output& x) {
+                nb::gil_scoped_release release;
+                const std::size_t n = s.plan().n;
+                const int columns = static_cast<int>(b.size() / n), threads = thread_count();
+                for (int j = 0; j < columns; j += Substitution::most_columns)
+                    Substitution(s.factors(), std::min(columns - j, Substitution::most_columns), threads)
+                        .run(b.data() + j * n, x.data() + j * n);
+            },
+            nb::arg("b"), nb::arg("x"), nb::sig("def solve(self, b: NDArray[float64], x: NDArray[float64]) -> None"),
+            "Solve for rows of b, each a right-hand side.")
+        .def(
+            "residual",
+            [](const Multifrontal& s, const Input& values, const Input& b, const Input& x, const Output& r) {
+                nb::gil_scoped_release release;
+                const int columns = static_cast<int>(b.size() / s.plan().n);
+                residual(s.rows(), s.symmetric(), values.data(), b.data(), x.data(), columns, r.data());
+            },
+            nb::arg("values"), nb::arg("b"), nb::arg("x"), nb::arg("r"),
+            nb::sig("def residual(self, values: NDArray[float64], b: NDArray[float64], x: NDArray[float64], "
+                    "r: NDArray[float64]) -> None"))
+        .def(
+            "column_sizes",
+            [](const Multifrontal& s, const Input& values) {
+                std::vector<double> sizes = column_sizes(s.rows(), s.symmetric(), values.data());
+                const std::size_t n = sizes.size();
+                return to_numpy(std::move(sizes), {n});
+            },
+            nb::arg("values"), nb::sig("def column_sizes(self, values: NDArray[float64]) -> NDArray[float64]"),
+            "Largest entry of each column.");
+}

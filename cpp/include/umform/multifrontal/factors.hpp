@@ -1,0 +1,372 @@
+// Multifrontal factorisation: fronts are assembled, eliminated, and what is left of them goes into the front of the parent.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cholesky.hpp"
+#include "indefinite.hpp"
+#include "plan.hpp"
+#include "schedule.hpp"
+#include "storage.hpp"
+#include "unsymmetric.hpp"
+
+namespace umform {
+
+enum class Kind : std::uint8_t { Positive, Symmetric, Unsymmetric };
+
+/// How a factorisation has ended.
+struct Outcome {
+    enum State : std::uint8_t { Done, NotPositive, Singular } state = Done;
+    int equation = -1;  // of the pivot that has ended it
+};
+
+/// What a front has become. Rows and columns that could not be eliminated here, since no pivot among them was stable, are
+/// eliminated in the front of the parent: they follow the pivots of its own.
+struct Eliminated {
+    int pivots = 0, size = 0, done = 0;  // with those that the children have left; of them eliminated
+    double* a = nullptr;                 // columns of the factor, `size` rows each; rows of the other one follow
+    Block own;                           // where they are longer than planned
+    double* update = nullptr;            // square matrix for the parent: rows that are left, then those of ancestors
+    Block own_update;
+    bool stacked = false;
+    std::vector<std::int32_t> rows, columns;  // places of the pivots in their order of elimination; empty if as planned
+    std::vector<double> below;                // entries beside the diagonal of pivots of two columns
+
+    int left() const { return pivots - done; }
+    int order() const { return size - done; }
+    double* b() const { return a + static_cast<std::ptrdiff_t>(size) * pivots; }
+};
+
+/// Numeric factors of matrices with one pattern.
+class Factors {
+  public:
+    explicit Factors(const Plan& plan) : plan_(plan), schedule_(plan), fronts_(plan.fronts.size()) {}
+
+    Outcome factor(Kind kind, const double* values, int threads) {
+        kind_ = kind, values_ = values, state_ = Outcome::Done, equation_ = -1;
+        storage_.grow(plan_.factor_size);
+        if (static_cast<int>(workers_.size()) < threads) workers_ = std::vector<Worker>(threads);
+        const OneBlasThread alone;
+        schedule_.run(
+            plan_, threads,
+            [&](const Schedule::Unit& unit, int thread) {
+                Worker& worker = workers_[thread];
+                worker.stacks.reserve(schedule_.even, schedule_.odd);
+                for (int f = unit.begin; f <= unit.root; ++f) process(f, worker, f < unit.root);
+            },
+            [&](int f, int thread) { process(f, workers_[thread], false); });
+        return {state_.load(), equation_};
+    }
+
+    const Plan& plan() const { return plan_; }
+    Kind kind() const { return kind_; }
+    const Schedule& schedule() const { return schedule_; }
+    const Eliminated& front(int f) const { return fronts_[f]; }
+
+    /// Place of the row and of the column of a pivot of a front.
+    int row(int f, int k) const { return fronts_[f].rows.empty() ? plan_.fronts[f].first + k : fronts_[f].rows[k]; }
+    int column(int f, int k) const {
+        return fronts_[f].columns.empty() ? plan_.fronts[f].first + k : fronts_[f].columns[k];
+    }
+
+  private:
+    /// Rows of an update that follow each other in the front of the parent too.
+    struct Run {
+        int from, to, length;
+    };
+    struct Child {
+        const Eliminated* front;
+        const std::int32_t* seat;
+        int order, split;  // columns before `split` are pivots of the parent
+        bool sorted;
+        std::vector<std::int32_t> own_seat;
+        std::vector<Run> runs;
+    };
+    struct Worker {
+        Stacks stacks;
+        std::vector<Child> seats;   // grows only
+        std::span<Child> children;  // of the present front
+    };
+
+    const Plan& plan_;
+    Schedule schedule_;
+    std::vector<Eliminated> fronts_;
+    std::vector<Worker> workers_;
+    Block storage_;
+    Pool pool_;
+    Kind kind_ = Kind::Positive;
+    const double* values_ = nullptr;
+    std::atomic<Outcome::State> state_{Outcome::Done};
+    int equation_ = -1;
+
+    static constexpr int kLarge = 256;  // rows of an update that is shared among threads
+
+    void process(int f, Worker& worker, bool stack) {
+        if (state_.load(std::memory_order_relaxed) != Outcome::Done) return;
+        Eliminated& front = fronts_[f];
+        open(f, front, worker);
+        add_entries(f, front);
+        for (const Child& child : worker.children) add_pivots(child, front);
+        if (!eliminate(f, front)) return;
+        if (front.order() > 0) make_update(f, front, worker, stack);
+        for (int k = plan_.children_start[f]; k < plan_.children_start[f + 1]; ++k) release(plan_.children[k], worker);
+    }
+
+    void stop(Outcome::State state, int place) {
+#pragma omp critical(umform_outcome)
+        if (state_ == Outcome::Done) {
+            equation_ = place < 0 ? -1 : plan_.equation[place];
+            state_ = state;
+        }
+    }
+
+    /// Memory of a front, and the seats of its children in it.
+    void open(int f, Eliminated& front, Worker& worker) {
+        const Front& planned = plan_.fronts[f];
+        const int begin = plan_.children_start[f], count = plan_.children_start[f + 1] - begin;
+        if (static_cast<int>(worker.seats.size()) < count) worker.seats.resize(count);
+        worker.children = {worker.seats.data(), static_cast<std::size_t>(count)};
+        int delayed = 0;
+        for (int k = 0; k < count; ++k) delayed += fronts_[plan_.children[begin + k]].left();
+        front.pivots = planned.pivots + delayed, front.size = planned.size + delayed;
+        front.rows.clear(), front.columns.clear();
+        const std::size_t p = front.pivots, m = front.size, beside = kind_ == Kind::Unsymmetric ? p * (m - p) : 0;
+        if (delayed == 0) {
+            front.own = Block();
+            front.a = storage_.data() + planned.factor;
+        } else {
+            front.own.grow(m * p + beside);
+            front.a = front.own.data();
+        }
+        if (kind_ == Kind::Unsymmetric)
+            std::fill_n(front.a, m * p + beside, 0.0);
+        else
+            for (std::size_t j = 0; j < p; ++j) std::fill_n(front.a + j * m + j, m - j, 0.0);
+        int next = planned.pivots;
+        for (int k = 0; k < count; ++k) {
+            const int c = plan_.children[begin + k];
+            seat(fronts_[c], plan_.fronts[c], planned.pivots, delayed, next, worker.children[k]);
+            next += fronts_[c].left();
+        }
+        if (kind_ != Kind::Positive) {
+            for (int k = 0; k < planned.pivots; ++k) front.rows.push_back(planned.first + k);
+            front.columns = front.rows;
+            for (int k = 0; k < count; ++k) {
+                const Eliminated& child = fronts_[plan_.children[begin + k]];
+                if (child.left() == 0) continue;
+                front.rows.insert(front.rows.end(), child.rows.begin() + child.done, child.rows.end());
+                front.columns.insert(front.columns.end(), child.columns.begin() + child.done, child.columns.end());
+            }
+        }
+    }
+
+    /// Where the rows of an update go: those that a child has left behind the pivots that were planned.
+    void seat(const Eliminated& child, const Front& planned, int pivots, int delayed, int next, Child& out) {
+        out.front = &child, out.order = child.order();
+        const std::int32_t* seats = plan_.seat.data() + planned.rows;
+        out.sorted = delayed == 0;
+        if (delayed == 0) {
+            out.seat = seats;
+        } else {
+            out.own_seat.clear();
+            for (int k = 0; k < child.left(); ++k) out.own_seat.push_back(next + k);
+            for (int k = 0; k < planned.updates(); ++k)
+                out.own_seat.push_back(seats[k] < pivots ? seats[k] : seats[k] + delayed);
+            out.seat = out.own_seat.data();
+        }
+        const int all = pivots + delayed;
+        out.split = static_cast<int>(std::lower_bound(out.seat, out.seat + out.order, all) - out.seat);
+        if (!out.sorted) out.split = out.order;
+        out.runs.clear();
+        for (int k = 0; k < out.order; ++k) {
+            if (k > 0 && out.seat[k] == out.seat[k - 1] + 1 && k != out.split)
+                ++out.runs.back().length;
+            else
+                out.runs.push_back({k, out.seat[k], 1});
+        }
+    }
+
+    void add_entries(int f, Eliminated& front) {
+        const Front& planned = plan_.fronts[f];
+        const std::int64_t end = plan_.end_of_entries(f);
+        const std::int32_t *source = plan_.source.data(), *target = plan_.target.data();
+        if (front.pivots == planned.pivots) {
+            for (std::int64_t k = planned.entries; k < end; ++k) front.a[target[k]] += values_[source[k]];
+            return;
+        }
+        const int delayed = front.pivots - planned.pivots, p = planned.pivots, m = planned.size;
+        for (std::int64_t k = planned.entries; k < end; ++k) {
+            if (target[k] < p * m) {
+                const int row = target[k] % m, column = target[k] / m;
+                front.a[(row < p ? row : row + delayed) + static_cast<std::ptrdiff_t>(column) * front.size] +=
+                    values_[source[k]];
+            } else {
+                front.b()[target[k] - p * m] += values_[source[k]];
+            }
+        }
+    }
+
+    /// Adds the columns of an update that are pivots of the front, and rows that are.
+    void add_pivots(const Child& child, Eliminated& front) {
+        const double* from = child.front->update;
+        if (!child.sorted) return add_unsorted(child, front, true);
+        for (int j = 0; j < child.split; ++j) {
+            const double* column = from + static_cast<std::ptrdiff_t>(j) * child.order;
+            double* to = front.a + static_cast<std::ptrdiff_t>(child.seat[j]) * front.size;
+            add_column(child, column, to, kind_ == Kind::Unsymmetric ? 0 : j);
+        }
+        if (kind_ != Kind::Unsymmetric) return;
+        const int beyond = front.size - front.pivots;
+        for (int j = child.split; j < child.order; ++j) {
+            const double* column = from + static_cast<std::ptrdiff_t>(j) * child.order;
+            double* to = front.b() + child.seat[j] - front.pivots;
+            for (int i = 0; i < child.split; ++i) to[static_cast<std::ptrdiff_t>(child.seat[i]) * beyond] += column[i];
+        }
+    }
+
+    /// Adds rows of a column from `first` on.
+    static void add_column(const Child& child, const double* column, double* to, int first) {
+        for (const Run& run : child.runs) {
+            const int skip = std::max(0, first - run.from);
+            const double* x = column + run.from;
+            double* y = to + run.to;
+            for (int i = skip; i < run.length; ++i) y[i] += x[i];
+        }
+    }
+
+    /// Adds an update with seats in any order: its part in the columns of the front, or that in its update.
+    void add_unsorted(const Child& child, Eliminated& front, bool pivots) {
+        const int p = front.pivots, order = front.order(), shift = front.left() - p, beyond = front.size - p;
+        for (int j = 0; j < child.order; ++j)
+            for (int i = kind_ == Kind::Unsymmetric ? 0 : j; i < child.order; ++i) {
+                const double value = child.front->update[i + static_cast<std::ptrdiff_t>(j) * child.order];
+                int row = child.seat[i], column = child.seat[j];
+                if (kind_ != Kind::Unsymmetric && row < column) std::swap(row, column);
+                if ((std::min(row, column) < p) != pivots) continue;
+                if (!pivots)
+                    front.update[row + shift + static_cast<std::ptrdiff_t>(column + shift) * order] += value;
+                else if (column < p)
+                    front.a[row + static_cast<std::ptrdiff_t>(column) * front.size] += value;
+                else
+                    front.b()[column - p + static_cast<std::ptrdiff_t>(row) * beyond] += value;
+            }
+    }
+
+    bool eliminate(int f, Eliminated& front) {
+        if (kind_ == Kind::Positive) {
+            const int failed = cholesky(front.a, front.size, front.size, front.pivots);
+            front.done = front.pivots;
+            if (failed >= 0) stop(Outcome::NotPositive, plan_.fronts[f].first + failed);
+            return failed < 0;
+        }
+        int empty = -1;
+        bool exchanged = front.pivots != plan_.fronts[f].pivots;
+        if (kind_ == Kind::Symmetric) {
+            Indefinite work(front.a, front.size, front.pivots, front.below, front.columns);
+            front.done = work.run(empty);
+            exchanged |= work.exchanged();
+            front.rows = front.columns;
+        } else {
+            Unsymmetric work(front.a, front.b(), front.size, front.pivots, front.rows, front.columns);
+            front.done = work.run(empty);
+            exchanged |= work.exchanged();
+        }
+        const bool stuck = plan_.fronts[f].parent < 0 && front.left() > 0;
+        if (empty >= 0 || stuck) {
+            stop(Outcome::Singular, front.columns[empty >= 0 ? empty : front.done]);
+            return false;
+        }
+        if (!exchanged && front.left() == 0) front.rows.clear(), front.columns.clear();
+        return true;
+    }
+
+    /// What is left for the parent.
+    void make_update(int f, Eliminated& front, Worker& worker, bool stack) {
+        const std::size_t order = front.order(), left = front.left();
+        front.stacked = stack && left == 0 && front.pivots == plan_.fronts[f].pivots;
+        if (front.stacked) {
+            front.update = worker.stacks.push(schedule_.depth[f], order * order);
+        } else {
+            front.own_update = pool_.take(order * order);
+            front.update = front.own_update.data();
+        }
+        if (left > 0) copy_left(front);
+        const int beyond = front.size - front.pivots, width = block_of(beyond), blocks = (beyond + width - 1) / width;
+        const std::span<const Child> children = worker.children;
+        share(blocks, beyond >= kLarge, [&](int k) {
+            const int first = k * width, last = std::min(beyond, first + width);
+            multiply(front, first, last);
+            for (const Child& child : children)
+                if (child.sorted) add_beyond(child, front, first, last);
+        });
+        for (const Child& child : children)
+            if (!child.sorted) add_unsorted(child, front, false);
+    }
+
+    /// Columns of a block of an update. What a block of a symmetric update has above the diagonal is wasted: few columns are
+    /// best in small updates. They depend on the update alone, so that its bits do.
+    int block_of(int beyond) const { return kind_ == Kind::Unsymmetric ? 192 : beyond < 400 ? 48 : 96; }
+
+    /// Rows and columns that could not be eliminated.
+    void copy_left(Eliminated& front) {
+        const int order = front.order(), left = front.left(), beyond = order - left;
+        for (int j = 0; j < left; ++j) {
+            const double* column = front.a + static_cast<std::ptrdiff_t>(front.done + j) * front.size + front.done;
+            std::copy_n(column, order, front.update + static_cast<std::ptrdiff_t>(j) * order);
+            if (kind_ != Kind::Unsymmetric) continue;
+            const double* row = front.b() + static_cast<std::ptrdiff_t>(front.done + j) * beyond;
+            for (int i = 0; i < beyond; ++i) front.update[j + static_cast<std::ptrdiff_t>(left + i) * order] = row[i];
+        }
+    }
+
+    /// Columns of the update: - L21 L21^T, - L21 D L21^T or - L21 U12.
+    void multiply(Eliminated& front, int first, int last) {
+        const int p = front.pivots, m = front.size, order = front.order(), left = front.left(), q = front.done;
+        double* c = front.update + left + static_cast<std::ptrdiff_t>(left + first) * order;
+        const double* a = front.a + p;
+        if (kind_ == Kind::Positive) {
+            blas().gemm('N', 'T', m - p - first, last - first, q, -1.0, a + first, m, a + first, m, 0.0, c + first,
+                        order);
+        } else if (kind_ == Kind::Symmetric) {
+            std::vector<std::int32_t> none;
+            std::vector<double> scaled;
+            Indefinite(front.a, m, p, front.below, none).scale_rows(0, q, p + first, last - first, scaled);
+            blas().gemm('N', 'T', m - p - first, last - first, q, -1.0, a + first, m, scaled.data(), last - first, 0.0,
+                        c + first, order);
+        } else {
+            blas().gemm('N', 'T', m - p, last - first, q, -1.0, a, m, front.b() + first, m - p, 0.0, c, order);
+        }
+    }
+
+    /// Adds columns of the update of a child to those of the front.
+    void add_beyond(const Child& child, Eliminated& front, int first, int last) {
+        const int shift = front.left() - front.pivots, order = front.order();
+        const auto* end = child.seat + child.order;
+        int j = static_cast<int>(std::lower_bound(child.seat + child.split, end, front.pivots + first) - child.seat);
+        for (; j < child.order && child.seat[j] < front.pivots + last; ++j) {
+            const double* column = child.front->update + static_cast<std::ptrdiff_t>(j) * child.order;
+            double* to = front.update + static_cast<std::ptrdiff_t>(child.seat[j] + shift) * order + shift;
+            add_column(child, column, to, kind_ == Kind::Unsymmetric ? child.split : j);
+        }
+    }
+
+    void release(int f, Worker& worker) {
+        Eliminated& front = fronts_[f];
+        if (front.order() == 0) return;
+        if (front.stacked) {
+            const std::size_t order = front.order();
+            worker.stacks.pop(schedule_.depth[f], order * order);
+        } else {
+            pool_.give(std::move(front.own_update));
+            front.own_update = Block();
+        }
+        front.update = nullptr;
+    }
+};
+
+}  // namespace umform

@@ -1,0 +1,43 @@
+// Products with the matrix as it was given, and the size of its columns.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "structure.hpp"
+
+namespace umform {
+
+/// R = B - K X for columns of length n; of a symmetric matrix the upper triangle is given.
+inline void residual(const Rows& rows, bool symmetric, const double* values, const double* b, const double* x,
+                     int columns, double* r) {
+    for (int j = 0; j < columns; ++j, b += rows.n, x += rows.n, r += rows.n) {
+        std::copy_n(b, rows.n, r);
+        for (int i = 0; i < rows.n; ++i) {
+            double sum = 0.0;
+            const double mine = x[i];
+            for (int k = rows.indptr[i]; k < rows.indptr[i + 1]; ++k) {
+                const int column = rows.indices[k];
+                sum += values[k] * x[column];
+                if (symmetric && column != i) r[column] -= values[k] * mine;
+            }
+            r[i] -= sum;
+        }
+    }
+}
+
+/// Largest entry of each column.
+inline std::vector<double> column_sizes(const Rows& rows, bool symmetric, const double* values) {
+    std::vector<double> size(rows.n, 0.0);
+    for (int i = 0; i < rows.n; ++i)
+        for (int k = rows.indptr[i]; k < rows.indptr[i + 1]; ++k) {
+            const double here = std::abs(values[k]);
+            const int column = rows.indices[k];
+            size[column] = std::max(size[column], here);
+            if (symmetric) size[i] = std::max(size[i], here);
+        }
+    return size;
+}
+
+}  // namespace umform

@@ -1,0 +1,133 @@
+// Which fronts a thread works on alone, and which wait for several: the same for any number of threads.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "plan.hpp"
+#include "umform/assembly/threads.hpp"
+
+namespace umform {
+
+/// Small subtrees are units, each worked through by one thread; fronts above them start when the last of their children has
+/// come. What is summed up in which order depends on the tree alone.
+class Schedule {
+  public:
+    struct Unit {
+        int begin, root;  // fronts begin ... root
+    };
+    std::vector<Unit> units;
+    std::vector<std::uint8_t> above;  // [front] is it above the units?
+    std::vector<std::uint8_t> depth;  // even or odd
+    std::size_t even = 0, odd = 0;    // numbers in the two stacks of a unit
+    std::size_t peak = 0;             // numbers in updates at one time, on one thread
+    bool worth_a_team = false;
+
+    explicit Schedule(const Plan& plan) : above(plan.fronts.size(), 0), depth(plan.fronts.size(), 0) {
+        const int count = static_cast<int>(plan.fronts.size());
+        std::int64_t total = 0;
+        for (const Front& front : plan.fronts)
+            if (front.parent < 0) total += front.work;
+        worth_a_team = total > kSmall;
+        const std::int64_t limit = std::max(kUnit, total / kUnits);
+        std::vector<std::int32_t> first(count);
+        for (int f = 0; f < count; ++f)
+            first[f] =
+                plan.children_start[f] < plan.children_start[f + 1] ? first[plan.children[plan.children_start[f]]] : f;
+        for (int f = count - 1; f >= 0; --f) {
+            const int parent = plan.fronts[f].parent;
+            if (parent >= 0) depth[f] = depth[parent] ^ 1U;
+            above[f] = plan.fronts[f].work > limit && first[f] < f ? 1 : 0;
+        }
+        for (int f = 0; f < count; ++f) {
+            const int parent = plan.fronts[f].parent;
+            if (above[f] == 0 && (parent < 0 || above[parent] != 0)) units.push_back({first[f], f});
+        }
+        for (const Unit& unit : units) measure(plan, unit);
+        find_peak(plan);
+    }
+
+    /// Calls alone(unit, thread) for each unit and together(front, thread) for each front above, children first.
+    template <class Alone, class Together>
+    void run(const Plan& plan, int threads, const Alone& alone, const Together& together) const {
+        std::vector<std::atomic<std::int32_t>> missing(plan.fronts.size());
+        for (std::size_t f = 0; f < plan.fronts.size(); ++f)
+            missing[f] = plan.children_start[f + 1] - plan.children_start[f];
+        const int count = static_cast<int>(units.size());
+        FirstException exception;
+        [[maybe_unused]] const int team = worth_a_team ? threads : 1;
+#pragma omp parallel for num_threads(team) if (team > 1) schedule(dynamic, 1)
+        for (int k = 0; k < count; ++k)
+            exception.guard([&] {
+                alone(units[k], thread_index());
+                for (int f = plan.fronts[units[k].root].parent; f >= 0 && --missing[f] == 0; f = plan.fronts[f].parent)
+                    together(f, thread_index());
+            });
+        exception.rethrow();
+    }
+
+    /// Calls alone(unit, thread) for each unit.
+    template <class Alone>
+    void run_units(int threads, const Alone& alone) const {
+        const int count = static_cast<int>(units.size());
+        FirstException exception;
+        [[maybe_unused]] const int team = worth_a_team ? threads : 1;
+#pragma omp parallel for num_threads(team) if (team > 1) schedule(dynamic, 1)
+        for (int k = 0; k < count; ++k) exception.guard([&] { alone(units[k], thread_index()); });
+        exception.rethrow();
+    }
+
+  private:
+    static constexpr std::int64_t kSmall = 20'000'000, kUnit = 1'000'000;  // multiplications
+    static constexpr std::int64_t kUnits = 48;
+
+    void find_peak(const Plan& plan) {
+        std::size_t held = 0;
+        const auto square = [&](int f) {
+            return static_cast<std::size_t>(plan.fronts[f].updates()) * plan.fronts[f].updates();
+        };
+        for (std::size_t f = 0; f < plan.fronts.size(); ++f) {
+            held += square(static_cast<int>(f));
+            peak = std::max(peak, held);
+            for (int k = plan.children_start[f]; k < plan.children_start[f + 1]; ++k) held -= square(plan.children[k]);
+        }
+    }
+
+    /// What the stacks of a unit hold at most.
+    void measure(const Plan& plan, const Unit& unit) {
+        std::size_t held[2] = {0, 0};
+        for (int f = unit.begin; f <= unit.root; ++f) {
+            if (f < unit.root) {
+                const std::size_t order = plan.fronts[f].updates();
+                held[depth[f]] += order * order;
+            }
+            even = std::max(even, held[0]), odd = std::max(odd, held[1]);
+            for (int k = plan.children_start[f]; k < plan.children_start[f + 1]; ++k) {
+                const std::size_t order = plan.fronts[plan.children[k]].updates();
+                held[depth[f] ^ 1U] -= order * order;
+            }
+        }
+    }
+};
+
+/// Calls work(k) for k = 0 ... count - 1, shared with the threads of the team that have nothing to do if it is `large`.
+template <class Work>
+void share(int count, [[maybe_unused]] bool large, const Work& work) {
+#ifdef _OPENMP
+    if (large && count > 1 && omp_get_num_threads() > 1) {
+        FirstException exception;
+    #pragma omp taskgroup
+        for (int k = 0; k < count; ++k) {
+    #pragma omp task firstprivate(k) shared(exception, work)
+            exception.guard([&] { work(k); });
+        }
+        exception.rethrow();
+        return;
+    }
+#endif
+    for (int k = 0; k < count; ++k) work(k);
+}
+
+}  // namespace umform

@@ -1,0 +1,135 @@
+// Solution by the factors: forward through the tree, back from its roots.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "factors.hpp"
+
+namespace umform {
+
+/// Solves K X = B for a few columns at once. The right-hand side of a front is changed by its children only, in their order:
+/// the same bits for any number of threads.
+class Substitution {
+  public:
+    static constexpr int most_columns = 16;
+
+    Substitution(const Factors& factors, int columns, int threads)
+        : factors_(factors), plan_(factors.plan()), columns_(columns), threads_(threads),
+          right_(static_cast<std::size_t>(plan_.n) * columns), found_(right_.size()),
+          carried_(plan_.rows.size() * static_cast<std::size_t>(columns)), scratch_(threads) {}
+
+    /// Columns of b and x are `n` long, in the order of the equations.
+    void run(const double* b, double* x) {
+        const std::size_t n = plan_.n;
+        for (int j = 0; j < columns_; ++j)
+            for (std::size_t i = 0; i < n; ++i) right_[j * n + plan_.place[i]] = b[j * n + i];
+        const OneBlasThread alone;
+        factors_.schedule().run(
+            plan_, threads_,
+            [&](const Schedule::Unit& unit, int thread) {
+                for (int f = unit.begin; f <= unit.root; ++f) forward(f, scratch_[thread]);
+            },
+            [&](int f, int thread) { forward(f, scratch_[thread]); });
+        for (int f = static_cast<int>(plan_.fronts.size()) - 1; f >= 0; --f)
+            if (factors_.schedule().above[f] != 0) back(f, scratch_[0]);
+        factors_.schedule().run_units(threads_, [&](const Schedule::Unit& unit, int thread) {
+            for (int f = unit.root; f >= unit.begin; --f) back(f, scratch_[thread]);
+        });
+        for (int j = 0; j < columns_; ++j)
+            for (std::size_t i = 0; i < n; ++i) x[j * n + i] = found_[j * n + plan_.place[i]];
+    }
+
+  private:
+    struct Scratch {
+        std::vector<double> pivots, others;
+    };
+    const Factors& factors_;
+    const Plan& plan_;
+    int columns_, threads_;
+    std::vector<double> right_, found_, carried_;  // by places; what fronts hand on to their parents
+    std::vector<Scratch> scratch_;
+
+    double& right(int place, int j) { return right_[static_cast<std::size_t>(j) * plan_.n + place]; }
+    double& found(int place, int j) { return found_[static_cast<std::size_t>(j) * plan_.n + place]; }
+
+    void forward(int f, Scratch& scratch) {
+        const Front& planned = plan_.fronts[f];
+        const Eliminated& front = factors_.front(f);
+        const int u = planned.updates(), p = front.pivots, q = front.done, m = front.size;
+        double* hand_on = carried_.data() + planned.rows * columns_;
+        std::fill_n(hand_on, static_cast<std::size_t>(u) * columns_, 0.0);
+        for (int k = plan_.children_start[f]; k < plan_.children_start[f + 1]; ++k)
+            take_over(plan_.children[k], planned, hand_on);
+        std::vector<double>& y = scratch.pivots;
+        y.resize(static_cast<std::size_t>(p) * columns_);
+        for (int j = 0; j < columns_; ++j)
+            for (int t = 0; t < p; ++t) y[j * p + t] = right(factors_.row(f, t), j);
+        const char unit = factors_.kind() == Kind::Positive ? 'N' : 'U';
+        blas().divide('L', 'N', unit, q, front.a, m, y.data(), p, columns_);
+        blas().subtract('N', p - q, q, front.a + q, m, y.data(), p, y.data() + q, p, columns_);
+        blas().subtract('N', u, q, front.a + p, m, y.data(), p, hand_on, u, columns_);
+        if (factors_.kind() == Kind::Symmetric) divide_by_diagonal(front, y.data(), p);
+        for (int j = 0; j < columns_; ++j)
+            for (int t = 0; t < p; ++t) right(factors_.row(f, t), j) = y[j * p + t];
+    }
+
+    /// Adds what a child hands on to the right-hand side of the pivots and to what the parent hands on.
+    void take_over(int child, const Front& parent, double* hand_on) {
+        const Front& planned = plan_.fronts[child];
+        const int u = planned.updates(), there = parent.updates();
+        const double* from = carried_.data() + planned.rows * columns_;
+        const std::int32_t* seat = plan_.seat.data() + planned.rows;
+        for (int j = 0; j < columns_; ++j)
+            for (int i = 0; i < u; ++i) {
+                const double value = from[static_cast<std::size_t>(j) * u + i];
+                if (seat[i] < parent.pivots)
+                    right(parent.first + seat[i], j) += value;
+                else
+                    hand_on[static_cast<std::size_t>(j) * there + seat[i] - parent.pivots] += value;
+            }
+    }
+
+    void divide_by_diagonal(const Eliminated& front, double* y, int ld) {
+        for (int t = 0; t < front.done; ++t) {
+            const double* d = front.a + t + static_cast<std::ptrdiff_t>(t) * front.size;
+            if (front.below[t] == 0.0) {
+                for (int j = 0; j < columns_; ++j) y[j * ld + t] /= *d;
+                continue;
+            }
+            const TwoByTwo pivot(*d, front.below[t], d[front.size + 1]);
+            for (int j = 0; j < columns_; ++j) pivot.solve(y[j * ld + t], y[j * ld + t + 1]);
+            ++t;
+        }
+    }
+
+    void back(int f, Scratch& scratch) {
+        const Front& planned = plan_.fronts[f];
+        const Eliminated& front = factors_.front(f);
+        const int p = front.pivots, q = front.done, m = front.size, left = front.left(), order = front.order();
+        std::vector<double>&y = scratch.pivots, &z = scratch.others;
+        y.resize(static_cast<std::size_t>(q) * columns_), z.resize(static_cast<std::size_t>(order) * columns_);
+        for (int j = 0; j < columns_; ++j) {
+            for (int t = 0; t < q; ++t) y[j * q + t] = right(factors_.row(f, t), j);
+            for (int t = 0; t < left; ++t) z[j * order + t] = found(factors_.column(f, q + t), j);
+            for (int t = left; t < order; ++t) z[j * order + t] = found(plan_.rows[planned.rows + t - left], j);
+        }
+        if (factors_.kind() == Kind::Unsymmetric) {
+            const double* beside = front.a + static_cast<std::ptrdiff_t>(q) * m;
+            blas().subtract('N', q, left, beside, m, z.data(), order, y.data(), q, columns_);
+            blas().subtract('T', m - p, q, front.b(), std::max(1, m - p), z.data() + left, order, y.data(), q,
+                            columns_);
+            blas().divide('U', 'N', 'N', q, front.a, m, y.data(), q, columns_);
+        } else {
+            blas().subtract('T', order, q, front.a + q, m, z.data(), order, y.data(), q, columns_);
+            blas().divide('L', 'T', factors_.kind() == Kind::Positive ? 'N' : 'U', q, front.a, m, y.data(), q,
+                          columns_);
+        }
+        for (int j = 0; j < columns_; ++j)
+            for (int t = 0; t < q; ++t) found(factors_.column(f, t), j) = y[j * q + t];
+    }
+};
+
+}  // namespace umform

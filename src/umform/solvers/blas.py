@@ -1,0 +1,49 @@
+"""BLAS of SciPy for the kernels: its functions by address, without importing the whole of ``scipy.linalg``."""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import sys
+from importlib import import_module, util
+from importlib.machinery import PathFinder
+from pathlib import Path
+from types import ModuleType
+
+from .. import _core
+
+# How OpenBLAS is told its number of threads: as built for SciPy, and by others.
+_PREFIXES = ("scipy_openblas", "openblas")
+
+
+@functools.cache
+def hand_over() -> None:
+    """Give the kernels the functions of BLAS, once a process."""
+    module = _module("scipy.linalg.cython_blas")
+    _core.set_blas(module.__pyx_capi__, *_thread_control(module))
+
+
+def _module(name: str) -> ModuleType:
+    """Return a compiled module of SciPy; the package that it lies in takes 0.2 s to be imported and is left out."""
+    if name in sys.modules:
+        return sys.modules[name]
+    import scipy
+
+    folder = Path(str(scipy.__file__)).parent / "linalg"
+    spec = PathFinder.find_spec(name, [str(folder)])
+    if spec is None or spec.loader is None:
+        return import_module(name)
+    module = util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def _thread_control(module: ModuleType) -> tuple[int, int]:
+    """Addresses of the functions that set and get the number of threads of BLAS; 0 where there are none."""
+    library = ctypes.CDLL(str(module.__file__))  # the libraries that it is linked to are looked through as well
+    for prefix in _PREFIXES:
+        names = (f"{prefix}_set_num_threads", f"{prefix}_get_num_threads")
+        if all(hasattr(library, name) for name in names):
+            set_threads, get_threads = (ctypes.cast(getattr(library, name), ctypes.c_void_p).value for name in names)
+            return set_threads or 0, get_threads or 0
+    return 0, 0

@@ -1,0 +1,137 @@
+"""The solver of umform itself, for any matrix: multifrontal factors, dense products by the BLAS of SciPy.
+
+The equations of a sheet are put in order by nested dissection of the graph of its fibres, those of other matrices by
+that or by minimum degree, whichever leaves less to do (`cpp/include/umform/multifrontal/elimination.hpp`). Cholesky
+comes first for a symmetric matrix; a pivot that is not positive leads to L D L^T with pivots of one and two columns,
+which know the inertia, until a matrix has no negative pivot any more. Unsymmetric matrices get LU factors. A pivot that
+is not stable within its front waits for the next one, so that no matrix needs another solver.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import numpy as np
+
+from .. import _core
+from ..errors import SolveError
+from . import blas
+from .protocol import (
+    Factorisation,
+    FloatArray,
+    Pattern,
+    backward_error,
+    check_accuracy,
+    not_factored,
+    singular,
+    vanishing_pivot,
+)
+
+# A backward error above this is worth a step of iterative refinement, of which so many are made at most.
+_POOR_RESIDUAL, _STEPS = 1e-14, 2
+
+
+class Multifrontal:
+    """Supernodal multifrontal factorisation: Cholesky, L D L^T or LU; the same bits on any number of threads."""
+
+    name = "multifrontal"
+    _values: FloatArray | None = None
+    _factors: _core.Multifrontal
+
+    def analyse(self, pattern: Pattern) -> None:
+        """Order the equations and plan the fronts; Cholesky is expected of a symmetric matrix."""
+        self._values = None
+        blas.hand_over()
+        indptr, indices = (np.ascontiguousarray(part, np.int32) for part in (pattern.indptr, pattern.indices))
+        self._pattern = pattern
+        with _memory(pattern, lambda: 0):
+            self._factors = _core.Multifrontal(indptr, indices, pattern.symmetric)
+        self._positive = pattern.symmetric
+
+    def factor(self, values: FloatArray) -> Factorisation:
+        """Factorise; after a pivot that is not positive, Cholesky is left out until none is negative any more."""
+        self._values = None
+        values = self._pattern.checked(values)
+        factors, symmetric = self._factors, self._pattern.symmetric
+        with _memory(self._pattern, lambda: factors.bytes):
+            self._with_cholesky = self._positive
+            outcome = factors.factor(values, self._positive)
+            if outcome.not_positive:
+                self._with_cholesky = self._positive = False
+                outcome = factors.factor(values, False)
+        if not outcome.done:
+            raise singular(self.name, outcome.equation if outcome.equation >= 0 else None)
+        pivots = factors.pivots()
+        scale = values[self._pattern.indptr[:-1]] if self._with_cholesky else factors.column_sizes(values)
+        weakest = vanishing_pivot(pivots.size, scale)
+        if weakest is not None:
+            raise singular(self.name, weakest)
+        self._positive = symmetric and pivots.negative == 0
+        self._values = values
+        return Factorisation(pivots.negative if symmetric else None, factors.fill, pivots.odd)
+
+    def solve(self, rhs: FloatArray) -> FloatArray:
+        """Solve; without Cholesky the residual is checked, and the solution refined where that is poor."""
+        if self._values is None:
+            raise not_factored()
+        b = np.ascontiguousarray(self._pattern.checked_rhs(rhs).T)
+        x = np.empty_like(b)
+        with _memory(self._pattern, lambda: self._factors.bytes):
+            self._factors.solve(b, x)
+            if not self._with_cholesky:
+                self._refine(self._values, b, x)
+            elif not np.isfinite(x).all():
+                check_accuracy(self.name, np.nan)
+        return x.T
+
+    def memory(self) -> int:
+        """What later answers follow from, beside the values: whether the next matrix is tried with Cholesky."""
+        return int(self._positive)
+
+    def recall(self, kind: int) -> None:
+        """Go on with the kind of factors of a run that was kept."""
+        self._positive = kind == 1 and self._pattern.symmetric
+
+    def _refine(self, values: FloatArray, b: FloatArray, x: FloatArray) -> None:
+        """Improve the solution while its residual is poor; refuse it if that does not help."""
+        residual, change = np.empty_like(b), np.empty_like(b)
+        size = max(float(values.max()), -float(values.min()))
+        for left in range(_STEPS, -1, -1):
+            self._factors.residual(values, b, x, residual)
+            error = backward_error(residual.T, size, x.T, b.T)
+            if not error > _POOR_RESIDUAL or left == 0:
+                break
+            self._factors.solve(residual, change)
+            x += change
+        check_accuracy(self.name, error)
+
+
+@contextmanager
+def _memory(pattern: Pattern, needed: Callable[[], int]) -> Iterator[None]:
+    """Refuse factors that are larger than the memory of the machine, and say so where memory ends on the way."""
+    if needed() > _installed():
+        raise _too_large(pattern, needed())
+    try:
+        yield
+    except MemoryError as error:
+        raise _too_large(pattern, needed()) from error
+
+
+def _installed() -> float:
+    """Bytes of memory that the machine has; infinity where it does not say."""
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    except (AttributeError, ValueError, OSError):
+        return np.inf
+
+
+def _too_large(pattern: Pattern, needed: int) -> SolveError:
+    return SolveError(
+        "There is not enough memory for the factors of the matrix",
+        where=f"{pattern.n} equations, {pattern.nnz} entries",
+        value=f"{needed / 1e9:.3g} GB for the factors" if needed else None,
+        cause="the model is too large for this machine, or other programs hold its memory",
+        remedy="take fewer elements, or a machine with more memory",
+    )

@@ -1,0 +1,122 @@
+"""The multifrontal solver on several threads, and beside BLAS's own."""
+
+from __future__ import annotations
+
+import importlib.util
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy import sparse
+
+import umform
+from umform.solvers import blas
+from umform.solvers.multifrontal import Multifrontal
+
+_SPEC = importlib.util.spec_from_file_location("matrices", Path(__file__).with_name("matrices.py"))
+matrices = importlib.util.module_from_spec(_SPEC)
+_SPEC.loader.exec_module(matrices)
+grid, saddle, stored = matrices.grid, matrices.saddle, matrices.stored
+
+
+@pytest.fixture(autouse=True)
+def threads_as_before():
+    before = umform.threads()
+    yield
+    umform.set_threads(before)
+
+
+def large(kind):
+    """More work than one unit of the schedule, and fronts that are shared."""
+    if kind == "delayed pivots":
+        return saddle(45, 600, 0), True
+    matrix = grid((14, 14, 14), 3)
+    if kind == "indefinite":
+        return matrix - 8.0 * sparse.eye(matrix.shape[0]), True
+    if kind == "unsymmetric":
+        return matrix + 0.3 * sparse.triu(matrix, 1), False
+    return matrix, True
+
+
+@pytest.mark.parametrize("kind", ["positive", "indefinite", "unsymmetric", "delayed pivots"])
+def test_any_number_of_threads_gives_the_same_bits(kind, rng):
+    matrix, symmetric = large(kind)
+    pattern, values = stored(matrix, symmetric)
+    b = rng.normal(size=(pattern.n, 2))
+
+    def run(count):
+        umform.set_threads(count)
+        solver = Multifrontal()
+        solver.analyse(pattern)
+        told = solver.factor(values)
+        return told, solver._factors.pivots().size, solver.solve(b), solver.solve(b[:, 0])
+
+    expected = run(1)
+    assert np.abs(matrix @ expected[2] - b).max() < 1e-9
+    for count in (2, 3, 5):
+        for _ in range(2):
+            told, *arrays = run(count)
+            assert told == expected[0]
+            for a, e in zip(arrays, expected[1:], strict=True):
+                np.testing.assert_array_equal(a, e)
+
+
+def test_the_number_may_change_between_factorisation_and_solve():
+    matrix, _ = large("positive")
+    pattern, values = stored(matrix)
+    solver = Multifrontal()
+    solver.analyse(pattern)
+    solutions = []
+    for count, then in ((1, 1), (1, 3), (3, 1), (2, 3)):
+        umform.set_threads(count)
+        solver.factor(values)
+        umform.set_threads(then)
+        solutions.append(solver.solve(np.ones(pattern.n)))
+    for x in solutions[1:]:
+        np.testing.assert_array_equal(x, solutions[0])
+
+
+def test_solvers_in_several_threads_of_python():
+    """The kernels release the interpreter: each solver has memory of its own."""
+    matrices = [grid((20, 20), 3, seed) for seed in range(4)]
+    expected = []
+    for matrix in matrices:
+        solver = Multifrontal()
+        solver.analyse(stored(matrix)[0])
+        solver.factor(stored(matrix)[1])
+        expected.append(solver.solve(np.ones(1200)))
+    failed = []
+
+    def work(matrix, x):
+        pattern, values = stored(matrix)
+        solver = Multifrontal()
+        solver.analyse(pattern)
+        for _ in range(10):
+            solver.factor(values)
+            if not np.array_equal(solver.solve(np.ones(1200)), x):
+                failed.append(matrix)
+
+    workers = [threading.Thread(target=work, args=pair) for pair in zip(matrices, expected, strict=True)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert not failed
+
+
+def test_the_threads_of_blas_are_as_before():
+    blas.hand_over()
+    module = blas._module("scipy.linalg.cython_blas")
+    if blas._thread_control(module) == (0, 0):
+        pytest.skip("this BLAS does not say how many threads it has")
+    library = blas.ctypes.CDLL(str(module.__file__))
+    prefix = next(p for p in blas._PREFIXES if hasattr(library, f"{p}_get_num_threads"))
+    count = getattr(library, f"{prefix}_get_num_threads")
+    getattr(library, f"{prefix}_set_num_threads")(2)
+    pattern, values = stored(grid((20, 20), 3))
+    solver = Multifrontal()
+    solver.analyse(pattern)
+    solver.factor(values)
+    solver.solve(np.ones(pattern.n))
+    assert count() == 2
