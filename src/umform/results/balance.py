@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -190,6 +191,12 @@ class ExternalWork:
             self.value += self._work(self._before, state)
         self._before = state
         self.imbalances.append(self._imbalance(state))
+
+    def copy(self) -> Self:
+        """The same, to go on with apart from this one."""
+        other = copy(self)
+        other.imbalances = list(self.imbalances)
+        return other
 
     def memory(self) -> dict[str, Any]:
         """All that the work of later states follows from, beside the model itself."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,17 @@ from umform.timing import Timing
 log = logging.getLogger("umform")
 
 Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Mark:
+    """How much of a history there is: numbers of its parts, and the external work up to there."""
+
+    rows: int
+    frames: int
+    events: int
+    warnings: int
+    work: ExternalWork
 
 
 class History:
@@ -130,6 +142,16 @@ class History:
     def recall_work(self, memory: dict[str, Any], evaluation: Evaluation) -> None:
         """Go on with the external work of a run that was kept, from the evaluation of its last state."""
         self._work.recall(memory, evaluation)
+
+    def mark(self) -> Mark:
+        """The present end of the history, to go back to."""
+        return Mark(len(self.rows), len(self.frames), len(self.events), len(self.warnings), self._work.copy())
+
+    def go_back(self, mark: Mark) -> None:
+        """Forget what came behind a mark."""
+        del self.rows[mark.rows :], self.iterations[mark.rows :], self.frames[mark.frames :]
+        del self.events[mark.events :], self.warnings[mark.warnings :]
+        self._work = mark.work.copy()
 
     def note(self, message: str) -> None:
         """Keep an event, lift-off for instance, and log it."""

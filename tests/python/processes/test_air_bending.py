@@ -11,7 +11,8 @@ import pytest
 
 from umform.errors import InvalidValue, NotFinite
 from umform.processes.air_bending import AirBending, Measures, air_bending, bending_table, find_stroke
-from umform.processes.air_bending.brake import Brake, build
+from umform.processes.air_bending.brake import build
+from umform.processes.air_bending.branches import Brake
 from umform.processes.air_bending.formulas import shop_forces, tensile_strength
 from umform.processes.air_bending.measures import QUANTITIES
 from umform.processes.air_bending.sheet import lines_along

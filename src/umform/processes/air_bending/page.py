@@ -8,8 +8,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from umform.elements import element
+from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.budget import Budget
-from umform.processes.air_bending.case import AirBend
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending

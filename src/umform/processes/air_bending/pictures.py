@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from umform.model.frame import Frame
 from umform.plotting import COLOURS, Picture, house_style
-from umform.processes.air_bending.case import AirBend
+from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
