@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -163,6 +164,10 @@ class History:
         self.warnings.append(message)
         log.warning(message)
 
+    @cached_property
+    def _undeformed_thickness(self) -> Floats:
+        return fields.undeformed_thickness(self.model)
+
     def _frame(self, evaluation: Evaluation) -> Frame:
         model, residual = self.model, evaluation.residual[: self.model.u.size]
         reaction = model.sum_at_nodes(residual.reshape(-1, 3)).copy()
@@ -170,7 +175,7 @@ class History:
         points = {
             "displacement": model.u.reshape(-1, 3).copy(),
             "reaction": reaction,
-            "thickness_change": fields.thickness_change(model),
+            "thickness_change": fields.thickness_change(model, self._undeformed_thickness),
         }
         if model.contacts:
             points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model, evaluation)

@@ -125,8 +125,9 @@ class ShellBlockOf final : public ShellBlock {
         Vec<Lanes, 3> rolling;
         std::vector<Axes<Lanes>> axes;  // [q], for laws that ask for them
         NodalResults<Nodes> results;
-        std::vector<Voigt> E;        // [q] of one element
-        std::vector<Energy> energy;  // [q]
+        std::vector<Voigt> E;         // [q] of one element
+        std::vector<Energy> energy;   // [q]
+        std::vector<double> scratch;  // [lane] history that nobody wants
     };
 
     void prepare_workspaces(int threads) {
@@ -139,7 +140,8 @@ class ShellBlockOf final : public ShellBlock {
                                    {},
                                    {},
                                    std::vector<Voigt>(points()),
-                                   std::vector<Energy>(points())});
+                                   std::vector<Energy>(points()),
+                                   {}});
     }
 
     /// Calls work(batch, workspace) for all batches, in parallel within a colour.
@@ -274,8 +276,10 @@ class ShellBlockOf final : public ShellBlock {
     /// Refuses a rolling direction that stands on the sheet.
     void check_rolling();
 
-    /// Local frame and compatible deformation gradient F = g_m (x) G^m of the element in the first lane at point q.
-    void write_base(int q, const Workspace& w, double* frame, double* F) const;
+    /// Fields of the element in a lane.
+    void write_fields(int e, int lane, const Workspace& w, const PointFields& out) const;
+    /// Local frame and compatible deformation gradient F = g_m (x) G^m of the element in a lane at point q.
+    void write_base(int q, int lane, const Workspace& w, double* frame, double* F) const;
 
     Element element_;
     std::shared_ptr<const Material> material_;
