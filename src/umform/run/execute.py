@@ -226,7 +226,7 @@ def _ready(result: Result, solver: str, options: NewtonOptions | None, frames: i
     model, timing = result.model, result.timing
     model.timing = timing
     model.check()
-    evaluation = model.evaluate(model.x)
+    evaluation = model.evaluate(model.x, tangent=False)  # history and frames ask for forces only
     model.stand(evaluation)
     run = Run(model, Newton(model, options, solver, timing), result, evaluation, frames)
     run.result.solver = run.newton.solver
