@@ -126,6 +126,8 @@ void bind_blocks(nb::module_& m) {
         .def_prop_ro(
             "keeps_blocks", &ShellBlock::keeps_blocks,
             "Whether enhanced parameters can be recovered from the converged state without an evaluation there.")
+        .def("follow", &ShellBlock::follow,
+             "After an evaluation of forces alone: the next recover takes its residual, with the tangent of before.")
         .def("undo_recover", &ShellBlock::undo_recover, "Take the last recover back.")
         .def("commit", &ShellBlock::commit, "Make the trial history the converged one.")
         .def("revert", &ShellBlock::revert, "Go back to the converged history.")

@@ -304,6 +304,11 @@ class ShellBlock:
         Whether enhanced parameters can be recovered from the converged state without an evaluation there.
         """
 
+    def follow(self) -> None:
+        """
+        After an evaluation of forces alone: the next recover takes its residual, with the tangent of before.
+        """
+
     def undo_recover(self) -> None:
         """Take the last recover back."""
 

@@ -210,6 +210,10 @@ class Body(Term):
         """Update the enhanced parameters. eq. (2.19)"""
         self.block.recover(du, s, mixed)
 
+    def follow(self) -> None:
+        """Recover next from the forces that were evaluated last, with the tangent of before."""
+        self.block.follow()
+
     def undo_recover(self) -> None:
         """Take the last :meth:`recover` back."""
         self.block.undo_recover()

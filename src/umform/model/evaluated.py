@@ -179,6 +179,11 @@ class Evaluated(Assembled):
         if self.ranks.any(not all(body.block.keeps_blocks for body in self.bodies if len(body.cells))):
             self.evaluate(self.x)
 
+    def follow(self) -> None:
+        """After forces alone were evaluated: let :meth:`recover` take them next, with the tangent of before."""
+        for term in self.terms:
+            term.follow()
+
     def undo_recover(self) -> None:
         """Take the last :meth:`recover` back."""
         for term in self.terms:

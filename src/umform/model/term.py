@@ -140,6 +140,9 @@ class Term(Frozen):
     def recover(self, du: Floats, s: float, mixed: bool) -> None:
         """Update parameters that were condensed, after ``u += s du``."""
 
+    def follow(self) -> None:
+        """After forces alone were evaluated: recover from them next, with the tangent of before."""
+
     def undo_recover(self) -> None:
         """Take the last :meth:`recover` back."""
 

@@ -133,6 +133,9 @@ class System(Protocol):
     def recover(self, du: Floats, s: float, mixed: bool = False) -> None:
         """Update condensed parameters; the next tangent may be mixed, of the stress that the increment foresaw."""
 
+    def follow(self) -> None:
+        """After forces alone were evaluated: let the next recovery take them, with the tangent of before."""
+
     def undo_recover(self) -> None:
         """Take the last update back."""
 

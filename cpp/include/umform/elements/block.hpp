@@ -44,13 +44,17 @@ class ShellBlockOf final : public ShellBlock {
 
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         if (target.values != nullptr) scatter.require(symmetric(), "the law of the elements");
-        if (target.wants_tangent()) begin_blocks();
+        if (target.wants_tangent())
+            begin_blocks();
+        else
+            followed_.resize(batches_.all.size() * element_.modes());
         for_each_batch([&](int b, Workspace& w) {
             const Batch& batch = batches_.all[b];
             const Failures failures = compute(batch, u, target.wants_tangent(), correction_, trial_of(batch), w);
+            const std::size_t modes = element_.modes();
+            std::vector<Lanes>& y = target.wants_tangent() ? last_.y : followed_;
+            std::copy(w.shell.ra.begin(), w.shell.ra.end(), y.begin() + b * modes);
             if (target.wants_tangent()) {
-                const std::size_t modes = element_.modes();
-                std::copy(w.shell.ra.begin(), w.shell.ra.end(), last_.y.begin() + b * modes);
                 std::copy(w.shell.Kad.begin(), w.shell.Kad.end(), last_.Y.begin() + b * modes * size);
             }
             for (int lane = 0; lane < batch.count; ++lane) {
@@ -86,6 +90,10 @@ class ShellBlockOf final : public ShellBlock {
                     alpha_[static_cast<std::size_t>(batch.element[lane]) * modes + m] -= change[lane];
             }
         });
+    }
+
+    void follow() override {
+        if (!from_kept_ && last_.y.size() == followed_.size()) std::swap(last_.y, followed_);
     }
 
     bool keeps_blocks() const override { return keeps_ || element_.modes() == 0; }
@@ -289,6 +297,7 @@ class ShellBlockOf final : public ShellBlock {
     Batches batches_;
     std::vector<Workspace> workspaces_;  // one a thread
     Eliminated last_, kept_;             // of the last evaluate with a tangent, and of the converged state
+    std::vector<Lanes> followed_;        // y of the last evaluate without one
     bool from_kept_ = false, keeps_ = false;
     std::vector<double> scale_;
     std::vector<Failure> failed_;

@@ -45,6 +45,8 @@ class ShellBlock {
         for (std::size_t i = 0; i < correction_.size(); ++i) correction_[i] = s * du[i];
         if (modes() > 0) recover_enhanced(du, s);
     }
+    /// After an `evaluate` of forces alone: the next `recover` takes its residual, with the tangent of before.
+    virtual void follow() = 0;
     /// Takes the last `recover` back.
     void undo_recover() {
         alpha_ = alpha_before_;
