@@ -25,12 +25,13 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Mark:
-    """How much of a history there is: numbers of its parts, and the external work up to there."""
+    """The history up to a state: its parts, which are shared and not copied, and the external work."""
 
-    rows: int
-    frames: int
-    events: int
-    warnings: int
+    rows: list[dict[str, float]]
+    frames: list[Frame]
+    iterations: list[list[Iteration]]
+    events: list[str]
+    warnings: list[str]
     work: ExternalWork
 
 
@@ -146,13 +147,19 @@ class History:
 
     def mark(self) -> Mark:
         """The present end of the history, to go back to."""
-        return Mark(len(self.rows), len(self.frames), len(self.events), len(self.warnings), self._work.copy())
+        return Mark(
+            list(self.rows),
+            list(self.frames),
+            list(self.iterations),
+            list(self.events),
+            list(self.warnings),
+            self._work.copy(),
+        )
 
     def go_back(self, mark: Mark) -> None:
-        """Forget what came behind a mark."""
-        del self.rows[mark.rows :], self.iterations[mark.rows :], self.frames[mark.frames :]
-        del self.events[mark.events :], self.warnings[mark.warnings :]
-        self._work = mark.work.copy()
+        """Take the history of a mark in place of what there is."""
+        self.rows, self.frames, self.iterations = list(mark.rows), list(mark.frames), list(mark.iterations)
+        self.events, self.warnings, self._work = list(mark.events), list(mark.warnings), mark.work.copy()
 
     def note(self, message: str) -> None:
         """Keep an event, lift-off for instance, and log it."""

@@ -30,17 +30,17 @@ class Mark:
         State of the model.
     evaluation : Evaluation
         The evaluation there, without its tangent.
-    steps : int
-        How many steps have led there.
+    steps : list of Step
+        The steps that have led there.
     history : HistoryMark
-        How much of the result belongs to it.
+        What of the result belongs to it.
     factors : int or None
         Kind of factors that PARDISO tries next.
     """
 
     snapshot: Snapshot
     evaluation: Evaluation
-    steps: int
+    steps: list[Step]
     history: HistoryMark
     factors: int | None
 
@@ -107,18 +107,18 @@ class OpenRun:
         run, solver = self._run, self._run.newton.ready_solver().solver.solver
         factors = solver.memory() if isinstance(solver, Pardiso) else None
         bare = replace(run.evaluation, values=np.empty(0))
-        return Mark(run.model.snapshot(), bare, len(self.steps), self.result.mark(), factors)
+        return Mark(run.model.snapshot(), bare, list(self.steps), self.result.mark(), factors)
 
     def go_back(self, mark: Mark) -> None:
-        """Go back to a state; the steps since then are forgotten, and the result is what it was there."""
+        """Go back to a state, of this branch or another one; steps and result are what they were there."""
         run, solver = self._run, self._run.newton.ready_solver().solver.solver
         run.model.restore(mark.snapshot)
         run.model.stand(mark.evaluation)
-        run.evaluation, run.last_dx, run.loop, run.number = mark.evaluation, None, None, mark.steps + 1
+        run.evaluation, run.last_dx, run.loop, run.number = mark.evaluation, None, None, len(mark.steps) + 1
         if isinstance(solver, Pardiso) and mark.factors is not None:
             solver.recall(mark.factors)
         self.result.go_back(mark.history)
-        del self.steps[mark.steps :]
+        self.steps = list(mark.steps)
 
     def close(self) -> Result:
         """The result of the steps taken, with the warnings that are given at the end of a run."""

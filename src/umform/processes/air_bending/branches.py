@@ -61,16 +61,17 @@ class Brake:
         NoConvergence
             If the sheet cannot be bent so far.
         """
-        *parts, last = loading(self.case, stroke)
+        parts = loading(self.case, stroke)
+        rest = [] if parts[-1] == (part_end(self.case, len(parts)), INCREMENTS) else [parts.pop()]
         known = min(len(parts), len(self._parts) - 1)
         if self._done != known:
             self.run.go_back(self._parts[known])
         for number in range(known, len(parts)):
             self._down(*parts[number], tick)
-            self._remember(number + 1)
-        self._down(*last, tick)
-        if last == (part_end(self.case, len(parts) + 1), INCREMENTS):
-            self._remember(len(parts) + 1)
+            self._parts.append(self.run.mark())
+        self._done = len(parts)
+        for end, count in rest:
+            self._down(end, count, tick)
         found = {pair.name: self.run.evaluation.found[pair].points() for pair in self.model.contacts}
         section = Section.of(self.model.mesh, self.model.u)
         forces = force_per_width(self.case, -self.run.result["stroke_force"])
@@ -81,12 +82,6 @@ class Brake:
         self._done = None
         self.run.take(Move(self.punch, to=stroke, steps=count))
         tick("loading", stroke / self.case.largest_stroke, f"stroke {stroke:.4g}")
-
-    def _remember(self, number: int) -> None:
-        """Keep the present state, the end of a part; one that is known already has the same bits."""
-        if number == len(self._parts):
-            self._parts.append(self.run.mark())
-        self._done = number
 
     def unload(self) -> Measures:
         """Measures after unloading from the state under load, which `load` has reached.
