@@ -22,7 +22,8 @@ class ShellBlockOf final : public ShellBlock {
                  std::shared_ptr<const Material> material, Connectivity part, std::vector<double> X,
                  std::vector<double> rolling = {})
         : element_(technology, surface_points, thickness, material->symmetric()), material_(std::move(material)),
-          part_(std::move(part)), X_(std::move(X)), rolling_(std::move(rolling)), batches_(make_colours(part_)) {
+          part_(std::move(part)), X_(std::move(X)), rolling_(std::move(rolling)),
+          batches_(make_colours_of_groups(part_, lane_count)) {
         const std::size_t elements = part_.size(), modes = element_.modes();
         history_ = History(part_.size(), element_.points(), material_->state_names());
         history_.initialise([this](double* state) { material_->initial(state); });

@@ -16,14 +16,15 @@ from umform.processes.air_bending.sheet import half_sheet
 from umform.solution.options import NewtonOptions
 from umform.steps.release import Release
 
-#: Towards zero force the sheet rests on single rows of contact points, and plain Newton jumps between two rows.
-OPTIONS = NewtonOptions(line_search=True)
+#: Towards zero force the sheet rests on single rows of contact points, and plain Newton jumps between two rows. With these
+#: tolerances angles are those of tight ones to 1e-6 degrees.
+OPTIONS = NewtonOptions(residual=1e-6, increment=1e-4, line_search=True)
 #: Increments of a part of the loading.
 INCREMENTS = 5
 #: Force that counts as zero, as a part of the force before unloading: the angle is then off by about 0.001 degrees.
 _ZERO_FORCE = 2e-3
 #: First increment of the way back in thicknesses.
-_FIRST_BACK = 0.005
+_FIRST_BACK = 0.02
 
 
 def build(case: AirBending) -> tuple[Model, Control]:

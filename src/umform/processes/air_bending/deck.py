@@ -59,7 +59,8 @@ def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
     for end, count in loading(case, stroke):
         yield "[[steps]]", {"kind": "move", "to": {"stroke": end}, "increments": count}
     yield "[[steps]]", {"kind": "release", "control": "stroke", **unloading_keys(case)}
-    yield "[solution]", {"line_search": OPTIONS.line_search}
+    tolerances = {"residual": OPTIONS.residual, "increment": OPTIONS.increment}
+    yield "[solution]", {**tolerances, "line_search": OPTIONS.line_search}
 
 
 def _element_name(case: AirBending) -> str:
