@@ -16,8 +16,8 @@ from umform.processes.air_bending.sheet import half_sheet
 from umform.solution.options import NewtonOptions
 from umform.steps.release import Release
 
-#: Towards zero force the sheet rests on single rows of contact points, and plain Newton jumps between two rows. With these
-#: tolerances angles are those of tight ones to 1e-6 degrees.
+#: Towards zero force the sheet rests on single rows of contact points, and plain Newton jumps between two rows. Angles
+#: are those of tight tolerances to 1e-6 degrees.
 OPTIONS = NewtonOptions(residual=1e-6, increment=1e-4, line_search=True)
 #: Increments of a part of the loading.
 INCREMENTS = 5
