@@ -99,8 +99,10 @@ class OpenRun:
         """
         run = self._run
         self.steps += checked(run.model, list(steps))
-        with self.result.timing.run:
+        whole = self.result.timing.run
+        with whole:
             taken(run, self.steps, tick)
+        whole.calls = 1  # all steps are one run
 
     def mark(self) -> Mark:
         """The present state, to go back to."""

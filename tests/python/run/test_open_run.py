@@ -39,6 +39,7 @@ def test_steps_one_by_one_are_a_run():
     for step in (uf.Move(punch, to=-0.4, steps=4), uf.Move(punch, to=-0.9, steps=3), uf.Release(punch)):
         run.take(step)
     same(run.close(), straight)
+    assert run.result.timing.run.calls == straight.timing.run.calls
 
 
 def test_a_branch_that_is_left_leaves_no_trace():
