@@ -37,7 +37,7 @@ BLOCKS = ("umform::ShellBlockOf<8>", "umform::ShellBlockOf<18>")
 CELLS = 4
 
 KERNELS = [(name, law) for name in ("ANS3DEAS", "MI9K3DEAS") for law in ("SVK", "J2 elastic", "J2 plastic")]
-KERNELS += [("DISP3D", "NeoHooke"), ("EAS3DEAS", "SVK"), ("BEND8", "J2 Voce")]
+KERNELS += [("DISP3D", "NeoHooke"), ("EAS3DEAS", "SVK"), ("BEND8", "J2 Voce"), ("BEND18", "J2 Voce")]
 
 
 def drive() -> None:

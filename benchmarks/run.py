@@ -16,6 +16,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--solver", default="auto")
     parser.add_argument("--increments", type=int, default=300, help="of 0.05 mm downwards, before the unloading")
+    parser.add_argument("--frames", type=int, default=0, help="states kept for pictures in each step, about")
     record.add_option(parser)
     arguments = parser.parse_args()
     uf.set_threads(1)
@@ -29,7 +30,7 @@ def main() -> None:
     model.contact("lower", uf.Cylinder(centre=(25, 0, -20.5), axis="y", radius=20), penalty=100, points=2)
     count = arguments.increments
     steps = [uf.Move(punch, to=-0.05 * count, steps=count), uf.Release(punch)]
-    result = uf.solve(model, steps, solver=arguments.solver, frames=0, progress=False)
+    result = uf.solve(model, steps, solver=arguments.solver, frames=arguments.frames, progress=False)
 
     iterations = result.timing.elements.calls  # those of increments that were cut or taken back too
     print(f"{len(result) - 1} increments, {iterations} evaluations, {result.timing.total:.2f} s on one thread")

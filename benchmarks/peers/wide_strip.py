@@ -15,6 +15,7 @@ MESHES = (
     ("umform", "BEND18", 24, 1, 2),
     ("CalculiX", "C3D8I", 48, 1, 4),
     ("CalculiX", "C3D8I", 48, 2, 4),
+    ("CalculiX", "C3D20R", 60, 2, 2),
 )
 FINEST = ("umform", "EAS3DEAS", 96, 4, 4)
 #: The model has half of the width.
@@ -26,6 +27,7 @@ def entries(short: bool) -> list[Entry]:
     if short:
         return []
     loose = [entry(*mesh, loose=1e-4) for mesh in MESHES if mesh[1] == "BEND8"]
+    loose.append(entry("umform", "BEND18", 24, 1, 2, loose=1e-4, points=6))
     return [*loose, *(entry(*mesh) for mesh in (*MESHES, FINEST))]
 
 

@@ -4,6 +4,7 @@
 
 #include "evaluate.hpp"
 #include "umform/elements/block.hpp"
+#include "umform/elements/cauchy.hpp"
 
 using namespace umform;
 
@@ -30,11 +31,42 @@ std::unique_ptr<ShellBlock> shell_block(const Technology& technology, int surfac
 nb::object point_fields(ShellBlock& block, const Input& u) {
     const std::size_t elements = block.connectivity().size(), points = block.points(), count = elements * points;
     std::vector<double> E(6 * count), S(6 * count), frame(9 * count), F(9 * count), dV(count);
-    block.fields(nodal(block, u), {E.data(), S.data(), frame.data(), F.data(), dV.data()});
+    const double* position = nodal(block, u);
+    {
+        const nb::gil_scoped_release release;
+        block.fields(position, {E.data(), S.data(), frame.data(), F.data(), dV.data()});
+    }
     return nb::make_tuple(to_numpy(std::move(E), {elements, points, 6}), to_numpy(std::move(S), {elements, points, 6}),
                           to_numpy(std::move(frame), {elements, points, 3, 3}),
                           to_numpy(std::move(F), {elements, points, 3, 3}),
                           to_numpy(std::move(dV), {elements, points}));
+}
+
+/// Reads `Size` numbers of each of the points first ... of an array, for the lanes.
+template <int Size>
+std::array<Lanes, Size> at_points(const Input& array, std::size_t first, std::size_t count) {
+    std::array<Lanes, Size> values;
+    for (int i = 0; i < Size; ++i)
+        values[i] = by_lane([&](int lane) { return array.data()[Size * std::min(first + lane, count - 1) + i]; });
+    return values;
+}
+
+nb::object point_stresses(const Input& E, const Input& S, const Input& frame, const Input& F) {
+    const std::size_t count = E.size() / 6;
+    require(S.size() == 6 * count && frame.size() == 9 * count && F.size() == 9 * count,
+            "E, S, frame and F are of as many points");
+    std::array<std::vector<double>, 3> out;
+    for (std::vector<double>& values : out) values.resize(6 * count);
+    for (std::size_t first = 0; first < count; first += lane_count) {
+        const auto found = stresses<Lanes>(at_points<6>(E, first, count), at_points<6>(S, first, count),
+                                           {at_points<9>(frame, first, count)}, {at_points<9>(F, first, count)});
+        const std::array<const Vec<Lanes, 6>*, 3> parts{&found.cauchy_local, &found.cauchy, &found.pk2};
+        for (std::size_t at = first; at < std::min(first + lane_count, count); ++at)
+            for (int kind = 0; kind < 3; ++kind)
+                for (int p = 0; p < 6; ++p) out[kind][6 * at + p] = (*parts[kind])[p][at - first];
+    }
+    return nb::make_tuple(to_numpy(std::move(out[0]), {count, 6}), to_numpy(std::move(out[1]), {count, 6}),
+                          to_numpy(std::move(out[2]), {count, 6}));
 }
 
 nb::object energy(ShellBlock& block, const Input& u) {
@@ -93,6 +125,8 @@ void bind_blocks(nb::module_& m) {
         .def_prop_ro(
             "keeps_blocks", &ShellBlock::keeps_blocks,
             "Whether enhanced parameters can be recovered from the converged state without an evaluation there.")
+        .def("follow", &ShellBlock::follow,
+             "After an evaluation of forces alone: the next recover takes its residual, with the tangent of before.")
         .def(
             "shorten", &ShellBlock::shorten, nb::arg("part"),
             "Shorten what the last recover has changed to a part of it.")
@@ -143,6 +177,11 @@ void bind_blocks(nb::module_& m) {
         .def("element", &element_matrix, nb::arg("e"), nb::arg("u"),
              nb::sig("def element(self, e: int, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]"),
              "Condensed K and f of one element.");
+    m.def(
+        "point_stresses", &point_stresses, nb::arg("E"), nb::arg("S"), nb::arg("frame"), nb::arg("F"),
+        nb::sig(
+            "def point_stresses(E: NDArray[float64], S: NDArray[float64], frame: NDArray[float64], F: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]"),
+        "From what point_fields gives, (points, 6): Cauchy stress in the local frame and in global axes, S in global axes.");
     m.def(
         "shell_block", &shell_block, nb::arg("technology"), nb::arg("surface_points"), nb::arg("t"), nb::arg("w"),
         nb::arg("material"), nb::arg("connectivity"), nb::arg("X"), nb::arg("rolling") = nb::none(),

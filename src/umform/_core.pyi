@@ -361,6 +361,11 @@ class ShellBlock:
         Whether enhanced parameters can be recovered from the converged state without an evaluation there.
         """
 
+    def follow(self) -> None:
+        """
+        After an evaluation of forces alone: the next recover takes its residual, with the tangent of before.
+        """
+
     def shorten(self, part: float) -> None:
         """Shorten what the last recover has changed to a part of it."""
 
@@ -399,6 +404,11 @@ class ShellBlock:
 
     def element(self, e: int, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
         """Condensed K and f of one element."""
+
+def point_stresses(E: NDArray[float64], S: NDArray[float64], frame: NDArray[float64], F: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+    """
+    From what point_fields gives, (points, 6): Cauchy stress in the local frame and in global axes, S in global axes.
+    """
 
 def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64], rolling: NDArray[float64] | None = None) -> ShellBlock:
     """

@@ -20,8 +20,8 @@ from umform.cli.warnings import echo_warnings, print_warnings_once
 from umform.errors import UmformError
 
 if TYPE_CHECKING:
+    from umform.processes.air_bending.bend import AirBend
     from umform.processes.air_bending.budget import Budget
-    from umform.processes.air_bending.case import AirBend
     from umform.processes.air_bending.measures import Measures
     from umform.processes.air_bending.parameters import AirBending
     from umform.run import Result
@@ -91,6 +91,7 @@ def bend(
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.pool import check_processes
+    from umform.processes.air_bending.branches import FRAMES, Brake
     from umform.processes.air_bending.budget import error_budget
     from umform.processes.air_bending.case import air_bending
     from umform.processes.air_bending.checks import check_tolerance
@@ -130,20 +131,24 @@ def bend(
     if print_deck:
         from umform.deck import deck_of
 
-        typer.echo(deck_of(case if angle is None else find_stroke(case, angle, tolerance=tolerance).case), nl=False)
+        if angle is not None:
+            case = find_stroke(case, angle, tolerance=tolerance, frames=1).case
+        typer.echo(deck_of(case), nl=False)
         return
     _refuse_implausible(case, force=force)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/bend"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):
         with timings() as spent, _what_was_reached(place) as rows:
-            if angle is not None:
-                case = find_stroke(case, angle, tolerance=tolerance).case
-            rows += bending_table(case, strokes) if strokes else []
-            done = air_bending(case)
+            brake = Brake(case, frames=FRAMES)
+            rows += bending_table(case, strokes, brake=brake) if strokes else []
+            if angle is None:
+                done = air_bending(case, brake=brake)
+            else:
+                done = find_stroke(case, angle, tolerance=tolerance, brake=brake).bend
         errors = None
         try:
-            errors = error_budget(case, done.measures, processes=processes) if budget else None
+            errors = error_budget(done.case, done.measures, processes=processes) if budget else None
             with printing(f"the files of the bend are in {place}"):
                 _show(done, rows, errors, note)
         except KeyboardInterrupt as stop:
@@ -159,8 +164,8 @@ def bend(
 
 def _refuse_implausible(case: AirBending, *, force: bool) -> None:
     """Refuse numbers that cannot be meant, and warn of those that are unusual, before time is spent on a run."""
-    from umform.deck.check import of_model
     from umform.deck.findings import accept
+    from umform.deck.plausible import of_model
     from umform.processes.air_bending.brake import build
 
     model, _ = build(case)

@@ -47,8 +47,22 @@ ANS_THICKNESS = {
 # Enhanced modes ----------------------------------------------------------------------------------------------
 
 
+def _nodal(component: str, order: int) -> dict[tuple[int, int], Mode]:
+    """Products of P_order(t) with the nine Lagrange polynomials of the 3 x 3 Gauss points, each by its point."""
+    half, square = 0.5 / _B, 0.5 / _B**2
+    of_point = (((1, -half), (2, square)), ((0, 1.0), (2, -2.0 * square)), ((1, half), (2, square)))
+    return {
+        (i, j): tuple(Term(component, a, b, order, factor=f * g) for b, g in of_point[j] for a, f in of_point[i])
+        for j in range(3)
+        for i in range(3)
+    }
+
+
 def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode, ...]:
     """Modes of E_33: t times 1, 4 or 9 polynomials in the surface, then P_2(t) ... P_order(t) times as many again.
+
+    Nine span all biquadratic polynomials. They are those of Lagrange at the Gauss points: each mode is zero at all
+    points of the surface but one, and the parameters of a point are eliminated apart from those of the others.
 
     Parameters
     ----------
@@ -68,12 +82,15 @@ def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode,
     if order not in (1, 2, 3, 4):
         raise InvalidValue("the thickness order must be 1, 2, 3 or 4", value=order)
     counts = {1: count} | dict.fromkeys(range(2, order + 1), order_count)
-    return tuple(
+    few: tuple[Mode, ...] = tuple(
         (Term("33", a, b, p),)
         for p, modes in counts.items()
+        if modes < 9
         for b in range(math.isqrt(modes))
         for a in range(math.isqrt(modes))
     )
+    nine = [_nodal("33", p) for p, modes in counts.items() if modes == 9]
+    return few + tuple(of_order[point] for point in (nine[0] if nine else ()) for of_order in nine)
 
 
 def membrane_modes(count: int) -> tuple[Mode, ...]:

@@ -210,6 +210,10 @@ class Body(Term):
         """Update the enhanced parameters. eq. (2.19)"""
         self.block.recover(du, mixed)
 
+    def follow(self) -> None:
+        """Recover next from the forces that were evaluated last, with the tangent of before."""
+        self.block.follow()
+
     def shorten(self, part: float) -> None:
         """Shorten the last change of the enhanced parameters. eq. (5.12)"""
         self.block.shorten(part)

@@ -180,6 +180,11 @@ class Evaluated(Assembled):
         if self.ranks.any(not all(body.block.keeps_blocks for body in self.bodies if len(body.cells))):
             self.evaluate(self.x)
 
+    def follow(self) -> None:
+        """After forces alone were evaluated: let :meth:`recover` take them next, with the tangent of before."""
+        for term in self.terms:
+            term.follow()
+
     def shorten(self, part: float) -> None:
         """Shorten the change of the last :meth:`recover` to a part of it. eq. (5.12)"""
         for term in self.terms:

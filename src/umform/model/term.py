@@ -140,6 +140,9 @@ class Term(Frozen):
     def recover(self, du: Floats, mixed: bool) -> None:
         """Update parameters that were condensed, after ``u += du``."""
 
+    def follow(self) -> None:
+        """After forces alone were evaluated: recover from them next, with the tangent of before."""
+
     def shorten(self, part: float) -> None:
         """Shorten the change of the last :meth:`recover` to a part of it."""
 

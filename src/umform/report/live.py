@@ -47,10 +47,14 @@ class Live:
     scripts: str
 
     @classmethod
-    def of(cls, result: History) -> Live:
-        """The parts for a result with a history; without kept frames, its last state only is drawn in space."""
+    def of(cls, result: History, *, stills: bool = True) -> Live:
+        """The parts for a result with a history; without kept frames, its last state only is drawn in space.
+
+        ``stills``: pictures of shape and curves for where nothing moves; a page that shows both may do without.
+        """
         scene = scene_of(result)
-        return cls(_shape(result, scene), _curves(result), _table(result), tuple(scene.notes), _scripts(scene))
+        shape, curves = _shape(result, scene, stills), _curves(result, stills)
+        return cls(shape, curves, _table(result), tuple(scene.notes), _scripts(scene))
 
 
 def style() -> str:
@@ -69,11 +73,11 @@ def _scripts(scene: Scene) -> str:
     )
 
 
-def _shape(result: History, scene: Scene) -> str:
+def _shape(result: History, scene: Scene, stills: bool) -> str:
     """The picture in space, or a still of the last state where it cannot be drawn."""
     options = "".join(f"<option>{escape(name)}</option>" for name in scene.fields)
     caption = "The sheet in its last state, in true proportion" + ("; one part is modelled." if scene.mirrors else ".")
-    still = parts.figure(plot_shape(whole(Shape.of(result), scene.mirrors)), caption)
+    still = parts.figure(plot_shape(whole(Shape.of(result), scene.mirrors)), caption) if stills else ""
     hidden = {
         "without_tools": "" if scene.tools else " hidden",
         "without_mirrors": "" if scene.mirrors else " hidden",
@@ -81,13 +85,16 @@ def _shape(result: History, scene: Scene) -> str:
     return _filled("shape.html", still=still, fields=options, last=str(scene.frames - 1), **hidden)
 
 
-def _curves(result: History) -> str:
+def _curves(result: History, stills: bool) -> str:
     """Curves of the history, or a still for each control."""
     pairs = [(control.name, f"{control.name}_force") for control in result.model.controls]
-    stills = [parts.figure(plot_history(result, x, [y]), f"{y} over {x}, all converged increments.") for x, y in pairs]
+    drawn = [
+        parts.figure(plot_history(result, x, [y]), f"{y} over {x}, all converged increments.")
+        for x, y in (pairs if stills else [])
+    ]
     x, y = pairs[0] if pairs else ("time", result.columns()[-1])
     colours = escape(json.dumps(COLOURS))
-    return _filled("curves.html", still="\n".join(stills), x=escape(x), y=escape(y), colours=colours)
+    return _filled("curves.html", still="\n".join(drawn), x=escape(x), y=escape(y), colours=colours)
 
 
 def _table(result: History) -> str:

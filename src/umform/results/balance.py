@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.model import Evaluation, Model, Tool
 from umform.model.contact import ContactFound
+from umform.model.contact.found import moment as moment_of
 from umform.model.term import At, Energies
 from umform.ranks import Ranks
 
@@ -91,12 +93,6 @@ def drift(external_work: Floats, stored: Floats) -> Floats:
     return difference / largest if largest != 0.0 else np.zeros_like(difference)
 
 
-def _moment(arms: Floats, forces: Floats) -> Floats:
-    """Sum of the cross products of arms and forces, both of shape (n, 3)."""
-    products = arms.T @ forces
-    return np.array([products[1, 2] - products[2, 1], products[2, 0] - products[0, 2], products[0, 1] - products[1, 0]])
-
-
 @dataclass(frozen=True)
 class _Tool:
     """Pose of a tool, force and moment of the sheet on it, and the sum of the magnitudes of the contact forces."""
@@ -114,9 +110,9 @@ class _Tool:
         force, moment, magnitude = np.zeros(3), np.zeros(3), 0.0
         for pair in tool.pairs:
             found: ContactFound = evaluation.found[pair]
-            force = force + found.forces.sum(axis=0)
-            moment = moment + _moment(found.held.x - point, found.held.force)
-            magnitude += float((found.pressure * found.area).sum())
+            of_pair = found.resultant(point)
+            force, moment = force + of_pair[0], moment + of_pair[1]
+            magnitude += float(found.pressure @ found.area)
         return cls(point, rotation, ranks.sum(force), ranks.sum(moment), ranks.sum(magnitude))
 
     def work_since(self, before: _Tool) -> float:
@@ -191,6 +187,12 @@ class ExternalWork:
         self._before = state
         self.imbalances.append(self._imbalance(state))
 
+    def copy(self) -> Self:
+        """The same, to go on with apart from this one."""
+        other = copy(self)
+        other.imbalances = list(self.imbalances)
+        return other
+
     def memory(self) -> dict[str, Any]:
         """All that the work of later states follows from, beside the model itself."""
         imbalances = np.array(self.imbalances)
@@ -233,11 +235,11 @@ class ExternalWork:
         ranks, owned = self.model.ranks, self.model.owned
         x = (self.model.mesh.points + state.u.reshape(-1, 3))[owned]
         forces = self.model.sum_at_nodes(state.all_forces.reshape(-1, 3))[owned]
-        force, moment = ranks.sum(forces.sum(axis=0)), ranks.sum(_moment(x, forces))
+        force, moment = ranks.sum(forces.sum(axis=0)), ranks.sum(moment_of(x, forces))
         magnitude = ranks.sum(float(np.sqrt((forces * forces).sum(axis=1)).sum()))
         for tool in state.tools:
             force -= tool.force
-            moment -= tool.moment + _moment(tool.point[None], tool.force[None])
+            moment -= tool.moment + moment_of(tool.point[None], tool.force[None])
             magnitude += tool.magnitude
         self._largest = max(self._largest, magnitude)
         if self._largest == 0.0:

@@ -9,12 +9,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from umform import _core
 from umform.errors import InvalidValue
 from umform.model import Body, Evaluation, Model
 
 Floats = NDArray[np.float64]
 
-_PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
+#: Directions of the two products of a cross product.
+_NEXT, _LAST = [1, 2, 0], [2, 0, 1]
 
 
 @dataclass(frozen=True)
@@ -66,29 +68,20 @@ class PointFields:
         if kind not in ("cauchy", "pk2") or frame not in ("global", "local"):
             raise InvalidValue("stress is cauchy or pk2, in the global or local frame", value=f"{kind}, {frame}")
         if kind == "pk2":
-            S = _tensor(self.S)
-            return _voigt(S if frame == "local" else _to_global(S, self.frame))
-        if frame == "local":
-            return _voigt(self._stretched)
-        left, _, right = np.linalg.svd(self.F)
-        R = left @ right
-        return _voigt(R @ _to_global(self._stretched, self.frame) @ _transposed(R))
+            return self.S if frame == "local" else self._stresses[2]
+        return self._stresses[0 if frame == "local" else 1]
 
     @cached_property
-    def _stretched(self) -> Floats:
-        """Cauchy stress before it is turned: U S U / det U in the local frame, eq. (3.33)."""
-        C = np.eye(3) + 2.0 * _tensor(self.E * np.array([1, 1, 1, 0.5, 0.5, 0.5]))
-        values, vectors = np.linalg.eigh(C)
-        stretches = np.sqrt(values)
-        U = (vectors * stretches[..., None, :]) @ _transposed(vectors)
-        stretched: Floats = U @ _tensor(self.S) @ U / stretches.prod(axis=-1)[..., None, None]
-        return stretched
+    def _stresses(self) -> tuple[Floats, ...]:
+        """Cauchy stress in the local frame, which is turned with the sheet, and in global axes; S in global axes."""
+        found = _core.point_stresses(self.E, self.S, self.frame, self.F)
+        return tuple(stress.reshape(self.S.shape) for stress in found)
 
     def cell_average(self, values: Floats) -> Floats:
         """Average over the volume of each cell of values (cells, points, ...)."""
         weight = self.volume / self.volume.sum(axis=1, keepdims=True)
-        average: Floats = np.einsum("eq,eq...->e...", weight, values)
-        return average
+        average: Floats = (weight[:, None] @ values.reshape(*weight.shape, -1))[:, 0]
+        return average.reshape(len(weight), *values.shape[2:])
 
 
 def point_fields(model: Model) -> PointFields:
@@ -136,7 +129,7 @@ def _cell_fields(at: PointFields) -> dict[str, Floats]:
 def von_mises(stress: Floats) -> Floats:
     """Von Mises stress (...) of stresses (..., 6), Voigt order 11 22 33 12 23 13."""
     normal, shear = stress[..., :3], stress[..., 3:]
-    differences = normal - np.roll(normal, 1, axis=-1)
+    differences = normal - normal[..., _NEXT]
     size: Floats = np.sqrt(0.5 * (differences**2).sum(axis=-1) + 3.0 * (shear**2).sum(axis=-1))
     return size
 
@@ -153,13 +146,25 @@ def thickness(model: Model) -> Floats:
     return _thickness(model, model.mesh.points + model.u.reshape(-1, 3))
 
 
-def thickness_change(model: Model) -> Floats:
-    """Relative change of the thickness at the nodes, negative where the sheet has thinned; shape (n,)."""
-    return thickness(model) / _thickness(model, model.mesh.points) - 1.0
+def thickness_change(model: Model, before: Floats | None = None) -> Floats:
+    """Relative change of the thickness at the nodes, negative where the sheet has thinned; shape (n,).
+
+    Parameters
+    ----------
+    model : Model
+        The model.
+    before : ndarray, shape (n,), optional
+        The thickness of the undeformed sheet, if it is known already, see `undeformed_thickness`.
+    """
+    return thickness(model) / (undeformed_thickness(model) if before is None else before) - 1.0
+
+
+def undeformed_thickness(model: Model) -> Floats:
+    """Thickness of the undeformed sheet at the nodes; shape (n,)."""
+    return _thickness(model, model.mesh.points)
 
 
 def _thickness(model: Model, x: Floats) -> Floats:
-    from umform import _core
     from umform.mesh import FACE_NODES
 
     cells = model.mesh.connectivity
@@ -167,13 +172,14 @@ def _thickness(model: Model, x: Floats) -> Floats:
     at_nodes = np.concatenate([FACE_NODES[:half], np.zeros((half, 1))], axis=1)
     _, dN = _core.shell_functions(2 * half, at_nodes)
     g = np.einsum("qia,eak->eqik", dN, x[cells])
-    normal = np.cross(g[:, :, 0], g[:, :, 1])
-    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-    distance = np.abs(np.einsum("eqk,eqk->eq", 2.0 * g[:, :, 2], normal))
+    r, s = g[:, :, 0], g[:, :, 1]
+    normal = r[..., _NEXT] * s[..., _LAST] - r[..., _LAST] * s[..., _NEXT]
+    along = np.einsum("eqk,eqk->eq", g[:, :, 2], normal)
+    distance = (2.0 * np.abs(along) / np.sqrt(np.einsum("eqk,eqk->eq", normal, normal))).ravel()
     shares = np.zeros((len(x), 2))  # distances, and how many
-    for side in (cells[:, :half], cells[:, half:]):
-        np.add.at(shares[:, 0], side, distance)
-        np.add.at(shares[:, 1], side, 1.0)
+    for side in (cells[:, :half].ravel(), cells[:, half:].ravel()):
+        shares[:, 0] += np.bincount(side, distance, len(x))
+        shares[:, 1] += np.bincount(side, minlength=len(x))
     total, count = model.sum_at_nodes(shares).T
     thickness: Floats = total / np.maximum(count, 1.0)
     return thickness
@@ -205,21 +211,3 @@ def contact_at_nodes(model: Model, evaluation: Evaluation | None = None) -> tupl
 def contact_pressure(model: Model) -> Floats:
     """Contact pressure at the nodes of all contact faces; shape (n,)."""
     return contact_at_nodes(model)[0]
-
-
-def _tensor(voigt: Floats) -> Floats:
-    tensor: Floats = voigt[..., [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
-    return tensor
-
-
-def _voigt(tensor: Floats) -> Floats:
-    return np.stack([tensor[..., i, j] for i, j in _PAIRS], axis=-1)
-
-
-def _to_global(local: Floats, frame: Floats) -> Floats:
-    tensor: Floats = _transposed(frame) @ local @ frame
-    return tensor
-
-
-def _transposed(tensors: Floats) -> Floats:
-    return np.swapaxes(tensors, -1, -2)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,6 +21,18 @@ from umform.timing import Timing
 log = logging.getLogger("umform")
 
 Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Mark:
+    """The history up to a state: its parts, which are shared and not copied, and the external work."""
+
+    rows: list[dict[str, float]]
+    frames: list[Frame]
+    iterations: list[list[Iteration]]
+    events: list[str]
+    warnings: list[str]
+    work: ExternalWork
 
 
 class History:
@@ -131,6 +145,22 @@ class History:
         """Go on with the external work of a run that was kept, from the evaluation of its last state."""
         self._work.recall(memory, evaluation)
 
+    def mark(self) -> Mark:
+        """The present end of the history, to go back to."""
+        return Mark(
+            list(self.rows),
+            list(self.frames),
+            list(self.iterations),
+            list(self.events),
+            list(self.warnings),
+            self._work.copy(),
+        )
+
+    def go_back(self, mark: Mark) -> None:
+        """Take the history of a mark in place of what there is."""
+        self.rows, self.frames, self.iterations = list(mark.rows), list(mark.frames), list(mark.iterations)
+        self.events, self.warnings, self._work = list(mark.events), list(mark.warnings), mark.work.copy()
+
     def note(self, message: str) -> None:
         """Keep an event, lift-off for instance, and log it."""
         self.events.append(message)
@@ -141,6 +171,10 @@ class History:
         self.warnings.append(message)
         log.warning(message)
 
+    @cached_property
+    def _undeformed_thickness(self) -> Floats:
+        return fields.undeformed_thickness(self.model)
+
     def _frame(self, evaluation: Evaluation) -> Frame:
         model, residual = self.model, evaluation.residual[: self.model.u.size]
         reaction = model.sum_at_nodes(residual.reshape(-1, 3)).copy()
@@ -148,7 +182,7 @@ class History:
         points = {
             "displacement": model.u.reshape(-1, 3).copy(),
             "reaction": reaction,
-            "thickness_change": fields.thickness_change(model),
+            "thickness_change": fields.thickness_change(model, self._undeformed_thickness),
         }
         if model.contacts:
             points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model, evaluation)

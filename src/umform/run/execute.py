@@ -12,7 +12,7 @@ from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.removal import fading
 from umform.model.support import Support
-from umform.progress import progress_bar
+from umform.progress import Tick, progress_bar
 from umform.results.penetration import warn_of_penetration
 from umform.run.interrupt import Interrupt, gentle_interrupt
 from umform.run.result import Result
@@ -102,7 +102,7 @@ def solve(
             _go_on(run, steps, progress, checkpoints)
             return result
 
-    return _where(solver)(model, partial(_checked, model, steps), work)
+    return _where(solver)(model, partial(checked, model, steps), work)
 
 
 def resume(
@@ -159,7 +159,7 @@ def resume(
             _go_on(run, steps, progress, checkpoints)
             return result
 
-    return _where(solver)(model, partial(_checked, model, steps), work)
+    return _where(solver)(model, partial(checked, model, steps), work)
 
 
 def _where(solver: str) -> Callable[[Model | None, Callable[[], Sequence[Step]], _Work], Result]:
@@ -182,7 +182,7 @@ def _here(model: Model | None, steps: Callable[[], Sequence[Step]], work: _Work)
     return work(model, steps())
 
 
-def _checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
+def checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
     """The steps, if the model can go them."""
     assert model is not None
     sequence = [steps] if isinstance(steps, Step) else list(steps)
@@ -227,10 +227,17 @@ def _ready(result: Result, solver: str, options: NewtonOptions | None, frames: i
     model, timing = result.model, result.timing
     model.timing = timing
     model.check()
-    evaluation = model.evaluate(model.x)
+    evaluation = model.evaluate(model.x, tangent=False)  # history and frames ask for forces only
     model.stand(evaluation)
     run = Run(model, Newton(model, options, solver, timing), result, evaluation, frames=frames)
     run.result.solver = run.newton.solver
+    return run
+
+
+def begun(result: Result, solver: str, options: NewtonOptions | None, frames: int) -> Run:
+    """A run at its first state, which the result has."""
+    run = _ready(result, solver, options, frames)
+    result.add(run.evaluation, [], frame=frames > 0)
     return run
 
 
@@ -253,16 +260,26 @@ def _checkpoints(
 
 def _go_on(run: Run, steps: Sequence[Step], progress: bool | None, checkpoints: Checkpoints | None) -> None:
     """Go on to the end from wherever the run stands."""
-    result, talks = run.result, run.model.ranks.rank == 0
+    talks = run.model.ranks.rank == 0
+    with progress_bar(progress if talks else False) as tick:
+        taken(run, steps, tick, checkpoints, last=True)
+
+
+def taken(
+    run: Run, steps: Sequence[Step], tick: Tick, checkpoints: Checkpoints | None = None, *, last: bool = False
+) -> None:
+    """Take the steps from ``run.number`` on; behind the last step of a run comes what is said at its end."""
+    result = run.result
     start = clock.perf_counter() - result.seconds
-    with progress_bar(progress if talks else False) as tick, gentle_interrupt() as stop:
+    with gentle_interrupt() as stop:
         run.tick, run.pause = tick, lambda: _pause(run, start, checkpoints, stop)
         try:
             while run.number <= len(steps):
                 _finish(run, steps[run.number - 1])
                 run.number, run.loop = run.number + 1, None
-            warn_of_penetration(run.model, result)
-            _pause(run, start, checkpoints, stop, last=True)
+            if last:
+                warn_of_penetration(run.model, result)
+            _pause(run, start, checkpoints, stop, last=last)
         except BaseException as error:  # whatever ends the run: what was reached is kept with the error
             result.seconds = clock.perf_counter() - start
             error.result = result  # type: ignore[attr-defined]

@@ -107,7 +107,7 @@ def swift_from_tensile_test(
             "the yield stress is too high for the uniform elongation",
             "give a table: a long Lüders strain needs one",
         )
-    offset = _root(excess, least, most, xtol=1e-15, rtol=1e-13)
+    offset = _root(excess, least, most)
     exponent = (offset + at.p_top) / stiff
     return Swift(at.y_top / (offset + at.p_top) ** exponent, offset, exponent)
 
@@ -140,7 +140,7 @@ def voce_from_tensile_test(
     most = 1.0 / span
     while excess(most) > 0:
         most *= 2.0
-    rate = _root(excess, 1e-6 / span, most, xtol=1e-13, rtol=1e-13)
+    rate = _root(excess, 1e-6 / span, most)
     drop = at.slope_top / rate
     saturation = at.y_top + drop
     return Voce(saturation - drop * math.exp(rate * at.p_top), saturation, rate)
@@ -171,16 +171,25 @@ def tensile_test(law: J2) -> TensileTest:
 
     if considere(_LARGEST) > 0:
         raise InvalidValue("the force of a tensile test has no maximum", where="tensile_test", value=law.hardening)
-    top = 0.0 if considere(0.0) <= 0 else _root(considere, 0.0, _LARGEST, xtol=1e-14)
+    top = 0.0 if considere(0.0) <= 0 else _root(considere, 0.0, _LARGEST)
     strength, elongation = nominal(top)
-    return TensileTest(nominal(_root(offset, 0.0, 0.01, xtol=1e-15))[0], strength, elongation - strength / law.E)
+    return TensileTest(nominal(_root(offset, 0.0, 0.01))[0], strength, elongation - strength / law.E)
 
 
-def _root(of: Callable[[float], float], least: float, most: float, **tolerances: float) -> float:
-    """Zero of a function that changes its sign between two numbers, by Brent's method."""
-    from scipy.optimize import brentq  # slow to import
-
-    return float(brentq(of, least, most, **tolerances))
+def _root(of: Callable[[float], float], least: float, most: float) -> float:
+    """Zero of a function that changes its sign between two numbers, to the last bit, by bisection."""
+    first, last = of(least), of(most)
+    if first * last > 0.0:
+        raise ValueError("the function has the same sign at both ends")
+    if first == 0.0:
+        return least
+    positive = first > 0.0
+    while least < (middle := 0.5 * (least + most)) < most:
+        if (of(middle) > 0.0) == positive:
+            least = middle
+        else:
+            most = middle
+    return middle
 
 
 def _anchors(yield_stress: float, tensile_strength: float, uniform_elongation: float, young: float) -> _Anchors:

@@ -36,6 +36,8 @@ class Criteria:
     def __init__(self, system: System, residual: float, increment: float) -> None:
         self._system, self._residual, self._increment = system, residual, increment
         self._granted = self._at_floor = 0
+        #: Largest entry of the tangent, where evaluations have none.
+        self.entry: float | None = None
 
     def met(self, norm: float, increment: float, u: Floats, evaluation: Evaluation, *, moved: bool) -> bool:
         """Whether the iteration has converged; asked once in each.
@@ -76,7 +78,8 @@ class Criteria:
     def _round_off(self, evaluation: Evaluation, length: float) -> float:
         """Residual that a relative error of such lengths leaves behind. eqs. (5.10), (5.40)"""
         system = self._system
-        return _EPS * system.largest_entry(evaluation.values) * length * math.sqrt(system.pattern.n)
+        entry = system.largest_entry(evaluation.values) if self.entry is None else self.entry
+        return _EPS * entry * length * math.sqrt(system.pattern.n)
 
 
 class Cycle:

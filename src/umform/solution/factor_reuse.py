@@ -9,6 +9,8 @@ docs/performance.md, Solving
 
 from __future__ import annotations
 
+import math
+
 from umform.solution.options import NewtonOptions
 from umform.solvers import Factorisation
 
@@ -49,6 +51,11 @@ class Reuse:
         self._residual = 0.0
         self._old = False  # whether the iteration before had old factors
 
+    @property
+    def dear(self) -> bool:
+        """Whether a factorisation costs so much that old factors may serve."""
+        return self._cost >= _CHEAP
+
     def factors_will_do(self, residual: float, increment: float, *, settled: bool) -> bool:
         """Whether the next iteration may take the factors of the one before.
 
@@ -62,12 +69,16 @@ class Reuse:
         """
         before, self._increment = self._increment, increment
         fall = _FALL * increment / before if before else 1.0
+        if (
+            before is None and self.dear
+        ):  # the factors of the first increment, which leaves what is quadratic in the change
+            fall = _FALL * math.sqrt(residual)
         if self._old:  # seen, not guessed
             fall = max(residual / self._residual, increment / before if before else 1.0)
         self._residual = residual
         self._old = (
             settled
-            and self._cost >= _CHEAP
+            and self.dear
             and fall <= _SLOW
             and self._count(residual, increment, fall, old=True)
             < self._count(residual, increment, fall, old=False) * (1.0 + self._cost)

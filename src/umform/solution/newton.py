@@ -22,7 +22,7 @@ from umform.solution.criteria import Criteria, Cycle, Stall, largest
 from umform.solution.factor_reuse import Reuse
 from umform.solution.line_search import shortened
 from umform.solution.options import Manner, NewtonOptions
-from umform.solution.records import Cause, Converged, Failed, Iteration
+from umform.solution.records import Cause, Converged, Failed, First, Iteration
 from umform.solution.system import Evaluation, System
 from umform.solution.timed_solver import TimedSolver
 from umform.solvers import Pattern, make_solver
@@ -148,15 +148,17 @@ class Newton:
         solver = self.ready_solver()
         start = clock.perf_counter()
         u = system.x.copy()
-        du = self.prescribed_increment(u)
+        du, of_tangent = self.prescribed_increment(u), None
         if extrapolation is not None:
             du += system.extend(system.coefficients(extrapolation))
         else:
             first = system.evaluate(u, du)
             self.check_domain(first, [])
-            solver.factor(first)
+            factors = solver.factor(first)
+            if not first.border.unknowns:
+                of_tangent = First(factors, system.largest_entry(first.values))
             du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
-        return self.correct(u, du, manner, start)
+        return self.correct(u, du, manner, start, of_tangent)
 
     def prescribed_increment(self, u: Floats) -> Floats:
         """What takes the supports from ``u`` to where they are prescribed; nothing of it is left to the unknowns."""
@@ -165,7 +167,14 @@ class Newton:
         gap[: prescribed.size] = prescribed - u[: prescribed.size]
         return gap - self.system.extend(self.system.coefficients(gap))
 
-    def correct(self, u: Floats, du: Floats, manner: Manner, start: float | None = None) -> Converged:
+    def correct(
+        self,
+        u: Floats,
+        du: Floats,
+        manner: Manner,
+        start: float | None = None,
+        first: First | None = None,
+    ) -> Converged:
         """Take a first increment ``du`` from ``u``, and iterate until residual and increments are small. eq. (5.9)"""
         system, options = self.system, self.options
         solver = self.ready_solver()
@@ -173,12 +182,15 @@ class Newton:
         iterations: list[Iteration] = []
         system.recover(du, manner.mixed)
         u = u + du
-        evaluation = system.evaluate(u)
-        increment, step_length, pivots = self._relative(du, evaluation), 1.0, None
-        active = previous_active = evaluation.active
         criteria, cycle = Criteria(system, options.residual, options.increment), Cycle(system)
         stall = None if system.smooth else Stall()
         reuse = Reuse(options, system.pattern.n, system.effort)
+        pivots = reuse.remember(first.factors) if first is not None else None
+        criteria.entry = first.entry if first is not None else None
+        lean = first is not None and self._lean(reuse, manner)
+        evaluation = system.evaluate(u, tangent=not lean)
+        increment, step_length = self._relative(du, evaluation), 1.0
+        active = previous_active = evaluation.active
 
         for _ in range(options.max_iterations):
             self.check_domain(evaluation, iterations)
@@ -193,6 +205,8 @@ class Newton:
                 self._record(
                     iterations, evaluation, norm / scale, increment, 0.0, entered, left, step_length, pivots, start
                 )
+                if lean:
+                    system.follow()
                 return Converged(evaluation, iterations)
             longest = 0.5 if cycle.seen(active, [record.residual for record in iterations]) else 1.0
             if cycle.stays:
@@ -202,29 +216,40 @@ class Newton:
                 raise Failed(f"the residual has not fallen for {stall.patience} iterations", iterations, Cause.STALL)
 
             if not reuse.factors_will_do(norm / scale, increment, settled=manner.reuses and not moved):
+                if lean:
+                    evaluation = system.evaluate(u)
                 pivots = reuse.remember(solver.factor(evaluation))
                 if manner.wary and pivots and norm > _FAR * scale:
                     reason = f"the tangent has {pivots} negative pivots far from equilibrium"
                     raise Failed(reason, iterations, Cause.INDEFINITE)
+                criteria.entry = system.largest_entry(evaluation.values)
+            elif lean:
+                system.follow()
             du = system.extend(solver.solve(-r))
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
             self._record(
                 iterations, evaluation, norm / scale, increment, energy, entered, left, step_length, pivots, start
             )
-            u, evaluation, step_length = self._advance(u, du, r, manner, longest)
+            lean = self._lean(reuse, manner) and not evaluation.border.unknowns
+            u, evaluation, step_length = self._advance(u, du, r, manner, longest, lean)
+            criteria.entry = criteria.entry if lean else None
             increment = step_length * self._relative(du, evaluation)
             previous_active, active = active, evaluation.active
         raise Failed(f"no convergence in {options.max_iterations} iterations", iterations, Cause.ITERATIONS)
 
+    def _lean(self, reuse: Reuse, manner: Manner) -> bool:
+        """Whether an iteration looks at the forces first: where factors are dear, they may do without a tangent."""
+        return reuse.dear and not manner.line_search and self.system.smooth
+
     def _advance(
-        self, u: Floats, du: Floats, r: Floats, manner: Manner, longest: float
+        self, u: Floats, du: Floats, r: Floats, manner: Manner, longest: float, lean: bool
     ) -> tuple[Floats, Evaluation, float]:
         """Take the increment, or a part of it where it goes too far. eq. (5.12)"""
         system, length = self.system, longest
         system.recover(du, manner.mixed)
         if length < 1.0:
             system.shorten(length)
-        evaluation = system.evaluate(u + length * du)
+        evaluation = system.evaluate(u + length * du, tangent=not lean)
         if manner.line_search:
             evaluation, length = shortened(system, u, du, r, evaluation, length)
         return evaluation.x, evaluation, length

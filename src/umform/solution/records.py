@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.solvers import Factorisation
+
 Floats = NDArray[np.float64]
 
 
@@ -87,3 +89,11 @@ class Converged:
     def residual(self) -> Floats:
         """Residual, reactions at the degrees of freedom that are held, prescribed or tied."""
         return self.evaluation.residual  # type: ignore[no-any-return]
+
+
+@dataclass(frozen=True)
+class First:
+    """What the first increment came from: factors of the tangent, and its largest entry."""
+
+    factors: Factorisation
+    entry: float

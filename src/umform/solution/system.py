@@ -140,6 +140,9 @@ class System(Protocol):
     def recover(self, du: Floats, mixed: bool = False) -> None:
         """Update condensed parameters; the next tangent may be mixed, of the stress that the increment foresaw."""
 
+    def follow(self) -> None:
+        """After forces alone were evaluated: let the next recovery take them, with the tangent of before."""
+
     def shorten(self, part: float) -> None:
         """Shorten the last update to a part of it."""
 

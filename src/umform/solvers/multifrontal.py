@@ -61,11 +61,11 @@ class Multifrontal:
             if outcome.not_positive:
                 self._with_cholesky = self._positive = False
                 outcome = factors.factor(values, False)
-        if not outcome.done:
-            raise singular(self.name, outcome.equation if outcome.equation >= 0 else None)
-        pivots = factors.pivots()
-        scale = values[self._pattern.indptr[:-1]] if self._with_cholesky else factors.column_sizes(values)
-        weakest = vanishing_pivot(pivots.size, scale)
+            if not outcome.done:
+                raise singular(self.name, outcome.equation if outcome.equation >= 0 else None)
+            pivots = factors.pivots()
+            scale = values[self._pattern.indptr[:-1]] if self._with_cholesky else factors.column_sizes(values)
+            weakest = vanishing_pivot(pivots.size, scale)
         if weakest is not None:
             raise singular(self.name, weakest)
         self._positive = symmetric and pivots.negative == 0

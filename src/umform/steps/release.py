@@ -159,6 +159,7 @@ class Releasing:
         """Restore the state before an increment that went too far; its end is the new bound."""
         self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
         run.model.restore(saved)
+        run.model.stand(before)
         run.evaluation, run.last_dx, self.taken = before, None, None
 
 

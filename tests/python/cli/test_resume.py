@@ -223,7 +223,7 @@ def test_ctrl_c_ends_a_bend_after_the_increment_with_what_was_reached(tmp_path):
     run = started("bend", "--stroke", 6, "--out", tmp_path, "-v")
     try:
         for line in run.stderr:
-            if "step 1  time 0.2" in line:  # well on its way
+            if "step 2  time 1.2" in line:  # well on its way
                 break
         run.send_signal(signal.SIGINT)
         said = run.stderr.read()

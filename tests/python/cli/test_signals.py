@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 
 from umform import cli
 from umform.deck.templates import write_template
-from umform.processes.air_bending.brake import Brake
+from umform.processes.air_bending.branches import Brake
 
 SOURCE = Path(cli.__file__).parents[2]
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals")

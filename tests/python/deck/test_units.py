@@ -3,8 +3,8 @@
 import pytest
 
 from umform.deck import DeckError
-from umform.deck.check import of_model
 from umform.deck.findings import Level, accept, error, ok, warning
+from umform.deck.plausible import of_model
 from umform.processes.air_bending import AirBending
 from umform.processes.air_bending.brake import build
 

@@ -7,9 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.polynomial import Legendre
 
 import umform as uf
-from umform import elements
+from umform import _core, elements
 from umform import materials as mt
 from umform.elements import CATALOGUE, Element, Term, Tying, element, thickness_rule
 from umform.errors import InvalidValue
@@ -300,7 +301,8 @@ def test_higher_orders_in_the_thickness_come_with_as_many_modes_as_asked(name, l
             element(name, **options)
         return
     made = element(name, **options)
-    orders = [term.c for mode in made.modes for term in mode]
+    orders = [mode[0].c for mode in made.modes]
+    assert all(term.c == mode[0].c for mode in made.modes for term in mode)
     assert [orders.count(c) for c in range(order + 1)] == [0, linear, *([order_modes] * (order - 1))]
     assert len(made.modes) == linear + (order - 1) * order_modes
     assert made.options["order_modes"] == order_modes
@@ -310,6 +312,24 @@ def test_higher_orders_in_the_thickness_come_with_as_many_modes_as_asked(name, l
 @pytest.mark.parametrize(("name", "modes"), [("ANS3DEAS", 6), ("EAS3DEAS", 13), ("MI9K3DEAS", 27), ("DISP9K3DEAS", 27)])
 def test_higher_orders_vary_in_the_surface_of_18_nodes_by_default(name, modes):
     assert len(element(name, thickness_order=3).modes) == modes
+
+
+@pytest.mark.parametrize("name", ["MI9K3DEAS", "DISP9K3DEAS", "BEND18"])
+def test_nine_modes_of_an_order_act_at_a_point_of_the_surface_each(name):
+    made, x = element(name), _core.gauss(3)[0]
+    s, r = (grid.ravel() for grid in np.meshgrid(x, x, indexing="ij"))
+    t, orders = np.full(9, 0.3), made.thickness_order
+    values = np.array([sum(term(r, s, t) for term in mode) for mode in made.modes]).reshape(9, orders, 9)
+    legendre = [Legendre.basis(order)(0.3) for order in range(1, orders + 1)]
+    for point in range(9):
+        np.testing.assert_allclose(values[point], np.outer(legendre, np.arange(9) == point), atol=1e-14)
+
+
+def test_nine_modes_span_all_biquadratic_polynomials():
+    r, s, t = np.random.default_rng(3).uniform(-1.0, 1.0, (3, 40))
+    modes = np.array([sum(term(r, s, t) for term in mode) for mode in element("MI9K3DEAS").modes])
+    monomials = np.array([t * r**a * s**b for a in range(3) for b in range(3)])
+    assert np.linalg.matrix_rank(np.concatenate([modes, monomials]), tol=1e-10) == 9
 
 
 @pytest.mark.parametrize("order_modes", [0, 2, 3, 16])

@@ -336,7 +336,7 @@ solver.analyse(pattern)
 used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
 limit = resource.getrlimit(resource.RLIMIT_AS)
 for _ in range(2):
-    resource.setrlimit(resource.RLIMIT_AS, (used + solver._factors.bytes // 2, limit[1]))
+    resource.setrlimit(resource.RLIMIT_AS, (used + solver._factors.bytes // 8, limit[1]))
     try:
         solver.factor(values)
     except SolveError as error:

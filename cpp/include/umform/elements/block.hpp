@@ -22,7 +22,8 @@ class ShellBlockOf final : public ShellBlock {
                  std::shared_ptr<const Material> material, Connectivity part, std::vector<double> X,
                  std::vector<double> rolling = {})
         : element_(technology, surface_points, thickness, material->symmetric()), material_(std::move(material)),
-          part_(std::move(part)), X_(std::move(X)), rolling_(std::move(rolling)), batches_(make_colours(part_)) {
+          part_(std::move(part)), X_(std::move(X)), rolling_(std::move(rolling)),
+          batches_(make_colours_of_groups(part_, lane_count)) {
         const std::size_t elements = part_.size(), modes = element_.modes();
         history_ = History(part_.size(), element_.points(), material_->state_names());
         history_.initialise([this](double* state) { material_->initial(state); });
@@ -44,13 +45,17 @@ class ShellBlockOf final : public ShellBlock {
 
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         if (target.values != nullptr) scatter.require(symmetric(), "the law of the elements");
-        if (target.wants_tangent()) begin_blocks();
+        if (target.wants_tangent())
+            begin_blocks();
+        else
+            followed_.resize(batches_.all.size() * element_.modes());
         for_each_batch([&](int b, Workspace& w) {
             const Batch& batch = batches_.all[b];
             const Failures failures = compute(batch, u, target.wants_tangent(), correction_, trial_of(batch), w);
+            const std::size_t modes = element_.modes();
+            std::vector<Lanes>& y = target.wants_tangent() ? last_.y : followed_;
+            std::copy(w.shell.ra.begin(), w.shell.ra.end(), y.begin() + b * modes);
             if (target.wants_tangent()) {
-                const std::size_t modes = element_.modes();
-                std::copy(w.shell.ra.begin(), w.shell.ra.end(), last_.y.begin() + b * modes);
                 std::copy(w.shell.Kad.begin(), w.shell.Kad.end(), last_.Y.begin() + b * modes * size);
             }
             for (int lane = 0; lane < batch.count; ++lane) {
@@ -86,6 +91,10 @@ class ShellBlockOf final : public ShellBlock {
                     alpha_[static_cast<std::size_t>(batch.element[lane]) * modes + m] -= change[lane];
             }
         });
+    }
+
+    void follow() override {
+        if (!from_kept_ && last_.y.size() == followed_.size()) std::swap(last_.y, followed_);
     }
 
     bool keeps_blocks() const override { return keeps_ || element_.modes() == 0; }
@@ -125,8 +134,9 @@ class ShellBlockOf final : public ShellBlock {
         Vec<Lanes, 3> rolling;
         std::vector<Axes<Lanes>> axes;  // [q], for laws that ask for them
         NodalResults<Nodes> results;
-        std::vector<Voigt> E;        // [q] of one element
-        std::vector<Energy> energy;  // [q]
+        std::vector<Voigt> E;         // [q] of one element
+        std::vector<Energy> energy;   // [q]
+        std::vector<double> scratch;  // [lane] history that nobody wants
     };
 
     void prepare_workspaces(int threads) {
@@ -139,7 +149,8 @@ class ShellBlockOf final : public ShellBlock {
                                    {},
                                    {},
                                    std::vector<Voigt>(points()),
-                                   std::vector<Energy>(points())});
+                                   std::vector<Energy>(points()),
+                                   {}});
     }
 
     /// Calls work(batch, workspace) for all batches, in parallel within a colour.
@@ -274,8 +285,10 @@ class ShellBlockOf final : public ShellBlock {
     /// Refuses a rolling direction that stands on the sheet.
     void check_rolling();
 
-    /// Local frame and compatible deformation gradient F = g_m (x) G^m of the element in the first lane at point q.
-    void write_base(int q, const Workspace& w, double* frame, double* F) const;
+    /// Fields of the element in a lane.
+    void write_fields(int e, int lane, const Workspace& w, const PointFields& out) const;
+    /// Local frame and compatible deformation gradient F = g_m (x) G^m of the element in a lane at point q.
+    void write_base(int q, int lane, const Workspace& w, double* frame, double* F) const;
 
     Element element_;
     std::shared_ptr<const Material> material_;
@@ -285,6 +298,7 @@ class ShellBlockOf final : public ShellBlock {
     Batches batches_;
     std::vector<Workspace> workspaces_;  // one a thread
     Eliminated last_, kept_;             // of the last evaluate with a tangent, and of the converged state
+    std::vector<Lanes> followed_;        // y of the last evaluate without one
     bool from_kept_ = false, keeps_ = false;
     std::vector<double> scale_;
     std::vector<Failure> failed_;

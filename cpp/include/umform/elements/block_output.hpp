@@ -27,22 +27,34 @@ void ShellBlockOf<Nodes>::element(int e, const double* u, double* K, double* f) 
 
 template <int Nodes>
 void ShellBlockOf<Nodes>::fields(const double* u, const PointFields& out) {
-    prepare_workspaces(1);
-    Workspace& w = workspaces_[0];
-    std::vector<double> scratch(history_.stride());  // trial stays as it is
-    for (int e = 0; e < part_.size(); ++e) {
-        const Batch batch = alone(e);
-        require(e, strains(batch, u, alpha_, w)[0] ? Failure::None : Failure::Inverted);
-        require(e, respond(batch, true, filled(scratch.data()), w)[0] ? Failure::None : Failure::Law);
-        for (int q = 0; q < points(); ++q) {
-            const std::size_t at = static_cast<std::size_t>(e) * points() + q;
-            for (int p = 0; p < 6; ++p) {
-                out.E[6 * at + p] = w.shell.E[q][p][0];
-                out.S[6 * at + p] = w.shell.S[q][p][0];
-            }
-            write_base(q, w, out.frame + 9 * at, out.F + 9 * at);
-            out.dV[at] = w.shell.dV[q][0];
+    for_each_batch([&](int b, Workspace& w) {
+        const Batch& batch = batches_.all[b];
+        Failures failures{};
+        LaneMask good = strains(batch, u, alpha_, w);
+        mark(good, Failure::Inverted, failures);
+        w.scratch.resize(lane_count * history_.stride());  // the trial history stays as it is
+        LaneTrials scratch;
+        for (int lane = 0; lane < lane_count; ++lane) scratch[lane] = w.scratch.data() + lane * history_.stride();
+        good = respond(batch, good, scratch, w);
+        mark(good | !batch.filled(), Failure::Law, failures);
+        for (int lane = 0; lane < batch.count; ++lane) {
+            failed_[batch.element[lane]] = failures[lane];
+            if (failures[lane] == Failure::None) write_fields(batch.element[lane], lane, w, out);
         }
+    });
+    for (int e = 0; e < part_.size(); ++e) require(e, failed_[e]);
+}
+
+template <int Nodes>
+void ShellBlockOf<Nodes>::write_fields(int e, int lane, const Workspace& w, const PointFields& out) const {
+    for (int q = 0; q < points(); ++q) {
+        const std::size_t at = static_cast<std::size_t>(e) * points() + q;
+        for (int p = 0; p < 6; ++p) {
+            out.E[6 * at + p] = w.shell.E[q][p][lane];
+            out.S[6 * at + p] = w.shell.S[q][p][lane];
+        }
+        write_base(q, lane, w, out.frame + 9 * at, out.F + 9 * at);
+        out.dV[at] = w.shell.dV[q][lane];
     }
 }
 
@@ -96,11 +108,12 @@ void ShellBlockOf<Nodes>::check_rolling() {
 }
 
 template <int Nodes>
-void ShellBlockOf<Nodes>::write_base(int q, const Workspace& w, double* frame, double* F) const {
+void ShellBlockOf<Nodes>::write_base(int q, int lane, const Workspace& w, double* frame, double* F) const {
     std::array<Vec3, 3> G, g;
-    element_.base_vectors(q, 0, w.shell, G, g);
-    const Axes<double> local =
-        rolling_.empty() ? local_frame(G) : local_frame(G, Vec3{w.rolling[0][0], w.rolling[1][0], w.rolling[2][0]});
+    element_.base_vectors(q, lane, w.shell, G, g);
+    const Axes<double> local = rolling_.empty()
+                                   ? local_frame(G)
+                                   : local_frame(G, Vec3{w.rolling[0][lane], w.rolling[1][lane], w.rolling[2][lane]});
     const Mat3 G_inverse = inverse(columns(G));
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) {

@@ -45,6 +45,8 @@ class ShellBlock {
         for (std::size_t i = 0; i < correction_.size(); ++i) correction_[i] = du[i];
         if (modes() > 0) recover_enhanced(du);
     }
+    /// After an `evaluate` of forces alone: the next `recover` takes its residual, with the tangent of before.
+    virtual void follow() = 0;
     /// Shortens what the last `recover` has changed to a part of it. eq. (5.12)
     void shorten(double part) {
         for (std::size_t i = 0; i < alpha_.size(); ++i)

@@ -29,13 +29,14 @@ class ShellEnhanced : public ShellProducts<Nodes, Real> {
     using Products::tables_;
     using typename Products::Voigt, typename Products::Voigt66;
 
-    /// Kaa (lower triangle), Kad and ra. eqs. (2.15), (2.16)
+    /// Kaa (lower triangles), Kad and ra. eqs. (2.15), (2.16)
     template <int FirstExtra>
     void add_enhanced_blocks(int q, double t, const Voigt& S, const Voigt66& C, const Real* mean, const Real* extra,
                              Workspace& w) const {
         const int count = static_cast<int>(tables_.enhanced.size());
         const Voigt* direction = w.enhanced.data() + q * count;
-        const double* value = tables_.mode_values.data() + q * tables_.entries.size();
+        const auto& [first, modes, offset] = tables_.groups[tables_.group_of[q]];
+        Real* Kaa = w.Kaa.data() + offset;
         for (int c = 0; c < count; ++c) {
             Voigt Cd;
             for (int p = 0; p < 6; ++p) Cd[p] = dot(direction[c], C[p]);
@@ -44,15 +45,13 @@ class ShellEnhanced : public ShellProducts<Nodes, Real> {
             const Real dS = dot(direction[c], S);
             std::array<Real, size> dCB{};
             Products::template add_force<FirstExtra>(Cd, t, mean, extra, dCB.data());
-            for (std::size_t e = 0; e < tables_.entries.size(); ++e) {
-                if (tables_.entries[e].component != c) continue;
-                const int mode = tables_.entries[e].mode;
-                w.ra[mode] += value[e] * dS;
-                for (int i = 0; i < size; ++i) w.Kad[mode * size + i] += value[e] * dCB[i];
-                for (std::size_t other = 0; other < tables_.entries.size(); ++other)
-                    if (tables_.entries[other].mode <= mode)
-                        w.Kaa[mode * tables_.modes + tables_.entries[other].mode] +=
-                            value[e] * value[other] * dCd[tables_.entries[other].component];
+            for (const auto& [component, mode, value] : tables_.entries[q]) {
+                if (component != c) continue;
+                w.ra[mode] += value * dS;
+                for (int i = 0; i < size; ++i) w.Kad[mode * size + i] += value * dCB[i];
+                for (const auto& other : tables_.entries[q])
+                    if (other.mode <= mode)
+                        Kaa[(mode - first) * modes + other.mode - first] += value * other.value * dCd[other.component];
             }
         }
     }
@@ -63,7 +62,8 @@ class ShellEnhanced : public ShellProducts<Nodes, Real> {
                                   const Real* extra, Workspace& w) const {
         const int count = static_cast<int>(tables_.enhanced.size());
         const Voigt* direction = w.enhanced.data() + q * count;
-        const double* value = tables_.mode_values.data() + q * tables_.entries.size();
+        const auto& [first, modes, offset] = tables_.groups[tables_.group_of[q]];
+        Real* Kaa = w.Kaa.data() + offset;
         for (int c = 0; c < count; ++c) {
             Voigt Cd, dC{};
             for (int p = 0; p < 6; ++p) {
@@ -74,29 +74,34 @@ class ShellEnhanced : public ShellProducts<Nodes, Real> {
             std::array<Real, size> dCB{}, CdB{};
             Products::template add_force<FirstExtra>(dC, t, mean, extra, dCB.data());
             Products::template add_force<FirstExtra>(Cd, t, mean, extra, CdB.data());
-            for (std::size_t e = 0; e < tables_.entries.size(); ++e) {
-                if (tables_.entries[e].component != c) continue;
-                const int mode = tables_.entries[e].mode;
-                w.ra[mode] += value[e] * dS;
-                for (int i = 0; i < size; ++i) w.Kad[mode * size + i] += value[e] * dCB[i];
-                for (int i = 0; i < size; ++i) w.Kda[mode * size + i] += value[e] * CdB[i];
-                for (std::size_t other = 0; other < tables_.entries.size(); ++other)
-                    w.Kaa[mode * tables_.modes + tables_.entries[other].mode] +=
-                        value[e] * value[other] * dot(dC, direction[tables_.entries[other].component]);
+            for (const auto& [component, mode, value] : tables_.entries[q]) {
+                if (component != c) continue;
+                w.ra[mode] += value * dS;
+                for (int i = 0; i < size; ++i) w.Kad[mode * size + i] += value * dCB[i];
+                for (int i = 0; i < size; ++i) w.Kda[mode * size + i] += value * CdB[i];
+                for (const auto& other : tables_.entries[q])
+                    Kaa[(mode - first) * modes + other.mode - first] +=
+                        value * other.value * dot(dC, direction[other.component]);
             }
         }
     }
 
   private:
     Mask<Real> eliminate(Workspace& w) const {
-        const Mask<Real> regular = factor_ldlt(w.Kaa.data(), tables_.modes);
+        Mask<Real> regular = true;
         w.Kda = w.Kad;
-        solve_ldlt(w.Kaa.data(), tables_.modes, w.ra.data(), 1);
+        for (const auto& [first, modes, offset] : tables_.groups) {
+            regular = regular & factor_ldlt(w.Kaa.data() + offset, modes);
+            solve_ldlt(w.Kaa.data() + offset, modes, w.ra.data() + first, 1);
+        }
         return regular;
     }
     Mask<Real> eliminate_full(Workspace& w) const {
-        const Mask<Real> regular = factor_lu(w.Kaa.data(), tables_.modes);
-        solve_lu(w.Kaa.data(), tables_.modes, w.ra.data(), 1);
+        Mask<Real> regular = true;
+        for (const auto& [first, modes, offset] : tables_.groups) {
+            regular = regular & factor_lu(w.Kaa.data() + offset, modes);
+            solve_lu(w.Kaa.data() + offset, modes, w.ra.data() + first, 1);
+        }
         return regular;
     }
 
@@ -106,7 +111,8 @@ class ShellEnhanced : public ShellProducts<Nodes, Real> {
     }
 
     void condense_tangent(Workspace& w) const {
-        solve_ldlt(w.Kaa.data(), tables_.modes, w.Kad.data(), size);
+        for (const auto& [first, modes, offset] : tables_.groups)
+            solve_ldlt(w.Kaa.data() + offset, modes, w.Kad.data() + first * size, size);
         const RowSet all{1, tables_.modes, 0, size};
         const Real *raw = w.Kda.data(), *solved = w.Kad.data();
         transposed_product<half>(all, raw, solved, true, subtract(w.Kmm));
@@ -115,7 +121,8 @@ class ShellEnhanced : public ShellProducts<Nodes, Real> {
     }
 
     void condense_tangent_full(Workspace& w) const {
-        solve_lu(w.Kaa.data(), tables_.modes, w.Kad.data(), size);
+        for (const auto& [first, modes, offset] : tables_.groups)
+            solve_lu(w.Kaa.data() + offset, modes, w.Kad.data() + first * size, size);
         const RowSet all{1, tables_.modes, 0, size};
         const Real *raw = w.Kda.data(), *solved = w.Kad.data();
         transposed_product<half>(all, raw, solved, false, subtract(w.Kmm));

@@ -163,9 +163,8 @@ class ShellStrains {
 
     void add_enhanced_strain(int q, const Real* alpha, const Workspace& w, Voigt& E) const {
         const Voigt* direction = w.enhanced.data() + q * tables_.enhanced.size();
-        const double* value = tables_.mode_values.data() + q * tables_.entries.size();
         Voigt amount{};
-        for (const auto& [component, mode] : tables_.entries) amount[component] += *value++ * alpha[mode];
+        for (const auto& [component, mode, value] : tables_.entries[q]) amount[component] += value * alpha[mode];
         for (std::size_t c = 0; c < tables_.enhanced.size(); ++c)
             for (int p = 0; p < 6; ++p) E[row_order[p]] += direction[c][p] * amount[c];
     }

@@ -31,8 +31,14 @@ struct ShellTables {
         bool at_layer;
         std::vector<std::vector<Share>> shares;  // [surface point]
     };
+    /// Value of a mode in one enhanced component at a Gauss point where it is not zero.
     struct ModeEntry {
         int component, mode;  // component: position in enhanced
+        double value;
+    };
+    /// Modes that follow each other and share no Gauss point with others: a diagonal block of Kaa, `offset` entries behind the first.
+    struct ModeGroup {
+        int first, size, offset;
     };
 
     ShellTables(const Technology& technology, const Rule& surface_rule, const Rule& thickness)
@@ -52,9 +58,15 @@ struct ShellTables {
     std::array<int, 6> row_of;  // component -> row of the tying rule, or -1
     std::vector<Row> rows;
     std::vector<Sample> mid_samples, layer_samples;
-    std::vector<int> enhanced;        // enhanced components
-    std::vector<ModeEntry> entries;   // which component of which mode is not zero
-    std::vector<double> mode_values;  // [q][entry]
+    std::vector<int> enhanced;                    // enhanced components
+    std::vector<std::vector<ModeEntry>> entries;  // [q], by modes
+    std::vector<ModeGroup> groups;
+    std::vector<int> group_of;  // [q]
+
+    /// Entries of all diagonal blocks of Kaa.
+    int group_entries() const {
+        return groups.empty() ? 0 : groups.back().offset + groups.back().size * groups.back().size;
+    }
 
   private:
     int place(double r, double s) {
@@ -105,22 +117,42 @@ struct ShellTables {
                     position[term.component] = static_cast<int>(enhanced.size());
                     enhanced.push_back(term.component);
                 }
-        for (int m = 0; m < modes; ++m)
-            for (const int component : enhanced)
-                for (const Term& term : technology.modes[m])
-                    if (term.component == component
-                        && (entries.empty() || entries.back().mode != m
-                            || entries.back().component != position[component]))
-                        entries.push_back({position[component], m});
         for (const double t : thickness.x)
             for (const double s : surface_rule.x)
-                for (const double r : surface_rule.x)
-                    for (const ModeEntry& entry : entries) {
-                        double value = 0.0;
-                        for (const Term& term : technology.modes[entry.mode])
-                            if (term.component == enhanced[entry.component]) value += term(r, s, t);
-                        mode_values.push_back(value);
-                    }
+                for (const double r : surface_rule.x) {
+                    std::vector<ModeEntry>& of_point = entries.emplace_back();
+                    for (int m = 0; m < modes; ++m) add_entries(technology.modes[m], m, r, s, t, position, of_point);
+                }
+        group_modes();
+    }
+
+    /// Values of a mode at a Gauss point, but for those that are zero: of a polynomial with its roots at other points nothing is
+    /// left but the round-off of its terms.
+    void add_entries(const Mode& mode, int number, double r, double s, double t, const std::array<int, 6>& position,
+                     std::vector<ModeEntry>& of_point) {
+        for (const int component : enhanced) {
+            double value = 0.0, size = 0.0;
+            for (const Term& term : mode)
+                if (term.component == component) value += term(r, s, t), size += std::abs(term(r, s, t));
+            if (std::abs(value) > 1e-14 * size) of_point.push_back({position[component], number, value});
+        }
+    }
+
+    void group_modes() {
+        std::vector<bool> begins(modes, true);
+        for (const auto& of_point : entries)
+            if (!of_point.empty())
+                for (int m = of_point.front().mode + 1; m <= of_point.back().mode; ++m) begins[m] = false;
+        for (int m = 0; m < modes; ++m)
+            if (begins[m])
+                groups.push_back({m, 1, group_entries()});
+            else
+                ++groups.back().size;
+        for (const auto& of_point : entries) {
+            int group = 0;
+            while (!of_point.empty() && groups[group].first + groups[group].size <= of_point.front().mode) ++group;
+            group_of.push_back(group);
+        }
     }
 };
 

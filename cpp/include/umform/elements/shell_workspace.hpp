@@ -23,7 +23,7 @@ struct ShellWorkspace {
           layer_rows(tables.layer_samples.size() * size), tied_rows(tables.surface * 6 * size),
           B_mean(tables.surface * 6 * half), B_extra(B_mean), CB_mean(B_mean), CB_extra(B_mean),
           moments(tables.places.size()), Kmm(half * half), Kdm(Kmm), Kdd(Kmm), Kmd(symmetric ? 0 : half * half),
-          Kaa(tables.modes * tables.modes), Kad(tables.modes * size), Kda(Kad), ra(tables.modes) {}
+          Kaa(tables.group_entries()), Kad(tables.modes * size), Kda(Kad), ra(tables.modes) {}
 
     /// Sets to zero what `SolidShell::integrate` adds to, with or without a tangent.
     void clear(bool tangent) {
@@ -57,7 +57,8 @@ struct ShellWorkspace {
     std::vector<Real> Kmm, Kdm, Kdd, Kmd;
     std::array<Real, static_cast<std::size_t>(face) * face> geometry_mm, geometry_dm, geometry_dd;  // [node][node]
     Nodal f;
-    // Enhanced parameters: after `condense`, Kad holds Kaa^-1 Kad and ra holds Kaa^-1 ra. Kda is stored as its transpose.
+    // Enhanced parameters: Kaa holds the blocks of the groups of modes behind each other. After `condense`, Kad holds Kaa^-1 Kad
+    // and ra holds Kaa^-1 ra. Kda is stored as its transpose.
     std::vector<Real> Kaa, Kad, Kda, ra;
 };
 

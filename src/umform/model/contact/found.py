@@ -145,11 +145,17 @@ class ContactFound(Found):
         force, moment : ndarray, shape (3,)
             Of the sheet on the tool.
         """
-        arm = self.held.x - (np.zeros(3) if about is None else np.asarray(about, dtype=float))
-        return self.forces.sum(axis=0), self._spread(np.cross(arm, self.held.force)).sum(axis=0)
+        arm = self.held.x if about is None else self.held.x - np.asarray(about, dtype=float)
+        return self.held.force.sum(axis=0), moment(arm, self.held.force)
 
     def energy(self) -> float:
         """Potential of penalty and multipliers, (p^2 - lambda^2) / (2 penalty) over the reference area. eq. (4.32)"""
         # (p - lambda)(p + lambda): a point that its multiplier alone holds has no energy, to the last digit.
         difference, total = self.pressure - self.multiplier, self.pressure + self.multiplier
         return 0.5 / self.penalty * float((difference * self.area) @ total)
+
+
+def moment(arms: Floats, forces: Floats) -> Floats:
+    """Sum of the cross products of arms and forces, both of shape (n, 3)."""
+    products = arms.T @ forces
+    return np.array([products[1, 2] - products[2, 1], products[2, 0] - products[0, 2], products[0, 1] - products[1, 0]])

@@ -224,8 +224,8 @@ class Contact(PairPoints):
         share = np.einsum("eqa,eq->ea", weight, at.pressure.reshape(places))
         count = len(mesh.points)
         shares = np.zeros((count, 4))  # pressure times area, area; gap, and how many know it
-        np.add.at(shares[:, 0], self.facets.ravel(), share.ravel())
-        np.add.at(shares[:, 1], self.facets.ravel(), weight.sum(axis=1).ravel())
+        shares[:, 0] = np.bincount(self.facets.ravel(), share.ravel(), count)
+        shares[:, 1] = np.bincount(self.facets.ravel(), weight.sum(axis=1).ravel(), count)
         nodes = np.unique(self.facets)
         shares[nodes, 2], shares[nodes, 3] = self.gap((mesh.points + u.reshape(-1, 3))[nodes], self.pose), 1.0
         total, area, gap, known = add(shares).T

@@ -4,7 +4,8 @@
 the angles of a row of strokes; `AirBending` are the parameters.
 """
 
-from umform.processes.air_bending.case import AirBend, air_bending
+from umform.processes.air_bending.bend import AirBend
+from umform.processes.air_bending.case import air_bending
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.search import Found, bending_table, find_stroke

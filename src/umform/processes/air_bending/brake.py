@@ -1,10 +1,9 @@
-"""The press brake: a model of sheet, die and punch; loading to a stroke, and unloading as a branch that is undone."""
+"""The press brake: a model of sheet, die and punch, the steps down to a stroke and back, forces and flanks."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,47 +11,20 @@ from numpy.typing import NDArray
 from umform.model import Model
 from umform.model.contact import ContactPoints
 from umform.model.control import Control
-from umform.model.state import Snapshot
-from umform.processes.air_bending.measures import Measures, measure
 from umform.processes.air_bending.parameters import AirBending
-from umform.processes.air_bending.section import Section
 from umform.processes.air_bending.sheet import half_sheet
-from umform.run import Result, solve
 from umform.solution.options import NewtonOptions
-from umform.steps import Move
 from umform.steps.release import Release
 
-#: Towards zero force the sheet rests on single rows of contact points, and plain Newton jumps between two rows.
-OPTIONS = NewtonOptions(line_search=True)
+#: Towards zero force the sheet rests on single rows of contact points, and plain Newton jumps between two rows. Angles
+#: are those of tight tolerances to 1e-6 degrees.
+OPTIONS = NewtonOptions(residual=1e-6, increment=1e-4, line_search=True)
+#: Increments of a part of the loading.
+INCREMENTS = 5
 #: Force that counts as zero, as a part of the force before unloading: the angle is then off by about 0.001 degrees.
 _ZERO_FORCE = 2e-3
 #: First increment of the way back in thicknesses.
-_FIRST_BACK = 0.005
-
-
-@dataclass(frozen=True)
-class Loaded:
-    """State under load.
-
-    Attributes
-    ----------
-    stroke, force : float
-        Way of the punch in mm, and its force in N for each mm of the bend.
-    section : Section
-        The bent section.
-    against : str
-        Tool against whose flank the sheet lies: "die", "punch" or none.
-    """
-
-    stroke: float
-    force: float
-    section: Section
-    against: str
-
-    @property
-    def angle(self) -> float:
-        """Angle between the legs in degrees."""
-        return self.section.angle
+_FIRST_BACK = 0.02
 
 
 def build(case: AirBending) -> tuple[Model, Control]:
@@ -70,9 +42,20 @@ def build(case: AirBending) -> tuple[Model, Control]:
     return model, model.drive(punch, "-z", name="stroke")
 
 
-def loading(case: AirBending, punch: Control, stroke: float) -> Move:
-    """Step that moves the punch to a stroke in increments of the case."""
-    return Move(punch, to=stroke, steps=increments(case, abs(stroke - punch.value)))
+def loading(case: AirBending, stroke: float) -> list[tuple[float, int]]:
+    """Where the steps down to a stroke end, and the increments of each: parts of equal increments, then what is left.
+
+    The parts are the same for all strokes, so that a search and a table go the way of a single bend.
+    """
+    part = INCREMENTS * case.way
+    whole = max(0, math.ceil(stroke / part - 1e-9) - 1)
+    ends = [(part_end(case, number), INCREMENTS) for number in range(1, whole + 1)]
+    return [*ends, (stroke, increments(case, stroke - whole * part))]
+
+
+def part_end(case: AirBending, number: int) -> float:
+    """Stroke at the end of a part of the loading, counted from 1."""
+    return number * (INCREMENTS * case.way)
 
 
 def increments(case: AirBending, way: float) -> int:
@@ -105,70 +88,3 @@ def against_flank(case: AirBending, contacts: Mapping[str, ContactPoints]) -> st
         return "die"
     x_punch = contacts["punch"].x[contacts["punch"].gap <= 0.0, 0]
     return "punch" if (x_punch > case.punch_radius * math.sin(punch) + beyond * math.cos(punch)).any() else ""
-
-
-class Brake:
-    """A sheet between die and punch that remembers the states under load it has been in.
-
-    Parameters
-    ----------
-    case : AirBending
-        The parameters; the stroke is not used.
-    solver : str
-        Sparse solver.
-    """
-
-    def __init__(self, case: AirBending, solver: str = "auto") -> None:
-        self.case = case
-        self.solver = solver
-        self.model, self.punch = build(case)
-        self.iterations = 0
-        self.forces: dict[float, float] = {0.0: 0.0}
-        self._saved: dict[float, Snapshot] = {0.0: self.model.snapshot()}
-        self._loaded: Loaded | None = None
-
-    def load(self, stroke: float) -> Loaded:
-        """Load to a stroke, from the nearest remembered state at or below it.
-
-        Raises
-        ------
-        NoConvergence
-            If the sheet cannot be bent so far.
-        """
-        nearest = max(known for known in self._saved if known <= stroke)
-        if self.punch.value != nearest:
-            self.model.restore(self._saved[nearest])
-        if stroke > nearest:
-            result = self._solve(loading(self.case, self.punch, stroke))
-            forces = force_per_width(self.case, -result["stroke_force"])
-            self.forces |= dict(zip(result["stroke"].tolist(), forces.tolist(), strict=True))
-            self._saved[stroke] = self.model.snapshot()
-        else:
-            self.model.evaluate(self.model.u)
-        section = Section.of(self.model.mesh, self.model.u)
-        force = self.forces[self.punch.value]
-        contacts = {contact.name: contact.at_points() for contact in self.model.contacts}
-        self._loaded = Loaded(stroke, force, section, against_flank(self.case, contacts))
-        return self._loaded
-
-    def unload(self) -> Measures:
-        """Measures after unloading from the present state under load, which is then put back.
-
-        Raises
-        ------
-        NoConvergence
-            If the punch cannot be taken back.
-        """
-        state = self._loaded or self.load(self.punch.value)
-        before = self.model.snapshot()
-        try:
-            self._solve(unloading(self.case, self.punch))
-            largest = max(force for stroke, force in self.forces.items() if stroke <= state.stroke)
-            return measure(state.stroke, state.force, largest, state.section, self.model)
-        finally:
-            self.model.restore(before)
-
-    def _solve(self, step: Move | Release) -> Result:
-        result = solve(self.model, step, solver=self.solver, options=OPTIONS, frames=0, progress=False)
-        self.iterations += int(result["iterations"].sum())
-        return result

@@ -8,7 +8,8 @@ from typing import Any
 
 from umform.elements import element
 from umform.pool import run_all
-from umform.processes.air_bending.brake import Brake, build
+from umform.processes.air_bending.brake import build
+from umform.processes.air_bending.branches import Brake
 from umform.processes.air_bending.checks import MOST_LAYERS, MOST_POINTS, RULES, needed_stroke
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending

@@ -7,7 +7,7 @@ from typing import Any
 
 from umform.elements import element
 from umform.errors import InvalidValue
-from umform.processes.air_bending.brake import OPTIONS, increments, unloading_keys
+from umform.processes.air_bending.brake import OPTIONS, loading, unloading_keys
 from umform.processes.air_bending.checks import needed_stroke
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.sheet import lines_of
@@ -56,9 +56,11 @@ def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
     yield "[[supports]]", {"kind": "symmetry", "nodes": "x0", "normal": "x"}
     yield "[[supports]]", _across(case)
     yield "[controls.stroke]", {"kind": "tool", "contact": "punch", "direction": "-z"}
-    yield "[[steps]]", {"kind": "move", "to": {"stroke": stroke}, "increments": increments(case, stroke)}
+    for end, count in loading(case, stroke):
+        yield "[[steps]]", {"kind": "move", "to": {"stroke": end}, "increments": count}
     yield "[[steps]]", {"kind": "release", "control": "stroke", **unloading_keys(case)}
-    yield "[solution]", {"line_search": OPTIONS.line_search}
+    tolerances = {"residual": OPTIONS.residual, "increment": OPTIONS.increment}
+    yield "[solution]", {**tolerances, "line_search": OPTIONS.line_search}
 
 
 def _element_name(case: AirBending) -> str:

@@ -12,7 +12,7 @@ from matplotlib.patches import Arc
 from numpy.typing import NDArray
 
 from umform.plotting import COLOURS, INK, Picture, house_style
-from umform.processes.air_bending.case import AirBend
+from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.section import Section
 
 Floats = NDArray[np.float64]

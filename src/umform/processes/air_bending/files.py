@@ -13,8 +13,8 @@ from umform.elements import element
 from umform.errors import InvalidValue
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
+from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.budget import Budget
-from umform.processes.air_bending.case import AirBend
 from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces, tensile_strength
 from umform.processes.air_bending.measures import Measures

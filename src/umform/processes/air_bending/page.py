@@ -8,8 +8,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from umform.elements import element
+from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.budget import Budget
-from umform.processes.air_bending.case import AirBend
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
@@ -60,7 +60,7 @@ def write_page(
     kind = "plane strain" if case.width is None else f"{case.width:g} mm wide"
     title = f"Air bending: {case.thickness:g} mm sheet, {case.opening:g} mm opening, {bend.measures.angle:.2f} degrees"
     lead = f"{kind}; {bend.iterations} Newton iterations in {bend.result.seconds:.1f} s"
-    live = Live.of(bend.result)
+    live = Live.of(bend.result, stills=False)
     content = _parts(bend, live, figures, table, budget, deck, note)
     return parts.write_html(path, title, lead, content, style=style(), scripts=live.scripts)
 

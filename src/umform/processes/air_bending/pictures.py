@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from umform.model.frame import Frame
 from umform.plotting import COLOURS, Picture, house_style
-from umform.processes.air_bending.case import AirBend
+from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
@@ -24,13 +24,17 @@ Floats = NDArray[np.float64]
 _BLUE, _VERMILION, _GREEN = COLOURS[:3]
 _TOOL: dict[str, Any] = {"facecolor": "#d9dde2", "edgecolor": "#555555", "linewidth": 0.8}
 _FIELD = "plastic_strain_mean"
+#: Where axes lie in a figure: to find room for their labels takes matplotlib longer than to draw them.
+_CURVES = {"left": 0.07, "right": 0.99, "bottom": 0.14, "top": 0.92, "wspace": 0.2}
+_SHAPES = {"left": 0.01, "right": 0.9, "bottom": 0.02, "top": 0.92, "wspace": 0.03}
+_BAR = (0.92, 0.12, 0.012, 0.7)
 
 
 def curves(bend: AirBend, table: Sequence[Measures] = ()) -> Figure:
     """Force over stroke in loading and unloading; angle over stroke under load and after unloading."""
     with house_style():
-        figure = Picture(figsize=(9.0, 3.6), layout="constrained")
-        left, right = figure.subplots(1, 2)
+        figure = Picture(figsize=(9.0, 3.6))
+        left, right = figure.subplots(1, 2, gridspec_kw=_CURVES)
         _draw_force(left, bend)
         _draw_angle(right, bend, table)
     return figure
@@ -45,15 +49,15 @@ def shapes(bend: AirBend) -> Figure:
     ]
     largest = max(float(frame.cells[_FIELD].max()) for _, _, frame in states)
     with house_style():
-        figure = Picture(figsize=(9.0, 4.2), layout="constrained")
-        grid = figure.subplots(1, 2, sharex=True, sharey=True)
+        figure = Picture(figsize=(9.0, 4.2))
+        grid = figure.subplots(1, 2, sharex=True, sharey=True, gridspec_kw=_SHAPES)
         for axes, (title, section, frame) in zip(grid, states, strict=True):
             drawn = _draw_sheet(axes, bend, section, frame)
             drawn.set_clim(0.0, largest)
             _draw_tools(axes, bend.case, bend.stroke[frame.number])
             axes.set_title(title)
             _frame(axes, bend)
-        bar = figure.colorbar(drawn, ax=list(grid), shrink=0.8, aspect=30, pad=0.02)
+        bar = figure.colorbar(drawn, cax=figure.add_axes(_BAR))
         bar.set_label("equivalent plastic strain, mean of the element")
         bar.outline.set_visible(False)
     return figure

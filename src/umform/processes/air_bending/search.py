@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from umform.errors import InvalidValue, SolveError
-from umform.processes.air_bending.brake import Brake, Loaded
+from umform.errors import SolveError
+from umform.processes.air_bending.bend import AirBend, Loaded
+from umform.processes.air_bending.brake import INCREMENTS
+from umform.processes.air_bending.branches import FRAMES, Brake
 from umform.processes.air_bending.checks import check_angle, check_tolerance, unreachable
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
 from umform.progress import progress_bar
 
-#: The punch goes down in parts of this many increments; each part ends in a remembered state.
-_PART = 5
 _MOST_TRIALS = 10
 
 
@@ -23,29 +24,45 @@ class Found:
 
     Attributes
     ----------
-    case : AirBending
-        The parameters with this stroke.
-    measures : Measures
-        What is measured there.
+    bend : AirBend
+        The bend with this stroke, as `air_bending` gives it.
     trials : tuple of tuple of float
         Stroke and angle after unloading of each trial, in order.
     iterations : int
         Newton iterations of loading and all trials.
     """
 
-    case: AirBending
-    measures: Measures
+    bend: AirBend
     trials: tuple[tuple[float, float], ...]
     iterations: int
 
+    @property
+    def case(self) -> AirBending:
+        """The parameters with this stroke."""
+        return self.bend.case
+
+    @property
+    def measures(self) -> Measures:
+        """What is measured there."""
+        return self.bend.measures
+
 
 def find_stroke(
-    case: AirBending, angle: float, *, tolerance: float = 0.02, solver: str = "auto", progress: bool | None = None
+    case: AirBending,
+    angle: float,
+    *,
+    tolerance: float = 0.02,
+    frames: int = FRAMES,
+    solver: str = "auto",
+    progress: bool | None = None,
+    brake: Brake | None = None,
 ) -> Found:
-    """Find the stroke at which the sheet has the wanted angle after unloading.
+    """Find the stroke at which the sheet has the wanted angle after unloading, and the bend with it.
 
-    The sheet is loaded once. From states under load it is unloaded, measured and put back; the secant of angle over
-    stroke, kept between what is known to be too little and too much, says where to try next.
+    The sheet is loaded once, to where its angle less what it is reckoned to spring back is the wanted one. There it is
+    unloaded and measured; the secant of angle over stroke, kept between what is known to be too little and too much,
+    says where to try next, from the last remembered state under load. The last trial is the bend: nothing of it is
+    computed again.
 
     Parameters
     ----------
@@ -55,10 +72,14 @@ def find_stroke(
         Wanted angle between the legs in degrees.
     tolerance : float
         Largest deviation of the angle in degrees, 0.001 to 10.
+    frames : int
+        About how many states are kept for pictures, as in `air_bending`.
     solver : str
         Sparse solver.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
+    brake : Brake, optional
+        A sheet of the same case that has been loaded already, instead of a new one.
 
     Raises
     ------
@@ -69,10 +90,8 @@ def find_stroke(
     """
     check_angle(case, angle)
     check_tolerance(tolerance)
-    if not tolerance > 0:
-        raise InvalidValue("the tolerance of the angle must be positive", where="tolerance", value=tolerance)
     with progress_bar(progress) as tick:
-        brake = Brake(case, solver)
+        brake = brake or Brake(case, solver, max(1, frames))
         state, slope = _load_to_angle(brake, angle, lambda done: tick("loading", done))
         trials: list[tuple[float, float]] = []
         while True:
@@ -82,7 +101,7 @@ def find_stroke(
             if abs(measures.angle - angle) <= tolerance:
                 if state.against:
                     raise unreachable(angle, f"at this angle it lies against the {state.against}")
-                return Found(replace(case, stroke=state.stroke), measures, tuple(trials), brake.iterations)
+                return Found(brake.end(state, measures), tuple(trials), brake.run.iterations)
             if state.against and measures.angle > angle:
                 raise unreachable(angle, f"at {measures.angle:.2f} degrees it lies against the {state.against}")
             if len(trials) == _MOST_TRIALS:
@@ -91,7 +110,12 @@ def find_stroke(
 
 
 def bending_table(
-    case: AirBending, strokes: Sequence[float], *, solver: str = "auto", progress: bool | None = None
+    case: AirBending,
+    strokes: Sequence[float],
+    *,
+    solver: str = "auto",
+    progress: bool | None = None,
+    brake: Brake | None = None,
 ) -> list[Measures]:
     """Measures at several strokes, from one loading and an unloading at each stroke.
 
@@ -105,11 +129,13 @@ def bending_table(
         Sparse solver.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
+    brake : Brake, optional
+        A sheet of the same case that has been loaded already, instead of a new one.
 
     Returns
     -------
     list of Measures
-        In the order of growing strokes.
+        In the order of growing strokes; each as `air_bending` gives it for the stroke.
 
     Notes
     -----
@@ -120,7 +146,7 @@ def bending_table(
     for stroke in ordered:
         replace(case, stroke=stroke)  # refuses a stroke beyond air bending
     with progress_bar(progress) as tick:
-        brake = Brake(case, solver)
+        brake = brake or Brake(case, solver)
         try:
             for number, stroke in enumerate(ordered, start=1):
                 brake.load(stroke)
@@ -133,22 +159,39 @@ def bending_table(
 
 
 def _load_to_angle(brake: Brake, angle: float, tick: Callable[[float], None]) -> tuple[Loaded, float]:
-    """First state whose angle under load is the wanted one or less; and the slope of the angle over the stroke."""
+    """Where the first trial is made: where the angle after springback should be the wanted one; and its slope there."""
     case = brake.case
-    part = _PART * case.way
-    stroke, before = 0.0, 180.0
+    part = INCREMENTS * case.way
+    number, before = 0, 180.0
     while True:
-        if stroke >= case.largest_stroke:
-            raise unreachable(angle, f"at the largest stroke {stroke:.4g} it has {before:.2f} degrees under load")
-        way = min(part, case.largest_stroke - stroke)
-        stroke += way
+        number += 1
+        stroke = min(number * part, case.largest_stroke)
         state = brake.load(stroke)
         tick(min(1.0, (180.0 - state.angle) / (180.0 - angle)))
-        if state.angle <= angle:
-            return state, (state.angle - before) / way
-        if state.against:
+        slope = (state.angle - before) / (stroke - (number - 1) * part)
+        if state.against and state.angle > angle:
             raise unreachable(angle, f"at {state.angle:.2f} degrees under load it lies against the {state.against}")
+        left = state.angle + _springback(case, state) - angle
+        if left <= 0.0 or (state.against and state.angle <= angle):
+            return state, slope
+        if stroke >= case.largest_stroke:
+            if state.angle <= angle:
+                return state, slope
+            raise unreachable(angle, f"at the largest stroke {stroke:.4g} it has {state.angle:.2f} degrees under load")
+        if slope < 0.0 and stroke - left / slope < min(stroke + part, case.largest_stroke):
+            nearer = brake.load(stroke - left / slope)
+            far = nearer.stroke - stroke > 0.2 * part
+            return nearer, (nearer.angle - state.angle) / (nearer.stroke - stroke) if far else slope
         before = state.angle
+
+
+def _springback(case: AirBending, state: Loaded) -> float:
+    """About how far a sheet springs back, in degrees: N l²/(E' I), N the force of a shoulder, l the length of a leg."""
+    slope = math.radians(90.0 - 0.5 * state.angle)
+    material, wide = case.material, case.width is None
+    stiffness = material.E / (1.0 - material.nu**2 if wide else 1.0) * case.thickness**3 / 12.0
+    lever = case.free_length(math.degrees(slope))
+    return math.degrees(0.5 * state.force / math.cos(slope) * lever**2 / stiffness)
 
 
 def _next_stroke(trials: Sequence[tuple[float, float]], angle: float, slope: float, largest: float) -> float:

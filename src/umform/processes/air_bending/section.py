@@ -7,11 +7,11 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from umform import _core
 from umform.errors import InvalidValue
 from umform.mesh import Mesh
+from umform.processes.air_bending.spline import Spline
 
 Floats = NDArray[np.float64]
 
@@ -150,7 +150,7 @@ class Section:
         """
         face = self._inner_face
         at = np.linspace(0.0, self.half_length, _SAMPLES)
-        dx, dz = face(at, 1).T
+        dx, dz = face.slope(at).T
         first = int(np.argmax(np.arctan2(dz, dx) > _BEND * self.slope))
         x, z = face(at[: max(first, 3)]).T
         # x² + z² = 2 z z_c + (R² - z_c²) is linear in z_c and R² - z_c²
@@ -170,9 +170,9 @@ class Section:
         return 1.0 / curvature if curvature > 0.0 else np.inf
 
     @cached_property
-    def _inner_face(self) -> CubicSpline:
+    def _inner_face(self) -> Spline:
         """Position on the inner face over x in the flat sheet."""
-        return CubicSpline(self.reference[:, 0, 0], self.fibre(1.0))
+        return Spline(self.reference[:, 0, 0], self.fibre(1.0))
 
     @property
     def thicknesses(self) -> Floats:

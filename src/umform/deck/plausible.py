@@ -1,0 +1,72 @@
+"""What is checked of a model wherever it comes from: mesh, gaps and units; no deck is needed, nor what reads one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from umform.deck.findings import Finding, error, ok, warning
+from umform.deck.units import units
+from umform.mesh.quality import jacobians
+from umform.model import Model
+from umform.model.contact.encounter import sheet_thickness
+
+#: An overlap of more than this part of the thickness at the start sends a jolt through the sheet; of more than the
+#: second, the tool is not where it was meant to be.
+_OVERLAP, _DEEP = 0.02, 0.2
+#: Smallest Jacobian of a cell over its largest one.
+_DISTORTED = 0.2
+
+
+def of_model(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
+    """Mesh, gaps and units of a model, wherever it comes from.
+
+    Parameters
+    ----------
+    model : Model
+        The model; it is left as it was.
+    millimetres : bool
+        Units are known to be mm, N and MPa.
+    """
+    yield mesh(model)
+    yield from gaps(model)
+    yield from units(model, millimetres=millimetres)
+
+
+def mesh(model: Model) -> Finding:
+    """Size of the model, and its most distorted cell."""
+    points, cells = model.mesh.points, model.mesh.connectivity
+    text = f"{len(cells)} {model.mesh.cell}, {len(points)} nodes, {model.unknown_count} unknowns"
+    J = jacobians(points, cells)
+    ratios = J.min(axis=1) / J.max(axis=1)
+    worst = int(np.argmin(ratios))
+    if ratios[worst] >= _DISTORTED:
+        return ok("mesh", text)
+    text += f"; in cell {worst} the Jacobian falls to {ratios[worst]:.2g} of its largest value"
+    return warning("mesh", text, "cells nearer to parallelograms, mid-side nodes nearer to the middle")
+
+
+def gaps(model: Model) -> Iterator[Finding]:
+    """Gap or overlap of each contact pair at the start."""
+    thickness, size = sheet_thickness(model.mesh), float(np.ptp(model.mesh.points, axis=0).max())
+    for contact in model.contacts:
+        gap = contact.locate(model.u, contact.pose).gap
+        about = f"contact {contact.name}"
+        if not np.isfinite(gap).all():
+            remedy = "move the tool so that it just touches the sheet"
+            yield error(about, "a contact point lies on the axis or the centre of the tool", remedy)
+            continue
+        deepest, inside = float(gap.min()), int((gap <= 0.0).sum())
+        text = (
+            f"gap {deepest:.4g}" if deepest > 0 else f"{inside} of {gap.size} points touch, overlap {abs(deepest):.4g}"
+        )
+        if deepest < -_OVERLAP * thickness:
+            found = error if deepest < -_DEEP * thickness else warning
+            remedy = "move the tool out of the sheet; an overlap is pressed out in the first increment"
+            yield found(about, f"{text}: {-100 * deepest / thickness:.3g} % of the thickness", remedy)
+        elif deepest > size:
+            remedy = "check the place of the tool and the units"
+            yield warning(about, f"{text}: farther away than the sheet is long", remedy)
+        else:
+            yield ok(about, text)

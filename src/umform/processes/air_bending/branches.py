@@ -1,0 +1,106 @@
+"""A sheet that is loaded once and unloaded from several strokes: branches of one run."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from umform.processes.air_bending.bend import AirBend, Loaded
+from umform.processes.air_bending.brake import (
+    INCREMENTS,
+    OPTIONS,
+    against_flank,
+    build,
+    force_per_width,
+    loading,
+    part_end,
+    unloading,
+)
+from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.section import Section
+from umform.progress import Tick, silent
+from umform.run.open_run import Mark, OpenRun
+from umform.steps import Move
+
+#: About how many states of a bend are kept for pictures.
+FRAMES = 60
+
+
+class Brake:
+    """A sheet between die and punch that remembers the states under load it has been in.
+
+    Parameters
+    ----------
+    case : AirBending
+        The parameters; the stroke is not used.
+    solver : str
+        Sparse solver.
+    frames : int
+        About how many states are kept for pictures on the largest stroke; the ends of steps are kept with any but 0.
+
+    Attributes
+    ----------
+    run : OpenRun
+        The run: loaded, or unloaded after that.
+    """
+
+    def __init__(self, case: AirBending, solver: str = "auto", frames: int = 0) -> None:
+        self.case = case
+        self.model, self.punch = build(case)
+        share = frames * INCREMENTS * case.way / case.largest_stroke
+        self.run = OpenRun(self.model, solver=solver, options=OPTIONS, frames=min(frames, max(1, round(share))))
+        self._parts: list[Mark] = [self.run.mark()]
+        self._done: int | None = 0  # parts that the run has behind it, if it stands at the end of one
+        self._loaded: Loaded | None = None
+
+    def load(self, stroke: float, tick: Tick = silent) -> Loaded:
+        """Load to a stroke, from the nearest remembered state below it.
+
+        Raises
+        ------
+        NoConvergence
+            If the sheet cannot be bent so far.
+        """
+        parts = loading(self.case, stroke)
+        rest = [] if parts[-1] == (part_end(self.case, len(parts)), INCREMENTS) else [parts.pop()]
+        known = min(len(parts), len(self._parts) - 1)
+        if self._done != known:
+            self.run.go_back(self._parts[known])
+        for number in range(known, len(parts)):
+            self._down(*parts[number], tick)
+            self._parts.append(self.run.mark())
+        self._done = len(parts)
+        for end, count in rest:
+            self._down(end, count, tick)
+        found = {pair.name: self.run.evaluation.found[pair].points() for pair in self.model.contacts}
+        section = Section.of(self.model.mesh, self.model.u)
+        forces = force_per_width(self.case, -self.run.result["stroke_force"])
+        self._loaded = Loaded(stroke, float(forces[-1]), float(forces.max()), section, against_flank(self.case, found))
+        return self._loaded
+
+    def _down(self, stroke: float, count: int, tick: Tick) -> None:
+        self._done = None
+        self.run.take(Move(self.punch, to=stroke, steps=count))
+        tick("loading", stroke / self.case.largest_stroke, f"stroke {stroke:.4g}")
+
+    def unload(self) -> Measures:
+        """Measures after unloading from the state under load, which `load` has reached.
+
+        Raises
+        ------
+        NoConvergence
+            If the punch cannot be taken back.
+        """
+        assert self._loaded is not None
+        self._done = None
+        self.run.take(unloading(self.case, self.punch))
+        return self._loaded.measured(self.model)
+
+    def bend(self, stroke: float, tick: Tick = silent) -> AirBend:
+        """Load to a stroke, and unload: the run ends there."""
+        loaded = self.load(stroke, tick)
+        return self.end(loaded, self.unload())
+
+    def end(self, loaded: Loaded, measures: Measures) -> AirBend:
+        """The bend that was loaded and unloaded last; the run ends there."""
+        return AirBend.of(replace(self.case, stroke=loaded.stroke), self.run.close(), loaded, measures)

@@ -1,0 +1,128 @@
+"""A run that is taken step by step and may go back to a state that it has been in: for searches and for branches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from umform.model import Evaluation, Model
+from umform.model.state import Snapshot
+from umform.progress import Tick, silent
+from umform.results.history import Mark as HistoryMark
+from umform.results.penetration import warn_of_penetration
+from umform.run.execute import begun, checked, taken
+from umform.run.result import Result
+from umform.solution.options import NewtonOptions
+from umform.solution.records import Iteration
+from umform.solvers.pardiso import Pardiso
+from umform.steps import Step
+from umform.timing import new_timing
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A state between two steps that a run can go back to.
+
+    Attributes
+    ----------
+    snapshot : Snapshot
+        State of the model.
+    evaluation : Evaluation
+        The evaluation there, without its tangent.
+    steps : list of Step
+        The steps that have led there.
+    history : HistoryMark
+        What of the result belongs to it.
+    factors : int or None
+        Kind of factors that PARDISO tries next.
+    """
+
+    snapshot: Snapshot
+    evaluation: Evaluation
+    steps: list[Step]
+    history: HistoryMark
+    factors: int | None
+
+
+class OpenRun:
+    """A run whose steps are not known beforehand; its result is to the last bit that of `umform.solve` with its steps.
+
+    Parameters
+    ----------
+    model : Model
+        The model.
+    solver : str
+        Sparse solver of one process.
+    options : NewtonOptions, optional
+        Tolerances, line search, predictor.
+    frames : int
+        About how many states are kept for pictures in each step.
+
+    Attributes
+    ----------
+    result : Result
+        History and frames of the steps that have led to the present state.
+    steps : list of Step
+        These steps.
+    iterations : int
+        Newton iterations of all steps taken, those that were left again too.
+    """
+
+    def __init__(
+        self, model: Model, *, solver: str = "auto", options: NewtonOptions | None = None, frames: int = 60
+    ) -> None:
+        timing = new_timing()
+        with timing.run:
+            self.result = Result(model, timing)
+            self._run = begun(self.result, solver, options, frames)
+        self.steps: list[Step] = []
+        self.iterations = 0
+        self._run.newton.callbacks.append(self._count)
+
+    def _count(self, iteration: Iteration) -> None:
+        self.iterations += 1
+
+    @property
+    def evaluation(self) -> Evaluation:
+        """The evaluation of the present state."""
+        return self._run.evaluation
+
+    def take(self, *steps: Step, tick: Tick = silent) -> None:
+        """Take more steps, from the present state on.
+
+        Raises
+        ------
+        NoConvergence
+            If an increment fails at its smallest size; like any exception that ends a step, it has the result so far as
+            its attribute ``result``.
+        """
+        run = self._run
+        self.steps += checked(run.model, list(steps))
+        whole = self.result.timing.run
+        with whole:
+            taken(run, self.steps, tick)
+        whole.calls = 1  # all steps are one run
+
+    def mark(self) -> Mark:
+        """The present state, to go back to."""
+        run, solver = self._run, self._run.newton.ready_solver().solver.solver
+        factors = solver.memory() if isinstance(solver, Pardiso) else None
+        bare = replace(run.evaluation, values=np.empty(0))
+        return Mark(run.model.snapshot(), bare, list(self.steps), self.result.mark(), factors)
+
+    def go_back(self, mark: Mark) -> None:
+        """Go back to a state, of this branch or another one; steps and result are what they were there."""
+        run, solver = self._run, self._run.newton.ready_solver().solver.solver
+        run.model.restore(mark.snapshot)
+        run.model.stand(mark.evaluation)
+        run.evaluation, run.last_dx, run.loop, run.number = mark.evaluation, None, None, len(mark.steps) + 1
+        if isinstance(solver, Pardiso) and mark.factors is not None:
+            solver.recall(mark.factors)
+        self.result.go_back(mark.history)
+        self.steps = list(mark.steps)
+
+    def close(self) -> Result:
+        """The result of the steps taken, with the warnings that are given at the end of a run."""
+        warn_of_penetration(self._run.model, self.result)
+        return self.result
