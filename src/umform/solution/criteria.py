@@ -1,4 +1,4 @@
-"""When an iteration is converged, and when it goes in circles. docs/theory, 5.3 and 4.9
+"""When an iteration is converged. docs/theory, 5.3
 
 Convergence asks for a small residual AND a small increment, both without units: the residual against the root of the
 sum of squares of all element forces, the increment against the largest displacement. Neither can fall below round-off,
@@ -10,7 +10,6 @@ eqs. (5.8)-(5.11), (5.36), (5.40)
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,73 +79,6 @@ class Criteria:
         system = self._system
         entry = system.largest_entry(evaluation.values) if self.entry is None else self.entry
         return _EPS * entry * length * math.sqrt(system.pattern.n)
-
-
-class Cycle:
-    """Sees contact points come and go in a cycle while the residual does not fall.
-
-    Attributes
-    ----------
-    stays : bool
-        Whether a cycle was seen again after the first one was to be broken.
-    """
-
-    def __init__(self, system: System) -> None:
-        self._system = system
-        self._states: list[bytes] = []
-        self._begin = self._count = 0
-
-    @property
-    def stays(self) -> bool:
-        """Whether a cycle was seen again."""
-        return self._count > 1
-
-    def seen(self, active: NDArray[np.bool_], residuals: Sequence[float]) -> bool:
-        """Whether two or three active sets have just followed each other twice; asked once in each iteration.
-
-        Parameters
-        ----------
-        active : ndarray of bool
-            The active set of this iteration.
-        residuals : sequence of float
-            Those of the iterations before.
-        """
-        ranks = self._system.ranks
-        if not ranks.any(active.size > 0):
-            return False
-        self._states.append(ranks.join(np.packbits(active).tobytes()))
-        for period in (2, 3):
-            states = self._states[self._begin :][-2 * period :]
-            if len(states) < 2 * period or len(residuals) < period + 1:
-                continue
-            cycle = states[:period] == states[period:] and len(set(states)) > 1
-            if cycle and residuals[-1] > 0.5 * residuals[-1 - period]:
-                self._begin, self._count = len(self._states), self._count + 1
-                return True
-        return False
-
-
-class Stall:
-    """Sees a residual that has not fallen by a tenth for a number of iterations.
-
-    Attributes
-    ----------
-    patience : int
-        That number.
-    """
-
-    patience = 8
-
-    def __init__(self) -> None:
-        self._least, self._since = math.inf, 0
-
-    def seen(self, norm: float) -> bool:
-        """Whether it has not; asked once in each iteration."""
-        if norm < 0.9 * self._least:
-            self._least, self._since = norm, 0
-        else:
-            self._since += 1
-        return self._since >= self.patience
 
 
 def largest(system: System, x: Floats, evaluation: Evaluation) -> float:

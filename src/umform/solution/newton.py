@@ -18,10 +18,12 @@ from numpy.typing import NDArray
 
 from umform.errors import NotFinite, SingularMatrix
 from umform.solution.bordered import Bordered
-from umform.solution.criteria import Criteria, Cycle, Stall, largest
+from umform.solution.criteria import Criteria, largest
 from umform.solution.factor_reuse import Reuse
 from umform.solution.line_search import shortened
 from umform.solution.options import Manner, NewtonOptions
+from umform.solution.prospects import Prospects
+from umform.solution.recorder import Recorder
 from umform.solution.records import Cause, Converged, Failed, First, Iteration
 from umform.solution.system import Evaluation, System
 from umform.solution.timed_solver import TimedSolver
@@ -54,7 +56,6 @@ class Newton:
         self._solver: Bordered | None = None
         self._pattern: Pattern | None = None
         self.callbacks: list[Callable[[Iteration], None]] = []
-        self._flowing: NDArray[np.uint8] | None = None  # in the iteration before
 
     @property
     def solver(self) -> str:
@@ -179,11 +180,11 @@ class Newton:
         system, options = self.system, self.options
         solver = self.ready_solver()
         start = clock.perf_counter() if start is None else start
-        iterations: list[Iteration] = []
+        recorder = Recorder(self.callbacks, system.ranks, start)
+        iterations = recorder.iterations
         system.recover(du, manner.mixed)
         u = u + du
-        criteria, cycle = Criteria(system, options.residual, options.increment), Cycle(system)
-        stall = None if system.smooth else Stall()
+        criteria, prospects = Criteria(system, options.residual, options.increment), Prospects(system)
         reuse = Reuse(options, system.pattern.n, system.effort)
         pivots = reuse.remember(first.factors) if first is not None else None
         criteria.entry = first.entry if first is not None else None
@@ -202,19 +203,11 @@ class Newton:
             entered, left = self._count(active & ~previous_active), self._count(~active & previous_active)
             moved = bool(entered or left)
             if criteria.met(norm, increment, u, evaluation, moved=moved):
-                self._record(
-                    iterations, evaluation, norm / scale, increment, 0.0, entered, left, step_length, pivots, start
-                )
+                recorder.add(evaluation.flowing, norm / scale, increment, 0.0, entered, left, step_length, pivots)
                 if lean:
                     system.follow()
                 return Converged(evaluation, iterations)
-            longest = 0.5 if cycle.seen(active, [record.residual for record in iterations]) else 1.0
-            if cycle.stays:
-                where = evaluation.at_points(active != previous_active)
-                raise Failed(f"contact comes and goes in a cycle{where}", iterations, Cause.CYCLE)
-            if stall is not None and stall.seen(norm):
-                raise Failed(f"the residual has not fallen for {stall.patience} iterations", iterations, Cause.STALL)
-
+            longest = prospects.longest(evaluation, previous_active, norm, iterations)
             if not reuse.factors_will_do(norm / scale, increment, settled=manner.reuses and not moved):
                 if lean:
                     evaluation = system.evaluate(u)
@@ -227,9 +220,7 @@ class Newton:
                 system.follow()
             du = system.extend(solver.solve(-r))
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
-            self._record(
-                iterations, evaluation, norm / scale, increment, energy, entered, left, step_length, pivots, start
-            )
+            recorder.add(evaluation.flowing, norm / scale, increment, energy, entered, left, step_length, pivots)
             lean = self._lean(reuse, manner) and not evaluation.border.unknowns
             u, evaluation, step_length = self._advance(u, du, r, manner, longest, lean)
             criteria.entry = criteria.entry if lean else None
@@ -263,39 +254,6 @@ class Newton:
                 self._solver = Bordered(self.system, solver)
             self._pattern = pattern
         return self._solver
-
-    def _record(
-        self,
-        iterations: list[Iteration],
-        evaluation: Evaluation,
-        residual: float,
-        increment: float,
-        energy: float,
-        entered: int,
-        left: int,
-        step_length: float,
-        pivots: int | None,
-        start: float,
-    ) -> None:
-        number = len(iterations) + 1
-        flowing, before = evaluation.flowing, self._flowing
-        switched = 0 if number == 1 or before is None else self._count(flowing != before)
-        self._flowing = flowing
-        seconds = clock.perf_counter() - start
-        record = Iteration(number, residual, increment, energy, entered, left, step_length, pivots, seconds, switched)
-        iterations.append(record)
-        log.debug(
-            "    iteration %2d  residual %.3e  increment %.3e  contact +%d -%d%s%s",
-            number,
-            residual,
-            increment,
-            entered,
-            left,
-            f"  flow switched {switched}" if switched else "",
-            f"  negative pivots {pivots}" if pivots else "",
-        )
-        for callback in self.callbacks:
-            callback(record)
 
     @staticmethod
     def check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:
