@@ -13,9 +13,10 @@ from umform.results.history import Mark as HistoryMark
 from umform.results.penetration import warn_of_penetration
 from umform.run.execute import begun, checked, taken
 from umform.run.result import Result
+from umform.solution.habits import Habits
 from umform.solution.options import NewtonOptions
 from umform.solution.records import Iteration
-from umform.solvers.pardiso import Pardiso
+from umform.solvers.protocol import Remembering
 from umform.steps import Step
 from umform.timing import new_timing
 
@@ -35,7 +36,9 @@ class Mark:
     history : HistoryMark
         What of the result belongs to it.
     factors : int or None
-        Kind of factors that PARDISO tries next.
+        What the sparse solver remembers.
+    habits : Habits
+        What earlier increments have taught.
     """
 
     snapshot: Snapshot
@@ -43,6 +46,7 @@ class Mark:
     steps: list[Step]
     history: HistoryMark
     factors: int | None
+    habits: Habits
 
 
 class OpenRun:
@@ -107,9 +111,9 @@ class OpenRun:
     def mark(self) -> Mark:
         """The present state, to go back to."""
         run, solver = self._run, self._run.newton.ready_solver().solver.solver
-        factors = solver.memory() if isinstance(solver, Pardiso) else None
+        factors = solver.memory() if isinstance(solver, Remembering) else None
         bare = replace(run.evaluation, values=np.empty(0))
-        return Mark(run.model.snapshot(), bare, list(self.steps), self.result.mark(), factors)
+        return Mark(run.model.snapshot(), bare, list(self.steps), self.result.mark(), factors, replace(run.habits))
 
     def go_back(self, mark: Mark) -> None:
         """Go back to a state, of this branch or another one; steps and result are what they were there."""
@@ -117,8 +121,9 @@ class OpenRun:
         run.model.restore(mark.snapshot)
         run.model.stand(mark.evaluation)
         run.evaluation, run.last_dx, run.loop, run.number = mark.evaluation, None, None, len(mark.steps) + 1
-        if isinstance(solver, Pardiso) and mark.factors is not None:
+        if isinstance(solver, Remembering) and mark.factors is not None:
             solver.recall(mark.factors)
+        run.habits = replace(mark.habits)
         self.result.go_back(mark.history)
         self.steps = list(mark.steps)
 

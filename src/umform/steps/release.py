@@ -8,9 +8,13 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any, Self
 
+import numpy as np
+from numpy.typing import NDArray
+
 from umform.errors import InvalidValue
-from umform.model import Evaluation, Snapshot
+from umform.model import Evaluation, Model, Snapshot
 from umform.model.control import Control
+from umform.model.term import Term
 from umform.solution.records import Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
@@ -111,7 +115,7 @@ class Releasing:
         """Try one increment."""
         model, control = run.model, step.control
         before, value = run.evaluation, control.value
-        saved, touching = model.snapshot(), before.touching(model.ranks)
+        saved, touching = _Saved.of(model, before), before.touching(model.ranks)
         attempts = run.newton.timing.attempts
         mark = attempts.mark()
         target = _next_release(value, self.force, self.before, self.bound, self.size, self.finest)
@@ -140,7 +144,7 @@ class Releasing:
         resolution = 1e-6 * abs(self.start_value)
         if (force * self.force < 0.0 and not zero) or (lifted and abs(target - value) > 2.5 * resolution):
             attempts.take_back(mark, "release beyond zero force")
-            self._go_back(run, saved, before, target, resolution if lifted else 0.0)
+            self._go_back(run, saved, target, resolution if lifted else 0.0)
             if not lifted:
                 self.size, self.before = (target - value) * self.force / (self.force - force), None
             return
@@ -155,12 +159,32 @@ class Releasing:
             how = "contact has lifted off" if lifted else "the force is zero" if zero else "the way back is complete"
             run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
 
-    def _go_back(self, run: Run, saved: Snapshot, before: Evaluation, target: float, finest: float) -> None:
+    def _go_back(self, run: Run, saved: _Saved, target: float, finest: float) -> None:
         """Restore the state before an increment that went too far; its end is the new bound."""
         self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
-        run.model.restore(saved)
-        run.model.stand(before)
-        run.evaluation, run.last_dx, self.taken = before, None, None
+        saved.restore(run.model)
+        run.evaluation, run.last_dx, self.taken = saved.evaluation, None, None
+
+
+@dataclass(frozen=True)
+class _Saved:
+    """A converged state with its evaluation, and the histories that this had read."""
+
+    snapshot: Snapshot
+    evaluation: Evaluation
+    before: list[tuple[Term, NDArray[np.float64]]]
+
+    @classmethod
+    def of(cls, model: Model, evaluation: Evaluation) -> Self:
+        """That of a model."""
+        return cls(model.snapshot(), evaluation, [(term, term.before) for term in model.terms])
+
+    def restore(self, model: Model) -> None:
+        """Put the model back, so that a checkpoint can repeat the evaluation to the last bit."""
+        model.restore(self.snapshot)
+        model.stand(self.evaluation)
+        for term, before in self.before:
+            term.before = before
 
 
 @contextmanager

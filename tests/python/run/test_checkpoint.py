@@ -24,6 +24,7 @@ from umform.run import Result, resume, solve
 from umform.run.checkpoint import Checkpoints
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
+from umform.solution.recorder import Recorder
 from umform.solvers import pardiso
 from umform.steps import Arc, Move, Release
 from umform.surfaces import Cylinder, Plane
@@ -57,11 +58,7 @@ def bar():
     for face, normal in (("x0", "x"), ("y0", "y"), ("lower", "z")):
         model.symmetry(face, normal=normal)
     pull = model.prescribe("x1", "x", "pull")
-    return (
-        model,
-        [Move(pull, 0.2, steps=5), Release(pull, increment=5e-3), Move(pull, 0.3, steps=3)],
-        {"solver": "banded"},
-    )
+    return model, [Move(pull, 0.2, steps=5), Release(pull, increment=5e-3), Move(pull, 0.3, steps=3)], {}
 
 
 def block():
@@ -225,16 +222,16 @@ def test_a_run_at_its_end_has_nothing_left_to_do(tmp_path, monkeypatch, assert_t
 
 def run_until_killed(path: str, increment: int, writing: bool) -> None:
     """In a process of its own: kill -9 in an increment, or before the checkpoint after it takes its name."""
-    add, record, commit = Result.add, Newton._record, PendingFile.commit
+    add, record, commit = Result.add, Recorder.add, PendingFile.commit
     rows = []
 
     def counted(self, *arguments, **more):
         add(self, *arguments, **more)
         rows.append(len(self))
 
-    def kill_in_the_second_iteration(self, iterations, *arguments):
-        record(self, iterations, *arguments)
-        if not writing and len(rows) > increment and len(iterations) == 2:
+    def kill_in_the_second_iteration(self, *arguments):
+        record(self, *arguments)
+        if not writing and len(rows) > increment and len(self.iterations) == 2:
             os.kill(os.getpid(), signal.SIGKILL)
 
     def kill(self):
@@ -242,7 +239,7 @@ def run_until_killed(path: str, increment: int, writing: bool) -> None:
             os.kill(os.getpid(), signal.SIGKILL)
         commit(self)
 
-    Result.add, Newton._record, PendingFile.commit = counted, kill_in_the_second_iteration, kill
+    Result.add, Recorder.add, PendingFile.commit = counted, kill_in_the_second_iteration, kill
     model, steps, options = bending()
     solve(model, steps, **options, checkpoint=path, every=0)
 
@@ -275,7 +272,7 @@ def rows_in(path):
 @pytest.fixture
 def interrupted(monkeypatch):
     """Let Ctrl-C come, as often as asked, in the first iteration after a number of rows."""
-    record, add, rows, pending = Newton._record, Result.add, [], []
+    record, add, rows, pending = Recorder.add, Result.add, [], []
 
     def counted(self, *arguments, **more):
         add(self, *arguments, **more)
@@ -288,7 +285,7 @@ def interrupted(monkeypatch):
             signal.raise_signal(signal.SIGINT)
 
     monkeypatch.setattr(Result, "add", counted)
-    monkeypatch.setattr(Newton, "_record", interrupt)
+    monkeypatch.setattr(Recorder, "add", interrupt)
     return lambda rows, times: pending.extend([rows] * times)
 
 
