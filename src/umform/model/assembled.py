@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from umform.mesh import Mesh
 from umform.model.assembly import Assembly
 from umform.model.bodies import Embodied
+from umform.model.contact.encounter import sheet_thickness
 from umform.model.loads import Loaded
 from umform.model.supports import Supported
 from umform.model.term import Global, Term
@@ -124,6 +125,11 @@ class Assembled(Supported, Loaded, Touched, Embodied, Whole):
         points = self.ranks.sum(float(sum(body.block.points * len(body.cells) for body in self.bodies)))
         cells = self.ranks.sum(float(sum(len(body.cells) for body in self.bodies)))
         return float(points / max(cells, 1.0) / 20 * size * size / fibres)
+
+    @cached_property
+    def thickness(self) -> float:
+        """Thickness of the undeformed sheet."""
+        return self.ranks.max(sheet_thickness(self.mesh) if len(self.mesh.connectivity) else 0.0)
 
     @cached_property
     def extent(self) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
@@ -21,7 +21,9 @@ log = logging.getLogger("umform.contact")
 _SOFTER = (3, 6)
 
 
-def softened(model: Model, newton: Newton, start: NDArray[np.float64] | None) -> Converged:
+def softened(
+    model: Model, newton: Newton, start: NDArray[np.float64] | None, accept: Callable[[Converged], Converged]
+) -> Converged:
     """Find the equilibrium with a part of the penalty, and stiffen it tenfold at a time. docs/theory, 4.14
 
     Parameters
@@ -32,6 +34,8 @@ def softened(model: Model, newton: Newton, start: NDArray[np.float64] | None) ->
         Method.
     start : ndarray, shape (3 n,), optional
         Guess of the increment; without it that of the tangent.
+    accept : callable
+        Returns an equilibrium, or raises Failed: while a tool is soft the sheet may go through it.
 
     Returns
     -------
@@ -41,25 +45,14 @@ def softened(model: Model, newton: Newton, start: NDArray[np.float64] | None) ->
     Raises
     ------
     Failed
-        If no softer penalty leads to the equilibrium, or the sheet went through a tool on the way; the model is
-        reverted, with its penalties.
+        If no softer penalty leads to the equilibrium; the model is reverted, with its penalties.
     """
     soft, softest = _SOFTER
     try:
-        return _same_side(model, _stiffened(model, newton, start, soft))
+        return accept(_stiffened(model, newton, start, soft))
     except Failed:
         model.prepare()
-        return _same_side(model, _stiffened(model, newton, start, softest))
-
-
-def _same_side(model: Model, converged: Converged) -> Converged:
-    """Refuse an equilibrium for which the sheet went through a tool while that was soft: normals have turned round."""
-    found = converged.evaluation.found
-    pairs = [(contact.found.normal, found[contact].normal) for contact in model.contacts]
-    if model.ranks.any(any((np.einsum("qk,qk->q", before, now) < 0.0).any() for before, now in pairs)):
-        model.revert()
-        raise Failed("with a softer penalty the sheet goes through a tool", converged.iterations)
-    return converged
+        return accept(_stiffened(model, newton, start, softest))
 
 
 def _stiffened(model: Model, newton: Newton, start: NDArray[np.float64] | None, powers: int) -> Converged:

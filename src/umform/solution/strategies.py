@@ -12,10 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.model import Model
+from umform.model import Evaluation, Model
 from umform.model.control import Control
 from umform.solution.habits import Habits
 from umform.solution.newton import Newton
+from umform.solution.passage import same_side
 from umform.solution.records import Cause, Converged, Failed
 from umform.solution.softening import softened
 
@@ -36,8 +37,8 @@ class Increment:
         Time there.
     guess : ndarray, shape (3 n + k,), optional
         The last increment, extrapolated.
-    touched : bool
-        Whether a tool held the sheet at the converged state.
+    last : Evaluation
+        That of the converged state.
     """
 
     model: Model
@@ -46,7 +47,11 @@ class Increment:
     before: Mapping[Control, float]
     time: float
     guess: Floats | None
-    touched: bool
+    last: Evaluation
+
+    def accept(self, converged: Converged) -> Converged:
+        """The equilibrium, if the sheet did not go through a tool."""
+        return same_side(self.model, self.last, converged)
 
     @property
     def wary(self) -> bool:
@@ -127,7 +132,7 @@ STRATEGIES = (
     Strategy(
         "softer penalties",
         lambda at: at.touches,
-        lambda at: softened(at.model, at.newton, at.tangent()),
+        lambda at: softened(at.model, at.newton, at.tangent(), at.accept),
     ),
 )
 
@@ -141,15 +146,16 @@ def equilibrium(increment: Increment) -> Converged:
         If none does; the model is reverted. It is the failure with the penalty of the user, of the last start.
     """
     attempts, failures = increment.newton.timing.attempts, []
+    touched = increment.last.touching(increment.model.ranks)
     for strategy in STRATEGIES:
         if not strategy.serves(increment):
             continue
         try:
             with attempts.trying(strategy.name):
-                converged = strategy.attempt(increment)
+                converged = increment.accept(strategy.attempt(increment))
         except Failed as failure:
             failures.append((strategy.name, failure))
-            attempts.causes[_cause(strategy.name, failure, increment.touched)] += 1
+            attempts.causes[_cause(strategy.name, failure, touched)] += 1
         else:
             increment.habits.learn(
                 failed=[name for name, _ in failures],
@@ -168,6 +174,8 @@ def _cause(strategy: str, failure: Failed, touched: bool) -> str:
     entered = any(record.entered for record in failure.iterations)
     if failure.cause is Cause.CYCLE:
         return "cycle of contact"
+    if failure.cause is Cause.PASSAGE:
+        return str(failure.cause)
     if not touched and entered:
         return "first touch"
     if failure.cause is Cause.SINGULAR and touched:

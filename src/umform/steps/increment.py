@@ -31,9 +31,7 @@ def take_increment(
     try:
         starts = dict(zip(controls, before, strict=True))
         guess = None if extrapolation is None or run.last_dx is None else extrapolation * run.last_dx
-        increment = Increment(
-            model, run.newton, run.habits, starts, time_before, guess, run.evaluation.touching(model.ranks)
-        )
+        increment = Increment(model, run.newton, run.habits, starts, time_before, guess, run.evaluation)
         converged = equilibrium(increment)
         try:
             with _counted(run):

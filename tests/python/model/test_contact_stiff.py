@@ -146,7 +146,7 @@ def test_softer_penalties_lead_to_the_equilibrium_of_the_penalty_itself():
     model, ram = three_points(1e5, 10)
     ram.value = 1.0
     model.stand(model.evaluate(model.u))
-    converged = softened(model, Newton(model), None)
+    converged = softened(model, Newton(model), None, lambda found: found)
     assert model.contacts[0].penalty == 1e5
     model.commit(converged.evaluation)
     again, other = three_points(1e5, 10)
@@ -159,7 +159,7 @@ def test_penalties_are_those_of_before_when_softer_ones_lead_nowhere():
     ram.value = 1.0
     model.stand(model.evaluate(model.u))
     with pytest.raises(Failed):
-        softened(model, Newton(model, NewtonOptions(max_iterations=1)), None)
+        softened(model, Newton(model, NewtonOptions(max_iterations=1)), None, lambda found: found)
     assert model.contacts[0].penalty == 1e5
 
 

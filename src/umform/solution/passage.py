@@ -1,0 +1,50 @@
+"""Refuse an equilibrium for which the sheet went through a tool."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model import Evaluation, Model
+from umform.model.contact.found import ContactFound
+from umform.solution.records import Cause, Converged, Failed
+
+#: Farther than this part of the thickness of the sheet a point does not slide over a sharp edge in one increment.
+_OVER_AN_EDGE = 0.5
+
+
+def same_side(model: Model, last: Evaluation, converged: Converged) -> Converged:
+    """The equilibrium, if no contact point has gone through a tool. docs/theory, 4.15
+
+    A point has gone through if its normal has turned round while it moved as far as its distances from the tool before
+    and after, or farther, and farther than half the thickness of the sheet.
+
+    Parameters
+    ----------
+    model : Model
+        At ``converged``, not yet committed.
+    last : Evaluation
+        Of the last converged state.
+    converged : Converged
+        The increment.
+
+    Raises
+    ------
+    Failed
+        If one has; the model is reverted.
+    """
+    found, least = converged.evaluation.found, _OVER_AN_EDGE * model.thickness
+    if model.ranks.any(any(_through(last.found[contact], found[contact], least) for contact in model.contacts)):
+        model.revert()
+        raise Failed("the sheet goes through a tool", converged.iterations, Cause.PASSAGE)
+    return converged
+
+
+def _through(before: ContactFound, now: ContactFound, least: float) -> bool:
+    """Whether a point has gone through."""
+    turned: NDArray[np.bool_] = np.einsum("qk,qk->q", before.normal, now.normal) < 0.0
+    if not turned.any():
+        return False
+    moved = np.linalg.norm(now.x - before.x, axis=1)
+    apart = np.maximum(before.gap, 0.0) + np.maximum(now.gap, 0.0)
+    return bool((turned & (moved >= apart) & (moved > least)).any())
