@@ -42,8 +42,7 @@ def air_bend() -> tuple[Any, Any, float, int]:
     """The air bending of the defaults, to a stroke of 6."""
     case = replace(AirBending(), stroke=6.0)
     model, punch = brake.build(case)
-    step = brake.loading(case, punch, case.stroke)
-    return model, punch, float(step.targets()[0]), int(step.steps)
+    return model, punch, case.stroke, brake.increments(case, case.stroke)
 
 
 def pressed_sheet() -> tuple[Any, Any, float, int]:

@@ -119,17 +119,17 @@ void bind_blocks(nb::module_& m) {
             nb::arg("numbers"), nb::sig("def set_numbers(self, numbers: NDArray[int32]) -> None"),
             "Numbers of the cells for messages, where they are a part of a larger mesh.")
         .def(
-            "recover", [](ShellBlock& b, const Input& du, bool mixed) { b.recover(nodal(b, du), mixed); }, nb::arg("du"),
-            nb::arg("mixed") = false, nb::sig("def recover(self, du: NDArray[float64], mixed: bool = False) -> None"),
+            "recover", [](ShellBlock& b, const Input& du, bool mixed) { b.recover(nodal(b, du), mixed); },
+            nb::arg("du"), nb::arg("mixed") = false,
+            nb::sig("def recover(self, du: NDArray[float64], mixed: bool = False) -> None"),
             "Update the enhanced parameters after u += du; mixed: the geometric stiffness is of the foreseen stress.")
         .def_prop_ro(
             "keeps_blocks", &ShellBlock::keeps_blocks,
             "Whether enhanced parameters can be recovered from the converged state without an evaluation there.")
         .def("follow", &ShellBlock::follow,
              "After an evaluation of forces alone: the next recover takes its residual, with the tangent of before.")
-        .def(
-            "shorten", &ShellBlock::shorten, nb::arg("part"),
-            "Shorten what the last recover has changed to a part of it.")
+        .def("shorten", &ShellBlock::shorten, nb::arg("part"),
+             "Shorten what the last recover has changed to a part of it.")
         .def("commit", &ShellBlock::commit, "Make the trial history the converged one.")
         .def("revert", &ShellBlock::revert, "Go back to the converged history.")
         .def_prop_ro(

@@ -71,8 +71,10 @@ void bind_multifrontal(nb::module_& m) {
             functions.gemv_ = take<Blas::Gemv>(api, "dgemv");
             functions.trsm_ = take<Blas::Trsm>(api, "dtrsm");
             functions.trsv_ = take<Blas::Trsv>(api, "dtrsv");
-            functions.set_threads = reinterpret_cast<Blas::SetThreads>(set_threads);
-            functions.get_threads = reinterpret_cast<Blas::GetThreads>(get_threads);
+            functions.set_threads =
+                reinterpret_cast<Blas::SetThreads>(set_threads);  // NOLINT(performance-no-int-to-ptr)
+            functions.get_threads =
+                reinterpret_cast<Blas::GetThreads>(get_threads);  // NOLINT(performance-no-int-to-ptr)
         },
         nb::arg("api"), nb::arg("set_threads"), nb::arg("get_threads"),
         nb::sig("def set_blas(api: dict[str, object], set_threads: int, get_threads: int) -> None"),
