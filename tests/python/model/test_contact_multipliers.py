@@ -148,6 +148,10 @@ def test_an_increment_whose_passes_fail_is_taken_as_the_penalty_has_it(monkeypat
     np.testing.assert_allclose(held.force, plain.force, rtol=1e-7)
     assert (held.model.contacts[0].multipliers == 0.0).all()
     assert "exceeds the 0.005 allowed" in held.result.warnings[0]
+    # The equilibrium is taken up where it was, not sought from the beginning again.
+    attempts, alone = held.result.timing.attempts, plain.result.timing.attempts
+    assert attempts.causes == {}
+    assert attempts.evaluations < 2 * alone.evaluations
 
 
 def test_an_arc_refuses_multipliers():

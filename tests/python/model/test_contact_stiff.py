@@ -20,7 +20,7 @@ from umform.solution.softening import softened
 from umform.steps import Move, Release
 from umform.surfaces import Cylinder, Plane
 from umform_book.contact.strip_on_cylinder import flat_strip
-from umform_book.variants import Variant
+from umform_book.variants import Variant, with_tying
 
 ELASTIC = mt.SVK(E=1e5, nu=0.0)
 
@@ -229,3 +229,15 @@ def test_a_sheet_does_not_go_through_a_tool_while_the_penalty_is_soft():
     result = solve(model, Move(load, lambda fraction: 6.0 * fraction**2, steps=40), progress=False)
     assert (result["tool_fz"][1:] < 0.0).all()
     assert result["tool_fz"][-1] < -1.0
+
+
+@pytest.mark.parametrize("intervals", [30, 60])
+def test_a_sheet_does_not_go_through_a_tool_at_its_nodes(intervals):
+    """The same edge, held at nodes: without a look at the sides of the tool the strip falls through at once."""
+    model, _, load = flat_strip(with_tying("ANS3DEAS"), intervals, (-15.0, 45.0), 500.0, "nodes", radius=4.0)
+    model.fix("x0", "z")
+    model.prescribe("x0", "x", "pull")
+    result = solve(model, Move(load, lambda fraction: 6.0 * fraction**2, steps=40), frames=0, progress=False)
+    assert (result["tool_fz"][1:] < 0.0).all()
+    assert result["tool_fz"][-1] == pytest.approx(-6.0, rel=0.03)
+    assert result.timing.attempts.causes["sheet through a tool"] >= 1

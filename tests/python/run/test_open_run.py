@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -71,3 +73,14 @@ def test_what_ends_a_step_has_what_was_reached():
         run.take(uf.Move(punch, to=lambda fraction: -0.2 - 1e6 * fraction, steps=1, cuts=0))
     assert ended.value.result is run.result
     assert len(run.result) == 3
+
+
+def test_what_was_learnt_on_a_branch_is_forgotten_on_the_way_back():
+    model, punch = strip()
+    run = OpenRun(model)
+    run.take(uf.Move(punch, to=-0.4, steps=4))
+    mark, habits = run.mark(), replace(run._run.habits)
+    run._run.habits.learn(failed=["extrapolation"], won="tangent", negative_pivots=1)
+    assert run._run.habits != habits
+    run.go_back(mark)
+    assert run._run.habits == habits
