@@ -1,4 +1,4 @@
-"""Shorten an increment of Newton's method that goes too far. docs/theory, 5.4
+"""Shorten an increment of Newton's method that goes too far. eq. (5.12)
 
 It costs nothing where the full increment will do: the residual there is wanted anyway, and the slope along the
 increment is a product of two vectors. A shorter one costs an evaluation; enhanced parameters are shortened with the

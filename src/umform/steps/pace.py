@@ -1,4 +1,4 @@
-"""How far an increment may go where its size follows from what happens in it. docs/theory, 5.5"""
+"""How far an increment may go where its size follows from what happens in it. eq. (5.49)"""
 
 from __future__ import annotations
 
