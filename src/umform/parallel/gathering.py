@@ -142,7 +142,7 @@ class Gathering:
         model["terms"] = {key: state for key, state in terms.items() if key not in self.rows}
         model["rows"] = {key: list(state) for key, state in terms.items() if key in self.rows}
         result = {key: value for key, value in tree["result"].items() if key != "frames"}
-        small = {key: tree[key] for key in ("fingerprint", "note", "number", "factors", "loop")}
+        small = {key: tree[key] for key in ("fingerprint", "note", "number", "factors", "loop", "habits")}
         last = tree["last_dx"]
         scalars = None if last is None else last[tree["model"]["u"].size :]
         return {**small, "model": model, "before": list(tree["before"]), "last_dx": scalars, "result": result}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -80,7 +81,8 @@ class PointFields:
     def cell_average(self, values: Floats) -> Floats:
         """Average over the volume of each cell of values (cells, points, ...)."""
         weight = self.volume / self.volume.sum(axis=1, keepdims=True)
-        average: Floats = (weight[:, None] @ values.reshape(*weight.shape, -1))[:, 0]
+        each = math.prod(values.shape[2:])  # a rank may have no cells of a body
+        average: Floats = (weight[:, None] @ values.reshape(*weight.shape, each))[:, 0]
         return average.reshape(len(weight), *values.shape[2:])
 
 
