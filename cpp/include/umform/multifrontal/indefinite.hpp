@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bunch_kaufman.hpp"
+#include "by_halves.hpp"
 #include "cholesky.hpp"
 
 namespace umform {
@@ -20,7 +21,9 @@ namespace umform {
 /// (J. Hogg, E. Ovtchinnikov & J. Scott, A sparse symmetric indefinite direct solver for GPU architectures, ACM TOMS 42
 /// (2016) 1-25). What fails is put behind, and tried once more with a search of all rows, column by column (I. S. Duff &
 /// J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM TOMS 9 (1983) 302-325).
-class Indefinite {
+class Indefinite : ByHalves<Indefinite> {
+    friend ByHalves<Indefinite>;
+
   public:
     static constexpr double tolerance = 0.01;
 
@@ -50,29 +53,6 @@ class Indefinite {
     std::vector<double> scaled_, kept_;
 
     double* at(int i, int j) { return a_ + i + static_cast<std::ptrdiff_t>(j) * rows_; }
-
-    /// Eliminates columns from `begin` on, of so many; those that fail are at the end. Returns the number of those that do not.
-    int eliminate(int begin, int count) {
-        if (count <= panel_width) return eliminate_few(begin, count);
-        const int left = (count / 2 + 15) / 16 * 16, end = begin + count;
-        const int first = eliminate(begin, left), failed = left - first;
-        update(begin, first, begin + left, end);
-        for (int k = 0; k < failed; ++k) exchange(begin + first + k, end - 1 - k);
-        const int second = eliminate(begin + first, count - left);
-        if (failed > 0) update(begin + first, second, end - failed, end);
-        return first + second;
-    }
-
-    int eliminate_few(int begin, int count) {
-        int done = 0;
-        for (int end = begin + count; begin + done < end;) {
-            const int now = try_block(begin + done, end - begin - done);
-            update(begin + done, now, end, begin + count);
-            done += now;
-            if (begin + done < end) exchange(begin + done, --end);
-        }
-        return done;
-    }
 
     /// Eliminates a block up to the first column that fails; returns how many.
     int try_block(int begin, int count) {

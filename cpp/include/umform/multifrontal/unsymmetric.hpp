@@ -9,13 +9,16 @@
 #include <vector>
 
 #include "blas.hpp"
+#include "by_halves.hpp"
 #include "panel_solve.hpp"
 
 namespace umform {
 
 /// Rows and columns of a front that are eliminated as far as stable pivots are found; see `Indefinite`. Of the columns of a
 /// block the pivot is on the diagonal if no entry there is ten times larger, else that entry. L has ones on its diagonal.
-class Unsymmetric {
+class Unsymmetric : ByHalves<Unsymmetric> {
+    friend ByHalves<Unsymmetric>;
+
   public:
     static constexpr double tolerance = 0.01;  // of an entry beside all of its column
     static constexpr double diagonal = 0.1;    // of that on the diagonal beside those that may take its place
@@ -46,28 +49,6 @@ class Unsymmetric {
 
     double* at(int i, int j) { return a_ + i + static_cast<std::ptrdiff_t>(j) * rows_; }
     double* row_beyond(int i) { return b_ + static_cast<std::ptrdiff_t>(i) * beyond_; }
-
-    int eliminate(int begin, int count) {
-        if (count <= panel_width) return eliminate_few(begin, count);
-        const int left = (count / 2 + 15) / 16 * 16, end = begin + count;
-        const int first = eliminate(begin, left), failed = left - first;
-        update(begin, first, begin + left, end);
-        for (int k = 0; k < failed; ++k) exchange(begin + first + k, end - 1 - k);
-        const int second = eliminate(begin + first, count - left);
-        if (failed > 0) update(begin + first, second, end - failed, end);
-        return first + second;
-    }
-
-    int eliminate_few(int begin, int count) {
-        int done = 0;
-        for (int end = begin + count; begin + done < end;) {
-            const int now = try_block(begin + done, end - begin - done);
-            update(begin + done, now, end, begin + count);
-            done += now;
-            if (begin + done < end) exchange(begin + done, --end);
-        }
-        return done;
-    }
 
     /// Eliminates a block up to the first column that fails; returns how many.
     int try_block(int begin, int count) {
