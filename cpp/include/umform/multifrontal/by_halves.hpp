@@ -1,7 +1,7 @@
 // The recursion of factors whose columns may fail: halves, so that most of the work is in products of large blocks.
 #pragma once
 
-#include "cholesky.hpp"
+#include "panel_solve.hpp"
 
 namespace umform {
 
