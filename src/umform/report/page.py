@@ -74,7 +74,7 @@ def _parts(result: History, live: Live, deck: str) -> Iterator[str]:
         yield parts.heading("Deck")
         yield parts.folded("The input of this run", deck)
     yield parts.heading("Where the time went")
-    yield _time(result)
+    yield time_spent(result)
     yield parts.heading("Versions")
     yield parts.pairs(versions())
 
@@ -87,8 +87,8 @@ def _end_values(result: History) -> str:
     return parts.table(header, [[name, *(f"{row[name] + 0.0:.6g}" for row in ends.values())] for name in columns])
 
 
-def _time(result: History) -> str:
-    """Seconds, shares and calls of the parts of the run."""
+def time_spent(result: History) -> str:
+    """Seconds, shares and calls of the parts of the run; its attempts."""
     rows = [
         [name, f"{seconds:.2f}", f"{100 * share:.1f}", "" if calls is None else str(calls)]
         for name, seconds, share, calls in result.timing.rows()

@@ -17,7 +17,7 @@ from umform.processes.air_bending.words import summary, summary_header, table_he
 from umform.report import parts
 from umform.report.live import Live, style
 from umform.report.materials import material_text
-from umform.report.page import settings
+from umform.report.page import settings, time_spent
 from umform.report.repeats import counted
 from umform.report.versions import versions
 
@@ -107,6 +107,8 @@ def _parts(
     if deck:
         yield parts.heading("Deck")
         yield parts.folded("The input of this bend, for umform run", deck)
+    yield parts.heading("Where the time went")
+    yield time_spent(bend.result)
     yield parts.heading("Versions")
     yield parts.pairs(versions())
 
