@@ -16,6 +16,7 @@ from dome import build as dome
 from umform.attempts import Attempts
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.search import find_stroke
+from umform.processes.bending.case import build as build_bending
 from umform.processes.bending.case import free_bending
 from umform.processes.bending.parameters import FreeBending
 from umform.processes.bending.showcase import Selection
@@ -39,6 +40,13 @@ def demo() -> None:
         free_bending(case, frames=0, progress=False)
 
 
+def demo_at_a_pace() -> None:
+    """The first run of the demo with its release, in perfect plasticity, in increments at a pace."""
+    case = FreeBending()
+    model, punch = build_bending(case)
+    uf.solve(model, [uf.Move(punch, to=-case.stroke), uf.Release(punch)], frames=0, progress=False)
+
+
 def contact_chapter() -> None:
     """The chapter of the verification book about contact, on its short meshes."""
     chapter = next(chapter for chapter in chapters() if chapter.title == "Contact")
@@ -56,6 +64,7 @@ WORKLOADS: dict[str, Callable[[], object]] = {
     "dome, 2 500 elements, at a pace": domes(50, None),
     "dome, 10 000 elements, 10 increments": domes(100, 10),
     "demo, 14 runs of 300 increments": demo,
+    "one run of the demo at a pace": demo_at_a_pace,
     "stroke for 90 degrees in air bending": lambda: find_stroke(AirBending(), 90.0, progress=False),
     "chapter of contact in the book": contact_chapter,
 }
