@@ -1,10 +1,14 @@
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/function.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
 #include "evaluate.hpp"
 #include "umform/contact/block.hpp"
+#include "umform/contact/coulomb.hpp"
 #include "umform/contact/penalty.hpp"
 
 using namespace umform;
@@ -48,7 +52,16 @@ void bind_found(nb::module_& m) {
         m, "ContactFound", "What an evaluation of a contact came across: a copy that later evaluations do not change.")
         .def_prop_ro(
             "active", [](const ContactFound& f) { return view(f.active); }, inside,
-            nb::sig("def active(self) -> NDArray[uint8]"), "For each contact point 1 where the tool holds it, else 0.")
+            nb::sig("def active(self) -> NDArray[uint8]"),
+            "For each contact point 1 where the tool holds it, 2 where it slips as well, else 0.")
+        .def_prop_ro(
+            "elastic_slip", [](const ContactFound& f) { return view(f.elastic_slip); }, inside,
+            nb::sig("def elastic_slip(self) -> NDArray[float64]"), "Elastic slips (held,), zero without friction.")
+        .def_prop_ro(
+            "slip", [](const ContactFound& f) { return view(f.slip); }, inside,
+            nb::sig("def slip(self) -> NDArray[float64]"), "Distances slid so far (held,).")
+        .def_ro("stored", &ContactFound::stored, "Energy of the elastic slip.")
+        .def_ro("friction_work", &ContactFound::friction_work, "Work of friction so far, at all points.")
         .def_prop_ro(
             "points", [](const ContactFound& f) { return view(f.points); }, inside,
             nb::sig("def points(self) -> NDArray[int32]"),
@@ -80,6 +93,45 @@ void bind_found(nb::module_& m) {
                 "Square of what a relative error 1 of all positions makes of the residual.");
 }
 
+void bind_friction(nb::module_& m) {
+    nb::class_<FrictionLaw>(m, "FrictionLaw", "The largest tangential traction that a tool can bear.")
+        .def(
+            "bound",
+            [](const FrictionLaw& law, double pressure, double slip, const Vec3& z) {
+                const Bound bound = law.bound(pressure, slip, z);
+                return std::make_tuple(bound.value, bound.by_pressure, bound.by_slip);
+            },
+            nb::arg("pressure"), nb::arg("slip") = 0.0, nb::arg("z") = Vec3{},
+            "Largest traction at a pressure, a distance slid and a place in the frame of the tool, and its derivatives with respect to pressure and slip.");
+    m.def(
+        "coulomb_friction",
+        [](std::vector<double> pressure, std::vector<double> mu, double kinetic, double decay,
+           double cap) -> std::shared_ptr<FrictionLaw> {
+            auto law = std::make_shared<CoulombFriction>();
+            law->pressure = std::move(pressure), law->mu = std::move(mu);
+            law->kinetic = kinetic, law->decay = decay, law->cap = cap;
+            return law;
+        },
+        nb::arg("pressure"), nb::arg("mu"), nb::arg("kinetic"), nb::arg("decay"), nb::arg("cap"),
+        "min(mu p, cap), with mu from a table over the pressure, that falls to its kinetic part by exp(-slip/decay) if decay > 0.");
+    m.def(
+        "friction_by_region",
+        [](const std::vector<std::tuple<Vec3, Vec3, std::shared_ptr<FrictionLaw>>>& regions,
+           std::shared_ptr<FrictionLaw> elsewhere) -> std::shared_ptr<FrictionLaw> {
+            auto law = std::make_shared<FrictionByRegion>();
+            for (const auto& [lower, upper, inside] : regions) law->regions.push_back({lower, upper, inside});
+            law->elsewhere = std::move(elsewhere);
+            return law;
+        },
+        nb::arg("regions"), nb::arg("elsewhere"), "Other laws within boxes in the frame of the tool.");
+    m.def(
+        "friction_from_function",
+        [](FrictionFunction::Function function) -> std::shared_ptr<FrictionLaw> {
+            return std::make_shared<FrictionFunction>(std::move(function));
+        },
+        nb::arg("function"), "The bound from a function of pressure, slip and place.");
+}
+
 void bind_law(nb::module_& m) {
     nb::class_<ContactLaw>(m, "ContactLaw", "Traction at a place of a face from its gap, and what it remembers.")
         .def_prop_rw("penalty", &ContactLaw::penalty, &ContactLaw::set_penalty, "Pressure per penetration.")
@@ -92,6 +144,14 @@ void bind_law(nb::module_& m) {
                 return sizes;
             },
             nb::sig("def quantities(self) -> dict[str, int]"), "Names and sizes of what a place remembers.");
+    bind_friction(m);
+    m.def(
+        "coulomb_law",
+        [](double penalty, double ratio, std::shared_ptr<FrictionLaw> friction) -> std::shared_ptr<ContactLaw> {
+            return std::make_shared<ContactLawOf<Coulomb>>(Coulomb{penalty, ratio, std::move(friction)});
+        },
+        nb::arg("penalty"), nb::arg("ratio"), nb::arg("friction"),
+        "Contact with friction: a penalty and multipliers in both directions; ratio is the tangential over the normal stiffness.");
     m.def(
         "penalty_law",
         [](double penalty) -> std::shared_ptr<ContactLaw> {
@@ -170,6 +230,11 @@ void bind_history(nb::class_<ContactBlock>& contact) {
             },
             nb::sig("def state(self) -> NDArray[float64]"),
             "Converged history (points, size) in the order of the quantities of the law.")
+        .def(
+            "begin", &ContactBlock::begin,
+            "Take the places where the points are now as those of a sheet that was never held; nothing once there is a history.")
+        .def("augment", &ContactBlock::augment,
+             "Let multipliers carry the tractions along the tool of the last evaluation.")
         .def("commit", &ContactBlock::commit, "Make the trial history the converged one.")
         .def("revert", &ContactBlock::revert, "Go back to the converged history.")
         .def(

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from umform.mesh import Mesh
     from umform.model import Body, Model
     from umform.model.axes import cylindrical, turned
+    from umform.model.contact.friction import Friction, FrictionByRegion, Region
     from umform.results import fields
     from umform.run import Result, resume, solve
     from umform.run.stages import Stage, solve_stages
@@ -75,6 +76,7 @@ _HOME = {
     "umform.mesh": ("Mesh",),
     "umform.model": ("Body", "Model"),
     "umform.model.axes": ("cylindrical", "turned"),
+    "umform.model.contact.friction": ("Friction", "FrictionByRegion", "Region"),
     "umform.run": ("Result", "resume", "solve"),
     "umform.run.stages": ("Stage", "solve_stages"),
     "umform.solution.options": ("NewtonOptions",),
@@ -117,6 +119,8 @@ __all__ = [
     "Element",
     "Extruded",
     "Free",
+    "Friction",
+    "FrictionByRegion",
     "Linear",
     "LinearVoce",
     "Mesh",
@@ -130,6 +134,7 @@ __all__ = [
     "Plane",
     "Profile",
     "Punch",
+    "Region",
     "Release",
     "Result",
     "Revolved",

@@ -2,7 +2,7 @@
 Kernels of umform: elements, materials, surfaces, contact, sparse patterns.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 import enum
 from typing import Final
 
@@ -422,7 +422,25 @@ class ContactFound:
 
     @property
     def active(self) -> NDArray[uint8]:
-        """For each contact point 1 where the tool holds it, else 0."""
+        """
+        For each contact point 1 where the tool holds it, 2 where it slips as well, else 0.
+        """
+
+    @property
+    def elastic_slip(self) -> NDArray[float64]:
+        """Elastic slips (held,), zero without friction."""
+
+    @property
+    def slip(self) -> NDArray[float64]:
+        """Distances slid so far (held,)."""
+
+    @property
+    def stored(self) -> float:
+        """Energy of the elastic slip."""
+
+    @property
+    def friction_work(self) -> float:
+        """Work of friction so far, at all points."""
 
     @property
     def points(self) -> NDArray[int32]:
@@ -485,6 +503,30 @@ class ContactLaw:
     @property
     def quantities(self) -> dict[str, int]:
         """Names and sizes of what a place remembers."""
+
+class FrictionLaw:
+    """The largest tangential traction that a tool can bear."""
+
+    def bound(self, pressure: float, slip: float = 0.0, z: Sequence[float] = [0.0, 0.0, 0.0]) -> tuple[float, float, float]:
+        """
+        Largest traction at a pressure, a distance slid and a place in the frame of the tool, and its derivatives with respect to pressure and slip.
+        """
+
+def coulomb_friction(pressure: Sequence[float], mu: Sequence[float], kinetic: float, decay: float, cap: float) -> FrictionLaw:
+    """
+    min(mu p, cap), with mu from a table over the pressure, that falls to its kinetic part by exp(-slip/decay) if decay > 0.
+    """
+
+def friction_by_region(regions: Sequence[tuple[Sequence[float], Sequence[float], FrictionLaw]], elsewhere: FrictionLaw) -> FrictionLaw:
+    """Other laws within boxes in the frame of the tool."""
+
+def friction_from_function(function: Callable[[float, float, Sequence[float]], float]) -> FrictionLaw:
+    """The bound from a function of pressure, slip and place."""
+
+def coulomb_law(penalty: float, ratio: float, friction: FrictionLaw) -> ContactLaw:
+    """
+    Contact with friction: a penalty and multipliers in both directions; ratio is the tangential over the normal stiffness.
+    """
 
 def penalty_law(penalty: float) -> ContactLaw:
     """
@@ -601,6 +643,16 @@ class ContactBlock:
     def state(self) -> NDArray[float64]:
         """
         Converged history (points, size) in the order of the quantities of the law.
+        """
+
+    def begin(self) -> None:
+        """
+        Take the places where the points are now as those of a sheet that was never held; nothing once there is a history.
+        """
+
+    def augment(self) -> None:
+        """
+        Let multipliers carry the tractions along the tool of the last evaluation.
         """
 
     def commit(self) -> None:

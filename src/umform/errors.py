@@ -72,6 +72,12 @@ class InvalidPenalty(InvalidValue):
     id = "contact.penalty"
 
 
+class InvalidFriction(InvalidValue):
+    """A law of friction that makes no sense."""
+
+    id = "contact.friction"
+
+
 class HardeningNotMonotone(InvalidValue):
     """A hardening table whose strain or stress does not increase."""
 

@@ -11,7 +11,16 @@ from umform.model.control import Control
 from umform.model.term import Term
 
 #: Columns of every history.
-COLUMNS = ("step", "time", "iterations", "external_work", "elastic_energy", "plastic_work", "contact_energy")
+COLUMNS = (
+    "step",
+    "time",
+    "iterations",
+    "external_work",
+    "elastic_energy",
+    "plastic_work",
+    "contact_energy",
+    "friction_work",
+)
 _C = TypeVar("_C", bound=Control)
 _T = TypeVar("_T")
 

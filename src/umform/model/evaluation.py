@@ -73,10 +73,15 @@ class Evaluation:
         return self.x[: self.x.size - len(self.border.unknowns)]
 
     @cached_property
+    def status(self) -> NDArray[np.uint8]:
+        """0 for each contact point that is open, 1 if a tool holds it, 2 if it slips as well; over all contacts."""
+        joined: NDArray[np.uint8] = _joined([found.status for found in self.found.values()], np.dtype(np.uint8))
+        return joined
+
+    @cached_property
     def active(self) -> NDArray[np.bool_]:
         """Which contact points tools hold, over all contacts."""
-        joined: NDArray[np.bool_] = _joined([found.active for found in self.found.values()], np.dtype(bool))
-        return joined
+        return self.status > 0
 
     @cached_property
     def flowing(self) -> NDArray[np.uint8]:

@@ -33,6 +33,12 @@ class Standing(Evaluated):
         for contact in self.contacts:
             contact.stand(evaluation.found[contact])
 
+    def begin(self, evaluation: Evaluation) -> None:
+        """Stand at the evaluation that was just made: friction slides from there where it has no history yet."""
+        self.stand(evaluation)
+        for contact in self.contacts:
+            contact.begin()
+
     def repeat(self, before: Mapping[str, Floats]) -> Evaluation:
         """Repeat the evaluation of the converged state, from the histories that it had read.
 

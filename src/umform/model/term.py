@@ -51,9 +51,14 @@ class Found:
     failure: str = ""
 
     @property
+    def status(self) -> NDArray[np.uint8]:
+        """For each contact point 0 if it is open, 1 if a tool holds it, 2 if it slips as well; empty for most terms."""
+        return np.zeros(0, dtype=np.uint8)
+
+    @property
     def active(self) -> NDArray[np.bool_]:
         """Which points are in contact; empty for most terms."""
-        return np.zeros(0, dtype=bool)
+        return self.status > 0
 
     @property
     def flowing(self) -> NDArray[np.uint8]:
@@ -73,16 +78,19 @@ class Energies:
         Work of the yield stress on the plastic strains so far: heat, and what hardening keeps. NaN if not known.
     contact : float
         Held by penalty and multipliers of all contacts.
+    friction : float
+        Work of friction so far.
     """
 
     elastic: float = 0.0
     plastic: float = 0.0
     contact: float = 0.0
+    friction: float = 0.0
 
     @property
     def total(self) -> float:
         """Their sum."""
-        return self.elastic + self.plastic + self.contact
+        return self.elastic + self.plastic + self.contact + self.friction
 
 
 class Term(Frozen):

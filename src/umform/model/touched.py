@@ -13,6 +13,7 @@ from umform.materials import Material
 from umform.mesh import Mesh, Selector
 from umform.model import forces
 from umform.model.body import Body
+from umform.model.contact.friction import AnyFriction
 from umform.model.contact.pair import Contact
 from umform.model.contact.settings import contact_settings
 from umform.model.controls import Controlled
@@ -66,6 +67,8 @@ class Touched(Controlled):
         penetration: float | None = None,
         points: int | str = 2,
         augmented: bool = False,
+        friction: AnyFriction | None = None,
+        slip: float | None = None,
         name: str = "",
     ) -> Contact:
         """Let faces touch a rigid tool.
@@ -88,12 +91,18 @@ class Touched(Controlled):
         augmented : bool
             Take what penetrates further than allowed back, by multipliers; penalty and penetration may then both be
             given. It costs a few iterations more in each increment.
+        friction : float, Friction, FrictionByRegion or callable, optional
+            Coefficient of friction or a law of it, see :class:`umform.Friction`; a function (pressure, distance slid,
+            place in the frame of the tool) -> largest tangential traction. Default: none.
+        slip : float, optional
+            Elastic slip that is allowed: by so much a place that sticks may move before it slips where the pressure is
+            the one that is expected; default 1/200 of the thickness of the sheet. Multipliers take it away.
         name : str, optional
             For the history: the columns ``<name>_fx`` ... are the force on the tool.
 
         Raises
         ------
-        InvalidPenalty, InvalidValue
+        InvalidPenalty, InvalidFriction, InvalidValue
             If a number is out of range, penalty and penetration say the same thing, or the name is taken.
         """
         name = name or self._free_pair_name()
@@ -114,6 +123,8 @@ class Touched(Controlled):
             penetration=penetration,
             points=points,
             augmented=augmented,
+            friction=friction,
+            slip=slip,
             where=f"contact {name}",
         )
         touched = tool if isinstance(tool, Tool) else Tool(name, tool, self.now)

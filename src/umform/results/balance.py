@@ -35,11 +35,11 @@ def energies(model: Model, evaluation: Evaluation) -> Energies:
     evaluation : Evaluation
         The evaluation there.
     """
-    elastic = plastic = contact = 0.0
+    total = [0.0] * 4
     for term in model.terms:
         own = term.energies(evaluation.found[term], model.u)
-        elastic, plastic, contact = elastic + own.elastic, plastic + own.plastic, contact + own.contact
-    return Energies(*(model.ranks.sum(part) for part in (elastic, plastic, contact)))
+        total = [sum(pair) for pair in zip(total, (own.elastic, own.plastic, own.contact, own.friction), strict=True)]
+    return Energies(*(model.ranks.sum(part) for part in total))
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Balance:
         As in the history.
     external_work : ndarray
         Work of loads, pressures, supports and tools, from the energy that the run started with.
-    elastic, plastic, contact : ndarray
+    elastic, plastic, contact, friction : ndarray
         Energies, see :class:`Energies`.
     drift : ndarray
         External work minus the sum of the energies, over the largest sum in any row. eq. (5.33)
@@ -68,6 +68,7 @@ class Balance:
     elastic: Floats
     plastic: Floats
     contact: Floats
+    friction: Floats
     drift: Floats
     force_imbalance: Floats
     moment_imbalance: Floats

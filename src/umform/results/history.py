@@ -41,7 +41,7 @@ class History:
     The history has one row for each increment: ``step``, ``time``, each control and its ``<name>_force``, for each
     contact the force ``<name>_fx``, ``_fy``, ``_fz`` and moment about the origin ``_mx``, ``_my``, ``_mz`` of the sheet
     on the tool, the largest penetration ``<name>_penetration`` and the number of ``<name>_active`` points, the
-    ``external_work`` and the ``elastic_energy``, ``plastic_work`` and ``contact_energy`` that it went into, and the
+    ``external_work`` and the ``elastic_energy``, ``plastic_work``, ``contact_energy`` and ``friction_work`` that it went into, and the
     number of ``iterations``. ``events`` says what happened (lift-off), ``warnings`` what to look at, ``timing`` where
     the time went, since the run began or was taken up.
 
@@ -111,6 +111,7 @@ class History:
             "elastic_energy": energies.elastic,
             "plastic_work": energies.plastic,
             "contact_energy": energies.contact,
+            "friction_work": energies.friction,
         }
 
     def balance(self) -> Balance:
@@ -123,7 +124,8 @@ class History:
             the square of the increments; and the relative resultants of all external forces, which are as small as
             Newton's method has left them.
         """
-        elastic, plastic, contact = (self[name] for name in ("elastic_energy", "plastic_work", "contact_energy"))
+        names = ("elastic_energy", "plastic_work", "contact_energy", "friction_work")
+        elastic, plastic, contact, friction = (self[name] for name in names)
         forces, moments = np.array(self._work.imbalances).T
         return Balance(
             step=self["step"],
@@ -132,7 +134,8 @@ class History:
             elastic=elastic,
             plastic=plastic,
             contact=contact,
-            drift=drift(self["external_work"], elastic + plastic + contact),
+            friction=friction,
+            drift=drift(self["external_work"], elastic + plastic + contact + friction),
             force_imbalance=forces,
             moment_imbalance=moments,
         )

@@ -228,7 +228,7 @@ def _ready(result: Result, solver: str, options: NewtonOptions | None, frames: i
     model.timing = timing
     model.check()
     evaluation = model.evaluate(model.x, tangent=False)  # history and frames ask for forces only
-    model.stand(evaluation)
+    model.begin(evaluation)
     run = Run(model, Newton(model, options, solver, timing), result, evaluation, frames=frames)
     run.result.solver = run.newton.solver
     return run

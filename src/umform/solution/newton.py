@@ -191,7 +191,7 @@ class Newton:
         lean = first is not None and self._lean(reuse, manner)
         evaluation = system.evaluate(u, tangent=not lean)
         increment, step_length = self._relative(du, evaluation), 1.0
-        active = previous_active = evaluation.active
+        status = previous = evaluation.status
 
         for _ in range(options.max_iterations):
             self.check_domain(evaluation, iterations)
@@ -200,14 +200,14 @@ class Newton:
             scale = evaluation.force_scale or 1.0
             if not math.isfinite(norm):
                 raise Failed("the residual is not finite", iterations)
-            entered, left = self._count(active & ~previous_active), self._count(~active & previous_active)
-            moved = bool(entered or left)
+            entered, left = self._count((status > 0) & (previous == 0)), self._count((status == 0) & (previous > 0))
+            moved = bool(entered or left) or system.ranks.any(not np.array_equal(status, previous))
             if criteria.met(norm, increment, u, evaluation, moved=moved):
                 recorder.add(evaluation.flowing, norm / scale, increment, 0.0, entered, left, step_length, pivots)
                 if lean:
                     system.follow()
                 return Converged(evaluation, iterations)
-            longest = prospects.longest(evaluation, previous_active, norm, iterations)
+            longest = prospects.longest(evaluation, previous, norm, iterations)
             if not reuse.factors_will_do(norm / scale, increment, settled=manner.reuses and not moved):
                 if lean:
                     evaluation = system.evaluate(u)
@@ -225,7 +225,7 @@ class Newton:
             u, evaluation, step_length = self._advance(u, du, r, manner, longest, lean)
             criteria.entry = criteria.entry if lean else None
             increment = step_length * self._relative(du, evaluation)
-            previous_active, active = active, evaluation.active
+            previous, status = status, evaluation.status
         raise Failed(f"no convergence in {options.max_iterations} iterations", iterations, Cause.ITERATIONS)
 
     def _lean(self, reuse: Reuse, manner: Manner) -> bool:

@@ -20,7 +20,7 @@ class Prospects:
         self._stall = None if system.smooth else Stall()
 
     def longest(
-        self, evaluation: Evaluation, before: NDArray[np.bool_], norm: float, iterations: list[Iteration]
+        self, evaluation: Evaluation, before: NDArray[np.uint8], norm: float, iterations: list[Iteration]
     ) -> float:
         """Part of the next increment that may be taken; asked once in each iteration.
 
@@ -28,8 +28,8 @@ class Prospects:
         ----------
         evaluation : Evaluation
             Of this iteration.
-        before : ndarray of bool
-            Active set of the iteration before.
+        before : ndarray of uint8
+            Status of the contact points in the iteration before.
         norm : float
             Of the residual of the unknowns.
         iterations : list of Iteration
@@ -41,9 +41,9 @@ class Prospects:
             If there is no hope.
         """
         cycle, stall = self._cycle, self._stall
-        longest = 0.5 if cycle.seen(evaluation.active, [record.residual for record in iterations]) else 1.0
+        longest = 0.5 if cycle.seen(evaluation.status, [record.residual for record in iterations]) else 1.0
         if cycle.stays:
-            where = evaluation.at_points(evaluation.active != before)
+            where = evaluation.at_points(evaluation.status != before)
             raise Failed(f"contact comes and goes in a cycle{where}", iterations, Cause.CYCLE)
         if stall is not None and stall.seen(norm):
             raise Failed(f"the residual has not fallen for {stall.patience} iterations", iterations, Cause.STALL)
@@ -69,20 +69,20 @@ class Cycle:
         """Whether a cycle was seen again."""
         return self._count > 1
 
-    def seen(self, active: NDArray[np.bool_], residuals: Sequence[float]) -> bool:
-        """Whether two or three active sets have just followed each other twice; asked once in each iteration.
+    def seen(self, status: NDArray[np.uint8], residuals: Sequence[float]) -> bool:
+        """Whether two or three states have just followed each other twice; asked once in each iteration.
 
         Parameters
         ----------
-        active : ndarray of bool
-            The active set of this iteration.
+        status : ndarray of uint8
+            Which points are open, held, slipping in this iteration.
         residuals : sequence of float
             Those of the iterations before.
         """
         ranks = self._system.ranks
-        if not ranks.any(active.size > 0):
+        if not ranks.any(status.size > 0):
             return False
-        self._states.append(ranks.join(np.packbits(active).tobytes()))
+        self._states.append(ranks.join(status.tobytes()))
         for period in (2, 3):
             states = self._states[self._begin :][-2 * period :]
             if len(states) < 2 * period or len(residuals) < period + 1:

@@ -74,8 +74,8 @@ class Evaluation(Protocol):
         """Why it has none."""
 
     @property
-    def active(self) -> NDArray[np.bool_]:
-        """Which contact points tools hold."""
+    def status(self) -> NDArray[np.uint8]:
+        """0 for each contact point that is open, 1 if a tool holds it, 2 if it slips as well."""
 
     def at_points(self, chosen: NDArray[np.bool_]) -> str:
         """Where some of the contact points are, in words."""

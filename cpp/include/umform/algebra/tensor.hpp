@@ -72,6 +72,12 @@ constexpr Mat<T, 3, 3> product(const Mat<T, 3, 3>& a, const Mat<T, 3, 3>& b) {
     return c;
 }
 
+inline Vec3 product(const Mat3& m, const Vec3& a) {
+    Vec3 b;
+    for (int i = 0; i < 3; ++i) b[i] = m(i, 0) * a[0] + m(i, 1) * a[1] + m(i, 2) * a[2];
+    return b;
+}
+
 template <class T>
 constexpr Mat<T, 3, 3> inverse(const Mat<T, 3, 3>& m) {
     const T f = T(1) / det(m);

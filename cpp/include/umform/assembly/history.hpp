@@ -41,6 +41,11 @@ class History {
     double* trial(int item) { return trial_.data() + item * stride(); }
     const double* trial(int item) const { return trial_.data() + item * stride(); }
 
+    const std::vector<double>& trial() const { return trial_; }
+    /// Trial numbers of a point, counted over all items.
+    double* point(int q) { return trial_.data() + static_cast<std::size_t>(q) * size_; }
+    const double* point(int q) const { return trial_.data() + static_cast<std::size_t>(q) * size_; }
+
     /// Calls begin(numbers of a point) for all points, and makes that the converged and the trial state.
     template <class Begin>
     void initialise(const Begin& begin) {

@@ -59,14 +59,28 @@ class ContactBlock {
     void set_multipliers(const double* values) {
         for (int q = 0; q < points(); ++q) history_.trial(0)[q * history_.size()] = values[q];
     }
-    void commit() { history_.commit(); }
+    /// Lets multipliers carry the tractions along the tool that were found by the last `evaluate`. eq. (4.50)
+    virtual void augment() = 0;
+    /// Makes the places where the points are now, by `locate` or `evaluate`, those of a sheet that nothing has held before. It does
+    /// nothing once there is a history.
+    virtual void begin() = 0;
+    void commit() {
+        begun_ = true;
+        if (law_->follows_places())
+            for (int q = 0; q < points(); ++q) law_->settle(history_.point(q));
+        history_.commit();
+    }
     void revert() { history_.revert(); }
-    void restore(const double* state, std::size_t count) { history_.restore(state, count); }
+    void restore(const double* state, std::size_t count) {
+        history_.restore(state, count);
+        begun_ = true;
+    }
 
   protected:
     std::shared_ptr<ContactLaw> law_;
     std::vector<double> area_;  // [facet][point] reference area of a contact point
     History history_;           // [facet][point]
+    bool begun_ = false;        // whether there is a history
 };
 
 template <int Nodes>
@@ -118,20 +132,29 @@ class ContactBlockOf final : public ContactBlock {
         ContactFound found;
         found.active.assign(points(), 0);
         RoundOff round_off;
-        for_each_held([&](int e, int q, const Reaction& reaction) {
+        for_each_near([&](int e, int q, const Reaction& reaction, const double* history) {
+            const Rubbing rubbing = law_->rubbing(history);
+            found.friction_work += area_[q] * rubbing.work;
+            if (!reaction.held) return;
             round_off.add(e, weight_of_errors(q), values_at(q));
             const Vec3 &x = locator_.positions()[q], &n = locator_.normals()[q];
-            found.active[q] = 1;
+            found.active[q] = reaction.slipping ? 2 : 1;
             found.points.push_back(q);
             found.x.push_back(x), found.normal.push_back(n);
             found.traction.push_back(reaction.traction(n));
             found.gap.push_back(locator_.gaps()[q]), found.pressure.push_back(reaction.pressure);
+            found.elastic_slip.push_back(rubbing.elastic_slip), found.slip.push_back(rubbing.slip);
+            found.stored += area_[q] * rubbing.stored;
             found.area.push_back(area_[q]);
             Vec3 force;  // (pressure area) n, in this order: that of the forces at nodes
             for (int k = 0; k < 3; ++k)
                 force[k] = -(reaction.pressure * area_[q] * n[k] + area_[q] * reaction.tangential[k]);
             found.force.push_back(force);
         });
+        for (int e = 0; e < connectivity().size(); ++e)
+            for (int q = 0; locator_.far(e) && q < per_facet(); ++q)
+                found.friction_work +=
+                    area_[e * per_facet() + q] * law_->rubbing(history_.state(e) + q * history_.size()).work;
         found.penetration = penetration();
         found.round_off_squared = round_off.squared();
         return found;
@@ -151,6 +174,22 @@ class ContactBlockOf final : public ContactBlock {
                 deepest = std::max(deepest, -locator_.gaps()[q]);
         }
         return deepest;
+    }
+
+    void begin() override {
+        if (begun_ || !law_->follows_places()) return;
+        for (int e = 0; e < connectivity().size(); ++e) leave(e);
+        const std::vector<double> places = history_.trial();
+        history_.restore(places.data(), places.size());
+    }
+
+    void augment() override {
+        if (!law_->follows_places()) return;
+        for_each_held([&](int e, int q, const Reaction&) {
+            const Place place{locator_.gaps()[q], locator_.positions()[q], locator_.normals()[q],
+                              locator_.hessians()[q], locator_.pose()};
+            law_->augment(place, history_.state(e) + history_.size() * (q % per_facet()), history_.point(q));
+        });
     }
 
     int far_facets() const override {
@@ -190,7 +229,14 @@ class ContactBlockOf final : public ContactBlock {
         double sum_ = 0.0;
     };
 
-    double weight_of_errors(int q) const { return law_->penalty() * area_[q] * largest_length(q); }
+    /// Remembers where the points of a facet are that nothing holds.
+    void leave(int e) {
+        for (int q = 0; q < per_facet(); ++q)
+            law_->leave(locator_.in_tool(e, q), history_.state(e) + history_.size() * q,
+                        history_.trial(e) + history_.size() * q);
+    }
+
+    double weight_of_errors(int q) const { return law_->stiffness() * area_[q] * largest_length(q); }
     const Values& values_at(int q) const { return N_[q % per_facet()]; }
 
     int per_facet() const { return static_cast<int>(N_.size()); }
@@ -210,9 +256,10 @@ class ContactBlockOf final : public ContactBlock {
         law_->respond(per_facet(), places, weights, history_.state(e), trial, reactions);
     }
 
-    /// Calls work(facet, point, reaction) for all points that are held now, in their order; the trial history stays as it is.
+    /// Calls work(facet, point, reaction, new history) for all points of facets that are not far, in their order; the trial
+    /// history stays as it is.
     template <class Work>
-    void for_each_held(const Work& work) {
+    void for_each_near(const Work& work) {
         locator_.settle([this](int e) { return reach(e); });
         Reactions reactions(per_facet());
         std::vector<double> trial(history_.stride());
@@ -221,13 +268,24 @@ class ContactBlockOf final : public ContactBlock {
             std::copy_n(history_.trial(e), trial.size(), trial.begin());
             respond(e, nullptr, trial.data(), reactions.data());
             for (int q = 0; q < per_facet(); ++q)
-                if (reactions[q].held) work(e, e * per_facet() + q, reactions[q]);
+                work(e, e * per_facet() + q, reactions[q], trial.data() + history_.size() * q);
         }
+    }
+
+    /// Calls work(facet, point, reaction) for all points that are held now, in their order.
+    template <class Work>
+    void for_each_held(const Work& work) {
+        for_each_near([&](int e, int q, const Reaction& reaction, const double*) {
+            if (reaction.held) work(e, q, reaction);
+        });
     }
 
     void add_facet(int e, const Scatter& scatter, const Target& target, Reactions& reactions) {
         scale_[e] = 0.0;
-        if (locator_.far(e)) return;
+        if (locator_.far(e)) {
+            if (law_->follows_places()) leave(e);
+            return;
+        }
         respond(e, area_.data() + static_cast<std::size_t>(e) * per_facet(), history_.trial(e), reactions.data());
         bool active = false;
         for (const Reaction& reaction : reactions) active = active || reaction.held;

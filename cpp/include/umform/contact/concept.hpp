@@ -22,6 +22,7 @@ struct Place {
 /// a weight.
 struct Reaction {
     bool held;        // if not, the rest has no meaning
+    bool slipping;    // whether the tangential traction is at its bound
     double pressure;  // along n, positive
     Vec3 tangential;  // across n
     double K[3][3];   // minus the derivative of the traction with respect to x
@@ -33,16 +34,26 @@ struct Reaction {
     }
 };
 
+/// What friction holds and has cost at a place, per area.
+struct Rubbing {
+    double elastic_slip = 0.0, slip = 0.0;  // now, and the distance slid in all
+    double stored = 0.0, work = 0.0;
+};
+
 /// A law answers at one place. Its history begins with the multiplier of the normal direction. `state` is the converged history,
 /// which is never changed; `trial` comes with the multiplier that is wanted now and takes the rest of the new history. `reach` is
 /// the largest gap at which the place can be held. `respond` says whether it is held, and writes the reaction then, without `held`
-/// and times the weight. A law that is `symmetric` has a symmetric K; what is below its diagonal is not read.
+/// and times the weight. A law that is `symmetric` has a symmetric K; what is below its diagonal is not read. One that
+/// `follows_places` has more to say: what it remembers of a place that the tool does not hold, or no longer (`leave`), what friction
+/// does there (`rubbing`), how its tangential multipliers are set (`augment`) and become those of the new history (`settle`).
 template <class L>
 concept PlaceLaw =
     requires(const L& law, L& mutable_law, const Place& place, const double* state, double* trial, Reaction& reaction) {
         { L::symmetric } -> std::convertible_to<bool>;
+        { L::follows_places } -> std::convertible_to<bool>;
         { L::quantities() } -> std::same_as<std::vector<Quantity>>;
         { mutable_law.penalty } -> std::same_as<double&>;
+        { law.stiffness() } -> std::same_as<double>;
         { law.reach(trial) } -> std::same_as<double>;
         { law.respond(place, 1.0, state, trial, reaction) } -> std::same_as<bool>;
     };
@@ -60,15 +71,23 @@ class ContactLaw {
   public:
     virtual ~ContactLaw() = default;
     virtual bool symmetric() const = 0;
+    virtual bool follows_places() const = 0;
     virtual std::vector<Quantity> quantities() const = 0;
     /// Pressure per penetration.
     virtual double penalty() const = 0;
     virtual void set_penalty(double value) = 0;
+    /// Largest traction per way of a place in any direction.
+    virtual double stiffness() const = 0;
     /// Largest gap at which one of `count` places can be held.
     virtual double reach(int count, const double* trial) const = 0;
     /// Reactions at `count` places times their weights, or as they are without weights.
     virtual void respond(int count, const Places& places, const double* weights, const double* state, double* trial,
                          Reaction* reactions) const = 0;
+    // Of one place, and of laws that follow places only; z is in the frame of the tool.
+    virtual void leave(const Vec3& z, const double* state, double* trial) const = 0;
+    virtual Rubbing rubbing(const double* history) const = 0;
+    virtual void augment(const Place& place, const double* state, double* trial) const = 0;
+    virtual void settle(double* trial) const = 0;
 };
 
 template <PlaceLaw Law>
@@ -78,9 +97,11 @@ class ContactLawOf final : public ContactLaw {
         for (const Quantity& quantity : Law::quantities()) size_ += quantity.size;
     }
     bool symmetric() const override { return Law::symmetric; }
+    bool follows_places() const override { return Law::follows_places; }
     std::vector<Quantity> quantities() const override { return Law::quantities(); }
     double penalty() const override { return law_.penalty; }
     void set_penalty(double value) override { law_.penalty = value; }
+    double stiffness() const override { return law_.stiffness(); }
     double reach(int count, const double* trial) const override {
         double largest = law_.reach(trial);
         for (int q = 1; q < count; ++q) largest = std::max(largest, law_.reach(trial + q * size_));
@@ -92,6 +113,19 @@ class ContactLawOf final : public ContactLaw {
             reactions[q].held =
                 law_.respond({places.gap[q], places.x[q], places.n[q], places.H[q], *places.pose},
                              weights == nullptr ? 1.0 : weights[q], state + q * size_, trial + q * size_, reactions[q]);
+    }
+    void leave(const Vec3& z, const double* state, double* trial) const override {
+        if constexpr (Law::follows_places) law_.leave(z, state, trial);
+    }
+    Rubbing rubbing(const double* history) const override {
+        if constexpr (Law::follows_places) return law_.rubbing(history);
+        return {};
+    }
+    void augment(const Place& place, const double* state, double* trial) const override {
+        if constexpr (Law::follows_places) law_.augment(place, state, trial);
+    }
+    void settle(double* trial) const override {
+        if constexpr (Law::follows_places) law_.settle(trial);
     }
 
   private:

@@ -9,15 +9,18 @@
 namespace umform {
 
 struct ContactFound {
-    std::vector<std::uint8_t> active;  // for each contact point, 1 where the tool holds it
+    std::vector<std::uint8_t> active;  // for each contact point, 1 where the tool holds it, 2 where it slips as well
     // Of the points that are held, in their order:
     std::vector<std::int32_t> points;         // their numbers
     std::vector<Vec3> x, normal;              // position, unit normal out of the tool
     std::vector<Vec3> traction;               // of the tool on the sheet, on the reference area
     std::vector<Vec3> force;                  // of the sheet on the tool: -traction times area
     std::vector<double> gap, pressure, area;  // pressure: the normal part of the traction
-    double penetration = 0.0;                 // the largest, zero if there is none
-    double round_off_squared = 0.0;           // see ContactBlock
+    std::vector<double> elastic_slip, slip;   // now, and the distance slid so far; empty without friction
+    double stored = 0.0,
+           friction_work = 0.0;      // energy of the elastic slip, and the work of friction so far, at all points
+    double penetration = 0.0;        // the largest, zero if there is none
+    double round_off_squared = 0.0;  // see ContactBlock
 };
 
 }  // namespace umform

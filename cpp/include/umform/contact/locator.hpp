@@ -69,6 +69,15 @@ class Locator {
         locate_wanted(threads);
     }
 
+    /// Position of a point of a facet in the frame of the tool, of far facets too.
+    Vec3 in_tool(int e, int q) const {
+        if (!culls_) return pose_.to_tool(x_[e * points() + q]);
+        Vec3 z{};
+        for (int a = 0; a < Nodes; ++a)
+            for (int k = 0; k < 3; ++k) z[k] += N_[q][a] * z_[local_[e][a]][k];
+        return z;
+    }
+
     /// At the points of all facets, [facet][point]; those of far facets are what they were.
     const std::vector<Vec3>& positions() const { return x_; }
     const std::vector<Vec3>& normals() const { return n_; }

@@ -9,9 +9,10 @@ namespace umform {
 struct Penalty {
     double penalty;
 
-    static constexpr bool symmetric = true;
+    static constexpr bool symmetric = true, follows_places = false;
     static std::vector<Quantity> quantities() { return {{"multiplier", 1}}; }
 
+    double stiffness() const { return penalty; }
     double reach(const double* trial) const { return trial[0] / penalty; }
 
     /// A place is held where its gap less multiplier over penalty, g~, is not positive (a tool that just touches can hold):
@@ -20,6 +21,7 @@ struct Penalty {
         const double g = place.gap - trial[0] / penalty;
         if (!(g <= 0.0)) return false;
         const double stiffness = penalty * weight;
+        reaction.slipping = false;
         reaction.pressure = -(stiffness * g);
         reaction.tangential = {0.0, 0.0, 0.0};
         for (int k = 0; k < 3; ++k)

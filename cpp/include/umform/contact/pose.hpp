@@ -20,6 +20,12 @@ struct Pose {
         }
         return z;
     }
+    /// Q^T a.
+    Vec3 turn_back(const Vec3& a) const {
+        Vec3 b;
+        for (int k = 0; k < 3; ++k) b[k] = Q(0, k) * a[0] + Q(1, k) * a[1] + Q(2, k) * a[2];
+        return b;
+    }
     Vec3 turn(const Vec3& a) const {
         Vec3 b;
         for (int i = 0; i < 3; ++i) b[i] = sum(&Q.a[3 * i], a[0], a[1], a[2]);

@@ -90,7 +90,22 @@ class ContactFound(Found):
     @cached_property
     def active(self) -> NDArray[np.bool_]:
         """Which points are held by the tool."""
-        return np.asarray(self.held.active, dtype=bool)
+        return self.status > 0
+
+    @cached_property
+    def status(self) -> NDArray[np.uint8]:
+        """0 for points that are open, 1 for those that the tool holds, 2 for those that slip along it as well."""
+        return np.asarray(self.held.active)
+
+    @cached_property
+    def slipping(self) -> NDArray[np.bool_]:
+        """Which points slip along the tool, at the bound of friction."""
+        return self.status == 2
+
+    @property
+    def friction_work(self) -> float:
+        """Work of friction so far."""
+        return float(self.held.friction_work)
 
     def _spread(self, values: Floats) -> Floats:
         """Values at all points from those at the points that are held, zero elsewhere."""
@@ -149,10 +164,13 @@ class ContactFound(Found):
         return self.held.force.sum(axis=0), moment(arm, self.held.force)
 
     def energy(self) -> float:
-        """Potential of penalty and multipliers, (p^2 - lambda^2) / (2 penalty) over the reference area. eq. (4.32)"""
+        """Potential of penalty and multipliers, (p^2 - lambda^2) / (2 penalty) over the reference area. eq. (4.32)
+
+        With friction that of the elastic slip as well.
+        """
         # (p - lambda)(p + lambda): a point that its multiplier alone holds has no energy, to the last digit.
         difference, total = self.pressure - self.multiplier, self.pressure + self.multiplier
-        return 0.5 / self.penalty * float((difference * self.area) @ total)
+        return 0.5 / self.penalty * float((difference * self.area) @ total) + float(self.held.stored)
 
 
 def moment(arms: Floats, forces: Floats) -> Floats:

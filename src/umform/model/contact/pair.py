@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 
 
 class Contact(PairPoints):
-    """Frictionless contact of faces with one tool, held by a penalty and, where wanted, multipliers.
+    """Contact of faces with one tool, held by a penalty and, where wanted, multipliers; with or without friction.
 
     docs/theory, chapter 4. Made by :meth:`umform.Model.contact`.
 
@@ -63,9 +63,7 @@ class Contact(PairPoints):
         found = self._found(scale, at.u, pose)
         if at.until is not None and self.tool.motion is not None:
             turned = self.tool.pose(at.values, at.until)[0] @ pose[0].T
-            self._spread(
-                -(found.pressure * found.area)[:, None] * found.normal @ (turned - np.eye(3)).T, into.predictor
-            )
+            self._spread(found.forces @ (turned - np.eye(3)).T, into.predictor)
         for spin, _ in self.tool.spins(at.rates, at):
             self._spread(np.cross(spin, found.forces), into.predictor)
         return found
@@ -94,9 +92,20 @@ class Contact(PairPoints):
 
     def commit(self, found: Found) -> None:
         """Make the trial history, multipliers too, and what was found those of the converged state."""
+        if self.friction is not None:
+            self.before = self.block.state
         self.block.commit()
         assert isinstance(found, ContactFound)
         self.stand(found)
+
+    def begin(self) -> None:
+        """Take the places where the points are now, in the last evaluation, as those that friction slides from."""
+        if self.friction is not None:
+            self.block.begin()
+
+    def go_back(self, before: Floats) -> None:
+        """Take the history that the evaluation of the converged state had read."""
+        self.block.restore(np.ascontiguousarray(before))
 
     def revert(self) -> None:
         """Go back to the converged history."""
@@ -114,21 +123,29 @@ class Contact(PairPoints):
         self._last = None
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
-        """Largest penetration and number of points that are held."""
+        """Largest penetration and number of points that are held; with friction those that slip, and how far."""
         assert isinstance(found, ContactFound)
-        return {
+        columns = {
             f"{self.name}_penetration": ranks.max(found.penetration),
             f"{self.name}_active": int(ranks.sum(float(found.active.sum()))),
         }
+        if self.friction is not None:
+            columns |= {
+                f"{self.name}_slipping": int(ranks.sum(float(found.slipping.sum()))),
+                f"{self.name}_elastic_slip": ranks.max(float(found.held.elastic_slip.max(initial=0.0))),
+                f"{self.name}_friction_work": ranks.sum(found.friction_work),
+            }
+        return columns
 
     def column_names(self) -> Iterable[str]:
-        """Largest penetration and number of points that are held."""
-        return [f"{self.name}_penetration", f"{self.name}_active"]
+        """Largest penetration, number of points that are held; of friction those that slip, elastic slip and work."""
+        of_friction = [] if self.friction is None else ["slipping", "elastic_slip", "friction_work"]
+        return [f"{self.name}_{what}" for what in ["penetration", "active", *of_friction]]
 
     def energies(self, found: Found, u: Floats) -> Energies:
-        """What penalty and multipliers hold. eq. (4.32)"""
+        """What penalty and multipliers hold, and the work of friction. eqs. (4.32), (4.49)"""
         assert isinstance(found, ContactFound)
-        return Energies(0.0, 0.0, found.energy())
+        return Energies(0.0, 0.0, found.energy(), found.friction_work)
 
     # The converged state -------------------------------------------------------------------------------------
 
@@ -170,7 +187,8 @@ class Contact(PairPoints):
         """Whether multipliers are wanted and a point that the tool holds is further from it than allowed."""
         if not self.augmented or self.allowed is None:
             return False
-        return bool((np.abs(found.held.gap) > self.allowed).any())
+        slides = self.friction is not None and bool((found.held.elastic_slip > self.slip).any())
+        return slides or bool((np.abs(found.held.gap) > self.allowed).any())
 
     def augment(self, found: ContactFound, change: Floats) -> None:
         """Let the multipliers carry the pressure that was found, and add what that changes in the residual.
@@ -180,6 +198,7 @@ class Contact(PairPoints):
         """
         self._close(found, found.held_gap, change)
         self.block.multipliers = found.pressure
+        self.block.augment()
 
     def stiffen(self, found: ContactFound, penalty: float, change: Floats) -> None:
         """Take another penalty, and add to the residual what lets the points that are held keep their pressure.

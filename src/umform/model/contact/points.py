@@ -13,6 +13,7 @@ from umform import _core
 from umform.errors import ModelError
 from umform.mesh import FACE_NODES, Ids, Mesh, Selector
 from umform.model.contact.found import ContactFound
+from umform.model.contact.friction import AnyFriction, friction_kernel
 from umform.model.contact.settings import ContactSettings
 from umform.model.control import Twins
 from umform.model.cut import Cut
@@ -28,12 +29,15 @@ class PairPoints(Term):
 
     fixed = ("tool", "name")
 
+    before: Floats
+
     def __init__(self, mesh: Mesh, faces: Selector, tool: Tool, settings: ContactSettings, name: str) -> None:
         self.name = name
         self.tool = tool
         self._settings, self._penalty = settings, settings.penalty
         self._meet(mesh, mesh.face_set(faces))
         self.elsewhere = False
+        self.before = np.empty(0)
         self._last: ContactFound | None = None
 
     def _meet(self, mesh: Mesh, faces: Ids) -> None:
@@ -93,15 +97,33 @@ class PairPoints(Term):
             raise self._not_here()
         at_nodes = isinstance(self.points, str)
         per_side = 1 if isinstance(self.points, str) else self.points
-        law = _core.penalty_law(self.penalty)
-        block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self.tool.kernel, law)
+        block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self.tool.kernel, self._law())
         block.name = f"contact {self.name}"
+        if self.friction is not None:
+            block.set_pose(*self.pose)
+            block.locate(np.zeros(block.dofs))
+            block.begin()
         return block
+
+    def _law(self) -> _core.ContactLaw:
+        if self.friction is None:
+            return _core.penalty_law(self.penalty)
+        return _core.coulomb_law(self.penalty, self._settings.ratio, friction_kernel(self.friction))
+
+    @property
+    def friction(self) -> AnyFriction | None:
+        """Law of friction; None without."""
+        return self._settings.friction
+
+    @property
+    def slip(self) -> float:
+        """Elastic slip that is allowed; zero without friction."""
+        return self._settings.slip
 
     @property
     def symmetric(self) -> bool:  # type: ignore[override]
         """Whether the tangent of its law is."""
-        return self.block.symmetric
+        return self.friction is None
 
     @property
     def multipliers(self) -> Floats:
@@ -172,6 +194,7 @@ class PairPoints(Term):
         for made in ("block", "_areas", "_no_multipliers", "faces", "facets", "nodes", "_mesh_points", "_last"):
             bare.__dict__.pop(made, None)
         bare.__dict__["tool"] = twins.of(self.tool)
+        bare.before = np.empty(0)
 
     def piece(self, cut: Cut) -> tuple[Ids, NDArray[np.int64], Tree | None]:
         """Faces of the rank, which rows of this contact they are, and their history if there is any yet."""

@@ -8,16 +8,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from umform.errors import InvalidPenalty, InvalidValue
+from umform import _core
+from umform.errors import InvalidFriction, InvalidPenalty, InvalidValue
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
 from umform.model.contact.encounter import Encounter, sheet_thickness
+from umform.model.contact.friction import AnyFriction, friction_kernel
 from umform.surfaces import Surface
 
 log = logging.getLogger("umform.contact")
 
 #: Penetration that is allowed by default, in thicknesses.
 _PENETRATION = 1.0 / 200.0
+#: Elastic slip that is allowed by default, in thicknesses.
+_SLIP = 1.0 / 200.0
 #: Largest penalty over stiffness / thickness: beyond it the sheet is squeezed ten times as much as it penetrates.
 _STIFFEST = 10.0
 #: Contact points that the expected contact length should hold, and the most points per direction. Where the force is a
@@ -38,13 +42,22 @@ class ContactSettings:
     allowed : float, optional
         Penetration that is allowed; None where only a penalty was given.
     augmented : bool
-        Whether multipliers take the penetration away that is not allowed.
+        Whether multipliers take the penetration away that is not allowed, and the elastic slip.
+    friction : float, Friction, FrictionByRegion or callable, optional
+        Law of friction; None without.
+    slip : float
+        Elastic slip that is allowed.
+    ratio : float
+        Tangential stiffness over the penalty, so that the pressure that is expected slips at that elastic slip.
     """
 
     penalty: float
     points: int | str
     allowed: float | None = None
     augmented: bool = False
+    friction: AnyFriction | None = None
+    slip: float = 0.0
+    ratio: float = 0.0
 
 
 def contact_settings(
@@ -57,6 +70,8 @@ def contact_settings(
     penetration: float | None = None,
     points: int | str = 2,
     augmented: bool = False,
+    friction: AnyFriction | None = None,
+    slip: float | None = None,
     where: str = "contact",
 ) -> ContactSettings:
     """Settings from what is given, the rest from mesh, tool and law. eqs. (4.29), (4.31)
@@ -67,10 +82,12 @@ def contact_settings(
         If a number is out of range, or two say the same thing.
     """
     _check(penalty, penetration, points, augmented, tool, where)
-    estimated = penalty is None or points == "auto"
+    law = _friction_law(friction, slip, where)
+    estimated = penalty is None or points == "auto" or law is not None
     allowed = penetration
     if allowed is None and (penalty is None or augmented):
         allowed = _PENETRATION * sheet_thickness(mesh)
+    met = None
     if estimated:
         met = Encounter.of(mesh, mesh.facets(faces), tool.kernel(), material, where)
         if points == "auto":
@@ -84,7 +101,45 @@ def contact_settings(
         )  # fmt: skip
     assert penalty is not None
     points = "nodes" if points == "nodes" else int(points)
-    return ContactSettings(float(penalty), points, None if allowed is None else float(allowed), bool(augmented))
+    allowed = None if allowed is None else float(allowed)
+    if law is None or met is None:
+        return ContactSettings(float(penalty), points, allowed, bool(augmented))
+    slip = _SLIP * met.thickness if slip is None else float(slip)
+    pressure = penalty * allowed if allowed is not None else _pressure(met, penalty, points)
+    ratio = _tangential_stiffness(law, pressure, slip) / penalty
+    return ContactSettings(float(penalty), points, allowed, bool(augmented), friction, slip, ratio)
+
+
+def _friction_law(friction: AnyFriction | None, slip: float | None, where: str) -> _core.FrictionLaw | None:
+    """The law of friction, checked; None for none."""
+    if slip is not None and not (np.isfinite(slip) and slip > 0):
+        raise InvalidValue(
+            "the elastic slip that is allowed must be positive",
+            where=where,
+            value=slip,
+            cause="a sign or a missing value",
+            remedy="leave it away: 1/200 of the thickness of the sheet is allowed then",
+        )
+    if friction is None or (isinstance(friction, int | float) and friction == 0):
+        return None
+    try:
+        return friction_kernel(friction)
+    except InvalidFriction as error:
+        error.where = where
+        raise
+
+
+def _pressure(met: Encounter, penalty: float, points: int | str) -> float:
+    """Pressure to expect with a penalty. eqs. (4.28), (4.15)"""
+    spacing = met.length if isinstance(points, str) else met.length / points
+    length = max(contact_length(met.radius, met.line_force, penalty), spacing)
+    return met.line_force / length
+
+
+def _tangential_stiffness(law: _core.FrictionLaw, pressure: float, slip: float) -> float:
+    """Traction per elastic slip, so that a place at the pressure slips at that elastic slip. eq. (4.51)"""
+    bound = law.bound(pressure)[0]
+    return (bound if bound > 0.0 else pressure) / slip
 
 
 def contact_length(radius: float, line_force: float, penalty: float) -> float:
