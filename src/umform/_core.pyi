@@ -575,6 +575,11 @@ class ContactBlock:
     def locate(self, u: NDArray[float64]) -> None:
         """Move the contact points to X + u and measure the gaps."""
 
+    def row(self, w: Sequence[float], omega: Sequence[float] = ..., p: Sequence[float] = ...) -> NDArray[float64]:
+        """
+        Derivative of the sum of the tractions times areas times the way w + omega x (x - p) with respect to u.
+        """
+
     def found(self) -> ContactFound:
         """What is known of the points that are held now, as a copy."""
 

@@ -153,8 +153,7 @@ class Tool(Term):
             sheet = press.way.force(_Seen(into.residual, into.found, at.values, at.time), into.ranks)
             pressing = sum(at.values[force] for force in press.forces)
             border.residual[k] = press.stiffness * (at.values[press.way] - press.free) - sheet - pressing
-            # The potential of contact has one Hessian: its rows are its columns. eq. (4.42)
-            border.rows[k] = border.columns[k]
+            border.rows[k] = self._row(press.way, border.columns[k])
             border.corner[k, k] += press.stiffness
             for other, unknown in enumerate(border.unknowns):
                 border.corner[k, other] -= sum(unknown.rates.get(force, 0.0) for force in press.forces)
@@ -168,6 +167,13 @@ class Tool(Term):
             if at.du is not None:
                 border.predictor[k] += into.ranks.sum(float(border.rows[k] @ at.du))
         return Found()
+
+    def _row(self, way: ToolMotion, column: Floats) -> Floats:
+        """Derivative of minus the force of the sheet along a way with respect to u, shape (3 n,). eq. (4.42)"""
+        if all(pair.symmetric for pair in self.pairs):  # the potential of contact has one Hessian
+            return column
+        rows: Floats = np.sum([pair.block.row(way.direction) for pair in self.pairs], axis=0)
+        return rows
 
     def _along(self, way: ToolMotion, column: Floats, into: Into) -> float:
         """Resultant of nodal forces (3 n,) along a way."""

@@ -19,13 +19,13 @@ STEEL = mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(160.0, 500.0))
 TIGHT = NewtonOptions(residual=1e-12, increment=1e-9)
 
 
-def beam(material=STEEL, cells=(16, 1)):
+def beam(material=STEEL, cells=(16, 1), friction=None):
     """A strip that is clamped at both ends under a cylinder that overlaps it by a hair."""
     model = Model(strip(40.0, 4.0, 1.0, cells), material=material, thickness_points=5)
     model.fix("x0")
     model.fix("x1")
     tool = model.tool("punch", Cylinder((20.0, 0.0, 10.48), "y", 10.0))
-    model.contact("upper", tool, penalty=1e4, points=4, name="top")
+    model.contact("upper", tool, penalty=1e4, points=4, friction=friction, name="top")
     return model, tool
 
 
@@ -55,10 +55,11 @@ def test_newton_converges_quadratically_with_the_way_among_the_unknowns():
     assert result["iterations"][2:].max() < 9
 
 
+@pytest.mark.parametrize("friction", [None, 0.3])
 @pytest.mark.parametrize("moved", ["press", "turn", "support"])
-def test_rows_columns_and_corner_of_the_border_are_derivatives(moved, rng):
+def test_rows_columns_and_corner_of_the_border_are_derivatives(moved, friction, rng):
     """The whole bordered tangent against central differences of residual and equation."""
-    model, punch = beam(mt.SVK(E=210e3, nu=0.3))
+    model, punch = beam(mt.SVK(E=210e3, nu=0.3), friction=friction)
     model.turn(punch, "y", (15.0, 0.0, 2.0), "tilt").value = 0.02 if moved == "turn" else 0.0
     press = model.press(punch, (0.3, 0.0, -1.0), "press")
     press.value = 50.0
@@ -127,8 +128,9 @@ def test_a_turn_is_a_control_like_a_translation(rng):
     assert turn.force(evaluation, model.ranks) == pytest.approx(expected, abs=1e-12)
 
 
-def test_the_predictor_of_a_turning_tool_is_a_derivative(rng):
-    model, punch = beam(mt.SVK(E=210e3, nu=0.3))
+@pytest.mark.parametrize("friction", [None, 0.3])
+def test_the_predictor_of_a_turning_tool_is_a_derivative(friction, rng):
+    model, punch = beam(mt.SVK(E=210e3, nu=0.3), friction=friction)
     turn, way = model.turn(punch, "y", (15.0, 0.0, 0.0), "tilt"), model.drive(punch, (1.0, 0.0, -0.2), "slide")
     u = 1e-3 * rng.normal(size=model.u.size)
     rates = {turn: 0.7, way: 1.3}
@@ -144,10 +146,11 @@ def test_the_predictor_of_a_turning_tool_is_a_derivative(rng):
     np.testing.assert_allclose(found, difference, atol=2e-6 * np.abs(difference).max())
 
 
+@pytest.mark.parametrize("friction", [None, 0.3])
 @pytest.mark.parametrize("moved", ["turn", "press", "sheet"])
-def test_the_predictor_of_a_pressed_tool_is_a_derivative(moved, rng):
+def test_the_predictor_of_a_pressed_tool_is_a_derivative(moved, friction, rng):
     """In its equation too: a turn of the tool, the force and the sheet move the balance of forces."""
-    model, punch = beam(mt.SVK(E=210e3, nu=0.3))
+    model, punch = beam(mt.SVK(E=210e3, nu=0.3), friction=friction)
     turn, press = model.turn(punch, "y", (15.0, 0.0, 0.0), "tilt"), model.press(punch, "z", "press")
     rates = {"turn": {turn: 0.7}, "press": {press: 900.0}, "sheet": {}}[moved]
     x, du = model.x.copy(), rng.normal(size=model.u.size) * (moved == "sheet")

@@ -41,6 +41,9 @@ class ContactBlock {
     virtual std::vector<Reaction> reactions() = 0;
     /// What is known of the points that are held, as a copy.
     virtual ContactFound found() = 0;
+    /// Derivative of sum A t . v with v = w + omega x (x - p) over all points that are held, with respect to u [3 n]: that of the
+    /// force, or moment, that a rigid motion of the tool is conjugate to. eq. (4.42)
+    virtual std::vector<double> row(const Vec3& w, const Vec3& omega, const Vec3& p) = 0;
     /// Square of what a relative error of all positions makes of the residual, over the square of that error. eq. (5.36)
     virtual double round_off_squared() = 0;
     /// Largest penetration, zero if there is none.
@@ -158,6 +161,24 @@ class ContactBlockOf final : public ContactBlock {
         found.penetration = penetration();
         found.round_off_squared = round_off.squared();
         return found;
+    }
+
+    std::vector<double> row(const Vec3& w, const Vec3& omega, const Vec3& p) override {
+        std::vector<double> row(dofs(), 0.0);
+        for_each_held([&](int e, int q, const Reaction& reaction) {
+            const Vec3 &x = locator_.positions()[q], t = reaction.traction(locator_.normals()[q]);
+            const Vec3 turned = cross(omega, {x[0] - p[0], x[1] - p[1], x[2] - p[2]}), turning = cross(t, omega);
+            for (int l = 0; l < 3; ++l) {
+                double value = turning[l];
+                for (int k = 0; k < 3; ++k) {
+                    const bool stored = !symmetric() || k <= l;
+                    value -= (w[k] + turned[k]) * (stored ? reaction.K[k][l] : reaction.K[l][k]);
+                }
+                const std::int32_t* ids = connectivity()[e];
+                for (int a = 0; a < Nodes; ++a) row[3 * ids[a] + l] += area_[q] * values_at(q)[a] * value;
+            }
+        });
+        return row;
     }
 
     double round_off_squared() override {

@@ -100,7 +100,8 @@ class ContactFound(Found):
     @cached_property
     def slipping(self) -> NDArray[np.bool_]:
         """Which points slip along the tool, at the bound of friction."""
-        return self.status == 2
+        slipping: NDArray[np.bool_] = self.status == 2
+        return slipping
 
     @property
     def friction_work(self) -> float:

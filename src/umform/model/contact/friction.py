@@ -130,7 +130,7 @@ class Region:
             raise InvalidFriction(
                 "a region of friction is a box with a lower and an upper corner",
                 where="friction",
-                value=f"{self.lower} to {self.upper}",
+                value=f"{lower.tolist()} to {upper.tolist()}",
                 cause="corners exchanged, or not three numbers each",
                 remedy="Region((-10, -inf, -inf), (10, inf, inf), 0.05)",
             )
@@ -187,10 +187,10 @@ def friction_kernel(friction: AnyFriction) -> _core.FrictionLaw:
     return Friction(friction).kernel()
 
 
-def _guarded(function: FrictionFunction) -> Callable[[float, float, list[float]], float]:
+def _guarded(function: FrictionFunction) -> Callable[[float, float, Sequence[float]], float]:
     """The function with a clear message where its answer is none."""
 
-    def bound(pressure: float, slip: float, z: list[float]) -> float:
+    def bound(pressure: float, slip: float, z: Sequence[float]) -> float:
         answer = function(pressure, slip, np.array(z))
         try:
             value = float(answer)
