@@ -273,7 +273,8 @@ void bind_contact(nb::module_& m) {
             "row",
             [](ContactBlock& b, const Vec3& w, const Vec3& omega, const Vec3& p) { return copied(b.row(w, omega, p)); },
             nb::arg("w"), nb::arg("omega") = Vec3{}, nb::arg("p") = Vec3{},
-            nb::sig("def row(self, w: Sequence[float], omega: Sequence[float] = ..., p: Sequence[float] = ...) -> NDArray[float64]"),
+            nb::sig(
+                "def row(self, w: Sequence[float], omega: Sequence[float] = ..., p: Sequence[float] = ...) -> NDArray[float64]"),
             "Derivative of the sum of the tractions times areas times the way w + omega x (x - p) with respect to u.")
         .def("found", &ContactBlock::found, "What is known of the points that are held now, as a copy.")
         .def_prop_ro(

@@ -41,9 +41,9 @@ class History:
     The history has one row for each increment: ``step``, ``time``, each control and its ``<name>_force``, for each
     contact the force ``<name>_fx``, ``_fy``, ``_fz`` and moment about the origin ``_mx``, ``_my``, ``_mz`` of the sheet
     on the tool, the largest penetration ``<name>_penetration`` and the number of ``<name>_active`` points, the
-    ``external_work`` and the ``elastic_energy``, ``plastic_work``, ``contact_energy`` and ``friction_work`` that it went
-    into, and the number of ``iterations``. ``events`` says what happened (lift-off), ``warnings`` what to look at, ``timing`` where
-    the time went, since the run began or was taken up.
+    ``external_work`` and the ``elastic_energy``, ``plastic_work``, ``contact_energy`` and ``friction_work`` that it
+    went into, and the number of ``iterations``. ``events`` says what happened (lift-off), ``warnings`` what to look at,
+    ``timing`` where the time went, since the run began or was taken up.
 
     All energies of a model at rest are zero. A run that starts from a deformed or loaded state starts its external work
     at the sum of the energies that it finds. Energies that a law does not know (one of the user, without an energy) are

@@ -43,7 +43,7 @@ class Given:
         return SimpleNamespace(
             x=u, residual=residual, values=np.ones(1), predictor=np.zeros(1), border=SimpleNamespace(unknowns=()),
             force_scale=1.0, failed=-1, round_off=0.0, flowing=np.zeros(0, dtype=np.uint8),
-            active=np.array(self.active[min(self.count, len(self.active)) - 1], dtype=bool),
+            status=np.array(self.active[min(self.count, len(self.active)) - 1], dtype=np.uint8),
         )  # fmt: skip
 
     def recover(self, du, s, mixed=False):

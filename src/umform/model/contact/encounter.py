@@ -50,6 +50,11 @@ class Encounter:
     line_force: float
     stiffness: float
 
+    @property
+    def flat(self) -> bool:
+        """Whether the tool is flat all over."""
+        return self.radius >= _FLATTEST * self.thickness
+
     @classmethod
     def of(cls, mesh: Mesh, facets: Ids, tool: _core.Surface, material: Material, where: str) -> Encounter:
         """Measure mesh and tool where they stand, and ask the law."""

@@ -20,6 +20,8 @@ log = logging.getLogger("umform.contact")
 
 #: Penetration that is allowed by default, in thicknesses.
 _PENETRATION = 1.0 / 200.0
+#: Length that a flat tool, a blank holder for instance, spreads the line force on, in thicknesses.
+_FLAT = 20.0
 #: Elastic slip that is allowed by default, in thicknesses.
 _SLIP = 1.0 / 200.0
 #: Largest penalty over stiffness / thickness: beyond it the sheet is squeezed ten times as much as it penetrates.
@@ -155,7 +157,8 @@ def _length_at(met: Encounter, allowed: float) -> float:
 def _penalty(met: Encounter, allowed: float, points: int | str) -> float:
     """Penalty that carries the line force at the penetration that is allowed. eq. (4.29)"""
     spacing = met.length if isinstance(points, str) else met.length / points
-    length = max(2.0 / 3.0 * _length_at(met, allowed), spacing)
+    touching = _FLAT * met.thickness if met.flat else 2.0 / 3.0 * _length_at(met, allowed)
+    length = max(touching, spacing)
     return min(met.line_force / (allowed * length), _STIFFEST * met.stiffness / met.thickness)
 
 
