@@ -147,7 +147,7 @@ STRATEGIES = (
     # A stiff tool may come to where nothing touched before: with a soft one the sheet finds its shape first.
     Strategy(
         "softer penalties",
-        lambda at: at.touches,
+        lambda at: at.touches and (at.habits.softens or not at.touched),
         lambda at: at.soft(),
     ),
 )
@@ -161,7 +161,7 @@ def equilibrium(increment: Increment) -> Converged:
     Failed
         If none does; the model is reverted. It is the failure with the penalty of the user, of the last start.
     """
-    attempts, failures = increment.newton.timing.attempts, []
+    attempts, failures = increment.newton.timing.attempts, {}
     touched = increment.touched
     for strategy in STRATEGIES:
         if not strategy.serves(increment):
@@ -170,16 +170,17 @@ def equilibrium(increment: Increment) -> Converged:
             with attempts.trying(strategy.name):
                 converged = increment.accept(strategy.attempt(increment))
         except Failed as failure:
-            failures.append((strategy.name, failure))
+            failures[strategy.name] = failure
             attempts.causes[_cause(strategy.name, failure, touched)] += 1
         else:
             increment.habits.learn(
-                failed=[name for name, _ in failures],
+                failed={name: failure.cause for name, failure in failures.items()},
                 won=strategy.name,
                 negative_pivots=converged.iterations[-1].negative_pivots,
             )
             return converged
-    plain = [failure for name, failure in failures if name != "softer penalties"]
+    increment.habits.learn_of_cut({name: failure.cause for name, failure in failures.items()})
+    plain = [failure for name, failure in failures.items() if name != "softer penalties"]
     if any(failure.cause is Cause.SINGULAR for failure in plain):
         plain[-1].cause = Cause.SINGULAR
     raise plain[-1]
