@@ -12,7 +12,6 @@ from umform.solution.options import Wary
 from umform.solution.records import Cause, Failed, Iteration
 from umform.solution.system import Evaluation, System
 
-
 #: A residual this large, over the force scale, is far from equilibrium.
 _FAR = 0.1
 

@@ -118,7 +118,7 @@ class Moving:
     @staticmethod
     def _hopeless(step: Move, size: float) -> bool:
         """Whether the run is given up rather than tried with so small an increment."""
-        return size < step.nominal / 2**step.cuts
+        return bool(size < step.nominal / 2**step.cuts)
 
 
 @dataclass
