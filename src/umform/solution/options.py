@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 
 from umform.errors import InvalidValue
 
@@ -47,6 +48,14 @@ class NewtonOptions:
             raise InvalidValue("a cost is zero or more", where="factor_cost", value=self.factor_cost)
 
 
+class Wary(Enum):
+    """What becomes of an attempt whose tangent is indefinite far from equilibrium."""
+
+    NOT = "it goes on"
+    OF_MORE = "it ends where negative pivots become more from one iteration to the next"
+    OF_ANY = "it ends at once"
+
+
 @dataclass(frozen=True)
 class Manner:
     """How iterations are made.
@@ -59,11 +68,11 @@ class Manner:
         Whether the factors of the iteration before may serve for the next one.
     mixed : bool
         Whether the geometric stiffness is that of the stress which the last increment foresaw. eq. (5.39)
-    wary : bool
-        Whether iterations end where the tangent is indefinite far from equilibrium.
+    wary : Wary
+        When iterations end because the tangent is indefinite far from equilibrium.
     """
 
     line_search: bool
     reuses: bool
     mixed: bool
-    wary: bool = False
+    wary: Wary = Wary.NOT
