@@ -184,8 +184,8 @@ class Solution(Part):
     """Iterations before an increment is cut."""
     line_search: bool | None = None
     """Shorten increments that go too far; default: where a law has a history."""
-    extrapolate: bool = True
-    """Start an increment from the extrapolated last one."""
+    extrapolate: Annotated[int, Field(ge=0, le=2)] = 1
+    """Start an increment from the tangent (0), or extrapolate the last states by a line (1) or a parabola (2)."""
     mixed: bool | None = None
     """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets."""
 

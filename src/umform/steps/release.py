@@ -163,7 +163,7 @@ class Releasing:
         """Restore the state before an increment that went too far; its end is the new bound."""
         self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
         saved.restore(run.model)
-        run.evaluation, run.last_dx, self.taken = saved.evaluation, None, None
+        run.evaluation, run.trail, self.taken = saved.evaluation, None, None
 
 
 @dataclass(frozen=True)
