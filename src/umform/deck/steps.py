@@ -184,14 +184,15 @@ class Solution(Part):
     """Iterations before an increment is cut."""
     line_search: bool | None = None
     """Shorten increments that go too far; default: where a law has a history."""
-    extrapolate: Annotated[int, Field(ge=0, le=2)] = 1
-    """Start an increment from the tangent (0), or extrapolate the last states by a line (1) or a parabola (2)."""
+    extrapolate: bool | Literal[0, 1, 2] = 1
+    """Start an increment from the tangent (0, false), or from a line (1, true) or parabola (2) through the last states."""
     mixed: bool | None = None
     """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets."""
 
     def build(self) -> NewtonOptions:
         """Options of Newton's method."""
-        return NewtonOptions(**self.model_dump(exclude={"solver"}))
+        options = self.model_dump(exclude={"solver"})
+        return NewtonOptions(**options | {"extrapolate": int(self.extrapolate)})
 
 
 class Output(Part):
