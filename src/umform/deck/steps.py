@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from umform import steps
 from umform.deck.parts import Count, Name, Part, Positive
@@ -171,6 +171,11 @@ class Free(Part):
 StepPart = Annotated[Move | Release | Arc | Free, Field(discriminator="kind")]
 
 
+def _order(value: object) -> object:
+    """Order of an extrapolation that is wanted or not: true is 1, false 0."""
+    return int(value) if isinstance(value, bool) else value
+
+
 class Solution(Part):
     """Sparse solver and Newton's method."""
 
@@ -184,15 +189,14 @@ class Solution(Part):
     """Iterations before an increment is cut."""
     line_search: bool | None = None
     """Shorten increments that go too far; default: where a law has a history."""
-    extrapolate: bool | Literal[0, 1, 2] = 1
-    """Start an increment from the tangent (0, false), or from a line (1, true) or parabola (2) through the last states."""
+    extrapolate: Annotated[Literal[0, 1, 2], BeforeValidator(_order)] = 1
+    """Start an increment from the tangent (0), or from a line (1) or a parabola (2) through the last states."""
     mixed: bool | None = None
     """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets."""
 
     def build(self) -> NewtonOptions:
         """Options of Newton's method."""
-        options = self.model_dump(exclude={"solver"})
-        return NewtonOptions(**options | {"extrapolate": int(self.extrapolate)})
+        return NewtonOptions(**self.model_dump(exclude={"solver"}))
 
 
 class Output(Part):
