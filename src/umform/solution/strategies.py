@@ -130,7 +130,7 @@ STRATEGIES = (
     # The last increment again, in proportion: no evaluation is needed to begin with.
     Strategy(
         "extrapolation",
-        lambda at: at.guess is not None and at.newton.options.extrapolate and at.habits.extrapolates,
+        lambda at: at.guess is not None and at.newton.options.extrapolate > 0 and at.habits.extrapolates,
         lambda at: at.newton.solve(at.guess, at.newton.manner(wary=at.wary)),
     ),
     Strategy(

@@ -9,11 +9,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Self
 
+import numpy as np
+
 from umform.solution.records import Cause, Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
 from umform.steps.move import Move
 from umform.steps.pace import Happened
+from umform.steps.trail import changes
 
 log = logging.getLogger("umform.steps")
 
@@ -42,7 +45,8 @@ class Moving:
     fraction : float
         How much of the step is done.
     last_size : float, optional
-        Size of the last increment, for the extrapolation; None after a cut.
+        Size of the last increment, for the extrapolation; None after a cut. At the beginning that of the step
+        before, if this one goes on the same way.
     count : int
         Increments so far.
     done : bool
@@ -60,7 +64,8 @@ class Moving:
     @classmethod
     def begin(cls, run: Run, step: Move) -> Self:
         """The loop at the beginning of the step."""
-        return cls([control.value for control in step.moved()], run.model.time, step.nominal)
+        starts = [control.value for control in step.moved()]
+        return cls(starts, run.model.time, step.nominal, last_size=_size_of_last(run, step, starts))
 
     @classmethod
     def recall(cls, run: Run, step: Move, memory: dict[str, Any]) -> Self:
@@ -204,6 +209,15 @@ class Pacing(Moving):
     def _cut(self, run: Run, step: Move, failure: Failed, target: float) -> None:
         self.limit = _BELOW_FAILED * (target - self.fraction)
         super()._cut(run, step, failure, target)
+
+
+def _size_of_last(run: Run, step: Move, starts: list[float]) -> float | None:
+    """Size that the last increment would have in the step that begins, if the step goes on where that one led."""
+    if run.trail is None or run.newton.options.extrapolate < 2:
+        return None
+    by = np.subtract(step.values(step.nominal, starts), starts)
+    size = run.trail.size(changes(run.model.controls, step.moved(), by))
+    return None if size is None else size * step.nominal
 
 
 def loop_of(step: Move) -> type[Moving]:

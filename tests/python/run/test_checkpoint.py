@@ -44,6 +44,13 @@ def bending(cells=(8, 1), kappa=175e3, penalty=100.0, stroke=-5.0, radius=20.0):
     return model, [Move(punch, stroke, steps=10), Release(punch)], {"solver": "banded", "frames": 4}
 
 
+def moves():
+    """Bent in moves that go on from each other along parabolas."""
+    model, (move, release), options = bending()
+    parts = [replace(move, to=to, steps=steps) for to, steps in ((-1.0, 3), (-2.0, 2), (-2.5, 1), (-4.0, 4))]
+    return model, [*parts, release], options | {"options": NewtonOptions(extrapolate=2)}
+
+
 def cut():
     """The same in increments that fail and are cut, along a function of time."""
     model, (move, release), options = bending()
@@ -145,7 +152,7 @@ def copies(monkeypatch, tmp_path):
 # The same bits ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("build", [bending, cut, bar, block, arch, pressed])
+@pytest.mark.parametrize("build", [bending, moves, cut, bar, block, arch, pressed])
 def test_a_run_goes_on_from_any_place_to_the_same_bits(build, copies, tmp_path, assert_the_same):
     model, steps, options = build()
     expected = solve(model, steps, **options)

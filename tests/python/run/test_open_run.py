@@ -45,11 +45,16 @@ def test_steps_one_by_one_are_a_run():
     assert run.result.timing.run.calls == straight.timing.run.calls
 
 
-def test_a_branch_that_is_left_leaves_no_trace():
+@pytest.mark.parametrize("order", [1, 2])
+def test_a_branch_that_is_left_leaves_no_trace(order):
     model, punch = strip()
-    straight = uf.solve(model, [uf.Move(punch, to=-0.4, steps=4), uf.Move(punch, to=-0.7, steps=3)], progress=False)
+    steps, options = (
+        [uf.Move(punch, to=-0.4, steps=4), uf.Move(punch, to=-0.7, steps=3)],
+        uf.NewtonOptions(extrapolate=order),
+    )
+    straight = uf.solve(model, steps, options=options, progress=False)
     model, punch = strip()
-    run = OpenRun(model)
+    run = OpenRun(model, options=options)
     run.take(uf.Move(punch, to=-0.4, steps=4))
     mark = run.mark()
     for _ in range(2):
