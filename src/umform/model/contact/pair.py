@@ -92,16 +92,19 @@ class Contact(PairPoints):
 
     def commit(self, found: Found) -> None:
         """Make the trial history, multipliers too, and what was found those of the converged state."""
-        if self.friction is not None:
-            self.before = self.state()["history"]
-        self.block.commit()
+        self._commit()
         assert isinstance(found, ContactFound)
         self.stand(found)
 
-    def begin(self) -> None:
-        """Take the places where the points are now, in the last evaluation, as those that friction slides from."""
+    def _commit(self) -> None:
         if self.friction is not None:
-            self.block.begin()
+            self.before = self._by_facet(self.block.read)
+        self.block.commit()
+
+    def begin(self) -> None:
+        """Let friction begin at the last evaluation, where it has no history yet."""
+        if self.friction is not None and not self.block.begun:
+            self._commit()
 
     def go_back(self, before: Floats) -> None:
         """Take the history that the evaluation of the converged state had read."""
@@ -113,8 +116,11 @@ class Contact(PairPoints):
 
     def state(self) -> Tree:
         """History of the points, a row for each facet."""
-        state = self.block.state
-        return {"history": state.reshape(len(self.facets), -1, state.shape[1])}
+        return {"history": self._by_facet(self.block.state)}
+
+    def _by_facet(self, history: Floats) -> Floats:
+        """A history of points with a row for each facet."""
+        return history.reshape(len(self.facets), -1, history.shape[1])
 
     def restore(self, tree: Tree) -> None:
         """Put a history back."""
