@@ -34,7 +34,7 @@ LAWS = {
 
 def egg(x):
     """An ellipsoid below the plate as a function of the user."""
-    x = x + (0.0, 0.0, 3.0)
+    x = x + np.array([0.0, 0.0, 3.0])
     A = np.diag([1 / 36.0, 1 / 49.0, 1 / 9.0])
     s = np.sqrt(np.einsum("qi,ij,qj->q", x, A, x))
     Ax = x @ A
@@ -64,7 +64,7 @@ def lifted(z):
 
 
 def rubbing_plate(build, rng, tool, cell="hex8", points=3, friction=0.3, slip=0.01):
-    """A plate that touches a moved and turned tool in part, after an increment in which it touched it in another part."""
+    """A plate that touches a tool in part, after an increment in which it touched it in another part."""
     mesh = build.jittered(strip(2.0, 1.5, 0.2, (3, 2), cell=cell), 0.1).transformed(lifted(0.1))
     model = Model(mesh, ELEMENT[cell], material=ELASTIC)
     contact = model.contact("lower", tool, penalty=50.0, points=points, friction=friction, slip=slip)

@@ -86,7 +86,7 @@ def arch():
 
 
 def rubbed():
-    """A strip under a holder that is pressed, drawn over a die with friction, back and forth; multipliers in one pair."""
+    """A strip under a holder that a force presses, drawn over two dies with friction, back and forth."""
     material = mt.J2(kappa=175e3, mu=80.77e3, hardening=mt.Linear(160.0, 500.0))
     model = Model(strip(30.0, 2.0, 1.0, (12, 1)), material=material)
     model.symmetry("y0", "y")
