@@ -73,7 +73,7 @@ class Gathering:
         points: dict[str, Any] = {name: self.own_nodes.collect(values[owned]) for name, values in frame.points.items()}
         cells: dict[str, Any] = {name: self.cells.collect(values) for name, values in frame.cells.items()}
         contacts: dict[str, dict[str, Any]] = {
-            name: {key: self.points(by_name[name], values) for key, values in vars(at).items()}
+            name: {key: self.points(by_name[name], values) for key, values in at.known().items()}
             for name, at in frame.contacts.items()
         }
         if self.ranks.rank > 0:

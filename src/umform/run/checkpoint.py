@@ -250,7 +250,7 @@ def _recall_result(result: History, tree: dict[str, Any], evaluation: Evaluation
 
 
 def _frame_tree(frame: Frame) -> dict[str, Any]:
-    return {**vars(frame), "contacts": {name: vars(points) for name, points in frame.contacts.items()}}
+    return {**vars(frame), "contacts": {name: points.known() for name, points in frame.contacts.items()}}
 
 
 def _frame(tree: dict[str, Any]) -> Frame:

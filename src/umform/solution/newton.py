@@ -35,6 +35,9 @@ log = logging.getLogger("umform.newton")
 Floats = NDArray[np.float64]
 _T = TypeVar("_T")
 
+#: A displacement of so many times the extent of the sheet is none of a sheet that something holds.
+_FLIGHT = 1e4
+
 
 class Newton:
     """Newton's method with a solver that keeps its symbolic factorisation while the pattern holds."""
@@ -203,6 +206,7 @@ class Newton:
             moved = bool(entered or left) or system.ranks.any(not np.array_equal(status, previous))
             if criteria.met(norm, increment, u, evaluation, moved=moved):
                 recorder.add(evaluation.flowing, norm / scale, increment, 0.0, entered, left, step_length, pivots)
+                self._check_flight(evaluation, iterations)
                 if lean:
                     system.follow()
                 return Converged(evaluation, iterations)
@@ -265,3 +269,10 @@ class Newton:
         """Size of an increment over that of the displacement."""
         displacement = largest(self.system, evaluation.x, evaluation)
         return largest(self.system, dx, evaluation) / displacement if displacement > 0 else 0.0
+
+    def _check_flight(self, evaluation: Evaluation, iterations: list[Iteration]) -> None:
+        """Fail where nothing holds the sheet and round-off has hidden that from the factorisation: it flies away."""
+        displacement = largest(self.system, evaluation.x, evaluation)
+        if displacement > _FLIGHT * self.system.extent:
+            reason = f"nothing holds the sheet: a displacement of {displacement:.3g} follows from round-off"
+            raise Failed(reason, iterations, Cause.SINGULAR)
