@@ -1,0 +1,67 @@
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "arrays.hpp"
+#include "umform/materials/logarithmic_space.hpp"
+#include "umform/materials/metal.hpp"
+
+using namespace umform;
+
+namespace {
+
+using YieldFunction = std::variant<QuadraticYield>;
+
+std::shared_ptr<Material> metal(double kappa, double mu, const Hardening& hardening, const YieldFunction& yield,
+                                const std::vector<std::pair<double, double>>& back_stress, double fall, double rate) {
+    if (back_stress.size() > Chaboche::largest) throw std::invalid_argument("no more than four back stresses");
+    MetalParts parts{kappa, mu, hardening, {}, {fall, rate}};
+    for (const auto& [modulus, recall] : back_stress) parts.back_stress.parts.push_back({modulus, recall});
+    return std::visit(
+        [&](const auto& function) -> std::shared_ptr<Material> {
+            using Law = Metal<std::decay_t<decltype(function)>>;
+            return std::make_shared<MaterialOf<Law>>(Law(parts, function));
+        },
+        yield);
+}
+
+/// phi, its gradient (6,) by the components of the stress.
+nb::object evaluate(const YieldFunction& yield, const Input& stress) {
+    if (stress.size() != 6) throw std::invalid_argument("a stress has six components");
+    Voigt T;
+    std::copy_n(stress.data(), 6, T.begin());
+    return std::visit(
+        [&](const auto& function) -> nb::object {
+            double phi;
+            Deviator<double> n;
+            function.gradient(function.basis.components(T, 1.0), phi, n);
+            const Voigt gradient = function.basis.tensor(n, 0.5);
+            return nb::make_tuple(phi, to_numpy(std::vector<double>(gradient.begin(), gradient.end()), {6}));
+        },
+        yield);
+}
+
+}  // namespace
+
+void bind_metals(nb::module_& m) {
+    nb::class_<YieldFunction>(m, "YieldFunction", "Equivalent stress as a function of the stress in the axes of the sheet.")
+        .def("__call__", &evaluate, nb::arg("stress"),
+             nb::sig("def __call__(self, stress: NDArray[float64]) -> tuple[float, NDArray[float64]]"),
+             "Equivalent stress, and its gradient as a strain with engineering shears (6,).");
+    m.def(
+        "hill48",
+        [](double F, double G, double H, double L, double M, double N) {
+            return YieldFunction(QuadraticYield::hill(F, G, H, L, M, N));
+        },
+        nb::arg("F"), nb::arg("G"), nb::arg("H"), nb::arg("L"), nb::arg("M"), nb::arg("N"));
+    m.def("metal", &metal, nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"), nb::arg("yield_function"),
+          nb::arg("back_stress"), nb::arg("fall"), nb::arg("rate"),
+          "A small-strain law; back stresses are pairs (modulus, recall), the modulus falls by `fall` at `rate`.");
+    m.def(
+        "logarithmic_space",
+        [](std::shared_ptr<Material> law) -> std::shared_ptr<Material> {
+            return std::make_shared<LogarithmicSpace>(std::move(law));
+        },
+        nb::arg("law"), "A small-strain law as one of finite strain: asked with logarithmic strains.");
+}

@@ -1,0 +1,42 @@
+// Back stresses of Chaboche, each with linear hardening and recall, by backward Euler. docs/theory, 3.12
+#pragma once
+
+#include <vector>
+
+#include "umform/materials/deviator.hpp"
+
+namespace umform {
+
+/// d alpha_i = C_i (xi / phi) dp - gamma_i alpha_i dp with xi = s - sum alpha_i. eq. (3.74)
+struct Chaboche {
+    struct Part {
+        double modulus, recall;
+    };
+    static constexpr int largest = 4;
+    std::vector<Part> parts;
+
+    int count() const { return static_cast<int>(parts.size()); }
+};
+
+/// Sum of the back stresses behind a plastic increment, a xi / y + A, and the derivatives of a and A. eq. (3.75)
+template <class Real>
+struct BackStress {
+    Real a, da;
+    Deviator<Real> A{}, dA{};
+
+    BackStress(const Chaboche& law, const std::array<Deviator<Real>, Chaboche::largest>& before, Real dp) {
+        a = da = 0.0;
+        for (int k = 0; k < law.count(); ++k) {
+            const auto [modulus, recall] = law.parts[k];
+            const Real w = 1.0 / (1.0 + recall * dp);
+            a += modulus * w * dp;
+            da += modulus * w * w;
+            for (int i = 0; i < 5; ++i) {
+                A[i] += w * before[k][i];
+                dA[i] -= recall * w * w * before[k][i];
+            }
+        }
+    }
+};
+
+}  // namespace umform
