@@ -6,12 +6,13 @@
 #include "arrays.hpp"
 #include "umform/materials/logarithmic_space.hpp"
 #include "umform/materials/metal.hpp"
+#include "umform/materials/yield/yld2004.hpp"
 
 using namespace umform;
 
 namespace {
 
-using YieldFunction = std::variant<QuadraticYield>;
+using YieldFunction = std::variant<QuadraticYield, Yld2004>;
 
 std::shared_ptr<Material> metal(double kappa, double mu, const Hardening& hardening, const YieldFunction& yield,
                                 const std::vector<std::pair<double, double>>& back_stress, double fall, double rate) {
@@ -55,6 +56,19 @@ void bind_metals(nb::module_& m) {
             return YieldFunction(QuadraticYield::hill(F, G, H, L, M, N));
         },
         nb::arg("F"), nb::arg("G"), nb::arg("H"), nb::arg("L"), nb::arg("M"), nb::arg("N"));
+    m.def(
+        "yld2004",
+        [](int exponent, const std::vector<double>& first, const std::vector<double>& second) {
+            std::array<double, 9> a, b;
+            if (exponent < 2 || exponent % 2 != 0 || exponent > TransformedStress<double>::most)
+                throw std::invalid_argument("the exponent must be even, from 2 to 20");
+            if (first.size() != 9 || second.size() != 9) throw std::invalid_argument("nine coefficients each");
+            std::copy_n(first.begin(), 9, a.begin());
+            std::copy_n(second.begin(), 9, b.begin());
+            return YieldFunction(Yld2004(exponent, a, b));
+        },
+        nb::arg("exponent"), nb::arg("first"), nb::arg("second"),
+        "c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.");
     m.def("metal", &metal, nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"), nb::arg("yield_function"),
           nb::arg("back_stress"), nb::arg("fall"), nb::arg("rate"),
           "A small-strain law; back stresses are pairs (modulus, recall), the modulus falls by `fall` at `rate`.");

@@ -1,6 +1,7 @@
 // Back stresses of Chaboche, each with linear hardening and recall, by backward Euler. docs/theory, 3.12
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "umform/materials/deviator.hpp"
@@ -16,6 +17,9 @@ struct Chaboche {
     std::vector<Part> parts;
 
     int count() const { return static_cast<int>(parts.size()); }
+    bool recalls() const {
+        return std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.recall > 0.0; });
+    }
 };
 
 /// Sum of the back stresses behind a plastic increment, a xi / y + A, and the derivatives of a and A. eq. (3.75)

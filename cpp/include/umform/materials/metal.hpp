@@ -3,7 +3,7 @@
 #pragma once
 
 #include "umform/materials/concept.hpp"
-#include "umform/materials/plastic_increment.hpp"
+#include "umform/materials/general_return.hpp"
 #include "umform/materials/quadratic_return.hpp"
 
 namespace umform {
@@ -29,7 +29,7 @@ struct Metal {
         return names;
     }
     void initial(double* state) const { std::fill_n(state, state_size, 0.0); }
-    bool symmetric() const { return parts.associated_only(); }
+    bool symmetric() const { return parts.modulus.fall == 0.0 && !parts.back_stress.recalls(); }
 
     /// T and C = dT/dh at the strain h. eqs. (3.73)-(3.82)
     template <class Real>
