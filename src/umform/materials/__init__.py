@@ -2,30 +2,44 @@
 
 from umform.materials.elastic import SVK, Elastic, NeoHooke, NeoHookePower
 from umform.materials.hardening import Hardening, Linear, LinearVoce, Perfect, Swift, Table, Voce
-from umform.materials.j2 import J2
+from umform.materials.j2 import J2, Plastic
 from umform.materials.material import Material
+from umform.materials.metal import Chaboche, FallingModulus, LogarithmicSpace, Metal
 from umform.materials.tangent_check import TangentCheck, check_law
 from umform.materials.user_law import EnergyFunction, Floats, LawFunction, Points, UserLaw
+from umform.materials.yield_functions import Hill48, Hosford, Mises, Transformation, YieldFunction, Yld91, Yld2004
 
 __all__ = [
     "J2",
     "SVK",
+    "Chaboche",
     "Elastic",
     "EnergyFunction",
+    "FallingModulus",
     "Floats",
     "Hardening",
+    "Hill48",
+    "Hosford",
     "LawFunction",
     "Linear",
     "LinearVoce",
+    "LogarithmicSpace",
     "Material",
+    "Metal",
+    "Mises",
     "NeoHooke",
     "NeoHookePower",
     "Perfect",
+    "Plastic",
     "Points",
     "Swift",
     "Table",
     "TangentCheck",
+    "Transformation",
     "UserLaw",
     "Voce",
+    "YieldFunction",
+    "Yld91",
+    "Yld2004",
     "check_law",
 ]
