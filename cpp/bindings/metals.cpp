@@ -12,7 +12,7 @@ using namespace umform;
 
 namespace {
 
-using YieldFunction = std::variant<QuadraticYield, Yld2004>;
+using YieldFunction = std::variant<QuadraticYield, Yld2004<6>, Yld2004<8>, Yld2004<0>>;
 
 std::shared_ptr<Material> metal(double kappa, double mu, const Hardening& hardening, const YieldFunction& yield,
                                 const std::vector<std::pair<double, double>>& back_stress, double fall, double rate) {
@@ -65,7 +65,9 @@ void bind_metals(nb::module_& m) {
             if (first.size() != 9 || second.size() != 9) throw std::invalid_argument("nine coefficients each");
             std::copy_n(first.begin(), 9, a.begin());
             std::copy_n(second.begin(), 9, b.begin());
-            return YieldFunction(Yld2004(exponent, a, b));
+            if (exponent == 6) return YieldFunction(Yld2004<6>(exponent, a, b));
+            if (exponent == 8) return YieldFunction(Yld2004<8>(exponent, a, b));
+            return YieldFunction(Yld2004<0>(exponent, a, b));
         },
         nb::arg("exponent"), nb::arg("first"), nb::arg("second"),
         "c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.");

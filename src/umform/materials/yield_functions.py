@@ -207,8 +207,8 @@ def Yld91(
         Even, from 2 to 20.
     """
     check_finite("Yld91", a=a, b=b, c=c, f=f, g=g, h=h)
-    rows = (b + 2 * c, 2 * b + c, a + 2 * c, 2 * a + c, a + 2 * b, 2 * a + b)
-    both = Transformation(*[row / 3 for row in rows], shear12=h, shear23=f, shear13=g)
+    c12, c13, c21, c23 = (b + 2 * c) / 3, (2 * b + c) / 3, (a + 2 * c) / 3, (2 * a + c) / 3
+    both = Transformation(c12, c13, c21, c23, (a + 2 * b) / 3, (2 * a + b) / 3, shear12=h, shear23=f, shear13=g)
     return Yld2004(both, both, exponent)
 
 

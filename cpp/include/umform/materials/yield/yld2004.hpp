@@ -91,6 +91,8 @@ struct TransformedStress {
     }
 };
 
+/// Of the exponent `Fixed`, whose loops are then known to the compiler; of any even one if that is 0.
+template <int Fixed>
 class Yld2004 {
   public:
     DeviatorBasis basis;
@@ -109,7 +111,7 @@ class Yld2004 {
     Real value(const Deviator<Real>& xi) const {
         const Real size = length(xi);
         const Deviator<Real> unit = over(xi, size);
-        const TransformedStress<Real> a(first_, unit, exponent_), b(second_, unit, exponent_);
+        const TransformedStress<Real> a(first_, unit, exponent()), b(second_, unit, exponent());
         return size * root(polynomial(a, b));
     }
 
@@ -124,11 +126,11 @@ class Yld2004 {
     void derivatives(const Deviator<Real>& xi, Real& phi, Deviator<Real>& n, Mat<Real, 5, 5>& N) const {
         const Real size = length(xi);
         const Deviator<Real> unit = over(xi, size);
-        const TransformedStress<Real> a(first_, unit, exponent_), b(second_, unit, exponent_);
+        const TransformedStress<Real> a(first_, unit, exponent()), b(second_, unit, exponent());
         const Real sum = polynomial(a, b), sigma = root(sum);
         const Weights<Real> w = weights(a, b);
         const std::array<const Deviator<Real>*, 6> de{&a.de[0], &a.de[1], &a.de[2], &b.de[0], &b.de[1], &b.de[2]};
-        const Real scale = sigma / (exponent_ * sum);
+        const Real scale = sigma / (exponent() * sum);
         std::array<Deviator<Real>, 6> half;
         n = Deviator<Real>{0.0, 0.0, 0.0, 0.0, 0.0};
         for (int r = 0; r < 6; ++r)
@@ -147,7 +149,7 @@ class Yld2004 {
             }
         a.add_curvature(w.first[1], w.first[2], curvature);
         b.add_curvature(w.first[4], w.first[5], curvature);
-        const Real inverse = 1.0 / size, rank_one = (exponent_ - 1.0) / sigma;
+        const Real inverse = 1.0 / size, rank_one = (exponent() - 1.0) / sigma;
         for (int i = 0; i < 5; ++i)
             for (int j = 0; j < 5; ++j) N(i, j) = inverse * (scale * curvature(i, j) - rank_one * n[i] * n[j]);
         phi = size * sigma;
@@ -178,7 +180,7 @@ class Yld2004 {
     template <class Real>
     Real polynomial(const TransformedStress<Real>& a, const TransformedStress<Real>& b) const {
         Real sum = 0.0;
-        for (int k = 0; k <= exponent_; ++k) sum += weight_[k] * a.p[k] * b.p[exponent_ - k];
+        for (int k = 0; k <= exponent(); ++k) sum += weight_[k] * a.p[k] * b.p[exponent() - k];
         return sum;
     }
 
@@ -186,7 +188,7 @@ class Yld2004 {
     template <class Real>
     Real root(Real x) const {
         Real result = 0.25 * x;
-        int left = exponent_;
+        int left = exponent();
         for (; left % 2 == 0; left /= 2) result = sqrt(result);
         return left == 1 ? result : pow(result, 1.0 / left);
     }
@@ -195,7 +197,7 @@ class Yld2004 {
     template <class Real>
     Weights<Real> weights(const TransformedStress<Real>& a, const TransformedStress<Real>& b) const {
         Weights<Real> w;
-        const int n = exponent_;
+        const int n = exponent();
         for (int side = 0; side < 2; ++side) {
             const auto& own = side == 0 ? a : b;
             const auto& other = side == 0 ? b : a;
@@ -221,6 +223,8 @@ class Yld2004 {
             }
         return w;
     }
+
+    int exponent() const { return Fixed > 0 ? Fixed : exponent_; }
 
     int exponent_;
     StressTransform first_, second_;
