@@ -15,9 +15,10 @@ namespace {
 using YieldFunction = std::variant<QuadraticYield, Yld2004<6>, Yld2004<8>, Yld2004<0>>;
 
 std::shared_ptr<Material> metal(double kappa, double mu, const Hardening& hardening, const YieldFunction& yield,
-                                const std::vector<std::pair<double, double>>& back_stress, double fall, double rate) {
+                                const std::vector<std::pair<double, double>>& back_stress, double first, double growth,
+                                double fall, double rate) {
     if (back_stress.size() > Chaboche::largest) throw std::invalid_argument("no more than four back stresses");
-    MetalParts parts{kappa, mu, hardening, {}, {fall, rate}};
+    MetalParts parts{kappa, mu, hardening, {{}, first, growth}, {fall, rate}};
     for (const auto& [modulus, recall] : back_stress) parts.back_stress.parts.push_back({modulus, recall});
     return std::visit(
         [&](const auto& function) -> std::shared_ptr<Material> {
@@ -72,8 +73,8 @@ void bind_metals(nb::module_& m) {
         nb::arg("exponent"), nb::arg("first"), nb::arg("second"),
         "c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.");
     m.def("metal", &metal, nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"), nb::arg("yield_function"),
-          nb::arg("back_stress"), nb::arg("fall"), nb::arg("rate"),
-          "A small-strain law; back stresses are pairs (modulus, recall), the modulus falls by `fall` at `rate`.");
+          nb::arg("back_stress"), nb::arg("first"), nb::arg("growth"), nb::arg("fall"), nb::arg("rate"),
+          "A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.");
     m.def(
         "logarithmic_space",
         [](std::shared_ptr<Material> law) -> std::shared_ptr<Material> {

@@ -5,6 +5,7 @@ from umform.materials.hardening import Hardening, Linear, LinearVoce, Perfect, S
 from umform.materials.j2 import J2, Plastic
 from umform.materials.material import Material
 from umform.materials.metal import Chaboche, FallingModulus, LogarithmicSpace, Metal
+from umform.materials.point_path import PointPath, point_path, tension
 from umform.materials.tangent_check import TangentCheck, check_law
 from umform.materials.user_law import EnergyFunction, Floats, LawFunction, Points, UserLaw
 from umform.materials.yield_functions import Hill48, Hosford, Mises, Transformation, YieldFunction, Yld91, Yld2004
@@ -31,6 +32,7 @@ __all__ = [
     "NeoHookePower",
     "Perfect",
     "Plastic",
+    "PointPath",
     "Points",
     "Swift",
     "Table",
@@ -42,4 +44,6 @@ __all__ = [
     "Yld91",
     "Yld2004",
     "check_law",
+    "point_path",
+    "tension",
 ]

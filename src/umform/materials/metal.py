@@ -17,16 +17,21 @@ _MOST = 4  # back stresses of the kernels
 
 @dataclass(frozen=True)
 class Chaboche:
-    """Back stresses, each d alpha = C xi/phi dp - gamma alpha dp (docs/theory, 3.12).
+    """Back stresses, each d alpha = C f xi/phi dp - gamma alpha dp (docs/theory, 3.12).
 
     Parameters
     ----------
     parts : tuple of pairs of float
         One to four pairs (C, gamma): modulus and recall. Without recall the back stress grows for ever (Prager), with
         it up to C / gamma.
+    first, rate : float
+        All moduli change with the plastic strain by f = 1 + (first - 1) exp(-rate p), from the share ``first`` of C
+        to C; with 1 and 0 they stay.
     """
 
     parts: tuple[tuple[float, float], ...]
+    first: float = 1.0
+    rate: float = 0.0
 
     def __post_init__(self) -> None:
         parts = tuple(tuple(float(number) for number in part) for part in self.parts)
@@ -38,6 +43,15 @@ class Chaboche:
                 value=self.parts,
                 cause="a single pair that is not in a list, or one number too many",
                 remedy="Chaboche([(3000.0, 30.0)])",
+            )
+        check_finite("Chaboche", first=self.first, rate=self.rate)
+        if not self.first > 0 or self.rate < 0:
+            raise InvalidValue(
+                "first must be positive and rate not negative",
+                where="Chaboche",
+                value=(self.first, self.rate),
+                cause="a sign",
+                remedy="first=1 and rate=0 for moduli that stay",
             )
         for number, (modulus, recall) in enumerate(parts, start=1):
             check_finite(f"Chaboche, back stress {number}", C=modulus, gamma=recall)
@@ -141,12 +155,15 @@ class Metal(Plastic):
 
     def law(self) -> _core.Material:
         """The law as the kernels take it."""
-        pairs = [] if self.back_stress is None else list(self.back_stress.parts)
+        return _core.logarithmic_space(self.small_strain_law())
+
+    def small_strain_law(self) -> _core.Material:
+        """The law that is asked with logarithmic strains."""
+        back = self.back_stress
+        pairs, first, growth = ([], 1.0, 0.0) if back is None else (list(back.parts), back.first, back.rate)
         fall, rate = (0.0, 0.0) if self.modulus is None else (1.0 - self.modulus.saturated / self.E, self.modulus.rate)
         function = self.yield_function.function()
-        return _core.logarithmic_space(
-            _core.metal(self.kappa, self.mu, self.hardening.curve(), function, pairs, fall, rate)
-        )
+        return _core.metal(self.kappa, self.mu, self.hardening.curve(), function, pairs, first, growth, fall, rate)
 
 
 @dataclass(frozen=True)

@@ -24,9 +24,10 @@ class LogarithmicSpace final : public Material {
         for (int first = 0; first < n; first += chunk) {
             const int count = std::min(chunk, n - first);
             for (int q = 0; q < count; ++q) {
-                wanted = wanted & strains[q].set(E[first + q]);
-                // A lane without an answer asks for no strain, which every law knows.
-                for (int p = 0; p < 6; ++p) h[q][p] = select(wanted, strains[q].h[p], 0.0);
+                const LaneMask positive = strains[q].set(E[first + q]);
+                wanted = wanted & positive;
+                // A lane without an answer asks for no strain, which every law knows. Lanes that nobody wants repeat others.
+                for (int p = 0; p < 6; ++p) h[q][p] = select(positive, strains[q].h[p], 0.0);
             }
             LaneStates before = state;
             LaneTrials after = trial;

@@ -126,6 +126,7 @@ struct Metal {
         if (parts.associated_only()) return;
         const PlasticIncrement<Real> at(parts, start, flow.dp);
         const Real lost = 0.5 * (ratio_before.value - at.ratio.value);
+        const Real share = parts.back_stress.share(start.eqps + flow.dp).value;
         Real square = parts.kappa * volume * volume, work = 0.0;
         for (int i = 0; i < 5; ++i) {
             const Real elastic = start.e[i] - flow.dp * flow.n[i];
@@ -133,7 +134,7 @@ struct Metal {
         }
         for (int part = 0; part < parts.back_stress.count(); ++part) {
             const auto [modulus, recall] = parts.back_stress.parts[part];
-            const Real w = 1.0 / (1.0 + recall * flow.dp), pull = modulus * w * flow.dp / (at.k * at.y.value);
+            const Real w = 1.0 / (1.0 + recall * flow.dp), pull = modulus * share * w * flow.dp / (at.k * at.y.value);
             Deviator<Real> alpha;
             for (int i = 0; i < 5; ++i) {
                 alpha[i] = w * start.back_stress[part][i] + pull * (flow.s[i] - at.back.A[i]);

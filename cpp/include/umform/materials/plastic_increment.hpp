@@ -47,7 +47,7 @@ struct PlasticIncrement {
 
     PlasticIncrement(const MetalParts& metal, const PlasticStart<Real>& start, Real increment)
         : dp(increment), y(yield_stress(metal.hardening, start.eqps + increment)),
-          ratio(metal.modulus(start.eqps + increment)), back(metal.back_stress, start.back_stress, increment) {
+          ratio(metal.modulus(start.eqps + increment)), back(metal.back_stress, start.back_stress, start.eqps, increment) {
         const Real inverse = 1.0 / y.value;
         k = 1.0 + back.a * inverse;
         dk = (back.da - back.a * y.slope * inverse) * inverse;
