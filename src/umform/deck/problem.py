@@ -11,7 +11,7 @@ import numpy as np
 from umform.deck.contents import Contents
 from umform.deck.errors import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey
 from umform.deck.lines import Path
-from umform.deck.material import J2
+from umform.deck.metal import J2, Metal
 from umform.deck.source import Source
 from umform.deck.tools import Profiled
 from umform.elements.technology import Element
@@ -25,7 +25,7 @@ from umform.run import Result, resume, solve
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 from umform.steps import Step
-from umform.surfaces import Tool
+from umform.surfaces import Tool, unit_vector
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -169,8 +169,16 @@ class _Builder:
                 material=material,
                 thickness_points=part.thickness_points,
                 thickness_rule=part.thickness_rule,
+                rolling=self._rolling(),
             )
         return None
+
+    def _rolling(self) -> tuple[float, ...] | None:
+        """The rolling direction of a metal that has one."""
+        part = self.contents.material
+        if not isinstance(part, Metal) or part.rolling is None:
+            return None
+        return tuple(float(component) for component in unit_vector(part.rolling, "rolling"))
 
     def _element(self) -> Element | None:
         with self._at("element"):
@@ -179,7 +187,7 @@ class _Builder:
 
     def _material(self) -> Material | None:
         part, before = self.contents.material, len(self.errors)
-        if isinstance(part, J2):
+        if isinstance(part, J2 | Metal):
             with self._at("material", "hardening"):
                 part.hardening.build()
         if len(self.errors) > before:

@@ -136,9 +136,9 @@ class Metal(Plastic):
                 cause="its name, or its class in place of one",
                 remedy="Hill48(r0=1.8, r45=1.5, r90=2.2) or another of Mises, Hosford, Yld91, Yld2004",
             )
-        if modulus is not None and not modulus.saturated < self.E:
+        if modulus is not None and not self.E / 3.0 < modulus.saturated < self.E:
             raise InvalidValue(
-                "the modulus must fall: saturated is not below E",
+                "the modulus must fall, to no less than a third: saturated between E / 3 and E",
                 where="Metal",
                 value=f"E={self.E:.6g}, saturated={modulus.saturated:.6g}",
                 cause="the two exchanged, or one of them in GPa",
