@@ -478,7 +478,7 @@ def test_newton_is_quadratic_and_the_balance_closes(card):
     assert measure(result.iterations).order > 1.7
     assert len(result.rows) == 11  # no increment was cut
     assert uf.fields.point_fields(model).eqps.max() > 0.05
-    assert np.abs(result.balance.drift).max() < 0.02
+    assert np.abs(result.balance().drift).max() < 0.02
     assert set(CARDS[card].law().state) == set(uf.fields.point_fields(model).history)
 
 
