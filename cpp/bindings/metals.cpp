@@ -47,7 +47,8 @@ nb::object evaluate(const YieldFunction& yield, const Input& stress) {
 }  // namespace
 
 void bind_metals(nb::module_& m) {
-    nb::class_<YieldFunction>(m, "YieldFunction", "Equivalent stress as a function of the stress in the axes of the sheet.")
+    nb::class_<YieldFunction>(m, "YieldFunction",
+                              "Equivalent stress as a function of the stress in the axes of the sheet.")
         .def("__call__", &evaluate, nb::arg("stress"),
              nb::sig("def __call__(self, stress: NDArray[float64]) -> tuple[float, NDArray[float64]]"),
              "Equivalent stress, and its gradient as a strain with engineering shears (6,).");
@@ -72,9 +73,10 @@ void bind_metals(nb::module_& m) {
         },
         nb::arg("exponent"), nb::arg("first"), nb::arg("second"),
         "c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.");
-    m.def("metal", &metal, nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"), nb::arg("yield_function"),
-          nb::arg("back_stress"), nb::arg("first"), nb::arg("growth"), nb::arg("fall"), nb::arg("rate"),
-          "A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.");
+    m.def(
+        "metal", &metal, nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"), nb::arg("yield_function"),
+        nb::arg("back_stress"), nb::arg("first"), nb::arg("growth"), nb::arg("fall"), nb::arg("rate"),
+        "A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.");
     m.def(
         "logarithmic_space",
         [](std::shared_ptr<Material> law) -> std::shared_ptr<Material> {

@@ -37,8 +37,7 @@ struct BackStress {
     Real a, da;
     Deviator<Real> A{}, dA{};
 
-    BackStress(const Chaboche& law, const std::array<Deviator<Real>, Chaboche::largest>& before, Real eqps,
-               Real dp) {
+    BackStress(const Chaboche& law, const std::array<Deviator<Real>, Chaboche::largest>& before, Real eqps, Real dp) {
         a = da = 0.0;
         const YieldStress<Real> share = law.share(eqps + dp);
         for (int k = 0; k < law.count(); ++k) {

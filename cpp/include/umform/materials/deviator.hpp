@@ -22,8 +22,7 @@ struct DeviatorBasis {
     template <class Real>
     Deviator<Real> components(const Vec<Real, 6>& tensor, double shear) const {
         Deviator<Real> d;
-        for (int a = 0; a < 2; ++a)
-            d[a] = plane[a][0] * tensor[0] + plane[a][1] * tensor[1] + plane[a][2] * tensor[2];
+        for (int a = 0; a < 2; ++a) d[a] = plane[a][0] * tensor[0] + plane[a][1] * tensor[1] + plane[a][2] * tensor[2];
         for (int k = 0; k < 3; ++k) d[2 + k] = shear * std::numbers::sqrt2 * tensor[3 + k];
         return d;
     }

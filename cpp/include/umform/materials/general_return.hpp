@@ -151,8 +151,7 @@ PlasticFlow<Real> return_map(const MetalParts& metal, const Yield& yield, const 
         unit[j] = at.k * at.shear;
         unit = factors.solve(unit);
         for (int i = 0; i < 5; ++i)
-            flow.tangent(i, j) =
-                unit[i] + (at.dk * xi[i] + at.back.dA[i] - at.k * by_v[i]) * flow.dp_by_strain[j];
+            flow.tangent(i, j) = unit[i] + (at.dk * xi[i] + at.back.dA[i] - at.k * by_v[i]) * flow.dp_by_strain[j];
     }
     return flow;
 }

@@ -137,11 +137,11 @@ class LogarithmicStrain {
         return select(close, series * inverse * inverse, rise / select(close, 1.0, run));
     }
 
-    Vec<Real, 3> excess_;                  // eigenvalues of 2E
+    Vec<Real, 3> excess_;                   // eigenvalues of 2E
     std::array<Vec<Real, 6>, 6> rotation_;  // engineering strain in the principal axes from that in the frame
-    Vec<Real, 6> first_;                   // 2 f[i, j]
-    std::array<Vec<Real, 2>, 3> second_;   // f[i, i, j] and f[i, j, j] of each pair
-    Real third_;                           // f[1, 2, 3]
+    Vec<Real, 6> first_;                    // 2 f[i, j]
+    std::array<Vec<Real, 2>, 3> second_;    // f[i, i, j] and f[i, j, j] of each pair
+    Real third_;                            // f[1, 2, 3]
 };
 
 }  // namespace umform

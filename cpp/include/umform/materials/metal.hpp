@@ -111,8 +111,7 @@ struct Metal {
             flow.n[i] = select(flow.plastic, flow.n[i], 0.0);
             flow.dp_by_strain[i] = select(flow.plastic, flow.dp_by_strain[i], 0.0);
             for (int j = 0; j < 5; ++j)
-                flow.tangent(i, j) =
-                    select(flow.plastic, flow.tangent(i, j), i == j ? none.shear : Real(0.0));
+                flow.tangent(i, j) = select(flow.plastic, flow.tangent(i, j), i == j ? none.shear : Real(0.0));
         }
     }
 

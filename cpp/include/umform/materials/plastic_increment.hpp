@@ -47,7 +47,8 @@ struct PlasticIncrement {
 
     PlasticIncrement(const MetalParts& metal, const PlasticStart<Real>& start, Real increment)
         : dp(increment), y(yield_stress(metal.hardening, start.eqps + increment)),
-          ratio(metal.modulus(start.eqps + increment)), back(metal.back_stress, start.back_stress, start.eqps, increment) {
+          ratio(metal.modulus(start.eqps + increment)),
+          back(metal.back_stress, start.back_stress, start.eqps, increment) {
         const Real inverse = 1.0 / y.value;
         k = 1.0 + back.a * inverse;
         dk = (back.da - back.a * y.slope * inverse) * inverse;
@@ -65,8 +66,8 @@ template <class Real>
 struct PlasticFlow {
     Mask<Real> plastic, found;  // found: the increment has been solved for, or there is none
     Real dp;
-    Deviator<Real> s, n;         // stress, flow direction
-    Mat<Real, 5, 5> tangent;     // ds/de
+    Deviator<Real> s, n;          // stress, flow direction
+    Mat<Real, 5, 5> tangent;      // ds/de
     Deviator<Real> dp_by_strain;  // d(dp)/de
 };
 
