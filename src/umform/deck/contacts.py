@@ -89,8 +89,10 @@ class ContactPart(Part):
     """Penetration that is allowed; by default 1/200 of the thickness."""
     augmented: bool = False
     """Multipliers take the penetration away that is not allowed."""
-    points: Points = 2
-    """Contact points per direction of a face, 1 to 10; at the nodes; or as many as the tool needs (auto)."""
+    points: Points | None = None
+    """Contact points per direction of a face, 1 to 10; at the nodes; or as many as the tool needs (auto). 2 by default."""
+    cells: Annotated[int, Field(ge=1, le=20)] | None = None
+    """Instead of points: cells per direction of a face that the pressure is integrated over, with the edge of contact."""
     motion: MotionPart | None = None
     """Motion in time."""
 
@@ -98,6 +100,8 @@ class ContactPart(Part):
     def _is_one(self) -> ContactPart:
         if self.penalty is not None and self.penetration is not None and not self.augmented:
             raise PydanticCustomError("penalty", "give the penalty or the penetration, and not both, unless augmented")
+        if self.points is not None and self.cells is not None:
+            raise PydanticCustomError("cells", "give points or cells, and not both")
         return self
 
     def add_to(self, model: Model, tool: Tool, name: str) -> Contact:
@@ -109,6 +113,7 @@ class ContactPart(Part):
             penetration=self.penetration,
             augmented=self.augmented,
             points=self.points,
+            cells=self.cells,
             name=name,
         )
         if self.motion is not None:

@@ -15,8 +15,11 @@ class Slide {
         along_ = dot(n, way_);
         Hway_ = product(place.H, way_);
         if (!held && along_ < place.gap) {  // it touched on the way
-            w_ = place.gap < 0.0 ? place.gap / along_ : 0.0;
-            for (int k = 0; k < 3; ++k) dw_[k] = (n[k] - w_ * (n[k] + Hway_[k])) / along_;
+            w_ = 0.0;
+            if (place.gap <= 0.0) {
+                w_ = place.gap / along_;
+                for (int k = 0; k < 3; ++k) dw_[k] = (n[k] - w_ * (n[k] + Hway_[k])) / along_;
+            }
         }
         for (int k = 0; k < 3; ++k) D[k] = w_ * (way_[k] - n[k] * along_);
         length = std::sqrt(dot(D, D));

@@ -123,7 +123,7 @@ class Contact(PairPoints):
         self._last = None
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
-        """Largest penetration and number of points that are held; with friction those that slip, and how far."""
+        """Largest penetration and number of points that are held; those that slip, and how far; works along the way."""
         assert isinstance(found, ContactFound)
         columns = {
             f"{self.name}_penetration": ranks.max(found.penetration),
@@ -135,12 +135,15 @@ class Contact(PairPoints):
                 f"{self.name}_elastic_slip": ranks.max(float(found.held.elastic_slip.max(initial=0.0))),
                 f"{self.name}_friction_work": ranks.sum(found.friction_work),
             }
+        if self.cells is not None:
+            columns[f"{self.name}_contact_work"] = ranks.sum(float(found.held.contact_work))
         return columns
 
     def column_names(self) -> Iterable[str]:
-        """Largest penetration, number of points that are held; of friction those that slip, elastic slip and work."""
+        """Largest penetration, number of points that are held; of friction and cells what they add."""
         of_friction = [] if self.friction is None else ["slipping", "elastic_slip", "friction_work"]
-        return [f"{self.name}_{what}" for what in ["penetration", "active", *of_friction]]
+        of_cells = [] if self.cells is None else ["contact_work"]
+        return [f"{self.name}_{what}" for what in ["penetration", "active", *of_friction, *of_cells]]
 
     def energies(self, found: Found, u: Floats) -> Energies:
         """What penalty and multipliers hold, and the work of friction. eqs. (4.32), (4.49)"""
@@ -196,7 +199,7 @@ class Contact(PairPoints):
         The points that are held now stay so to first order, and close their gaps: where the tool goes back, new
         multipliers on old gaps would let go of points that bear a pressure. eqs. (4.34), (4.35)
         """
-        self._close(found, found.held_gap, change)
+        self._close(found, found.share * found.held_gap, change)
         self.block.multipliers = found.pressure
         self.block.augment()
 
@@ -238,7 +241,7 @@ class Contact(PairPoints):
     ) -> tuple[Floats, Floats]:
         """The same of any evaluation at ``u``."""
         hats = hat_functions(self.block.shape_values)
-        places = len(self.facets), len(hats)
+        places = len(self.facets), self.block.per_facet
         weight = hats * at.area.reshape(*places, 1)  # [facet][point][node]
         share = np.einsum("eqa,eq->ea", weight, at.pressure.reshape(places))
         count = len(mesh.points)
