@@ -666,6 +666,16 @@ class ContactBlock:
         Converged history (points, size) in the order of the quantities of the law.
         """
 
+    @property
+    def read(self) -> NDArray[float64]:
+        """
+        The history that the last evaluation has read, with the multipliers that it was to take (points, size).
+        """
+
+    @property
+    def begun(self) -> bool:
+        """Whether there is a converged history."""
+
     def begin(self) -> None:
         """
         Take the places where the points are now as those of a sheet that was never held; nothing once there is a history.

@@ -170,6 +170,7 @@ class PairPoints(Term):
             area=self._areas,
             multiplier=multiplier,
             penalty=self.penalty,
+            rubs=self.friction is not None,
             has_potential=self.cells is None,
         )
 
