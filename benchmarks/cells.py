@@ -109,6 +109,12 @@ class Bent:
         force = np.interp(reference.way, self.way, self.force)
         return float(np.sqrt(np.mean((force - reference.force) ** 2) / np.mean(reference.force**2)))
 
+    def ripple(self, reference: Bent) -> float:
+        """The same without what changes slowly: the difference less the cubic polynomial in the way next to it."""
+        difference = np.interp(reference.way, self.way, self.force) - reference.force
+        smooth = np.polynomial.Polynomial.fit(reference.way, difference, 3)(reference.way)
+        return float(np.sqrt(np.mean((difference - smooth) ** 2) / np.mean(reference.force**2)))
+
     def jump(self) -> float:
         """Largest change of slope from one increment to the next, over the largest force, per length."""
         slope = np.diff(self.force) / np.diff(self.way)
@@ -120,13 +126,13 @@ def table(strip: Strip, runs: dict[str, Bent], finest: Bent) -> str:
     """Table of a strip."""
     lines = [
         f"### {strip.name}\n",
-        "| rule | deviation % | jump of slope %/mm | penetration | iterations | CPU s | drift |",
-        "|---|---:|---:|---:|---:|---:|---:|",
+        "| rule | deviation % | ripple % | jump of slope %/mm | penetration | iterations | CPU s | drift |",
+        "|---|---:|---:|---:|---:|---:|---:|---:|",
     ]
     for name, run in {**runs, f"cells {FINEST}": finest}.items():
-        deviation = "" if run is finest else f"{100 * run.deviation(finest):.2g}"
+        apart = " | " if run is finest else f"{100 * run.deviation(finest):.2g} | {100 * run.ripple(finest):.2g}"
         lines.append(
-            f"| {name} | {deviation} | {100 * run.jump():.2g} | {run.penetration:.2g} | {run.iterations} "
+            f"| {name} | {apart} | {100 * run.jump():.3g} | {run.penetration:.2g} | {run.iterations} "
             f"| {run.seconds:.1f} | {run.drift:.1e} |"
         )
     return "\n".join(lines)

@@ -309,7 +309,8 @@ class ContactBlockOf final : public ContactBlock {
 
     /// Asks the law at the points of a facet.
     void respond(int e, const double* weights, double* trial, Workspace& workspace) const {
-        rule_.respond(*law_, locator_, e, weights, {history_.state(e), trial, history_.size(), of_law_}, workspace);
+        rule_.respond(*law_, locator_, e, weights, {history_.state(e), trial, history_.size(), of_law_, begun_},
+                      workspace);
     }
 
     /// Calls work(facet, point, workspace, new history) for all points of facets that are not far, in their order; the trial

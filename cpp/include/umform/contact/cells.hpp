@@ -119,8 +119,9 @@ class OverCells : public FacetCells<Nodes> {
         law.press(this->count(), places, work.pressures.data(), weights, rows, work.reactions.data());
         for (int q = 0; q < this->count(); ++q) {
             if (work.reactions[q].held) differentiate(penalty, locator, e, q, work);
-            remember(penalty, places.gap[q], work.overlaps[q], rows.state + q * rows.size + rows.of_law,
-                     rows.trial + q * rows.size + rows.of_law);
+            if (rows.begun)
+                remember(penalty, places.gap[q], work.overlaps[q], rows.state + q * rows.size + rows.of_law,
+                         rows.trial + q * rows.size + rows.of_law);
         }
     }
 
@@ -157,7 +158,7 @@ class OverCells : public FacetCells<Nodes> {
                 for (int k = 0; k < 3; ++k) r[k] += rule.t_r[q][a] * y[k], s[k] += rule.t_s[q][a] * y[k];
             }
         }
-        Overlap overlap(double g, const Vec3& n) const { return {g, dot(n, r), dot(n, s)}; }
+        Overlap overlap(double g, const Vec3& n) const { return Cut(g, dot(n, r), dot(n, s)).overlap; }
     };
 
     /// -dt of the pressure, penalty (dt/dp) (x) dP0 with dP0 = n . sum c_b du_b + (m10 H t_r + m01 H t_s) . dx. eq. (4.86)
@@ -181,7 +182,8 @@ class OverCells : public FacetCells<Nodes> {
     }
 
     /// The work of the mean pressure on the gap of the mean place; a first touch and the end of contact take the energy that a
-    /// cell of the same slope has. eq. (4.89)
+    /// cell of the same slope has. eq. (4.89). Nothing is counted before the first converged state: cells beside a place where a
+    /// tool just touches overlap it then, which the first increment gives back.
     static void remember(double penalty, double gap, const Overlap& overlap, const double* state, double* trial) {
         const bool before = state[Pressure] > 0.0, now = overlap.share > 0.0;
         trial[Gap] = now ? gap : 0.0;

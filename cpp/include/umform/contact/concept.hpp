@@ -77,6 +77,7 @@ struct HistoryRows {
     const double* state;
     double* trial;
     int size, of_law;
+    bool begun;  // whether there is a converged state
 };
 
 /// The law as the facets see it: one virtual call for all places of a facet.

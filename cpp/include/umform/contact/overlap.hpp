@@ -7,15 +7,19 @@ namespace umform {
 
 /// Integrals of min(G, 0) over the square |xi|, |eta| <= 1/2 with G = g + p xi + q eta. eqs. (4.83), (4.84)
 struct Overlap {
-    double gap = 0.0;            // int min(G, 0)
-    double half_square = 0.0;    // int min(G, 0)^2 / 2
-    double share = 0.0;          // m00: area where G <= 0, zero where the tool does not hold the cell
+    double gap = 0.0;                // int min(G, 0)
+    double half_square = 0.0;        // int min(G, 0)^2 / 2
+    double share = 0.0;              // m00: area where G <= 0, zero where the tool does not hold the cell
     double m_xi = 0.0, m_eta = 0.0;  // m10, m01: its first moments
+};
 
-    Overlap() = default;
+/// Overlap of a cell: the square is cut with the line G = 0. No step divides by p or q, so that a cell along the tool is no
+/// special case.
+class Cut {
+  public:
+    Overlap overlap;
 
-    /// The square is cut with the line G = 0. No step divides by p or q, so that a cell along the tool is no special case.
-    Overlap(double g, double p, double q) {
+    Cut(double g, double p, double q) {
         constexpr std::array<std::array<double, 2>, 4> corners{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
         std::array<Vertex, 5> inside;
         int count = 0, held = 0;
@@ -27,8 +31,8 @@ struct Overlap {
             before = now;
         }
         if (held == 4) {
-            gap = g, share = 1.0;
-            half_square = 0.5 * (g * g + (p * p + q * q) / 12.0);
+            overlap.gap = g, overlap.share = 1.0;
+            overlap.half_square = 0.5 * (g * g + (p * p + q * q) / 12.0);
             return;
         }
         for (int i = 2; i < count; ++i) add(inside[0], inside[i - 1], inside[i]);
@@ -48,11 +52,11 @@ struct Overlap {
     void add(const Vertex& a, const Vertex& b, const Vertex& c) {
         const double area = 0.5 * ((b.xi - a.xi) * (c.eta - a.eta) - (c.xi - a.xi) * (b.eta - a.eta));
         const double sum = a.G + b.G + c.G;
-        gap += area * sum / 3.0;
-        half_square += area * (a.G * a.G + b.G * b.G + c.G * c.G + sum * sum) / 24.0;
-        share += area;
-        m_xi += area * (a.xi + b.xi + c.xi) / 3.0;
-        m_eta += area * (a.eta + b.eta + c.eta) / 3.0;
+        overlap.gap += area * sum / 3.0;
+        overlap.half_square += area * (a.G * a.G + b.G * b.G + c.G * c.G + sum * sum) / 24.0;
+        overlap.share += area;
+        overlap.m_xi += area * (a.xi + b.xi + c.xi) / 3.0;
+        overlap.m_eta += area * (a.eta + b.eta + c.eta) / 3.0;
     }
 };
 
