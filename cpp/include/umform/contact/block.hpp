@@ -132,7 +132,7 @@ class ContactBlockOf final : public ContactBlock {
     const std::vector<double>& gaps() override { return complete().gaps(); }
     const std::vector<Vec3>& normals() override { return complete().normals(); }
 
-    /// f_a = -int N_a t dA, K_ab = int N_a N_b (-dt/dx) dA with the traction t of the law at the points. eqs. (4.9), (4.10)
+    /// f_a = -int N_a t dA, K_ab = int N_a N_b (-dt/dx) dA with the traction t of the law at the points. eqs. (4.9), (4.10), (4.87)
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         if (target.values != nullptr) scatter.require(symmetric(), name);
         const int threads = thread_count();  // once: another thread may change it while this one works

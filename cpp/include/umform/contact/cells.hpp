@@ -82,7 +82,7 @@ struct FacetCells {
 };
 
 /// The pressure of a cell is the mean of <multiplier - penalty G> over it; the law says at the mean place what follows from it.
-/// There is no potential: the work of the pressure is summed along the way. eqs. (4.81) to (4.89)
+/// There is no potential: the work of the pressure is summed along the way. eqs. (4.81), (4.82), (4.83), (4.87), (4.89)
 template <int Nodes>
 class OverCells : public FacetCells<Nodes> {
   public:
@@ -127,7 +127,7 @@ class OverCells : public FacetCells<Nodes> {
 
     const Spread<Nodes>* spread(const Workspace& work, int q) const { return &work.spreads[q]; }
 
-    /// The gap that is left: that of a point with the same pressure and the same multiplier.
+    /// The gap that is left: that of a point with the same pressure and the same multiplier. eq. (4.90)
     double gap(const ContactLaw& law, const Locator<Nodes>&, int, int q, const Workspace& work,
                const double* row) const {
         return work.overlaps[q].gap + row[0] / law.penalty();
@@ -161,7 +161,7 @@ class OverCells : public FacetCells<Nodes> {
         Overlap overlap(double g, const Vec3& n) const { return Cut(g, dot(n, r), dot(n, s)).overlap; }
     };
 
-    /// -dt of the pressure, penalty (dt/dp) (x) dP0 with dP0 = n . sum c_b du_b + (m10 H t_r + m01 H t_s) . dx. eq. (4.86)
+    /// -dt of the pressure, penalty (dt/dp) (x) dP0 with dP0 = n . sum c_b du_b + (m10 H t_r + m01 H t_s) . dx. eqs. (4.85), (4.86)
     void differentiate(double penalty, const Locator<Nodes>& locator, int e, int q, Workspace& work) const {
         const Places places = locator.places(e);
         const Sides sides(*this, locator, e, q);
