@@ -64,7 +64,7 @@ class Multifrontal:
             if not outcome.done:
                 raise singular(self.name, outcome.equation if outcome.equation >= 0 else None)
             pivots = factors.pivots()
-            scale = values[self._pattern.indptr[:-1]] if self._with_cholesky else factors.column_sizes(values)
+            scale = values[self._pattern.indptr[:-1]] if self._with_cholesky else factors.column_sizes
             weakest = vanishing_pivot(pivots.size, scale)
         if weakest is not None:
             raise singular(self.name, weakest)
@@ -97,10 +97,14 @@ class Multifrontal:
     def _refine(self, values: FloatArray, b: FloatArray, x: FloatArray) -> None:
         """Improve the solution while its residual is poor; refuse it if that does not help."""
         residual, change = np.empty_like(b), np.empty_like(b)
-        size = max(float(values.max()), -float(values.min()))
+        size = float(self._factors.column_sizes.max())
+        row, column = self._factors.scales
         for left in range(_STEPS, -1, -1):
             self._factors.residual(values, b, x, residual)
-            error = backward_error(residual.T, size, x.T, b.T)
+            if row.size:  # of the equations that were eliminated
+                error = backward_error((residual * row).T, size, (x / column).T, (b * row).T)
+            else:
+                error = backward_error(residual.T, size, x.T, b.T)
             if not error > _POOR_RESIDUAL or left == 0:
                 break
             self._factors.solve(residual, change)
