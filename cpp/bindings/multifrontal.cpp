@@ -111,8 +111,7 @@ void bind_multifrontal(nb::module_& m) {
                 nb::gil_scoped_release release;
                 const Kind kind = !s.symmetric() ? Kind::Unsymmetric : positive ? Kind::Positive : Kind::Symmetric;
                 // Cholesky's factors of D K D are D L: powers of two change nothing
-                Scaling scaling =
-                    positive ? Scaling() : equilibrated(s.rows(), s.symmetric(), values.data());
+                Scaling scaling = positive ? Scaling() : equilibrated(s.rows(), s.symmetric(), values.data());
                 return s.factors().factor(kind, values.data(), std::move(scaling), thread_count());
             },
             nb::arg("values"), nb::arg("positive"),

@@ -57,11 +57,40 @@ class Most {
     std::vector<int> most_;
 };
 
+/// First exponents of D A D: those that make the diagonal one. A row without a diagonal, or with one that is tiny beside what
+/// most of its entries need, follows its neighbours.
+template <class Visit>
+void start_from_diagonal(const Visit& visit, std::vector<int>& d) {
+    constexpr int tiny = 20;
+    const int n = static_cast<int>(d.size());
+    std::vector<std::int32_t> entries(n, 0), above(n, 0);
+    std::vector<char> kept(n, 0);
+    visit([&](int i, int j, int e) {
+        if (i == j && e > no_exponent) d[i] = -(e >> 1), kept[i] = 1;
+    });
+    visit([&](int i, int j, int e) {
+        if (i == j || e < no_exponent || kept[i] == 0 || kept[j] == 0) return;
+        const int large = e + d[i] + d[j] > tiny ? 1 : 0;
+        ++entries[i], ++entries[j], above[i] += large, above[j] += large;
+    });
+    for (int i = 0; i < n; ++i)
+        if (2 * above[i] > entries[i]) kept[i] = 0;
+    Most most(n);
+    most.clear();
+    visit([&](int i, int j, int e) {
+        if (kept[i] == 0 && kept[j] != 0) most.add(i, e + d[j]);
+        if (kept[j] == 0 && kept[i] != 0) most.add(j, e + d[i]);
+    });
+    for (int i = 0; i < n; ++i)
+        if (kept[i] == 0) d[i] = most.any(i) ? -most[i] : 0;
+}
+
 /// Exponents d of D A D: D. Ruiz, A scaling algorithm to equilibrate both rows and columns norms in matrices, RAL-TR-2001-034.
 /// `visit` calls a function with the row, the column and the exponent of each entry.
 template <class Visit>
 void equilibrate(const Visit& visit, std::vector<int>& d) {
     Most most(static_cast<int>(d.size()));
+    start_from_diagonal(visit, d);
     for (int pass = 0; pass < passes; ++pass) {
         most.clear();
         visit([&](int i, int j, int e) {
@@ -87,8 +116,8 @@ inline std::vector<Opposite> opposites(const Rows& rows, const double* values) {
         const auto* first = rows.indices + rows.indptr[i];
         int k = static_cast<int>(std::lower_bound(first, rows.indices + rows.indptr[i + 1], i) - rows.indices);
         const auto above = columns.row.begin() + columns.start[i];
-        int l = static_cast<int>(std::lower_bound(above, columns.row.begin() + columns.start[i + 1], i) -
-                                 columns.row.begin());
+        int l = static_cast<int>(std::lower_bound(above, columns.row.begin() + columns.start[i + 1], i)
+                                 - columns.row.begin());
         while (k < rows.indptr[i + 1] || l < columns.start[i + 1]) {
             const int right = k < rows.indptr[i + 1] ? rows.indices[k] : end;
             const int below = l < columns.start[i + 1] ? columns.row[l] : end;
@@ -126,7 +155,7 @@ class TwoSided {
         equilibrate(
             [&](const auto& add) {
                 for (const Opposite& p : pairs_)
-                    if (std::min(p.upper, p.lower) > no_exponent) add(p.i, p.j, (p.upper + p.lower) / 2);
+                    if (std::min(p.upper, p.lower) > no_exponent) add(p.i, p.j, (p.upper + p.lower) >> 1);
             },
             row);
         column = row;
@@ -207,7 +236,7 @@ struct Sizes {
 
 /// Rows and columns that differ by less than this are left as they are: pivots beside entries that are so much larger lose
 /// nothing, and the tangents of sheets stay below, with contact too.
-inline constexpr double alike = 1 << 20;
+inline constexpr double alike = 1 << 12;
 
 /// How a matrix is scaled; of a symmetric one the upper triangle is given.
 inline Scaling equilibrated(const Rows& rows, bool symmetric, const double* values) {

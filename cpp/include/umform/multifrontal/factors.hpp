@@ -91,8 +91,8 @@ class Factors {
     };
     struct Worker {
         Stacks stacks;
-        std::vector<Child> seats;   // grows only
-        std::span<Child> children;  // of the present front
+        std::vector<Child> seats;         // grows only
+        std::span<Child> children;        // of the present front
         std::vector<double> row, column;  // scales of its rows and columns
     };
 
