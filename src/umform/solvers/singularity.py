@@ -1,11 +1,11 @@
 """Whether a weak pivot means that a matrix is singular: asked of the displacement that it lets go.
 
-A pivot alone does not tell. Rounding leaves 1e-16 of one that should vanish in a few equations, 1e-12 in thousands and
-5e-8 in sixty thousand, while a thin strip that is well held has 1e-13. So of a weak one the displacement w is found
-that the matrix K resists least, by inverse iteration. A matrix with K w = 0 differs from K by a part of its entries of
-at least |K w| / ||K| |w|| (W. Oettli & W. Prager, Compatibility of approximate solution of linear equations with given
-error bounds for coefficients and right-hand sides, Numer. Math. 6 (1964) 405-409). Where that is below the rounding of
-the entries, nothing says that the matrix is not that one.
+A pivot alone does not tell. Rounding leaves the more of one that should vanish the larger the mesh is, and a thin strip
+that is well held may have less. So of a weak one the displacement w is found that the matrix K resists least, by
+inverse iteration. A matrix with K w = 0 differs from K by a part of its entries of at least |K w| / ||K| |w||, eq. (5.52)
+(W. Oettli & W. Prager, Compatibility of approximate solution of linear equations with given error bounds for
+coefficients and right-hand sides, Numer. Math. 6 (1964) 405-409). Where that is below the rounding of the entries,
+nothing says that the matrix is not that one.
 """
 
 from __future__ import annotations

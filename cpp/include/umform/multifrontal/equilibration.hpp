@@ -28,10 +28,10 @@ namespace detail {
 /// Exponent of a number; far below all others for zero and what is too small to have one.
 inline int exponent(double x) {
     const int biased = static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ffU);
-    return biased > 0 ? biased - 1023 : -100000;
+    return biased > 0 ? biased - 1023 : -30000;
 }
 
-inline constexpr int no_exponent = -50000;  // anything below is that of a zero
+inline constexpr int no_exponent = -15000;  // anything below is that of a zero
 inline constexpr int passes = 12;           // of Ruiz: each halves the exponents that are left, 1000 at first
 inline constexpr int balancing_passes = 16;
 
@@ -85,7 +85,8 @@ void start_from_diagonal(const Visit& visit, std::vector<int>& d) {
         if (kept[i] == 0) d[i] = most.any(i) ? -most[i] : 0;
 }
 
-/// Exponents d of D A D: D. Ruiz, A scaling algorithm to equilibrate both rows and columns norms in matrices, RAL-TR-2001-034.
+/// Exponents d of D A D, eq. (5.50): D. Ruiz, A scaling algorithm to equilibrate both rows and columns norms in matrices,
+/// RAL-TR-2001-034.
 /// `visit` calls a function with the row, the column and the exponent of each entry.
 template <class Visit>
 void equilibrate(const Visit& visit, std::vector<int>& d) {
@@ -104,7 +105,7 @@ void equilibrate(const Visit& visit, std::vector<int>& d) {
 /// The exponents of two entries opposite to each other.
 struct Opposite {
     std::int32_t i, j;
-    int upper, lower;  // of (i, j) and (j, i), i <= j
+    std::int16_t upper, lower;  // of (i, j) and (j, i), i <= j
 };
 
 inline std::vector<Opposite> opposites(const Rows& rows, const double* values) {
@@ -112,6 +113,7 @@ inline std::vector<Opposite> opposites(const Rows& rows, const double* values) {
     std::vector<Opposite> pairs;
     pairs.reserve(columns.row.size() / 2 + rows.n);
     const int end = std::numeric_limits<int>::max();
+    const auto none = static_cast<std::int16_t>(exponent(0.0));
     for (int i = 0; i < rows.n; ++i) {
         const auto* first = rows.indices + rows.indptr[i];
         int k = static_cast<int>(std::lower_bound(first, rows.indices + rows.indptr[i + 1], i) - rows.indices);
@@ -121,9 +123,9 @@ inline std::vector<Opposite> opposites(const Rows& rows, const double* values) {
         while (k < rows.indptr[i + 1] || l < columns.start[i + 1]) {
             const int right = k < rows.indptr[i + 1] ? rows.indices[k] : end;
             const int below = l < columns.start[i + 1] ? columns.row[l] : end;
-            Opposite pair{i, std::min(right, below), exponent(0.0), exponent(0.0)};
-            if (right == pair.j) pair.upper = exponent(values[k++]);
-            if (below == pair.j) pair.lower = exponent(values[columns.entry[l++]]);
+            Opposite pair{i, std::min(right, below), none, none};
+            if (right == pair.j) pair.upper = static_cast<std::int16_t>(exponent(values[k++]));
+            if (below == pair.j) pair.lower = static_cast<std::int16_t>(exponent(values[columns.entry[l++]]));
             pairs.push_back(pair);
         }
     }
@@ -171,7 +173,7 @@ class TwoSided {
         }
     }
 
-    /// Half of the change that would make a row as large as its column: neighbours move at the same time.
+    /// Half of the change that would make a row as large as its column, eq. (5.51): neighbours move at the same time.
     void balance() {
         for (int pass = 0; pass < balancing_passes; ++pass) {
             measure(false);
