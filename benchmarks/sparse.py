@@ -3,8 +3,8 @@
 Tangents of flat sheets: as they are at rest (positive), moved down until some eigenvalues are negative (indefinite),
 and with another lower than upper triangle (unsymmetric); scaled ones have equations and unknowns in units between 1e-12
 and 1e12. Each measurement has a process of its own, which gives its best of some factorisations; solvers take turns, so
-that a shared machine troubles all alike. Milliseconds of CPU time on one thread, by the clock on several. Memory is what
-the process grows by from the analysis on: the model and its matrix are not counted.
+that a shared machine troubles all alike. Milliseconds of CPU time on one thread, by the clock on several. Memory is
+what the process grows by from the analysis on: the model and its matrix are not counted.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
 A pivot alone does not tell. Rounding leaves the more of one that should vanish the larger the mesh is, and a thin strip
 that is well held may have less. So of a weak one the displacement w is found that the matrix K resists least, by
-inverse iteration. A matrix with K w = 0 differs from K by a part of its entries of at least |K w| / ||K| |w||, eq. (5.52)
-(W. Oettli & W. Prager, Compatibility of approximate solution of linear equations with given error bounds for
+inverse iteration. A matrix with K w = 0 differs from K by a part of its entries of at least |K w| / ||K| |w||,
+eq. (5.52) (W. Oettli & W. Prager, Compatibility of approximate solution of linear equations with given error bounds for
 coefficients and right-hand sides, Numer. Math. 6 (1964) 405-409). Where that is below the rounding of the entries,
 nothing says that the matrix is not that one.
 """
