@@ -286,8 +286,17 @@ class Multifrontal:
 
     def residual(self, values: NDArray[float64], b: NDArray[float64], x: NDArray[float64], r: NDArray[float64]) -> None: ...
 
-    def column_sizes(self, values: NDArray[float64]) -> NDArray[float64]:
-        """Largest entry of each column."""
+    @property
+    def column_sizes(self) -> NDArray[float64]:
+        """
+        Largest entry of each column of the matrix that was eliminated; none for Cholesky.
+        """
+
+    @property
+    def scales(self) -> tuple[NDArray[float64], NDArray[float64]]:
+        """
+        Powers of two for rows and columns of that; empty where it is the matrix itself.
+        """
 
 class Tying:
     """One row of an assumed-strain rule."""
