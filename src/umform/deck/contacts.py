@@ -150,9 +150,9 @@ class ContactPart(Part):
     augmented: bool = False
     """Multipliers take the penetration away that is not allowed."""
     points: Points | None = None
-    """Contact points per direction of a face, 1 to 10; at the nodes; or as many as the tool needs (auto). 2 by default."""
+    """Contact points per direction of a face, 1 to 10, by default 2; at the nodes; or as many as are needed (auto)."""
     cells: Annotated[int, Field(ge=1, le=20)] | None = None
-    """Instead of points: cells per direction of a face that the pressure is integrated over, with the edge of contact."""
+    """Instead of points: cells per direction of a face, over which the pressure is integrated."""
     friction: AnyFriction | None = None
     """Coefficient of friction, or a law."""
     slip: Positive | None = None

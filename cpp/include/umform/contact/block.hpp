@@ -73,8 +73,11 @@ class ContactBlock {
     /// The history that the last `evaluate` has read, with the multipliers that it was to take: with it it can be repeated.
     std::vector<double> read() const {
         std::vector<double> read = history_.state();
-        for (int q = 0; q < points(); ++q)
-            law_->put_wanted(history_.point(q), read.data() + static_cast<std::size_t>(q) * history_.size());
+        for (int q = 0; q < points(); ++q) {
+            double* row = read.data() + static_cast<std::size_t>(q) * history_.size();
+            row[0] = history_.point(q)[0];
+            if (law_->follows_places()) law_->put_wanted(history_.point(q), row);
+        }
         return read;
     }
     void commit() {
@@ -226,7 +229,7 @@ class ContactBlockOf final : public ContactBlock {
 
     void begin() override {
         if (begun_ || !law_->follows_places()) return;
-        for (int e = 0; e < connectivity().size(); ++e) leave(e, history_.trial(e));
+        for (int e = 0; e < connectivity().size(); ++e) leave_law(e, history_.trial(e));
         const std::vector<double> places = history_.trial();
         history_.restore(places.data(), places.size());
     }
@@ -272,13 +275,16 @@ class ContactBlockOf final : public ContactBlock {
 
     bool remembers() const { return FaceRule::remembers || law_->follows_places(); }
 
-    /// What the points of a facet remember that nothing holds.
+    /// What the points of a facet remember that nothing holds: what the law does, and the rule.
+    void leave_law(int e, double* trial) const {
+        for (int q = 0; law_->follows_places() && q < per_facet(); ++q)
+            law_->leave(locator_.in_tool(e, q), history_.state(e) + history_.size() * q, trial + history_.size() * q);
+    }
     void leave(int e, double* trial) const {
-        for (int q = 0; q < per_facet(); ++q) {
-            const double* state = history_.state(e) + history_.size() * q;
-            double* of_point = trial + history_.size() * q;
-            if (law_->follows_places()) law_->leave(locator_.in_tool(e, q), state, of_point);
-            rule_.leave(state + of_law_, of_point + of_law_);
+        leave_law(e, trial);
+        for (int q = 0; FaceRule::remembers && q < per_facet(); ++q) {
+            const int at = history_.size() * q + of_law_;
+            rule_.leave(history_.state(e) + at, trial + at);
         }
     }
 
@@ -311,8 +317,7 @@ class ContactBlockOf final : public ContactBlock {
 
     /// Asks the law at the points of a facet.
     void respond(int e, const double* weights, double* trial, Workspace& workspace) const {
-        rule_.respond(*law_, locator_, e, weights, {history_.state(e), trial, history_.size(), of_law_, begun_},
-                      workspace);
+        rule_.respond(*law_, locator_, e, weights, {history_.state(e), trial, history_.size(), of_law_}, workspace);
     }
 
     /// Calls work(facet, point, workspace, new history) for all points of facets that are not far, in their order; the trial

@@ -90,7 +90,7 @@ class OverCells : public FacetCells<Nodes> {
     using Values = std::array<double, Nodes>;
     static constexpr bool symmetric = false, remembers = true;
     static std::vector<Quantity> quantities() {
-        return {{"gap of the cell", 1}, {"pressure", 1}, {"contact energy", 1}, {"contact work", 1}};
+        return {{"begun", 1}, {"gap of the cell", 1}, {"pressure", 1}, {"contact energy", 1}, {"contact work", 1}};
     }
 
     struct Workspace {
@@ -119,9 +119,8 @@ class OverCells : public FacetCells<Nodes> {
         law.press(this->count(), places, work.pressures.data(), weights, rows, work.reactions.data());
         for (int q = 0; q < this->count(); ++q) {
             if (work.reactions[q].held) differentiate(penalty, locator, e, q, work);
-            if (rows.begun)
-                remember(penalty, places.gap[q], work.overlaps[q], rows.state + q * rows.size + rows.of_law,
-                         rows.trial + q * rows.size + rows.of_law);
+            remember(penalty, places.gap[q], work.overlaps[q], rows.state + q * rows.size + rows.of_law,
+                     rows.trial + q * rows.size + rows.of_law);
         }
     }
 
@@ -141,13 +140,14 @@ class OverCells : public FacetCells<Nodes> {
 
     /// The tool has left the cell: what was stored comes back.
     void leave(const double* state, double* trial) const {
+        trial[Begun] = 1.0;
         trial[Gap] = trial[Pressure] = trial[Energy] = 0.0;
         trial[Work] = state[Work] - state[Energy];
     }
     double contact_work(const double* row) const { return row[Work]; }
 
   private:
-    enum Part { Gap = 0, Pressure = 1, Energy = 2, Work = 3 };
+    enum Part { Begun = 0, Gap = 1, Pressure = 2, Energy = 3, Work = 4 };
 
     /// Tangents of the face times the sides of a cell, now.
     struct Sides {
@@ -185,7 +185,8 @@ class OverCells : public FacetCells<Nodes> {
     /// cell of the same slope has. eq. (4.89). Nothing is counted before the first converged state: cells beside a place where a
     /// tool just touches overlap it then, which the first increment gives back.
     static void remember(double penalty, double gap, const Overlap& overlap, const double* state, double* trial) {
-        const bool before = state[Pressure] > 0.0, now = overlap.share > 0.0;
+        const bool before = state[Pressure] > 0.0, now = overlap.share > 0.0 && state[Begun] != 0.0;
+        trial[Begun] = 1.0;
         trial[Gap] = now ? gap : 0.0;
         trial[Pressure] = now ? -penalty * overlap.gap : 0.0;
         trial[Energy] = now ? penalty * overlap.half_square : 0.0;

@@ -21,11 +21,11 @@ struct Place {
 /// What the tool does to the sheet at a place: a traction on the reference area, in its parts along and across the normal, times
 /// a weight.
 struct Reaction {
-    bool held;        // if not, the rest has no meaning
-    bool slipping;    // whether the tangential traction is at its bound
-    double pressure;  // along n, positive
-    Vec3 tangential;  // across n
-    double K[3][3];   // minus the derivative of the traction with respect to x
+    bool held;         // if not, the rest has no meaning
+    bool slipping;     // whether the tangential traction is at its bound
+    double pressure;   // along n, positive
+    Vec3 tangential;   // across n
+    double K[3][3];    // minus the derivative of the traction with respect to x
     Vec3 by_pressure;  // of `press` only: derivative of the traction with respect to the pressure, which K keeps fixed
 
     Vec3 traction(const Vec3& n) const {
@@ -78,7 +78,6 @@ struct HistoryRows {
     const double* state;
     double* trial;
     int size, of_law;
-    bool begun;  // whether there is a converged state
 };
 
 /// The law as the facets see it: one virtual call for all places of a facet.
@@ -130,8 +129,8 @@ class ContactLawOf final : public ContactLaw {
             reactions[q].held = law_.respond(places[q], weights == nullptr ? 1.0 : weights[q],
                                              rows.state + q * rows.size, rows.trial + q * rows.size, reactions[q]);
     }
-    void press(int count, const Places& places, const double* pressures, const double* weights,
-               const HistoryRows& rows, Reaction* reactions) const override {
+    void press(int count, const Places& places, const double* pressures, const double* weights, const HistoryRows& rows,
+               Reaction* reactions) const override {
         for (int q = 0; q < count; ++q) {
             const double* state = rows.state + q * rows.size;
             double* trial = rows.trial + q * rows.size;

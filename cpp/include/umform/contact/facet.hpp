@@ -80,7 +80,8 @@ struct FacetPoints {
             Values tributary{};
             for (int is = 0; is < rule.size(); ++is)
                 for (int ir = 0; ir < rule.size(); ++ir) {
-                    const double dA = rule.w[ir] * rule.w[is] * face_jacobian<Nodes>(part[e], X, rule.x[ir], rule.x[is]);
+                    const double dA =
+                        rule.w[ir] * rule.w[is] * face_jacobian<Nodes>(part[e], X, rule.x[ir], rule.x[is]);
                     const Values values = face_shape<Nodes>(rule.x[ir], rule.x[is]).N;
                     for (int a = 0; a < Nodes; ++a) tributary[a] += values[a] * dA;
                 }

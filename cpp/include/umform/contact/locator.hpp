@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "umform/assembly/threads.hpp"
-#include "umform/contact/facet.hpp"
 #include "umform/contact/concept.hpp"
+#include "umform/contact/facet.hpp"
 #include "umform/surfaces/concept.hpp"
 
 namespace umform {

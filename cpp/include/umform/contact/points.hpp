@@ -28,8 +28,7 @@ class AtPoints : public FacetPoints<Nodes> {
     }
     static constexpr const Spread<Nodes>* spread(const Workspace&, int) { return nullptr; }
 
-    double gap(const ContactLaw&, const Locator<Nodes>& locator, int e, int q, const Workspace&,
-               const double*) const {
+    double gap(const ContactLaw&, const Locator<Nodes>& locator, int e, int q, const Workspace&, const double*) const {
         return locator.places(e).gap[q];
     }
     double penetration(const Locator<Nodes>& locator, int e, int q) const { return -locator.places(e).gap[q]; }

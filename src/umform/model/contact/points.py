@@ -137,6 +137,11 @@ class PairPoints(Term):
         return self.friction is None and self.cells is None
 
     @property
+    def remembers(self) -> bool:
+        """Whether an evaluation writes more history than multipliers."""
+        return self.friction is not None or self.cells is not None
+
+    @property
     def multipliers(self) -> Floats:
         """Multipliers of the converged state at the contact points; zero without augmentation."""
         return self.block.state[:, 0]
