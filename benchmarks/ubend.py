@@ -34,7 +34,7 @@ E, NU, SWIFT = 206e3, 0.3, (565.32, 0.007117, 0.2589)
 FLAT, ARC = 2.0, 40
 
 
-def build(friction: float | None = MU) -> tuple[Any, list[Any]]:
+def build(friction: float | None = MU, stroke: float = STROKE) -> tuple[Any, list[Any]]:
     """Model and steps in umform."""
     import umform as uf
 
@@ -51,16 +51,16 @@ def build(friction: float | None = MU) -> tuple[Any, list[Any]]:
     model.contact("lower", die, name="on_die", penalty=PENALTY, **rule)
     model.contact("upper", holder, name="under_holder", penalty=HOLDER_PENALTY, **rule)
     model.contact("upper", punch, name="under_punch", penalty=PENALTY, **rule)
-    hold, stroke = model.press(holder, "z", name="hold"), model.drive(punch, "z", name="stroke")
-    return model, [uf.Move(hold, to=-HOLDING, steps=2), uf.Move(stroke, to=-STROKE)]
+    hold, ram = model.press(holder, "z", name="hold"), model.drive(punch, "z", name="stroke")
+    return model, [uf.Move(hold, to=-HOLDING, steps=2), uf.Move(ram, to=-stroke)]
 
 
-def in_umform(friction: float | None) -> dict[str, Any]:
+def in_umform(friction: float | None, stroke: float) -> dict[str, Any]:
     """Run it in this process."""
     import umform as uf
 
     uf.set_threads(1)
-    model, steps = build(friction)
+    model, steps = build(friction, stroke)
     start = time.process_time()
     result = uf.solve(model, steps, progress=False, frames=0)
     iterations = result["iterations"][3:]
@@ -217,8 +217,9 @@ def main() -> None:
     parser.add_argument(
         "--calculix", type=float, default=600.0, metavar="SECONDS", help="CPU seconds for CalculiX; 0: none"
     )
+    parser.add_argument("--stroke", type=float, default=STROKE, help="of umform alone")
     given = parser.parse_args()
-    rows = [in_umform(MU), in_umform(None)]
+    rows = [in_umform(friction, given.stroke) for friction in (MU, None)]
     if given.calculix > 0 and (row := in_calculix(given.calculix)) is not None:
         rows.append(row)
     print(table(rows))
