@@ -254,6 +254,23 @@ def test_what_was_found_is_that_of_the_forces(rng):
     assert block.law.symmetric
 
 
+@pytest.mark.parametrize("lift", [0.15, 2.0], ids=["near", "far"])
+def test_what_a_cell_stores_comes_back(lift):
+    """In one increment in, in one out, whether the facets are looked at then or are far."""
+    mesh = plate()
+    block = block_over(mesh, TOOLS["sphere"])
+    works = []
+    for way in (lift, 0.0, lift, 0.0):
+        respond(block, np.tile([0.0, 0.0, way], len(mesh.points)))
+        works.append(block.found().contact_work)
+        block.commit()
+    found, whole = block.found(), block.found().share == 1.0
+    assert works[1] == works[3] > 0.0
+    assert abs(works[2]) < 1e-15
+    assert whole.any()
+    assert works[1] > 0.5 / PENALTY * float(found.pressure**2 @ found.area)  # edges: the square of the mean is less
+
+
 def test_a_penalty_that_a_symmetric_pattern_cannot_take_is_refused(rng):
     mesh = plate()
     block = block_over(mesh, TOOLS["sphere"])
