@@ -50,18 +50,22 @@ class Strip:
         Pressure per penetration.
     distorted : bool
         Whether the elements are no rectangles, and differ in size by a factor of two.
+    friction : float, optional
+        Coefficient of friction.
     """
 
     element: str
     cells: tuple[int, int]
     penalty: float
     distorted: bool = False
+    friction: float | None = None
 
     @property
     def name(self) -> str:
         """As in the tables."""
         shape = ", distorted" if self.distorted else ""
-        return f"{self.element} {self.cells[0]}x{self.cells[1]}{shape}, {self.penalty:g}"
+        rough = "" if self.friction is None else f", friction {self.friction}"
+        return f"{self.element} {self.cells[0]}x{self.cells[1]}{shape}, {self.penalty:g}{rough}"
 
     def mesh(self) -> meshes.Mesh:
         """The half strip, symmetric about x = 0."""
@@ -82,7 +86,7 @@ class Strip:
         punch = model.prescribe("x0_lower", "z", name="punch")
         model.fix(np.intersect1d(mesh.nodes("x0_lower"), mesh.nodes("y0_lower")), "y")
         tool = uf.Cylinder(centre=(25, 0, -20.5), axis="y", radius=20)
-        model.contact("lower", tool, penalty=self.penalty, name="tool", **rule)
+        model.contact("lower", tool, penalty=self.penalty, friction=self.friction, name="tool", **rule)
         start = time.process_time()
         result = uf.solve(model, uf.Move(punch, to=-STROKE, steps=steps))
         seconds = time.process_time() - start
@@ -163,6 +167,7 @@ STRIPS = [
     )
     for penalty in (100.0, 1e4)
 ]
+STRIPS.append(Strip("ANS3DEAS", (24, 1), 1e4, friction=0.1))
 
 
 def main() -> None:

@@ -369,6 +369,21 @@ def test_multipliers_take_the_penetration_away():
     assert -result["punch_force"][-1] == pytest.approx(-plain["punch_force"][-1], rel=0.02)
 
 
+@pytest.mark.parametrize("friction", [None, 0.2])
+def test_a_tool_that_is_pressed_finds_its_force(friction):
+    import umform as uf
+    from umform import materials as mt
+
+    model = Model(strip(20.0, 4.0, 1.0, (10, 1)), "ANS3DEAS", material=mt.SVK(E=1000.0, nu=0.3))
+    model.fix("x0")
+    tool = Cylinder((16.3, 0.0, 5.5), "y", 5.0)
+    contact = model.contact("upper", tool, penalty=200.0, cells=3, friction=friction, name="punch")
+    force = model.press(contact, "z", name="force")
+    result = uf.solve(model, uf.Move(force, to=-0.5, steps=4))
+    assert contact.resultant()[0][2] == pytest.approx(0.5, rel=1e-6)
+    assert result["iterations"].max() <= 9
+
+
 def test_cells_or_points():
     model, contact, _ = bent(steps=2)
     assert (contact.cells, contact.points, contact.symmetric) == (3, 3, False)
