@@ -64,7 +64,7 @@ class Assembled(Supported, Loaded, Touched, Embodied, Whole):
         controls = [control for control in self.controls if isinstance(control, Term)]
         pressures = [control for control in controls if control.couples()]
         loads = [control for control in controls if not control.couples()]
-        pressed = [tool for tool in self.tools if tool.unknowns]
+        pressed = [tool for tool in self.tools if tool.presses]
         return [*self.bodies, *self.contacts, *pressures, *loads, *self.others, *pressed]
 
     def add(self, term: Term) -> Term:

@@ -149,7 +149,7 @@ def _remove_contact(model: Evaluated, contact: Contact) -> Load:
     model.contacts = [other for other in contacts if other is not contact]
     tool.pairs.remove(contact)
     if not tool.pairs:
-        gone = [*tool.ways, *(force for press in tool.presses for force in press.forces)]
+        gone = [*tool.ways, *(press.force for press in tool.presses)]
         model.tools = [other for other in tools if other is not tool]
         model.controls = [control for control in controls if control not in gone]
     model.forget_assembly()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from umform.errors import InvalidValue
 from umform.model import Model
+from umform.model.control import Control
 from umform.model.removal import fading
 from umform.model.support import Support
 from umform.progress import Tick, progress_bar
@@ -21,6 +22,7 @@ from umform.solution.options import NewtonOptions
 from umform.steps import Step
 from umform.steps.arc_length.arc import Arc, Following
 from umform.steps.arc_length.checks import refuse_on_an_arc
+from umform.steps.close import Close, Closing, way_is_found
 from umform.steps.free import Free, Freeing
 from umform.steps.loop import Run
 from umform.steps.move import Move
@@ -32,7 +34,7 @@ if TYPE_CHECKING:
     from umform.run.checkpoint import Checkpoints
 
 _Work = Callable[[Model, Sequence[Step]], Result]
-_LOOPS: dict[type, Any] = {Release: Releasing, Arc: Following, Free: Freeing}
+_LOOPS: dict[type, Any] = {Release: Releasing, Arc: Following, Free: Freeing, Close: Closing}
 
 
 def solve(
@@ -190,7 +192,9 @@ def checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
         if isinstance(step, Arc):
             refuse_on_an_arc(model, f"step {number}")
         if not isinstance(step, Step):
-            raise InvalidValue("a step is a Move, a Release, an Arc or a Free", where=f"step {number}", value=step)
+            raise InvalidValue(
+                "a step is a Move, a Release, an Arc, a Free or a Close", where=f"step {number}", value=step
+            )
         if isinstance(step, Free):
             _refuse_to_free(model, step.support, sequence[: number - 1], f"step {number}")
             continue
@@ -203,10 +207,24 @@ def checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
                     cause="it belongs to another model",
                     remedy="use what prescribe(), force(), pressure() or drive() of this model returned",
                 )
+            _refuse_a_way_that_is_found(model, control, f"step {number}")
     for step in sequence:
         if isinstance(step, Free):
             fading(model, step.support)  # the history has the columns of its forces from the beginning on
     return sequence
+
+
+def _refuse_a_way_that_is_found(model: Model, control: Control, where: str) -> None:
+    """Refuse to move a tool along the way that a force or a spring finds."""
+    press = way_is_found(model, control)
+    if press is not None:
+        raise InvalidValue(
+            "a step moves the way of a tool that a force presses",
+            where=where,
+            value=control,
+            cause="the way would be given and found at the same time",
+            remedy=f"move the force, control {press.force.name}, or Close the tool; drive() for one that goes by way",
+        )
 
 
 def _refuse_to_free(model: Model, support: Support, earlier: Sequence[Step], where: str) -> None:

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, Self
 
-import numpy as np
-from numpy.typing import NDArray
-
 from umform.errors import InvalidValue
-from umform.model import Evaluation, Model, Snapshot
+from umform.model import Evaluation
 from umform.model.control import Control
-from umform.model.term import Term
 from umform.solution.records import Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
+from umform.steps.saved import Saved, tightened
 
 #: Part of the force that counts as zero which the residual of an increment may reach.
 _PART = 0.1
@@ -115,7 +111,7 @@ class Releasing:
         """Try one increment."""
         model, control = run.model, step.control
         before, value = run.evaluation, control.value
-        saved, touching = _Saved.of(model, before), before.touching(model.ranks)
+        saved, touching = Saved.of(model, before), before.touching(model.ranks)
         attempts = run.newton.timing.attempts
         mark = attempts.mark()
         target = _next_release(value, self.force, self.before, self.bound, self.size, self.finest)
@@ -129,7 +125,7 @@ class Releasing:
         time = self.start_time + 1.0 - target / self.start_value
         extrapolation = None if self.taken is None else (target - value) / self.taken
         try:
-            with _tightened(run, _PART * step.tolerance * self.scale):
+            with tightened(run, _PART * step.tolerance * self.scale):
                 converged = take_increment(run, [target], [control], time, extrapolation)
         except Failed as failure:
             self.size, self.taken, self.failures = 0.25 * self.size, None, self.failures + 1
@@ -159,43 +155,11 @@ class Releasing:
             how = "contact has lifted off" if lifted else "the force is zero" if zero else "the way back is complete"
             run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
 
-    def _go_back(self, run: Run, saved: _Saved, target: float, finest: float) -> None:
+    def _go_back(self, run: Run, saved: Saved, target: float, finest: float) -> None:
         """Restore the state before an increment that went too far; its end is the new bound."""
         self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
-        saved.restore(run.model)
-        run.evaluation, run.last_dx, self.taken = saved.evaluation, None, None
-
-
-@dataclass(frozen=True)
-class _Saved:
-    """A converged state with its evaluation, and the histories that this had read."""
-
-    snapshot: Snapshot
-    evaluation: Evaluation
-    before: list[tuple[Term, NDArray[np.float64]]]
-
-    @classmethod
-    def of(cls, model: Model, evaluation: Evaluation) -> Self:
-        """That of a model."""
-        return cls(model.snapshot(), evaluation, [(term, term.before) for term in model.terms])
-
-    def restore(self, model: Model) -> None:
-        """Put the model back, so that a checkpoint can repeat the evaluation to the last bit."""
-        model.restore(self.snapshot)
-        model.stand(self.evaluation)
-        for term, before in self.before:
-            term.before = before
-
-
-@contextmanager
-def _tightened(run: Run, force: float) -> Iterator[None]:
-    """Let Newton's method go on until the residual is no more than a force, if its tolerance asks for less."""
-    own = run.newton.options
-    run.newton.options = replace(own, residual=min(own.residual, force / run.evaluation.force_scale))
-    try:
-        yield
-    finally:
-        run.newton.options = own
+        saved.restore(run)
+        self.taken = None
 
 
 def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> float:

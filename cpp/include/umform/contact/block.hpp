@@ -26,6 +26,7 @@ class ContactBlock {
 
     Pose pose;
     std::string name = "a contact";  // for messages
+    bool open = false;               // whether the tool has been taken away: it holds no point, wherever it stands
 
     const std::shared_ptr<ContactLaw>& law() const { return law_; }
     bool symmetric() const { return law_->symmetric(); }
@@ -155,7 +156,7 @@ class ContactBlockOf final : public ContactBlock {
             found.force.push_back(force);
         });
         for (int e = 0; e < connectivity().size(); ++e)
-            for (int q = 0; locator_.far(e) && q < per_facet(); ++q)
+            for (int q = 0; (open || locator_.far(e)) && q < per_facet(); ++q)
                 found.friction_work +=
                     area_[e * per_facet() + q] * law_->rubbing(history_.state(e) + q * history_.size()).work;
         found.penetration = penetration();
@@ -190,7 +191,7 @@ class ContactBlockOf final : public ContactBlock {
     double penetration() override {
         double deepest = 0.0;
         for (int e = 0; e < connectivity().size(); ++e) {
-            if (locator_.far(e)) continue;
+            if (open || locator_.far(e)) continue;
             for (int q = e * per_facet(); q < (e + 1) * per_facet(); ++q)
                 deepest = std::max(deepest, -locator_.gaps()[q]);
         }
@@ -281,6 +282,7 @@ class ContactBlockOf final : public ContactBlock {
     /// history stays as it is.
     template <class Work>
     void for_each_near(const Work& work) {
+        if (open) return;
         locator_.settle([this](int e) { return reach(e); });
         Reactions reactions(per_facet());
         std::vector<double> trial(history_.stride());
@@ -303,7 +305,7 @@ class ContactBlockOf final : public ContactBlock {
 
     void add_facet(int e, const Scatter& scatter, const Target& target, Reactions& reactions) {
         scale_[e] = 0.0;
-        if (locator_.far(e)) {
+        if (open || locator_.far(e)) {
             if (law_->follows_places()) leave(e);
             return;
         }
