@@ -80,14 +80,19 @@ def free_motions(model: Evaluated, touched: Sequence[tuple[Floats, Floats]] = ()
     points = model.mesh.points + model.u.reshape(-1, 3)
     centre, size = middle(model, points)
     modes = forces.rigid_body_modes(points, centre, size)
+    rows = [_motion_along(x, n, centre, size) for x, n in touched]
+    return [_describe_motion(motion) for motion in left_free(model, modes, rows)]
+
+
+def left_free(model: Evaluated, modes: Floats, more: Sequence[Floats] = ()) -> Floats:
+    """Combinations (k, 6) of the rigid-body modes (6, 3 n) that supports and more rows (m, 6) leave free."""
     rows = [modes[:, np.flatnonzero(model.constrained())].T]
     rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.ties]
     rows += [np.einsum("mkd,kd->km", modes[:, part.dofs], part.weights) for part in model.rows]
-    rows += [_motion_along(x, n, centre, size) for x, n in touched]
-    matrix = model.ranks.rows(np.concatenate([np.zeros((1, 6)), *rows]))
+    matrix = model.ranks.rows(np.concatenate([np.zeros((1, 6)), *rows, *more]))
     _, singular, directions = np.linalg.svd(matrix, full_matrices=True)
     rank = int((singular > 1e-8 * max(singular.max(), 1e-300)).sum())
-    return [_describe_motion(motion) for motion in directions[rank:]]
+    return np.asarray(directions[rank:])
 
 
 def diagnosis(model: Evaluated) -> tuple[str, str] | None:
@@ -137,7 +142,7 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
     directors = mesh.points[mesh.connectivity[:, half:]] - mesh.points[mesh.connectivity[:, :half]]
     thickness = float(np.median(np.linalg.norm(directors, axis=-1)))
     for contact in model.contacts:
-        if len(contact.facets) == 0:
+        if len(contact.facets) == 0 or contact.tool.open:
             continue
         at = contact.locate(model.u, contact.pose)
         undefined = ~(np.isfinite(at.gap) & np.isfinite(at.normal).all(axis=1))

@@ -201,8 +201,9 @@ class Tool(Term):
         return {name: float(value) for name, value in zip(self.column_names(), [*force, *moment], strict=True)}
 
     def state(self) -> Tree:
-        """Ways that are found, and whether it is open; the forces in its place."""
-        tree: Tree = {"ways": {press.unknown.name: press.unknown.value for press in self.presses}}
+        """Ways that are found, those that are given for now; whether it is open, and the forces in its place."""
+        ways = {press.unknown.name: [press.unknown.value, float(press.held)] for press in self.presses}
+        tree: Tree = {"ways": ways}
         if self.load is not None:
             tree |= {"open": self.open, "vector": self.load.vector.copy()}
         return tree
@@ -210,18 +211,23 @@ class Tool(Term):
     def restore(self, tree: Tree) -> None:
         """Put them back."""
         for press in self.presses:
-            press.unknown.value = tree["ways"][press.unknown.name]
+            value, held = tree["ways"][press.unknown.name]
+            press.unknown.value, press.held = float(value), bool(held)
         if self.load is not None:
             self.load.vector = np.array(tree["vector"])
-            self.stay_open(bool(tree["open"]))
+            self._open(bool(tree["open"]))
 
     def stay_open(self, open_now: bool) -> None:
         """Take it away from the sheet, or put it back; its ways are given while it is open."""
-        self.open = open_now
-        for pair in self.pairs:
-            pair.block.open = open_now
+        self._open(open_now)
         for press in self.presses:
             press.held = open_now
+
+    def _open(self, open_now: bool) -> None:
+        self.open = open_now
+        for pair in self.pairs:
+            if "block" in vars(pair):  # else it is made as the tool stands
+                pair.block.open = open_now
 
     def column_names(self) -> Iterable[str]:
         """Force and moment of the sheet on it."""
@@ -233,6 +239,7 @@ class Tool(Term):
         bare.pairs = [twins.of(pair) for pair in self.pairs]
         bare.ways = [twins.of(way) for way in self.ways]
         bare.__dict__.pop("kernel", None)
+        bare.load = None if self.load is None else twins.of(self.load)
         bare.presses = [press.twin(twins) for press in self.presses]
 
     def fill(self, piece: Any, mesh: Any) -> None:

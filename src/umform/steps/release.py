@@ -10,6 +10,7 @@ from typing import Any, Self
 from umform.errors import InvalidValue
 from umform.model import Evaluation
 from umform.model.control import Control
+from umform.model.tool_controls import ToolForce
 from umform.solution.records import Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
@@ -23,13 +24,16 @@ _PART = 0.1
 class Release:
     """Take a displacement or a tool back until its force is zero (or contact has lifted off).
 
+    A tool that a force presses goes back by its way, which is given from then on; a step :class:`umform.Close` presses
+    it again. The column of its control has the force that this takes, none at the end.
+
     The increments of a release are solved so far that the force is known to a part of the tolerance, even where the
     tolerance of the residual in :class:`umform.NewtonOptions` is looser.
 
     Parameters
     ----------
     control : Control
-        A prescribed displacement or a tool motion.
+        A prescribed displacement or a tool motion, or the force that presses a tool.
     increment : float, optional
         Size of the first increment of the way back; default 1/1000 of the present value. It doubles while Newton is at
         ease, up to a twentieth of the value.
@@ -88,13 +92,13 @@ class Releasing:
     @classmethod
     def begin(cls, run: Run, step: Release) -> Self:
         """The loop at the beginning of the step; done if there is nothing to release."""
-        model, value = run.model, step.control.value
-        evaluation = run.evaluation
-        force = step.control.force(evaluation, model.ranks)
+        model, control = run.model, _moved(run, step)
+        evaluation, value = run.evaluation, control.value
+        force = control.force(evaluation, model.ranks)
         size = -math.copysign(step.increment or abs(value) / 1000.0, value)
         loop = cls(model.time, value, abs(force), force, size, finest=1e-6 * abs(value))
         if value == 0.0 or loop.scale <= 1e-9 * evaluation.force_scale:
-            run.result.note(f"step {run.number}: nothing to release, the force of {step.control.name} is zero")
+            run.result.note(f"step {run.number}: nothing to release, the force of {control.name} is zero")
             loop.done = True
         return loop
 
@@ -109,7 +113,7 @@ class Releasing:
 
     def advance(self, run: Run, step: Release) -> None:
         """Try one increment."""
-        model, control = run.model, step.control
+        model, control = run.model, _moved(run, step)
         before, value = run.evaluation, control.value
         saved, touching = Saved.of(model, before), before.touching(model.ranks)
         attempts = run.newton.timing.attempts
@@ -145,6 +149,8 @@ class Releasing:
                 self.size, self.before = (target - value) * self.force / (self.force - force), None
             return
         self.before, self.taken, self.force = (value, self.force), target - value, force
+        if isinstance(step.control, ToolForce):
+            step.control.value = model.press_of(step.control).takes(target, force)[0]
         self.done = zero or target == 0.0
         if self.bound is None and abs(2.0 * self.size) <= abs(self.start_value) / 20.0 and _at_ease(converged):
             self.size *= 2.0
@@ -160,6 +166,15 @@ class Releasing:
         self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
         saved.restore(run)
         self.taken = None
+
+
+def _moved(run: Run, step: Release) -> Control:
+    """The control that goes back: of a pressed tool its way, which is given from now on."""
+    if not isinstance(step.control, ToolForce):
+        return step.control
+    press = run.model.press_of(step.control)
+    press.held = True
+    return press.way
 
 
 def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> float:

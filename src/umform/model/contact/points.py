@@ -98,7 +98,7 @@ class PairPoints(Term):
         at_nodes = isinstance(self.points, str)
         per_side = 1 if isinstance(self.points, str) else self.points
         block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self.tool.kernel, self._law())
-        block.name = f"contact {self.name}"
+        block.name, block.open = f"contact {self.name}", self.tool.open
         if self.friction is not None:
             block.set_pose(*self.pose)
             block.locate(np.zeros(block.dofs))
@@ -130,6 +130,12 @@ class PairPoints(Term):
         """Multipliers of the converged state at the contact points; zero without augmentation."""
         return self.block.state[:, 0]
 
+    def forget_multipliers(self) -> None:
+        """Let no point have a pressure without a penetration any more."""
+        state = self.block.state
+        state[:, 0] = 0.0
+        self.block.restore(state)
+
     def _not_here(self) -> ModelError:
         return not_here(f"the state of contact {self.name}")
 
@@ -144,6 +150,10 @@ class PairPoints(Term):
         """Signed distance of positions (n, 3) to the tool, where it stands now or in a pose; shape (n,)."""
         rotation, shift = self.pose if pose is None else pose
         return self.tool.kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0]
+
+    def gap_now(self, u: Floats) -> Floats:
+        """Signed distances of the contact points to the tool where it stands now, shape (n,)."""
+        return self._measured(u, self.pose)[1]
 
     def _found(self, scale: float, u: Floats, pose: Pose) -> ContactFound:
         """What the kernel knows now of the points that are held, copied; the rest is measured when it is asked for."""
