@@ -136,6 +136,36 @@ def test_a_run_that_closes_a_tool_is_taken_up_to_the_last_bit(tmp_path, stop):
     np.testing.assert_array_equal(second.u, first.u)
 
 
+# A force over the stroke ----------------------------------------------------------------------------------------
+
+
+def over_stroke(stroke):
+    """A holder force that grows with the stroke."""
+    return -80.0 - 400.0 * stroke
+
+
+@pytest.mark.parametrize("law", [over_stroke, [(0.02, -88.0), (0.0, -80.0)]])
+def test_a_holder_force_follows_the_stroke(law):
+    model, hold = held(friction=0.1)
+    pull = model.prescribe("x1_lower", "x", "pull")
+    result = solve(model, [Close(hold, force=-80.0), Move(pull, 0.03, steps=3, follow={hold: law})])
+    wanted = [-84.0, -88.0, -88.0 if isinstance(law, list) else -92.0]
+    np.testing.assert_allclose(result["hold"][-3:], wanted, rtol=1e-12)
+    np.testing.assert_allclose(result["holder_fz"], -result["hold"], rtol=1e-8, atol=1e-6)
+
+
+def test_a_law_that_cannot_be_followed_is_refused():
+    model, hold = held()
+    pull = model.prescribe("x1_lower", "x", "pull")
+    for law in ([0.0, 1.0], [(0.0, np.nan), (1.0, 2.0)], [(0.0, 1.0), (0.0, 2.0)]):
+        with pytest.raises(InvalidValue, match="function or a table"):
+            Move(pull, 1.0, follow={hold: law})
+    with pytest.raises(InvalidValue, match="follows another one"):
+        Move([pull, hold], [1.0, 2.0], follow={hold: over_stroke})
+    with pytest.raises(InvalidValue, match="belongs to another model"):
+        solve(held()[0], Move(pull, 1.0, follow={hold: over_stroke}))
+
+
 # What cannot be --------------------------------------------------------------------------------------------------
 
 
