@@ -241,7 +241,8 @@ class Tooled(Controlled):
         self._add(force)
         self._add(way)
         tool.add_way(way)
-        tool.add_press(Press(Global(f"{name}_found", {way: 1.0}), way, force))
+        what = f"the way of tool {tool.name}, which {name} presses,"
+        tool.add_press(Press(Global(f"{name}_found", {way: 1.0}, what=what), way, force))
         return force
 
     def set_motion(self, tool: Contact | Tool, motion: Motion, about: ArrayLike = (0.0, 0.0, 0.0)) -> None:

@@ -200,3 +200,18 @@ def test_a_step_refuses_what_no_force_presses():
     other, _ = held()
     with pytest.raises(InvalidValue, match="belongs to another model"):
         solve(other, Close(press, force=1.0))
+
+
+def test_a_tool_that_loses_the_sheet_is_named():
+    """Of two tools the one whose force goes over zero; and one under which the sheet gives way."""
+    model, punch = beam()
+    press = model.press(punch, "z", "press")
+    with pytest.raises(NoConvergence, match="the way of tool punch, which press presses, is not determined"):
+        solve(model, [Close(press, force=-100.0), Move(press, 20.0, steps=4)])
+    tip = Model(strip(20.0, 2.0, 0.5, (10, 1)), material=mt.SVK(E=206e3, nu=0.3))
+    tip.fix("x0")
+    ball = tip.tool("ball", Cylinder((19.0, 0.0, 2.75), "y", 2.5))
+    tip.contact("upper", ball, penalty=1e4, points=4)
+    push = tip.press(ball, "z", "push")
+    with pytest.raises(NoConvergence, match=r"tool ball, pressed with push = -\d+\.\d+, holds the sheet at"):
+        solve(tip, [Close(push, force=-5.0), Move(push, -200.0, steps=5, cuts=4)])
