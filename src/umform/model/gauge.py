@@ -1,6 +1,6 @@
 """A support that holds the sheet as a rigid body and no more: six degrees of freedom, or those that others leave free.
 
-Where external forces balance, its reactions are zero: a part that is held by it is free of them. docs/theory, 4.18
+Where external forces balance, its reactions are zero: a part that is held by it is free of them. docs/theory, 4.17
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Open tools: the forces that they exert become a dead load, which may fade while they no longer touch. eq. (4.65)
 
 An opened tool stays where it stands and keeps its columns of the history; it holds no point, its ways are given, and
-its points forget what friction had held them with. docs/theory, 4.18
+its points forget what friction had held them with. docs/theory, 4.17
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What presses a tool along a way that is found: a force or moment, a spring, stops; its equation. docs/theory, 4.16"""
+"""What presses a tool along a way that is found: a force or moment, a spring, stops; its equation. docs/theory, 4.17"""
 
 from __future__ import annotations
 

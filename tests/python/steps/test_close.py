@@ -213,5 +213,5 @@ def test_a_tool_that_loses_the_sheet_is_named():
     ball = tip.tool("ball", Cylinder((19.0, 0.0, 2.75), "y", 2.5))
     tip.contact("upper", ball, penalty=1e4, points=4)
     push = tip.press(ball, "z", "push")
-    with pytest.raises(NoConvergence, match=r"tool ball, pressed with push = -\d+\.\d+, holds the sheet at"):
+    with pytest.raises(NoConvergence, match=r"tool ball, pressed with push = -\S+, holds the sheet"):
         solve(tip, [Close(push, force=-5.0), Move(push, -200.0, steps=5, cuts=4)])
