@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from umform import steps
@@ -233,6 +233,11 @@ class Close(Part):
 StepPart = Annotated[Move | Release | Arc | Free | Close, Field(discriminator="kind")]
 
 
+def _order(value: object) -> object:
+    """Order of an extrapolation that is wanted or not: true is 1, false 0."""
+    return int(value) if isinstance(value, bool) else value
+
+
 class Solution(Part):
     """Sparse solver and Newton's method."""
 
@@ -246,8 +251,8 @@ class Solution(Part):
     """Iterations before an increment is cut."""
     line_search: bool | None = None
     """Shorten increments that go too far; default: where a law has a history."""
-    extrapolate: bool = True
-    """Start an increment from the extrapolated last one."""
+    extrapolate: Annotated[Literal[0, 1, 2], BeforeValidator(_order)] = 1
+    """Start an increment from the tangent (0), or from a line (1) or a parabola (2) through the last states."""
     mixed: bool | None = None
     """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets."""
 

@@ -65,7 +65,7 @@ class Press:
     held: bool = False
 
     def takes(self, way: float, sheet: float) -> tuple[float, float]:
-        """Force that the press must have at a way for the tool to stand there, and its derivative. eq. (4.61)
+        """Force that the press must have at a way for the tool to stand there, and its derivative. eqs. (4.41), (4.61)
 
         Parameters
         ----------

@@ -170,7 +170,7 @@ class Tool(Term):
     # Term ----------------------------------------------------------------------------------------------------
 
     def evaluate(self, at: At, into: Into) -> Found:
-        """Add the equations of its unknown ways: forces of sheet, press, spring and stops balance. eq. (4.61)"""
+        """Add the equations of its unknown ways: sheet, press, spring and stops balance. eqs. (4.42), (4.61)"""
         border = into.border
         seen = _Seen(into.residual, into.found, at.values, at.time)
         for press in self._finding():

@@ -44,7 +44,7 @@ class ToolWay(Control):
         return sum(self._force_on(tool, evaluation, ranks) for tool in self.tools)
 
     def row(self, at: At) -> Floats:
-        """Derivative of minus its force with respect to the nodes of this rank, shape (3 n,). eq. (4.42)"""
+        """Derivative of minus its force with respect to the nodes of this rank, shape (3 n,). eq. (4.62)"""
         rows = [
             pair.block.row(*self._motion(tool, at)) for tool in self.tools for pair in tool.pairs if not pair.tool.open
         ]

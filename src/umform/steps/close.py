@@ -152,7 +152,7 @@ class Closing:
         return gap - self.hair if gap > 2.0 * self.hair else max(gap, 0.0) + self.hair
 
     def _ahead(self, press: Press, force: float, target: float) -> float | None:
-        """Way to the force along the last secant, or along springs; None where neither is known."""
+        """Way to the force along the last secant, or along springs; None where neither is known. eq. (4.64)"""
         slope = press.takes(press.way.value, 0.0)[1]
         if self.before is not None and self.before[0] != press.way.value:
             slope = (force - self.before[1]) / (press.way.value - self.before[0])
@@ -192,7 +192,7 @@ class Closing:
 
     def _land(self, run: Run, step: Close, press: Press) -> None:
         """The increment of the force, with the way among the unknowns."""
-        run.last_dx = None
+        run.trail = None
         step.control.value = _takes(run, press)
         try:
             with tightened(run, _EXACT * abs(step.force)):

@@ -34,7 +34,7 @@ class Saved:
         run.model.stand(self.evaluation)
         for term, before in self.before:
             term.before = before
-        run.evaluation, run.last_dx = self.evaluation, None
+        run.evaluation, run.trail = self.evaluation, None
 
 
 @contextmanager

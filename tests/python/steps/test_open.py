@@ -35,7 +35,7 @@ class Drawing:
         return x - x[0]
 
 
-def ubend(friction=None):
+def ubend(friction=None, points=5):
     """A small U-bend in plane strain."""
     mesh = strip(60.0, 1.0, 1.0, (30, 1)).transformed(lambda x: np.add(x, (0.0, 0.0, 0.5)))
     model = Model(mesh, "BEND8", material=STEEL)
@@ -43,16 +43,19 @@ def ubend(friction=None):
     model.fix(lambda x, y, z: x > -1.0, "y")
     die, holder = model.tool("die", UDie(34.0, 100.0, 4.0, 4.0)), model.tool("holder", Plane((0, 0, 2.0), (0, 0, -1)))
     punch = model.tool("punch", Box((0, 0, 51.0), (31.0, 100.0, 100.0), 4.0))
-    rule = {"points": 3, "friction": friction, "penetration": 0.02}
+    rule = {"points": points, "friction": friction, "penetration": 0.02}
     model.contact("lower", die, name="on_die", **rule)
     model.contact("upper", holder, name="under_holder", **rule)
     model.contact("upper", punch, name="under_punch", **rule)
     return Drawing(model, model.press(holder, "z", "hold"), model.drive(punch, "z", "stroke"))
 
 
-@pytest.mark.parametrize(("friction", "apart"), [(None, 1e-3), (0.1, 1e-3)])
+@pytest.mark.parametrize(("friction", "apart"), [(None, 1e-3), (0.1, 5e-3)])
 def test_both_springbacks_agree(friction, apart):
-    """All tools fade at once, or punch and holder go back in the order in which a press opens."""
+    """All tools fade at once, or punch and holder go back in the order in which a press opens.
+
+    With friction a little flows while the press opens, and the way counts.
+    """
     faded, opened = ubend(friction), ubend(friction)
     draw = [(Close(each.hold, force=-10.0), Move(each.stroke, -15.0)) for each in (faded, opened)]
     gauge = faded.model.hold_rigid(lambda x, y, z: x < 1e-9, name="gauge")

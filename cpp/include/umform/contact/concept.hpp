@@ -36,7 +36,8 @@ struct Reaction {
 
 /// What friction holds and has cost at a place, per area.
 struct Rubbing {
-    double elastic_slip = 0.0, slip = 0.0;  // now, and the distance slid in all
+    Vec3 elastic_slip{};  // now, in the frame of the tool
+    double slip = 0.0;    // distance slid in all
     double stored = 0.0, work = 0.0;
 };
 
@@ -45,7 +46,8 @@ struct Rubbing {
 /// the largest gap at which the place can be held. `respond` says whether it is held, and writes the reaction then, without `held`
 /// and times the weight. A law that is `symmetric` has a symmetric K; what is below its diagonal is not read. One that
 /// `follows_places` has more to say: what it remembers of a place that the tool does not hold, or no longer (`leave`), what friction
-/// does there (`rubbing`), how its tangential multipliers are set (`augment`) and become those of the new history (`settle`).
+/// does there (`rubbing`), how its tangential multipliers are set (`augment`), belong to what was read (`put_wanted`), and become
+/// those of the new history (`settle`).
 template <class L>
 concept PlaceLaw =
     requires(const L& law, L& mutable_law, const Place& place, const double* state, double* trial, Reaction& reaction) {
@@ -86,7 +88,8 @@ class ContactLaw {
     // Of one place, and of laws that follow places only; z is in the frame of the tool.
     virtual void leave(const Vec3& z, const double* state, double* trial) const = 0;
     virtual Rubbing rubbing(const double* history) const = 0;
-    virtual void augment(const Place& place, const double* state, double* trial) const = 0;
+    virtual void augment(const Place& place, const Vec3& t, const double* state, double* trial) const = 0;
+    virtual void put_wanted(const double* trial, double* read) const = 0;
     virtual void settle(double* trial) const = 0;
 };
 
@@ -121,8 +124,11 @@ class ContactLawOf final : public ContactLaw {
         if constexpr (Law::follows_places) return law_.rubbing(history);
         return {};
     }
-    void augment(const Place& place, const double* state, double* trial) const override {
-        if constexpr (Law::follows_places) law_.augment(place, state, trial);
+    void augment(const Place& place, const Vec3& t, const double* state, double* trial) const override {
+        if constexpr (Law::follows_places) law_.augment(place, t, state, trial);
+    }
+    void put_wanted(const double* trial, double* read) const override {
+        if constexpr (Law::follows_places) law_.put_wanted(trial, read);
     }
     void settle(double* trial) const override {
         if constexpr (Law::follows_places) law_.settle(trial);

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.errors import ModelError
 from umform.mesh import Mesh
+from umform.model.contact.face_basis import in_face_basis
 from umform.model.contact.found import ContactFound, ContactPoints
 from umform.model.contact.points import PairPoints, hat_functions
 from umform.model.control import Control
@@ -92,20 +93,23 @@ class Contact(PairPoints):
 
     def commit(self, found: Found) -> None:
         """Make the trial history, multipliers too, and what was found those of the converged state."""
-        if self.friction is not None:
-            self.before = self.block.state
-        self.block.commit()
+        self._commit()
         assert isinstance(found, ContactFound)
         self.stand(found)
 
-    def begin(self) -> None:
-        """Take the places where the points are now, in the last evaluation, as those that friction slides from."""
+    def _commit(self) -> None:
         if self.friction is not None:
-            self.block.begin()
+            self.before = self._by_facet(self.block.read)
+        self.block.commit()
+
+    def begin(self) -> None:
+        """Let friction begin at the last evaluation, where it has no history yet."""
+        if self.friction is not None and not self.block.begun:
+            self._commit()
 
     def go_back(self, before: Floats) -> None:
         """Take the history that the evaluation of the converged state had read."""
-        self.block.restore(np.ascontiguousarray(before))
+        self.block.restore(np.ascontiguousarray(before).reshape(-1, before.shape[-1]))
 
     def revert(self) -> None:
         """Go back to the converged history."""
@@ -113,8 +117,11 @@ class Contact(PairPoints):
 
     def state(self) -> Tree:
         """History of the points, a row for each facet."""
-        state = self.block.state
-        return {"history": state.reshape(len(self.facets), -1, state.shape[1])}
+        return {"history": self._by_facet(self.block.state)}
+
+    def _by_facet(self, history: Floats) -> Floats:
+        """A history of points with a row for each facet."""
+        return history.reshape(len(self.facets), -1, history.shape[1])
 
     def restore(self, tree: Tree) -> None:
         """Put a history back."""
@@ -126,13 +133,14 @@ class Contact(PairPoints):
         """Largest penetration and number of points that are held; with friction those that slip, and how far."""
         assert isinstance(found, ContactFound)
         columns = {
-            f"{self.name}_penetration": ranks.max(found.penetration),
+            f"{self.name}_penetration": ranks.max(self._depth(found)),
             f"{self.name}_active": int(ranks.sum(float(found.active.sum()))),
         }
         if self.friction is not None:
+            elastic = float(np.linalg.norm(found.held.elastic_slip, axis=1).max(initial=0.0))
             columns |= {
                 f"{self.name}_slipping": int(ranks.sum(float(found.slipping.sum()))),
-                f"{self.name}_elastic_slip": ranks.max(float(found.held.elastic_slip.max(initial=0.0))),
+                f"{self.name}_elastic_slip": ranks.max(elastic),
                 f"{self.name}_friction_work": ranks.sum(found.friction_work),
             }
         return columns
@@ -184,11 +192,19 @@ class Contact(PairPoints):
     # Multipliers and penalties -------------------------------------------------------------------------------
 
     def loose(self, found: ContactFound) -> bool:
-        """Whether multipliers are wanted and a point that the tool holds is further from it than allowed."""
+        """Whether multipliers are wanted and a face is further from the tool than allowed, or has slid farther."""
         if not self.augmented or self.allowed is None:
             return False
-        slides = self.friction is not None and bool((found.held.elastic_slip > self.slip).any())
-        return slides or bool((np.abs(found.held.gap) > self.allowed).any())
+        if (np.abs(self._in_basis(found.held_gap, found)) > self.allowed).any():
+            return True
+        slides = self.friction is not None and np.linalg.norm(self._in_basis(found.elastic_slip, found), axis=1)
+        return bool(np.any(slides > self.slip))
+
+    def _depth(self, found: ContactFound) -> float:
+        """Largest penetration; with multipliers the part of it that the face could take away."""
+        if not self.augmented or not found.active.any():
+            return found.penetration
+        return float(-min(self._in_basis(found.held_gap, found).min(), 0.0))
 
     def augment(self, found: ContactFound, change: Floats) -> None:
         """Let the multipliers carry the pressure that was found, and add what that changes in the residual.
@@ -196,9 +212,14 @@ class Contact(PairPoints):
         The points that are held now stay so to first order, and close their gaps: where the tool goes back, new
         multipliers on old gaps would let go of points that bear a pressure. eqs. (4.34), (4.35)
         """
-        self._close(found, found.held_gap, change)
-        self.block.multipliers = found.pressure
-        self.block.augment()
+        self._close(found, self._in_basis(found.held_gap, found), change)
+        self.block.multipliers = np.maximum(self._in_basis(found.pressure, found), 0.0)
+        if self.friction is not None:
+            self.block.augment(self._in_basis(found.friction, found))
+
+    def _in_basis(self, values: Floats, found: ContactFound) -> Floats:
+        """Values at the points that are held as the shape functions of the faces can have them."""
+        return in_face_basis(values, found.active, found.area, self.block.shape_values)
 
     def stiffen(self, found: ContactFound, penalty: float, change: Floats) -> None:
         """Take another penalty, and add to the residual what lets the points that are held keep their pressure.
@@ -237,16 +258,31 @@ class Contact(PairPoints):
         self, at: ContactFound, u: Floats, mesh: Mesh, add: Callable[[Floats], Floats] = lambda shares: shares
     ) -> tuple[Floats, Floats]:
         """The same of any evaluation at ``u``."""
+        count, nodes = len(mesh.points), np.unique(self.facets)
+        shares = np.zeros((count, 2))  # gap, and how many know it
+        shares[nodes, 0], shares[nodes, 1] = self.gap((mesh.points + u.reshape(-1, 3))[nodes], self.pose), 1.0
+        pressure = self._mean_at_nodes(at.pressure[:, None], at.area, count, add)[:, 0]
+        gap, known = add(shares).T
+        return pressure, np.divide(gap, known, out=np.full(count, np.nan), where=known > 0)
+
+    def friction_at_nodes(
+        self, at: ContactFound, mesh: Mesh, add: Callable[[Floats], Floats] = lambda shares: shares
+    ) -> tuple[Floats, Floats]:
+        """Tangential traction (nodes, 3) and distance slid (nodes,), averaged as the pressure is. eq. (4.38)"""
+        values = np.column_stack([at.friction, at.slip])
+        mean = self._mean_at_nodes(values, at.area, len(mesh.points), add)
+        return mean[:, :3], mean[:, 3]
+
+    def _mean_at_nodes(self, values: Floats, areas: Floats, count: int, add: Callable[[Floats], Floats]) -> Floats:
+        """Averages (count, k) of values (points, k), weighted by areas and hat functions; zero off the facets."""
         hats = hat_functions(self.block.shape_values)
         places = len(self.facets), len(hats)
-        weight = hats * at.area.reshape(*places, 1)  # [facet][point][node]
-        share = np.einsum("eqa,eq->ea", weight, at.pressure.reshape(places))
-        count = len(mesh.points)
-        shares = np.zeros((count, 4))  # pressure times area, area; gap, and how many know it
-        shares[:, 0] = np.bincount(self.facets.ravel(), share.ravel(), count)
-        shares[:, 1] = np.bincount(self.facets.ravel(), weight.sum(axis=1).ravel(), count)
-        nodes = np.unique(self.facets)
-        shares[nodes, 2], shares[nodes, 3] = self.gap((mesh.points + u.reshape(-1, 3))[nodes], self.pose), 1.0
-        total, area, gap, known = add(shares).T
-        pressure = np.divide(total, area, out=np.zeros(count), where=area > 0)
-        return pressure, np.divide(gap, known, out=np.full(count, np.nan), where=known > 0)
+        weight = hats * areas.reshape(*places, 1)  # [facet][point][node]
+        shares = np.zeros((count, values.shape[1] + 1))
+        for column, part in enumerate([*values.T, np.ones(len(values))]):
+            share = np.einsum("eqa,eq->ea", weight, part.reshape(places))
+            shares[:, column] = np.bincount(self.facets.ravel(), share.ravel(), count)
+        total = add(shares)
+        area = total[:, -1:]
+        mean: Floats = np.divide(total[:, :-1], area, out=np.zeros_like(total[:, :-1]), where=area > 0)
+        return mean

@@ -169,6 +169,7 @@ class PairPoints(Term):
             area=self._areas,
             multiplier=multiplier,
             penalty=self.penalty,
+            rubs=self.friction is not None,
         )
 
     @cached_property
