@@ -92,8 +92,8 @@ class Closing:
         Way and force of the state before the present one, if the tool touched there.
     taken : float, optional
         The last increment of the way, for the extrapolation.
-    bracketed : bool
-        Whether a way is known at which the force is more than asked for.
+    bound : float, optional
+        A way at which the force is known to be more than asked for.
     failures : int
         Increments that did not converge or went too far.
     done : bool
@@ -108,7 +108,7 @@ class Closing:
     size: float
     before: tuple[float, float] | None = None
     taken: float | None = None
-    bracketed: bool = False
+    bound: float | None = None
     failures: int = 0
     done: bool = False
 
@@ -146,6 +146,8 @@ class Closing:
         left = self.limit - sense * (press.way.value - self.start_way)
         if left <= 1e-12 * self.limit:
             raise self._no_answer(run, step, force)
+        if self.bound is not None:
+            left = 0.5 * abs(self.bound - press.way.value)
         self._go(run, step, press, force, sense * min(size, left))
 
     def _short_of_the_sheet(self, gap: float) -> float:
@@ -180,13 +182,13 @@ class Closing:
         if (found - step.force) * (step.force - self.start_force) > 0.0:
             attempts.take_back(mark, "closed beyond the force")
             saved.restore(run)
-            self.bracketed = True
+            self.bound = value + way
             part = 0.5 * abs((step.force - force) / (found - force))
             self._shorten(run, step, min(max(part, 1e-3), 0.5), touched, Failed("the force jumps over its value", []))
             return
         step.control.value = found
         self.taken, self.before = way, (value, force) if touched else None
-        if touched and not self.bracketed and len(converged.iterations) <= _EASY:
+        if touched and len(converged.iterations) <= _EASY:
             self.size *= 4.0
         done = abs(found - self.start_force) / abs(step.force - self.start_force)
         run.keep(converged, [step.control], name=f"step {run.number}: close", fraction=min(done, 1.0), frame=False)

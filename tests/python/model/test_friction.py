@@ -84,8 +84,10 @@ def rubbing_plate(build, rng, tool, cell="hex8", points=3, friction=0.3, slip=0.
 
     touch(u)
     contact.block.begin()
-    full(u)
-    contact.block.commit()
+    for way in (0.0, 0.004):  # the second time tractions along the tool are there
+        u = u + np.tile([way, -way, 0.0], len(mesh.points))
+        full(u)
+        contact.block.commit()
     u = u + 0.02 * rng.normal(size=u.size) + np.tile([0.01, 0.006, 0.0], len(mesh.points))
     turn[:] += (0.01, 0.02, -0.03)
     touch(u)
