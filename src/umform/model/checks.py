@@ -11,6 +11,7 @@ from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
 from umform.mesh import Mesh
 from umform.model import forces
 from umform.model.evaluated import Evaluated
+from umform.model.evaluation import Evaluation
 from umform.model.term import At
 
 Floats = NDArray[np.float64]
@@ -63,7 +64,8 @@ def check_held(model: Evaluated) -> None:
             f"the sheet can move as a rigid whole in {len(free)} way{'s' if len(free) > 1 else ''}",
             value="free: " + "; ".join(free),
             cause="too few supports, or a tool that does not touch the sheet yet",
-            remedy="hold the sheet with fix(), symmetry(), hinge() or prescribe(), or let a tool overlap it by a hair",
+            remedy="hold the sheet with fix(), symmetry(), hinge() or prescribe(), let a tool overlap it by a hair, or rest() it until "
+            "tools hold it",
         )
 
 
@@ -114,6 +116,18 @@ def diagnosis(model: Evaluated) -> tuple[str, str] | None:
         f"tools alone hold the sheet against {'; '.join(without)}, and let it go in this increment",
         f"{hold}, or stop the tool while it still touches",
     )
+
+
+def held_by_tools(model: Evaluated, evaluation: Evaluation) -> bool:
+    """Whether tools and supports hold the sheet as a rigid body: along normals, and all ways where friction sticks."""
+    touched = []
+    for contact in model.contacts:
+        found = evaluation.found[contact]
+        touched.append((found.held.x, found.held.normal))
+        if contact.friction is not None:
+            sticks = found.held.x[found.status[found.held.points] == 1]
+            touched += [(sticks, np.tile(axis, (len(sticks), 1))) for axis in np.eye(3)]
+    return not free_motions(model, touched)
 
 
 def _in_touch(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:

@@ -19,6 +19,8 @@ from umform.model.contact import Contact
 from umform.model.dead_load import Load
 from umform.model.gauge import gauge_dofs
 from umform.model.opening import put_tool_back
+from umform.model.press import check_stiffness
+from umform.model.rest import Rest
 from umform.model.standing import Standing
 from umform.model.support import Support
 from umform.model.tool import Tool
@@ -138,6 +140,24 @@ class Model(Standing):
         ids = np.arange(len(self.mesh.points), dtype=np.int32) if everything else self.mesh.nodes(nodes)
         dofs = gauge_dofs(self, ids)
         return self.wait(np.unique(dofs // 3).astype(np.int32), dofs, name)
+
+    def rest(self, stiffness: float | None = None, name: str = "rest") -> Rest:
+        """Let a sheet that nothing holds yet rest on weak springs, which let go for good once tools hold it.
+
+        Parameters
+        ----------
+        stiffness : float, optional
+            Force per length of all springs together. Default: 1e-12 of the largest entry of the tangent.
+        name : str
+            Columns of the history: ``<name>_energy`` and ``<name>_acts``. A run warns if the springs still act at its
+            end, or if their energy is more than 1e-6 of the work.
+        """
+        if stiffness is None:
+            stiffness = 1e-12 * self.largest_entry(self.evaluate(self.x).values)
+        check_stiffness(stiffness, 0.0, f"rest {name}", "displacement")
+        term = Rest(name, self.u, stiffness)
+        self.add(term)
+        return term
 
     def check(self) -> None:
         """Refuse what cannot be solved before time is spent on it, see :func:`umform.model.checks.check_model`."""
