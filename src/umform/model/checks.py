@@ -64,8 +64,8 @@ def check_held(model: Evaluated) -> None:
             f"the sheet can move as a rigid whole in {len(free)} way{'s' if len(free) > 1 else ''}",
             value="free: " + "; ".join(free),
             cause="too few supports, or a tool that does not touch the sheet yet",
-            remedy="hold the sheet with fix(), symmetry(), hinge() or prescribe(), let a tool overlap it by a hair, or rest() it until "
-            "tools hold it",
+            remedy="hold the sheet with fix(), symmetry(), hinge() or prescribe(), let a tool overlap it by a hair, "
+            "or rest() it on springs until tools hold it",
         )
 
 
