@@ -13,7 +13,7 @@ from umform.model import Model, Tool
 from umform.model.control import Control
 from umform.model.support import Support
 from umform.progress import Tick, progress_bar
-from umform.results.penetration import warn_of_penetration
+from umform.results.penetration import warn_of_contact
 from umform.results.rest import tell_of_rest
 from umform.run.interrupt import Interrupt, gentle_interrupt
 from umform.run.result import Result
@@ -314,7 +314,7 @@ def taken(
                 _finish(run, steps[run.number - 1])
                 run.number, run.loop = run.number + 1, None
             if last:
-                warn_of_penetration(run.model, result)
+                warn_of_contact(run.model, result)
                 tell_of_rest(run.model, result)
             _pause(run, start, checkpoints, stop, last=last)
         except BaseException as error:  # whatever ends the run: what was reached is kept with the error

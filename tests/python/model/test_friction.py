@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -304,6 +305,17 @@ def test_the_fit_of_a_face_is_a_least_squares_fit_over_held_points(rng):
     fit = in_face_basis(values, held, area, N)
     rest = (np.where(held[:, None], values, 0.0) - fit) * area[:, None]
     np.testing.assert_allclose(np.einsum("qa,eqk->eak", N, rest.reshape(2, 16, 3)), 0.0, atol=1e-12)
+
+
+def test_an_elastic_slip_that_is_larger_than_allowed_is_told_with_a_remedy_that_works():
+    model, ways = block(slip=1e-3)
+    steps = [Move(ways["z"], -0.1, steps=1), Move(ways["x"], 0.2, steps=6)]
+    warned = [text for text in solve(model, steps).warnings if "elastic slip" in text]
+    assert len(warned) == 1
+    remedy = float(re.search(r"slip = (\S+),", warned[0])[1])
+    model, ways = block(slip=remedy)
+    reached = solve(model, [Move(ways["z"], -0.1, steps=1), Move(ways["x"], 0.2, steps=6)])["table_elastic_slip"].max()
+    assert reached == pytest.approx(1e-3, rel=0.1)
 
 
 # Laws and bad input ------------------------------------------------------------------------------------------
