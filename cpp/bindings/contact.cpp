@@ -8,6 +8,7 @@
 
 #include "evaluate.hpp"
 #include "umform/contact/block.hpp"
+#include "umform/contact/cells.hpp"
 #include "umform/contact/coulomb.hpp"
 #include "umform/contact/penalty.hpp"
 
@@ -17,13 +18,29 @@ namespace {
 
 using Vectors = std::vector<Vec3>;
 
-std::unique_ptr<ContactBlock> contact_block(const InputIds& facets, const Input& X, int points, bool at_nodes,
-                                            const std::shared_ptr<Surface>& surface, std::shared_ptr<ContactLaw> law) {
+using SharedSurface = std::shared_ptr<Surface>;
+using SharedLaw = std::shared_ptr<ContactLaw>;
+
+template <template <int> class FaceRule>
+std::unique_ptr<ContactBlock> block_of(const InputIds& facets, const Input& X, typename FaceRule<4>::Setting setting,
+                                       const SharedSurface& surface, const SharedLaw& law) {
     const Connectivity part = to_connectivity(facets);
-    const ContactRule rule{points, at_nodes};
-    if (part.nodes == 4) return std::make_unique<ContactBlockOf<4>>(part, to_vector(X), rule, surface, std::move(law));
-    if (part.nodes == 9) return std::make_unique<ContactBlockOf<9>>(part, to_vector(X), rule, surface, std::move(law));
+    if (part.nodes == 4)
+        return std::make_unique<ContactBlockOf<4, FaceRule<4>>>(part, to_vector(X), setting, surface, law);
+    if (part.nodes == 9)
+        return std::make_unique<ContactBlockOf<9, FaceRule<9>>>(part, to_vector(X), setting, surface, law);
     throw std::invalid_argument("a facet has 4 or 9 nodes");
+}
+
+std::unique_ptr<ContactBlock> contact_block(const InputIds& facets, const Input& X, int points, bool at_nodes,
+                                            const SharedSurface& surface, const SharedLaw& law) {
+    return block_of<AtPoints>(facets, X, {points, at_nodes}, surface, law);
+}
+
+std::unique_ptr<ContactBlock> contact_cells(const InputIds& facets, const Input& X, int cells,
+                                            const SharedSurface& surface, const SharedLaw& law) {
+    require(cells >= 1, "a facet has at least one cell");
+    return block_of<OverCells>(facets, X, {cells}, surface, law);
 }
 
 nb::object copied(const std::vector<double>& values) { return to_numpy(values, {values.size()}); }
@@ -56,7 +73,8 @@ void bind_found(nb::module_& m) {
             "For each contact point 1 where the tool holds it, 2 where it slips as well, else 0.")
         .def_prop_ro(
             "elastic_slip", [](const ContactFound& f) { return view(f.elastic_slip); }, inside,
-            nb::sig("def elastic_slip(self) -> NDArray[float64]"), "Elastic slips (held,), zero without friction.")
+            nb::sig("def elastic_slip(self) -> NDArray[float64]"),
+            "Elastic slips along the tool (held, 3), zero without friction.")
         .def_prop_ro(
             "slip", [](const ContactFound& f) { return view(f.slip); }, inside,
             nb::sig("def slip(self) -> NDArray[float64]"), "Distances slid so far (held,).")
@@ -88,6 +106,11 @@ void bind_found(nb::module_& m) {
         .def_prop_ro(
             "area", [](const ContactFound& f) { return view(f.area); }, inside,
             nb::sig("def area(self) -> NDArray[float64]"), "Reference areas (held,).")
+        .def_prop_ro(
+            "share", [](const ContactFound& f) { return view(f.share); }, inside,
+            nb::sig("def share(self) -> NDArray[float64]"), "Parts of the areas that are held (held,), 1 at points.")
+        .def_ro("contact_work", &ContactFound::contact_work,
+                "Work of the pressure so far, of rules that measure it along the way; zero at points.")
         .def_ro("penetration", &ContactFound::penetration, "The largest penetration, zero if there is none.")
         .def_ro("round_off_squared", &ContactFound::round_off_squared,
                 "Square of what a relative error 1 of all positions makes of the residual.");
@@ -242,8 +265,17 @@ void bind_history(nb::class_<ContactBlock>& contact) {
         .def(
             "begin", &ContactBlock::begin,
             "Take the places where the points are now as those of a sheet that was never held; nothing once there is a history.")
-        .def("augment", &ContactBlock::augment,
-             "Let multipliers carry the tractions along the tool of the last evaluation.")
+        .def(
+            "augment",
+            [](ContactBlock& b, const Input& tractions) {
+                require(tractions.size() == 3 * static_cast<std::size_t>(b.points()),
+                        "there is one traction for each contact point");
+                Vectors t(b.points());
+                for (std::size_t i = 0; i < tractions.size(); ++i) t[i / 3][i % 3] = tractions.data()[i];
+                b.augment(t.data());
+            },
+            nb::arg("tractions"), nb::sig("def augment(self, tractions: NDArray[float64]) -> None"),
+            "Let multipliers carry tractions (points, 3) along the tool at the points that are held.")
         .def("commit", &ContactBlock::commit, "Make the trial history the converged one.")
         .def("revert", &ContactBlock::revert, "Go back to the converged history.")
         .def(
@@ -260,6 +292,8 @@ void bind_contact(nb::module_& m) {
     auto contact = nb::class_<ContactBlock>(m, "ContactBlock", "Contact of element faces with one rigid tool.");
     bind_common(contact);
     contact.def_rw("name", &ContactBlock::name, "For messages.")
+        .def_rw("open", &ContactBlock::open,
+                "Whether the tool has been taken away: it holds no point, wherever it stands.")
         .def_prop_ro("law", &ContactBlock::law)
         .def_prop_ro("symmetric", &ContactBlock::symmetric, "Whether its tangent is symmetric.")
         .def_prop_rw(
@@ -289,14 +323,15 @@ void bind_contact(nb::module_& m) {
         .def_prop_ro(
             "shape_values",
             [](const ContactBlock& b) {
-                const std::size_t nodes = b.connectivity().nodes;
+                const std::size_t nodes = b.connectivity().nodes, points = b.per_facet();
                 std::vector<double> values = b.shape_values();
-                const std::size_t points = values.size() / nodes;
-                return to_numpy(std::move(values), {points, nodes});
+                const std::size_t kinds = values.size() / (points * nodes);
+                return to_numpy(std::move(values), {kinds, points, nodes});
             },
             nb::sig("def shape_values(self) -> NDArray[float64]"),
-            "Shape functions at the points of a facet (points, nodes).")
-        .def_prop_ro("points", &ContactBlock::points);
+            "Shape functions at the points of all facets (1, points, nodes), or of each (facets, points, nodes).")
+        .def_prop_ro("points", &ContactBlock::points)
+        .def_prop_ro("per_facet", &ContactBlock::per_facet, "Contact points of each facet.");
     bind_points(contact);
     bind_history(contact);
     m.def(
@@ -304,4 +339,10 @@ void bind_contact(nb::module_& m) {
         nb::arg("surface"), nb::arg("law"),
         nb::sig(
             "def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface, law: ContactLaw) -> ContactBlock"));
+    m.def(
+        "contact_cells", &contact_cells, nb::arg("facets"), nb::arg("X"), nb::arg("cells"), nb::arg("surface"),
+        nb::arg("law"),
+        nb::sig(
+            "def contact_cells(facets: NDArray[int32], X: NDArray[float64], cells: int, surface: Surface, law: ContactLaw) -> ContactBlock"),
+        "Contact integrated over cells x cells cells of each facet.");
 }

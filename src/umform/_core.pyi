@@ -313,8 +313,17 @@ class Multifrontal:
 
     def residual(self, values: NDArray[float64], b: NDArray[float64], x: NDArray[float64], r: NDArray[float64]) -> None: ...
 
-    def column_sizes(self, values: NDArray[float64]) -> NDArray[float64]:
-        """Largest entry of each column."""
+    @property
+    def column_sizes(self) -> NDArray[float64]:
+        """
+        Largest entry of each column of the matrix that was eliminated; none for Cholesky.
+        """
+
+    @property
+    def scales(self) -> tuple[NDArray[float64], NDArray[float64]]:
+        """
+        Powers of two for rows and columns of that; empty where it is the matrix itself.
+        """
 
 class Tying:
     """One row of an assumed-strain rule."""
@@ -455,7 +464,7 @@ class ContactFound:
 
     @property
     def elastic_slip(self) -> NDArray[float64]:
-        """Elastic slips (held,), zero without friction."""
+        """Elastic slips along the tool (held, 3), zero without friction."""
 
     @property
     def slip(self) -> NDArray[float64]:
@@ -502,6 +511,16 @@ class ContactFound:
     @property
     def area(self) -> NDArray[float64]:
         """Reference areas (held,)."""
+
+    @property
+    def share(self) -> NDArray[float64]:
+        """Parts of the areas that are held (held,), 1 at points."""
+
+    @property
+    def contact_work(self) -> float:
+        """
+        Work of the pressure so far, of rules that measure it along the way; zero at points.
+        """
 
     @property
     def penetration(self) -> float:
@@ -583,6 +602,15 @@ class ContactBlock:
     def name(self, arg: str, /) -> None: ...
 
     @property
+    def open(self) -> bool:
+        """
+        Whether the tool has been taken away: it holds no point, wherever it stands.
+        """
+
+    @open.setter
+    def open(self, arg: bool, /) -> None: ...
+
+    @property
     def law(self) -> ContactLaw: ...
 
     @property
@@ -612,10 +640,16 @@ class ContactBlock:
 
     @property
     def shape_values(self) -> NDArray[float64]:
-        """Shape functions at the points of a facet (points, nodes)."""
+        """
+        Shape functions at the points of all facets (1, points, nodes), or of each (facets, points, nodes).
+        """
 
     @property
     def points(self) -> int: ...
+
+    @property
+    def per_facet(self) -> int:
+        """Contact points of each facet."""
 
     @property
     def positions(self) -> NDArray[float64]:
@@ -692,9 +726,9 @@ class ContactBlock:
         Take the places where the points are now as those of a sheet that was never held; nothing once there is a history.
         """
 
-    def augment(self) -> None:
+    def augment(self, tractions: NDArray[float64]) -> None:
         """
-        Let multipliers carry the tractions along the tool of the last evaluation.
+        Let multipliers carry tractions (points, 3) along the tool at the points that are held.
         """
 
     def commit(self) -> None:
@@ -707,6 +741,9 @@ class ContactBlock:
         """Put a stored history back."""
 
 def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface, law: ContactLaw) -> ContactBlock: ...
+
+def contact_cells(facets: NDArray[int32], X: NDArray[float64], cells: int, surface: Surface, law: ContactLaw) -> ContactBlock:
+    """Contact integrated over cells x cells cells of each facet."""
 
 class PressureBlock:
     """Follower pressure on element faces."""

@@ -125,10 +125,30 @@ def rubbed():
     decaying = uf.Friction(0.25, kinetic=0.2, decay=0.1)
     for number, x in enumerate((10.0, 28.0)):
         die = uf.Cylinder(centre=(x, 0.0, -5.49), axis="y", radius=5.0)
-        model.contact("lower", die, penalty=1e3, points=3, friction=decaying, name=f"die{number}")
+        rule = {"cells": 3} if number else {"points": 3}
+        model.contact("lower", die, penalty=1e3, friction=decaying, name=f"die{number}", **rule)
     lid = model.contact("upper", uf.Plane((0, 0, 0.5), (0, 0, -1)), penalty=50.0, friction=0.1, name="lid")
     force = model.press(lid, "z", "force")
     return model, [uf.Move(force, -16.0, steps=2), uf.Move(pull, 0.3, steps=4), uf.Move(pull, 0.1, steps=3)], None
+
+
+def closed():
+    """A holder that hovers, closes with friction, follows a table of forces and is released; the die follows it."""
+    model = uf.Model(strip(20.0, 4.0, 0.8, (14, 2)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
+    model.symmetry("x0", normal="x")
+    model.symmetry("y0", normal="y")
+    model.fix("x0_lower", "z")
+    model.rest()
+    rule = {"penalty": 2e3, "friction": 0.1}
+    die = model.contact("lower", uf.Plane((0.0, 0.0, -0.4)), name="die", **rule)
+    holder = model.contact("upper", uf.Plane((0.0, 0.0, 1.4), (0.0, 0.0, -1.0)), name="holder", **rule)
+    hold = model.press(holder, "z", "hold")
+    model.stop(hold, at=-1.004, stiffness=1e3, below=True)
+    model.attach(die, model.turn(holder, "z", (5.0, 2.0, 0.0), "twist"))
+    pull = model.prescribe("x1_lower", "x", "pull")
+    table = [(0.0, -160.0), (0.02, -200.0)]
+    steps = [uf.Close(hold, force=-160.0), uf.Move(pull, sliding, steps=4, follow={hold: table}), uf.Release(hold)]
+    return model, steps, None
 
 
 class Foam(NodalTerm):
@@ -204,6 +224,12 @@ def downwards(fraction):
     return -4.0 * fraction**1.5
 
 
+def sliding(fraction):
+    """Way of an end that is pulled."""
+    trouble_at(fraction)
+    return 0.04 * fraction
+
+
 def weighing(fraction):
     """A load, or the force of a punch."""
     trouble_at(fraction)
@@ -219,7 +245,7 @@ def trouble_at(fraction):
 
 
 CASES = [free_bending, air_bending, hinged_strip, blown_strip, held_by_multipliers, cut]
-CASES += [pressed, rubbed, foundation, two_bodies]
+CASES += [pressed, closed, rubbed, foundation, two_bodies]
 
 
 def rank():
@@ -247,7 +273,7 @@ def save(result, path):
     columns = {f"history {name}": result[name] for name in result.columns()}
     fields = {f"point {name}": values for name, values in last.points.items()}
     fields |= {f"cell {name}": values for name, values in last.cells.items()}
-    fields |= {f"{name} {key}": values for name, at in last.contacts.items() for key, values in vars(at).items()}
+    fields |= {f"{name} {key}": values for name, at in last.contacts.items() for key, values in at.known().items()}
     imbalance = result.balance().force_imbalance
     counts = [len(records) for records in result.iterations]
     np.savez(path, iterations=counts, imbalance=imbalance, events=result.events, **columns, **fields)

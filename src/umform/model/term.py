@@ -77,7 +77,7 @@ class Energies:
     plastic : float
         Work of the yield stress on the plastic strains so far: heat, and what hardening keeps. NaN if not known.
     contact : float
-        Held by penalty and multipliers of all contacts.
+        Held by penalty and multipliers of all contacts; of cells the work of their pressure so far.
     friction : float
         Work of friction so far.
     """
@@ -156,6 +156,9 @@ class Term(Frozen):
 
     def commit(self, found: Found) -> None:
         """Make the trial history that belongs to ``found`` the converged one."""
+
+    def settled(self, model: Any, evaluation: Any) -> None:
+        """Look at the model, which has just been committed at an evaluation, and change what later increments see."""
 
     def revert(self) -> None:
         """Go back to the converged history."""

@@ -75,6 +75,8 @@ class ContactFound(Found):
         Pressure per penetration.
     rubs : bool
         Whether there is friction.
+    has_potential : bool
+        Whether the energy follows from the pressures; that of cells is measured along the way.
     """
 
     held: Any = None
@@ -83,6 +85,7 @@ class ContactFound(Found):
     multiplier: Floats = field(default_factory=lambda: np.empty(0), repr=False)
     penalty: float = 0.0
     rubs: bool = False
+    has_potential: bool = True
 
     @cached_property
     def _measured(self) -> tuple[Floats, Floats, Floats]:
@@ -151,6 +154,11 @@ class ContactFound(Found):
         return self._spread(self.held.gap)
 
     @cached_property
+    def share(self) -> Floats:
+        """Part of the area of each point that is held: 0 or 1, and of a cell in between, shape (n,)."""
+        return self._spread(self.held.share)
+
+    @cached_property
     def held_normal(self) -> Floats:
         """Normals at the points that are held, zero elsewhere, shape (n, 3)."""
         return self._spread(self.held.normal)
@@ -173,6 +181,11 @@ class ContactFound(Found):
         return self._spread(self.held.traction - self.held.pressure[:, None] * self.held.normal)
 
     @cached_property
+    def elastic_slip(self) -> Floats:
+        """Elastic slip along the tool of the points that are held, zero elsewhere, shape (n, 3)."""
+        return self._spread(self.held.elastic_slip)
+
+    @cached_property
     def slip(self) -> Floats:
         """Distances slid so far by the points that are held, zero elsewhere, shape (n,)."""
         return self._spread(self.held.slip)
@@ -193,11 +206,18 @@ class ContactFound(Found):
         arm = self.held.x if about is None else self.held.x - np.asarray(about, dtype=float)
         return self.held.force.sum(axis=0), moment(arm, self.held.force)
 
+    @property
+    def held_force(self) -> float:
+        """Sum of the magnitudes of the normal forces at all points."""
+        return float(self.held.pressure @ self.held.area)
+
     def energy(self) -> float:
         """Potential of penalty and multipliers, (p^2 - lambda^2) / (2 penalty) over the reference area. eq. (4.32)
 
-        With friction that of the elastic slip as well.
+        Of cells the work of the pressure so far, eq. (4.89). With friction that of the elastic slip as well.
         """
+        if not self.has_potential:
+            return float(self.held.contact_work + self.held.stored)
         # (p - lambda)(p + lambda): a point that its multiplier alone holds has no energy, to the last digit.
         difference, total = self.pressure - self.multiplier, self.pressure + self.multiplier
         return 0.5 / self.penalty * float((difference * self.area) @ total) + float(self.held.stored)

@@ -52,12 +52,17 @@ class PairPoints(Term):
 
     @property
     def points(self) -> int | str:
-        """Gauss points per direction and facet, or "nodes"; fixed when the pair is made."""
+        """Gauss points (or cells) per direction and facet, or "nodes"; fixed when the pair is made."""
         return self._settings.points
 
     @points.setter
     def points(self, value: object) -> None:
         self.refuse("points", value)
+
+    @property
+    def cells(self) -> int | None:
+        """Cells per direction and facet that the pressure is integrated over; None at points."""
+        return self._settings.cells
 
     @property
     def allowed(self) -> float | None:
@@ -95,15 +100,21 @@ class PairPoints(Term):
         """
         if self.elsewhere:
             raise self._not_here()
-        at_nodes = isinstance(self.points, str)
-        per_side = 1 if isinstance(self.points, str) else self.points
-        block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self.tool.kernel, self._law())
-        block.name = f"contact {self.name}"
+        block = self._new_block()
+        block.name, block.open = f"contact {self.name}", self.tool.open
         if self.friction is not None:
             block.set_pose(*self.pose)
             block.locate(np.zeros(block.dofs))
             block.begin()
         return block
+
+    def _new_block(self) -> _core.ContactBlock:
+        where, tool, law = (self.facets, self._mesh_points), self.tool.kernel, self._law()
+        if self.cells is not None:
+            return _core.contact_cells(*where, self.cells, tool, law)
+        if isinstance(self.points, str):
+            return _core.contact_block(*where, 1, True, tool, law)
+        return _core.contact_block(*where, self.points, False, tool, law)
 
     def _law(self) -> _core.ContactLaw:
         if self.friction is None:
@@ -122,13 +133,24 @@ class PairPoints(Term):
 
     @property
     def symmetric(self) -> bool:  # type: ignore[override]
-        """Whether the tangent of its law is."""
-        return self.friction is None
+        """Whether the tangents of its law and its rule are."""
+        return self.friction is None and self.cells is None
+
+    @property
+    def remembers(self) -> bool:
+        """Whether an evaluation writes more history than multipliers."""
+        return self.friction is not None or self.cells is not None
 
     @property
     def multipliers(self) -> Floats:
         """Multipliers of the converged state at the contact points; zero without augmentation."""
         return self.block.state[:, 0]
+
+    def forget_multipliers(self) -> None:
+        """Let no point have a pressure without a penetration any more."""
+        state = self.block.state
+        state[:, 0] = 0.0
+        self.block.restore(state)
 
     def _not_here(self) -> ModelError:
         return not_here(f"the state of contact {self.name}")
@@ -145,6 +167,10 @@ class PairPoints(Term):
         rotation, shift = self.pose if pose is None else pose
         return self.tool.kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0]
 
+    def gap_now(self, u: Floats) -> Floats:
+        """Signed distances of the contact points to the tool where it stands now, shape (n,)."""
+        return self._measured(u, self.pose)[1]
+
     def _found(self, scale: float, u: Floats, pose: Pose) -> ContactFound:
         """What the kernel knows now of the points that are held, copied; the rest is measured when it is asked for."""
         block = self.block
@@ -160,6 +186,7 @@ class PairPoints(Term):
             multiplier=multiplier,
             penalty=self.penalty,
             rubs=self.friction is not None,
+            has_potential=self.cells is None,
         )
 
     @cached_property
@@ -185,7 +212,7 @@ class PairPoints(Term):
     def _spread(self, forces: Floats, change: Floats) -> None:
         """Add forces (points, 3) at the contact points to their nodes. eq. (4.9)"""
         N = self.block.shape_values
-        nodal = np.einsum("qa,eqk->eak", N, forces.reshape(len(self.facets), len(N), 3))
+        nodal = np.swapaxes(N, 1, 2) @ forces.reshape(len(self.facets), self.block.per_facet, 3)
         np.add.at(change.reshape(-1, 3), self.facets, nodal)
 
     # Ranks ---------------------------------------------------------------------------------------------------
@@ -217,16 +244,16 @@ def hat_functions(N: Floats) -> Floats:
 
     Parameters
     ----------
-    N : ndarray, shape (points, nodes)
+    N : ndarray, shape (..., nodes)
         Shape functions of a face of 4 or 9 nodes.
 
     Returns
     -------
-    ndarray, shape (points, nodes)
+    ndarray, shape (..., nodes)
         N itself on 4-node faces; on 9-node faces the hats (1 - |r - r_a|)(1 - |s - s_a|) of their four quarters.
     """
-    if N.shape[1] == 4:
+    if N.shape[-1] == 4:
         return N
-    distance = np.abs((N @ FACE_NODES)[:, None, :] - FACE_NODES)
+    distance = np.abs((N @ FACE_NODES)[..., None, :] - FACE_NODES)
     hats: Floats = np.maximum(1.0 - distance, 0.0).prod(axis=-1)
     return hats
