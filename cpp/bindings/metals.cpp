@@ -16,10 +16,15 @@ using YieldFunction = std::variant<QuadraticYield, Yld2004<6>, Yld2004<8>, Yld20
 
 std::shared_ptr<Material> metal(double kappa, double mu, const Hardening& hardening, const YieldFunction& yield,
                                 const std::vector<std::pair<double, double>>& back_stress, double first, double growth,
-                                double fall, double rate) {
+                                double fall, double rate, const std::vector<double>& surfaces) {
     if (back_stress.size() > Chaboche::largest) throw std::invalid_argument("no more than four back stresses");
     MetalParts parts{kappa, mu, hardening, {{}, first, growth}, {fall, rate}};
     for (const auto& [modulus, recall] : back_stress) parts.back_stress.parts.push_back({modulus, recall});
+    if (surfaces.size() == 6) {
+        parts.two_surfaces = {surfaces[1], surfaces[2], surfaces[3], surfaces[4], surfaces[5], surfaces[0]};
+    } else if (!surfaces.empty()) {
+        throw std::invalid_argument("two surfaces have the numbers Y, C, B, Rsat, m, h");
+    }
     return std::visit(
         [&](const auto& function) -> std::shared_ptr<Material> {
             using Law = Metal<std::decay_t<decltype(function)>>;
@@ -76,6 +81,7 @@ void bind_metals(nb::module_& m) {
     m.def(
         "metal", &metal, nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"), nb::arg("yield_function"),
         nb::arg("back_stress"), nb::arg("first"), nb::arg("growth"), nb::arg("fall"), nb::arg("rate"),
+          nb::arg("surfaces") = std::vector<double>{},
         "A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.");
     m.def(
         "logarithmic_space",

@@ -44,7 +44,8 @@ struct Factors5 {
 template <class Real>
 struct GeneralReturn : PlasticIncrement<Real> {
     Deviator<Real> xi, n, R, v;  // v: dR/d(dp)
-    Mat<Real, 5, 5> M;           // dR/dxi
+    Mat<Real, 5, 5> M, G;        // dR/dxi; ds/dxi with s = xi + back stresses
+    Deviator<Real> s, ds;        // stress, and its derivative by dp at the same xi
     Real phi, f, merit;
 
     template <class Yield>
@@ -52,14 +53,28 @@ struct GeneralReturn : PlasticIncrement<Real> {
                   const Deviator<Real>& stress, Real dp, Real stage)
         : PlasticIncrement<Real>(metal, start, dp), xi(stress) {
         yield.derivatives(xi, phi, n, M);
+        for (int i = 0; i < 5; ++i) {
+            s[i] = this->k * xi[i] + this->back.A[i];
+            ds[i] = this->dk * xi[i] + this->back.dA[i];
+            for (int j = 0; j < 5; ++j) G(i, j) = i == j ? this->k : Real(0.0);
+        }
+        if (metal.two_surfaces.active()) {
+            const InnerBackStress<Real> inner(metal.two_surfaces, start.stagnation.grown, start.inner, xi, dp);
+            for (int i = 0; i < 5; ++i) {
+                s[i] += inner.alpha[i];
+                ds[i] += inner.by_dp[i];
+                for (int j = 0; j < 5; ++j)
+                    G(i, j) += inner.rank_one * inner.z[i] * inner.z[j] + (i == j ? inner.identity : Real(0.0));
+            }
+        }
         const Real way = this->shear * dp, rate = this->shear + this->dshear * dp;
         f = phi - stage * this->y.value;
         merit = f * f;
         for (int i = 0; i < 5; ++i) {
-            R[i] = this->k * xi[i] + way * n[i] - this->b[i];
-            v[i] = this->dk * xi[i] + rate * n[i] - this->db[i];
+            R[i] = s[i] + way * n[i] - this->shear * start.e[i];
+            v[i] = ds[i] + rate * n[i] - this->dshear * start.e[i];
             merit += R[i] * R[i];
-            for (int j = 0; j < 5; ++j) M(i, j) = way * M(i, j) + (i == j ? this->k : Real(0.0));
+            for (int j = 0; j < 5; ++j) M(i, j) = way * M(i, j) + G(i, j);
         }
     }
 };
@@ -100,7 +115,7 @@ void solve_stage(const MetalParts& metal, const Yield& yield, const PlasticStart
 /// Newton from the point of the surface on the ray to the trial stress; where that fails, in stages from the surface through the
 /// trial stress, on which it is the solution. eqs. (3.89)-(3.92)
 template <class Real, class Yield>
-PlasticFlow<Real> return_map(const MetalParts& metal, const Yield& yield, const PlasticStart<Real>& start,
+PlasticFlow<Real> general_return_map(const MetalParts& metal, const Yield& yield, const PlasticStart<Real>& start,
                              Mask<Real> plastic) {
     constexpr double shrink = 0.7;
     Deviator<Real> xi, n;
@@ -108,10 +123,11 @@ PlasticFlow<Real> return_map(const MetalParts& metal, const Yield& yield, const 
     {
         const PlasticIncrement<Real> none(metal, start, 0.0);
         Mat<Real, 5, 5> N;
-        yield.derivatives(none.b, over, n, N);
+        for (int i = 0; i < 5; ++i) xi[i] = none.b[i] - start.inner[i];
+        yield.derivatives(xi, over, n, N);
         dp = select(plastic, (over - none.y.value) / (none.y.slope + none.shear * dot(n, n)), 0.0);
         over = select(plastic, over / none.y.value, 1.0);
-        for (int i = 0; i < 5; ++i) xi[i] = none.b[i] / over;
+        for (int i = 0; i < 5; ++i) xi[i] = xi[i] / over;
     }
     Mask<Real> open = plastic;
     solve_stage<Real>(metal, yield, start, 1.0, xi, dp, open);
@@ -119,7 +135,7 @@ PlasticFlow<Real> return_map(const MetalParts& metal, const Yield& yield, const 
     if (any(open)) {
         Mask<Real> staged = open;
         const PlasticIncrement<Real> none(metal, start, 0.0);
-        for (int i = 0; i < 5; ++i) xi[i] = select(staged, none.b[i], xi[i]);
+        for (int i = 0; i < 5; ++i) xi[i] = select(staged, none.b[i] - start.inner[i], xi[i]);
         dp = select(staged, 0.0, dp);
         Real stage = select(staged, over, 1.0);
         while (any(staged)) {
@@ -138,20 +154,25 @@ PlasticFlow<Real> return_map(const MetalParts& metal, const Yield& yield, const 
     const Deviator<Real> by_n = factors.solve(at.n), by_v = factors.solve(at.v);
     const Real rate = at.shear / (at.y.slope + dot(at.n, by_v));
     PlasticFlow<Real> flow;
+    flow.xi = at.xi;
     flow.plastic = plastic;
     flow.found = found;
     flow.dp = dp;
     flow.n = at.n;
     for (int j = 0; j < 5; ++j) {
-        flow.s[j] = at.k * xi[j] + at.back.A[j];
+        flow.s[j] = at.s[j];
         flow.dp_by_strain[j] = rate * by_n[j];
     }
     for (int j = 0; j < 5; ++j) {
         Deviator<Real> unit{0.0, 0.0, 0.0, 0.0, 0.0};
-        unit[j] = at.k * at.shear;
+        unit[j] = at.shear;
         unit = factors.solve(unit);
-        for (int i = 0; i < 5; ++i)
-            flow.tangent(i, j) = unit[i] + (at.dk * xi[i] + at.back.dA[i] - at.k * by_v[i]) * flow.dp_by_strain[j];
+        for (int i = 0; i < 5; ++i) unit[i] -= by_v[i] * flow.dp_by_strain[j];  // dxi/de
+        for (int i = 0; i < 5; ++i) {
+            Real sum = at.ds[i] * flow.dp_by_strain[j];
+            for (int l = 0; l < 5; ++l) sum += at.G(i, l) * unit[l];
+            flow.tangent(i, j) = sum;
+        }
     }
     return flow;
 }

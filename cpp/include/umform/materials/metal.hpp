@@ -16,16 +16,24 @@ struct Metal {
     Yield yield;
     int state_size;
 
-    static constexpr int state_limit = 8 + 6 * Chaboche::largest;
+    static constexpr int surface_size = 14;  // alpha*, R, q, r
+    static constexpr int state_limit = 8 + 6 * Chaboche::largest + surface_size;
 
     Metal(MetalParts metal, Yield function)
         : parts(std::move(metal)), yield(std::move(function)),
-          state_size(parts.associated_only() ? 7 : 8 + 6 * parts.back_stress.count()) {}
+          state_size(parts.associated_only() ? 7
+                                             : 8 + 6 * parts.back_stress.count() + (two_surfaces() ? surface_size : 0)) {
+    }
 
     std::vector<Quantity> state_names() const {
         std::vector<Quantity> names{{"plastic_strain", 6}, {"eqps", 1}};
         if (!parts.associated_only()) names.push_back({"kinematic_work", 1});
         for (int k = 1; k <= parts.back_stress.count(); ++k) names.push_back({"back_stress_" + std::to_string(k), 6});
+        if (two_surfaces())
+            names.insert(names.end(), {{"inner_back_stress", 6},
+                                       {"bounding_growth", 1},
+                                       {"stagnation_centre", 6},
+                                       {"stagnation_radius", 1}});
         return names;
     }
     void initial(double* state) const { std::fill_n(state, state_size, 0.0); }
@@ -40,7 +48,8 @@ struct Metal {
         const Real volume = elastic[0] + elastic[1] + elastic[2];
         const PlasticStart<Real> start = begin(elastic, state);
         const PlasticIncrement<Real> none(parts, start, 0.0);
-        Deviator<Real> xi = none.b;
+        Deviator<Real> xi;
+        for (int i = 0; i < 5; ++i) xi[i] = none.b[i] - start.inner[i];
         const Mask<Real> plastic = !(yield.value(xi) <= none.y.value * (1.0 + plastic_margin));
 
         std::copy_n(state, state_size, trial);
@@ -49,7 +58,7 @@ struct Metal {
         Vec<Real, 6> coupling{};
         YieldStress<Real> ratio = none.ratio;
         if (any(plastic)) {
-            flow = return_map(parts, yield, start, plastic);
+            flow = return_map(start, plastic);
             found = flow.found;
             keep_elastic(start, none, flow);
             if (parts.modulus.fall != 0.0) {
@@ -89,13 +98,31 @@ struct Metal {
     /// As in J2.
     static constexpr double plastic_margin = 1e-10;
 
+    bool two_surfaces() const { return parts.two_surfaces.active(); }
+    /// Where the history of two surfaces begins.
+    int surfaces_at() const { return 8 + 6 * parts.back_stress.count(); }
+
+    template <class Real>
+    PlasticFlow<Real> return_map(const PlasticStart<Real>& start, Mask<Real> plastic) const {
+        if constexpr (std::is_same_v<Yield, QuadraticYield>)
+            if (!two_surfaces()) return quadratic_return_map(parts, yield, start, plastic);
+        return general_return_map(parts, yield, start, plastic);
+    }
+
     template <class Real>
     PlasticStart<Real> begin(const Vec<Real, 6>& elastic, const Real* state) const {
         PlasticStart<Real> start{yield.basis.components(elastic, 0.5), state[6], {}};
-        for (int part = 0; part < parts.back_stress.count(); ++part) {
+        const auto deviator = [&](int at) {
             Vec<Real, 6> stress;
-            std::copy_n(state + 8 + 6 * part, 6, stress.begin());
-            start.back_stress[part] = yield.basis.components(stress, 1.0);
+            std::copy_n(state + at, 6, stress.begin());
+            return yield.basis.components(stress, 1.0);
+        };
+        for (int part = 0; part < parts.back_stress.count(); ++part)
+            start.back_stress[part] = deviator(8 + 6 * part);
+        if (two_surfaces()) {
+            const int at = surfaces_at();
+            start.inner = deviator(at);
+            start.stagnation = {state[at + 6], deviator(at + 7), state[at + 13]};
         }
         return start;
     }
@@ -126,22 +153,35 @@ struct Metal {
         const PlasticIncrement<Real> at(parts, start, flow.dp);
         const Real lost = 0.5 * (ratio_before.value - at.ratio.value);
         const Real share = parts.back_stress.share(start.eqps + flow.dp).value;
+        const auto keep = [&](const Deviator<Real>& d, int place) {
+            const Vec<Real, 6> stress = yield.basis.tensor(d, 1.0);
+            for (int p = 0; p < 6; ++p) trial[place + p] = select(flow.plastic, stress[p], trial[place + p]);
+        };
         Real square = parts.kappa * volume * volume, work = 0.0;
         for (int i = 0; i < 5; ++i) {
             const Real elastic = start.e[i] - flow.dp * flow.n[i];
             square += 2.0 * parts.mu * elastic * elastic;
         }
+        Deviator<Real> alpha{};
         for (int part = 0; part < parts.back_stress.count(); ++part) {
             const auto [modulus, recall] = parts.back_stress.parts[part];
-            const Real w = 1.0 / (1.0 + recall * flow.dp), pull = modulus * share * w * flow.dp / (at.k * at.y.value);
-            Deviator<Real> alpha;
+            const Real w = 1.0 / (1.0 + recall * flow.dp), pull = modulus * share * w * flow.dp / at.y.value;
             for (int i = 0; i < 5; ++i) {
-                alpha[i] = w * start.back_stress[part][i] + pull * (flow.s[i] - at.back.A[i]);
+                alpha[i] = w * start.back_stress[part][i] + pull * flow.xi[i];
                 work += 0.5 * (alpha[i] + start.back_stress[part][i]) * flow.n[i];
             }
-            const Vec<Real, 6> stress = yield.basis.tensor(alpha, 1.0);
-            for (int p = 0; p < 6; ++p)
-                trial[8 + 6 * part + p] = select(flow.plastic, stress[p], trial[8 + 6 * part + p]);
+            keep(alpha, 8 + 6 * part);
+        }
+        if (two_surfaces()) {  // alpha is that of the bounding surface
+            const InnerBackStress<Real> inner(parts.two_surfaces, start.stagnation.grown, start.inner, flow.xi, flow.dp);
+            for (int i = 0; i < 5; ++i) work += 0.5 * (inner.alpha[i] + start.inner[i]) * flow.n[i];
+            Stagnation<Real> stagnation = start.stagnation;
+            stagnation.follow(parts.two_surfaces, start.back_stress[0], alpha, flow.dp);
+            const int place = surfaces_at();
+            keep(inner.alpha, place);
+            keep(stagnation.centre, place + 7);
+            trial[place + 6] = select(flow.plastic, stagnation.grown, trial[place + 6]);
+            trial[place + 13] = select(flow.plastic, stagnation.radius, trial[place + 13]);
         }
         trial[7] += lost * square + work * flow.dp;
     }

@@ -3,6 +3,7 @@
 
 #include "umform/materials/back_stress.hpp"
 #include "umform/materials/hardening.hpp"
+#include "umform/materials/two_surfaces.hpp"
 
 namespace umform {
 
@@ -24,6 +25,7 @@ struct MetalParts {
     Hardening hardening;
     Chaboche back_stress;
     FallingModulus modulus;
+    TwoSurfaces two_surfaces = {};
 
     bool associated_only() const { return back_stress.count() == 0 && modulus.fall == 0.0; }
 };
@@ -34,9 +36,11 @@ struct PlasticStart {
     Deviator<Real> e;
     Real eqps;
     std::array<Deviator<Real>, Chaboche::largest> back_stress;
+    Deviator<Real> inner{};  // of the yield surface in the bounding one
+    Stagnation<Real> stagnation{0.0, {}, 0.0};
 };
 
-/// Of the increment dp: k xi + 2 mu dp n(xi) = b with its derivatives by dp. eq. (3.77)
+/// Of the increment dp, but for two surfaces: k xi + 2 mu dp n(xi) = b with its derivatives by dp. eq. (3.77)
 template <class Real>
 struct PlasticIncrement {
     Real dp;
@@ -66,7 +70,7 @@ template <class Real>
 struct PlasticFlow {
     Mask<Real> plastic, found;  // found: the increment has been solved for, or there is none
     Real dp;
-    Deviator<Real> s, n;          // stress, flow direction
+    Deviator<Real> s, xi, n;      // stress, the same less the back stresses, flow direction
     Mat<Real, 5, 5> tangent;      // ds/de
     Deviator<Real> dp_by_strain;  // d(dp)/de
 };

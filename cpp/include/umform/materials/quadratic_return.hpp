@@ -36,7 +36,7 @@ struct QuadraticReturn : PlasticIncrement<Real> {
 
 /// Solves y/phi - 1 = 0, nearly linear in dp, where `open`, by Newton's method kept inside a bracket. eq. (3.79)
 template <class Real>
-PlasticFlow<Real> return_map(const MetalParts& metal, const QuadraticYield& yield, const PlasticStart<Real>& start,
+PlasticFlow<Real> quadratic_return_map(const MetalParts& metal, const QuadraticYield& yield, const PlasticStart<Real>& start,
                              Mask<Real> plastic) {
     constexpr int most_iterations = 100;
     Real dp = 0.0;
@@ -64,6 +64,7 @@ PlasticFlow<Real> return_map(const MetalParts& metal, const QuadraticYield& yiel
 
     // eqs. (3.80), (3.81)
     PlasticFlow<Real> flow;
+    flow.xi = at.xi;
     flow.plastic = plastic;
     flow.found = !open;
     flow.dp = dp;

@@ -38,6 +38,14 @@ struct QuadraticYield {
     }
 
     template <class Real>
+    void derivatives(const Deviator<Real>& xi, Real& phi, Deviator<Real>& n, Mat<Real, 5, 5>& N) const {
+        gradient(xi, phi, n);
+        const Real inverse = 1.0 / phi;
+        for (int i = 0; i < 5; ++i)
+            for (int j = 0; j < 5; ++j) N(i, j) = inverse * ((i == j ? m[i] : 0.0) - n[i] * n[j]);
+    }
+
+    template <class Real>
     void gradient(const Deviator<Real>& xi, Real& phi, Deviator<Real>& n) const {
         phi = value(xi);
         for (int i = 0; i < 5; ++i) n[i] = m[i] * xi[i] / phi;
