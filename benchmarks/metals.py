@@ -24,6 +24,7 @@ YLD2004 = uf.Yld2004(
     uf.Transformation(0.981171, 0.476741, 0.575316, 0.866827, 1.145010, -0.079294, 1.404620, 1.051660, 1.147100),
 )
 TWO = uf.Chaboche([(4000.0, 60.0), (800.0, 8.0)])
+SPCC = uf.YoshidaUemori(C=500.0, B=168.0, growth=190.0, b=9.0, m=12.0, h=0.5)
 FALLING = uf.FallingModulus(saturated=60e3, rate=30.0)
 LAWS = {
     "J2 + Swift": uf.J2(**ELASTIC, hardening=SWIFT),
@@ -32,6 +33,7 @@ LAWS = {
     "Hill48 + Swift": uf.Metal(**ELASTIC, hardening=SWIFT, yield_function=HILL),
     "Hill48 + Chaboche(2)": uf.Metal(**ELASTIC, hardening=VOCE, yield_function=HILL, back_stress=TWO),
     "Hill48 + falling E": uf.Metal(**ELASTIC, hardening=VOCE, yield_function=HILL, modulus=FALLING),
+    "Hill48 + two surfaces": uf.Metal(**ELASTIC, hardening=uf.Perfect(124.0), yield_function=HILL, back_stress=SPCC),
     "Yld2004 + Voce": uf.Metal(**ELASTIC, hardening=VOCE, yield_function=YLD2004),
     "Yld2004 + Chaboche(2)": uf.Metal(**ELASTIC, hardening=VOCE, yield_function=YLD2004, back_stress=TWO),
 }

@@ -81,7 +81,7 @@ void bind_metals(nb::module_& m) {
     m.def(
         "metal", &metal, nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"), nb::arg("yield_function"),
         nb::arg("back_stress"), nb::arg("first"), nb::arg("growth"), nb::arg("fall"), nb::arg("rate"),
-          nb::arg("surfaces") = std::vector<double>{},
+        nb::arg("surfaces") = std::vector<double>{},
         "A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.");
     m.def(
         "logarithmic_space",

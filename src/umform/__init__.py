@@ -34,6 +34,7 @@ if TYPE_CHECKING:
         Voce,
         Yld91,
         Yld2004,
+        YoshidaUemori,
         check_law,
     )
     from umform.mesh import Mesh
@@ -79,6 +80,7 @@ _HOME = {
         "Mises",
         "Transformation",
         "Yld91",
+        "YoshidaUemori",
         "Yld2004",
         "J2",
         "SVK",
@@ -183,6 +185,7 @@ __all__ = [
     "WipingDie",
     "Yld91",
     "Yld2004",
+    "YoshidaUemori",
     "check_law",
     "check_surface",
     "cylindrical",

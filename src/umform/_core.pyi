@@ -105,7 +105,7 @@ def yld2004(exponent: int, first: Sequence[float], second: Sequence[float]) -> Y
     c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.
     """
 
-def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float) -> Material:
+def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float, surfaces: Sequence[float] = []) -> Material:
     """
     A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.
     """

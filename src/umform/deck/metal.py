@@ -170,6 +170,27 @@ class BackStress(Part):
         return materials.Chaboche(tuple(self.parts), self.first, self.rate)
 
 
+class TwoSurfaces(Part):
+    """Yoshida and Uemori (2002); the hardening curve is Perfect."""
+
+    C: Positive
+    """How fast the yield surface moves within the bounding surface."""
+    B: Positive
+    """First size of the bounding surface."""
+    growth: NotNegative
+    """R_sat: by how much it grows."""
+    b: Positive
+    """How far it moves."""
+    m: Positive
+    """How fast it grows and moves."""
+    h: Annotated[float, Field(ge=0, le=1)]
+    """How fast the surface of stagnation grows with it."""
+
+    def build(self) -> materials.YoshidaUemori:
+        """The back stress."""
+        return materials.YoshidaUemori(**self.model_dump())
+
+
 class Modulus(Part):
     """Young's modulus that falls with the plastic strain."""
 
@@ -194,6 +215,8 @@ class Metal(Elastic):
     """Rolling direction."""
     back_stress: BackStress | None = None
     """Motion of the yield surface."""
+    two_surfaces: TwoSurfaces | None = None
+    """The same by Yoshida and Uemori."""
     modulus: Modulus | None = None
     """Fall of Young's modulus."""
 
@@ -201,13 +224,16 @@ class Metal(Elastic):
     def _knows_its_directions(self) -> Metal:
         if self.rolling is None and not isinstance(self.yield_function, Mises | Hosford):
             raise PydanticCustomError("rolling", 'a yield function with directions needs rolling: rolling = "x"')
+        if self.back_stress is not None and self.two_surfaces is not None:
+            raise PydanticCustomError("motion", "give back_stress or two_surfaces")
         return self
 
     def build(self) -> Material:
         """The law."""
         parts: dict[str, Any] = {"hardening": self.hardening.build(), "yield_function": self.yield_function.build()}
-        if self.back_stress is not None:
-            parts["back_stress"] = self.back_stress.build()
+        motion = self.back_stress or self.two_surfaces
+        if motion is not None:
+            parts["back_stress"] = motion.build()
         if self.modulus is not None:
             parts["modulus"] = materials.FallingModulus(**self.modulus.model_dump())
         return materials.Metal(**self.constants(), **parts)

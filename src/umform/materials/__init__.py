@@ -1,10 +1,11 @@
 """Material laws and hardening curves: frozen descriptions that make the laws of the kernels."""
 
+from umform.materials.back_stress import Chaboche, YoshidaUemori
 from umform.materials.elastic import SVK, Elastic, NeoHooke, NeoHookePower
 from umform.materials.hardening import Hardening, Linear, LinearVoce, Perfect, Swift, Table, Voce
 from umform.materials.j2 import J2, Plastic
 from umform.materials.material import Material
-from umform.materials.metal import Chaboche, FallingModulus, LogarithmicSpace, Metal
+from umform.materials.metal import FallingModulus, LogarithmicSpace, Metal
 from umform.materials.point_path import PointPath, point_path, tension
 from umform.materials.tangent_check import TangentCheck, check_law
 from umform.materials.user_law import EnergyFunction, Floats, LawFunction, Points, UserLaw
@@ -43,6 +44,7 @@ __all__ = [
     "YieldFunction",
     "Yld91",
     "Yld2004",
+    "YoshidaUemori",
     "check_law",
     "point_path",
     "tension",

@@ -6,63 +6,12 @@ from dataclasses import dataclass, field
 
 from umform import _core
 from umform.errors import InvalidValue
+from umform.materials.back_stress import Chaboche, YoshidaUemori
 from umform.materials.checks import check_finite
 from umform.materials.hardening import Hardening
 from umform.materials.j2 import Plastic
 from umform.materials.material import Material
 from umform.materials.yield_functions import Mises, YieldFunction
-
-_MOST = 4  # back stresses of the kernels
-
-
-@dataclass(frozen=True)
-class Chaboche:
-    """Back stresses, each d alpha = C f xi/phi dp - gamma alpha dp (docs/theory, 3.12).
-
-    Parameters
-    ----------
-    parts : tuple of pairs of float
-        One to four pairs (C, gamma): modulus and recall. Without recall the back stress grows for ever (Prager), with
-        it up to C / gamma.
-    first, rate : float
-        All moduli change with the plastic strain by f = 1 + (first - 1) exp(-rate p), from the share ``first`` of C
-        to C; with 1 and 0 they stay.
-    """
-
-    parts: tuple[tuple[float, float], ...]
-    first: float = 1.0
-    rate: float = 0.0
-
-    def __post_init__(self) -> None:
-        parts = tuple(tuple(float(number) for number in part) for part in self.parts)
-        object.__setattr__(self, "parts", parts)
-        if not 1 <= len(parts) <= _MOST or any(len(part) != 2 for part in parts):
-            raise InvalidValue(
-                "back stresses are one to four pairs (C, gamma)",
-                where="Chaboche",
-                value=self.parts,
-                cause="a single pair that is not in a list, or one number too many",
-                remedy="Chaboche([(3000.0, 30.0)])",
-            )
-        check_finite("Chaboche", first=self.first, rate=self.rate)
-        if not self.first > 0 or self.rate < 0:
-            raise InvalidValue(
-                "first must be positive and rate not negative",
-                where="Chaboche",
-                value=(self.first, self.rate),
-                cause="a sign",
-                remedy="first=1 and rate=0 for moduli that stay",
-            )
-        for number, (modulus, recall) in enumerate(parts, start=1):
-            check_finite(f"Chaboche, back stress {number}", C=modulus, gamma=recall)
-            if not modulus > 0 or recall < 0:
-                raise InvalidValue(
-                    "C must be positive and gamma not negative",
-                    where=f"Chaboche, back stress {number}",
-                    value=(modulus, recall),
-                    cause="a sign, or the two exchanged",
-                    remedy="C in units of stress, gamma without: saturation at C / gamma",
-                )
 
 
 @dataclass(frozen=True)
@@ -94,7 +43,7 @@ class FallingModulus:
 
 @dataclass(frozen=True, init=False)
 class Metal(Plastic):
-    """Plasticity in logarithmic strains: yield function, back stresses, falling modulus (docs/theory, 3.9 to 3.12).
+    """Plasticity in logarithmic strains: yield function, back stresses, falling modulus (docs/theory, 3.9 to 3.13).
 
     Parameters
     ----------
@@ -104,14 +53,14 @@ class Metal(Plastic):
         Perfect, Linear, Voce, LinearVoce, Swift or Table: size of the yield surface.
     yield_function : YieldFunction
         Mises, Hill48, Hosford, Yld91 or Yld2004. One with directions needs the ``rolling`` direction of the model.
-    back_stress : Chaboche, optional
+    back_stress : Chaboche or YoshidaUemori, optional
         Motion of the yield surface.
     modulus : FallingModulus, optional
         Young's modulus over the plastic strain.
     """
 
     yield_function: YieldFunction = field(default_factory=Mises)
-    back_stress: Chaboche | None = None
+    back_stress: Chaboche | YoshidaUemori | None = None
     modulus: FallingModulus | None = None
 
     def __init__(
@@ -123,7 +72,7 @@ class Metal(Plastic):
         mu: float | None = None,
         hardening: Hardening,
         yield_function: YieldFunction | None = None,
-        back_stress: Chaboche | None = None,
+        back_stress: Chaboche | YoshidaUemori | None = None,
         modulus: FallingModulus | None = None,
     ) -> None:
         super().__init__(E, nu, kappa=kappa, mu=mu, hardening=hardening)
@@ -144,6 +93,8 @@ class Metal(Plastic):
                 cause="the two exchanged, or one of them in GPa",
                 remedy="saturated of 0.7 E to 0.95 E, in the unit of E",
             )
+        if isinstance(back_stress, YoshidaUemori):
+            _check_surfaces(back_stress, hardening)
         object.__setattr__(self, "yield_function", function)
         object.__setattr__(self, "back_stress", back_stress)
         object.__setattr__(self, "modulus", modulus)
@@ -160,10 +111,39 @@ class Metal(Plastic):
     def small_strain_law(self) -> _core.Material:
         """The law that is asked with logarithmic strains."""
         back = self.back_stress
-        pairs, first, growth = ([], 1.0, 0.0) if back is None else (list(back.parts), back.first, back.rate)
+        pairs: list[tuple[float, float]] = []
+        first, growth, surfaces = 1.0, 0.0, list[float]()
+        if isinstance(back, Chaboche):
+            pairs, first, growth = list(back.parts), back.first, back.rate
+        elif back is not None:
+            first_yield, _ = self.hardening.curve()(0.0)
+            pairs, surfaces = [(back.m * back.b, back.m)], [first_yield, back.C, back.B, back.growth, back.m, back.h]
         fall, rate = (0.0, 0.0) if self.modulus is None else (1.0 - self.modulus.saturated / self.E, self.modulus.rate)
         function = self.yield_function.function()
-        return _core.metal(self.kappa, self.mu, self.hardening.curve(), function, pairs, first, growth, fall, rate)
+        return _core.metal(
+            self.kappa, self.mu, self.hardening.curve(), function, pairs, first, growth, fall, rate, surfaces
+        )
+
+
+def _check_surfaces(surfaces: YoshidaUemori, hardening: Hardening) -> None:
+    """Refuse a yield surface that grows, or that does not fit into the bounding surface."""
+    first, slope = hardening.curve()(0.0)
+    if slope != 0.0 or hardening.curve()(1.0)[0] != first:
+        raise InvalidValue(
+            "the yield surface of Yoshida and Uemori has a constant size",
+            where="Metal",
+            value=hardening,
+            cause="hardening that belongs to the bounding surface: B, growth, b, m",
+            remedy="hardening=Perfect(Y)",
+        )
+    if not first < surfaces.B:
+        raise InvalidValue(
+            "the bounding surface must be larger than the yield surface",
+            where="Metal",
+            value=f"B={surfaces.B:.6g}, yield stress {first:.6g}",
+            cause="the two exchanged",
+            remedy="B above Y",
+        )
 
 
 @dataclass(frozen=True)

@@ -50,6 +50,15 @@ def test_all_parts():
     assert metal.yield_function == mt.Mises()
 
 
+def test_two_surfaces():
+    metal = (
+        deck("two_surfaces = { C = 500.0, B = 268.0, growth = 190.0, b = 9.0, m = 12.0, h = 0.5 }")
+        .build()
+        .model.material
+    )
+    assert metal.back_stress == mt.YoshidaUemori(C=500.0, B=268.0, growth=190.0, b=9.0, m=12.0, h=0.5)
+
+
 @pytest.mark.parametrize(
     ("more", "text"),
     [
@@ -63,6 +72,11 @@ def test_all_parts():
         ('yield_function = { function = "Hosford", exponent = 7 }', "multiple of 2"),
         ("back_stress = { parts = [[-3000.0, 30.0]] }", "C must be positive"),
         ("back_stress = { parts = [] }", "at least 1"),
+        ("two_surfaces = { C = 500.0, B = 68.0, growth = 190.0, b = 9.0, m = 12.0, h = 0.5 }", "larger than the yield"),
+        (
+            "two_surfaces = { C = 500.0, B = 268.0, growth = 190.0, b = 9.0, m = 12.0, h = 5 }",
+            "less than or equal to 1",
+        ),
         ("modulus = { saturated = 180.0e4, rate = 30.0 }", "must fall"),
         ("modulus = { saturated = 180.0, rate = -30.0 }", "greater than 0"),
     ],

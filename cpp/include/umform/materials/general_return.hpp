@@ -116,7 +116,7 @@ void solve_stage(const MetalParts& metal, const Yield& yield, const PlasticStart
 /// trial stress, on which it is the solution. eqs. (3.89)-(3.92)
 template <class Real, class Yield>
 PlasticFlow<Real> general_return_map(const MetalParts& metal, const Yield& yield, const PlasticStart<Real>& start,
-                             Mask<Real> plastic) {
+                                     Mask<Real> plastic) {
     constexpr double shrink = 0.7;
     Deviator<Real> xi, n;
     Real dp, over;  // trial stress over yield stress

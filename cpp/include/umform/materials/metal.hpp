@@ -21,19 +21,17 @@ struct Metal {
 
     Metal(MetalParts metal, Yield function)
         : parts(std::move(metal)), yield(std::move(function)),
-          state_size(parts.associated_only() ? 7
-                                             : 8 + 6 * parts.back_stress.count() + (two_surfaces() ? surface_size : 0)) {
-    }
+          state_size(
+              parts.associated_only() ? 7 : 8 + 6 * parts.back_stress.count() + (two_surfaces() ? surface_size : 0)) {}
 
     std::vector<Quantity> state_names() const {
         std::vector<Quantity> names{{"plastic_strain", 6}, {"eqps", 1}};
         if (!parts.associated_only()) names.push_back({"kinematic_work", 1});
         for (int k = 1; k <= parts.back_stress.count(); ++k) names.push_back({"back_stress_" + std::to_string(k), 6});
         if (two_surfaces())
-            names.insert(names.end(), {{"inner_back_stress", 6},
-                                       {"bounding_growth", 1},
-                                       {"stagnation_centre", 6},
-                                       {"stagnation_radius", 1}});
+            names.insert(
+                names.end(),
+                {{"inner_back_stress", 6}, {"bounding_growth", 1}, {"stagnation_centre", 6}, {"stagnation_radius", 1}});
         return names;
     }
     void initial(double* state) const { std::fill_n(state, state_size, 0.0); }
@@ -117,8 +115,7 @@ struct Metal {
             std::copy_n(state + at, 6, stress.begin());
             return yield.basis.components(stress, 1.0);
         };
-        for (int part = 0; part < parts.back_stress.count(); ++part)
-            start.back_stress[part] = deviator(8 + 6 * part);
+        for (int part = 0; part < parts.back_stress.count(); ++part) start.back_stress[part] = deviator(8 + 6 * part);
         if (two_surfaces()) {
             const int at = surfaces_at();
             start.inner = deviator(at);
@@ -173,7 +170,8 @@ struct Metal {
             keep(alpha, 8 + 6 * part);
         }
         if (two_surfaces()) {  // alpha is that of the bounding surface
-            const InnerBackStress<Real> inner(parts.two_surfaces, start.stagnation.grown, start.inner, flow.xi, flow.dp);
+            const InnerBackStress<Real> inner(parts.two_surfaces, start.stagnation.grown, start.inner, flow.xi,
+                                              flow.dp);
             for (int i = 0; i < 5; ++i) work += 0.5 * (inner.alpha[i] + start.inner[i]) * flow.n[i];
             Stagnation<Real> stagnation = start.stagnation;
             stagnation.follow(parts.two_surfaces, start.back_stress[0], alpha, flow.dp);

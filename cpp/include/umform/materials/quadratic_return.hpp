@@ -36,8 +36,8 @@ struct QuadraticReturn : PlasticIncrement<Real> {
 
 /// Solves y/phi - 1 = 0, nearly linear in dp, where `open`, by Newton's method kept inside a bracket. eq. (3.79)
 template <class Real>
-PlasticFlow<Real> quadratic_return_map(const MetalParts& metal, const QuadraticYield& yield, const PlasticStart<Real>& start,
-                             Mask<Real> plastic) {
+PlasticFlow<Real> quadratic_return_map(const MetalParts& metal, const QuadraticYield& yield,
+                                       const PlasticStart<Real>& start, Mask<Real> plastic) {
     constexpr int most_iterations = 100;
     Real dp = 0.0;
     QuadraticReturn<Real> at(metal, yield, start, dp);

@@ -8,9 +8,9 @@ namespace umform {
 
 /// The centre of the bounding surface is the first back stress of Chaboche with C = m b, gamma = m; the yield stress is constant.
 struct TwoSurfaces {
-    double pull = 0.0;                                   // C; 0 for none
+    double pull = 0.0;                                     // C; 0 for none
     double size = 0.0, growth = 0.0, rate = 0.0, h = 0.0;  // B, Rsat, m, h
-    double yield_stress = 0.0;                           // Y
+    double yield_stress = 0.0;                             // Y
 
     bool active() const { return pull > 0.0; }
 };
@@ -29,7 +29,8 @@ struct InnerBackStress {
     Real identity, rank_one;  // dalpha*/dxi = identity 1 + rank_one z (x) z
     Deviator<Real> z;
 
-    InnerBackStress(const TwoSurfaces& law, Real grown, const Deviator<Real>& before, const Deviator<Real>& xi, Real dp) {
+    InnerBackStress(const TwoSurfaces& law, Real grown, const Deviator<Real>& before, const Deviator<Real>& xi,
+                    Real dp) {
         const Real a = law.size + grown - law.yield_stress, pull = law.pull * a * (1.0 / law.yield_stress);
         for (int i = 0; i < 5; ++i) z[i] = before[i] + pull * dp * xi[i];
         const Real norm = mises_norm(z), floor = 1e-10 * law.yield_stress;
@@ -49,9 +50,9 @@ struct InnerBackStress {
 /// What remembers where the bounding surface has grown.
 template <class Real>
 struct Stagnation {
-    Real grown;               // R
-    Deviator<Real> centre;    // q
-    Real radius;              // r
+    Real grown;             // R
+    Deviator<Real> centre;  // q
+    Real radius;            // r
 
     /// Behind an increment that moves the bounding surface from `before` to `beta`. eqs. (3.97), (3.98)
     void follow(const TwoSurfaces& law, const Deviator<Real>& before, const Deviator<Real>& beta, Real dp) {
