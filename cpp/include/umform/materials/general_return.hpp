@@ -80,10 +80,10 @@ struct GeneralReturn : PlasticIncrement<Real> {
 };
 
 /// Newton's method on the equations of a stage, a factor of the yield stress: from xi and dp as they are to the solution, where
-/// `open`. Leaves the lanes without one in the mask. eqs. (3.90), (3.91)
+/// `open`. Leaves the lanes without one in the mask; where there is none left, the equations at the solution. eqs. (3.90), (3.91)
 template <class Real, class Yield>
-void solve_stage(const MetalParts& metal, const Yield& yield, const PlasticStart<Real>& start, Real stage,
-                 Deviator<Real>& xi, Real& dp, Mask<Real>& open) {
+GeneralReturn<Real> solve_stage(const MetalParts& metal, const Yield& yield, const PlasticStart<Real>& start,
+                                Real stage, Deviator<Real>& xi, Real& dp, Mask<Real>& open) {
     constexpr int most_evaluations = 60;
     constexpr double least_fall = 1e-4;  // of the residual, as a share of what the step promises
     GeneralReturn<Real> at(metal, yield, start, xi, dp, stage);
@@ -98,7 +98,7 @@ void solve_stage(const MetalParts& metal, const Yield& yield, const PlasticStart
         dp = select(moved, at.dp, dp);
         merit = select(moved, at.merit, merit);
         open = open & !(merit <= solved);
-        if (!any(open)) return;
+        if (!any(open)) return at;
         const Factors5<Real> factors(at.M);
         const Deviator<Real> by_R = factors.solve(at.R), by_v = factors.solve(at.v);
         const Real step = (at.f - dot(at.n, by_R)) / (stage * at.y.slope + dot(at.n, by_v));
@@ -110,6 +110,7 @@ void solve_stage(const MetalParts& metal, const Yield& yield, const PlasticStart
         at = GeneralReturn<Real>(metal, yield, start, next, dp + select(open, part * change, 0.0), stage);
         accepted = (at.merit <= (1.0 - 2.0 * least_fall * part) * merit) | (at.merit <= solved);
     }
+    return at;
 }
 
 /// Newton from the point of the surface on the ray to the trial stress; where that fails, in stages from the surface through the
@@ -130,7 +131,7 @@ PlasticFlow<Real> general_return_map(const MetalParts& metal, const Yield& yield
         for (int i = 0; i < 5; ++i) xi[i] = xi[i] / over;
     }
     Mask<Real> open = plastic;
-    solve_stage<Real>(metal, yield, start, 1.0, xi, dp, open);
+    GeneralReturn<Real> at = solve_stage<Real>(metal, yield, start, 1.0, xi, dp, open);
     Mask<Real> found = !open;
     if (any(open)) {
         Mask<Real> staged = open;
@@ -146,10 +147,10 @@ PlasticFlow<Real> general_return_map(const MetalParts& metal, const Yield& yield
             found = found | (staged & (stage == 1.0));
             staged = staged & (stage > 1.0);
         }
+        at = GeneralReturn<Real>(metal, yield, start, xi, dp, 1.0);
     }
 
     // eq. (3.93)
-    const GeneralReturn<Real> at(metal, yield, start, xi, dp, 1.0);
     const Factors5<Real> factors(at.M);
     const Deviator<Real> by_n = factors.solve(at.n), by_v = factors.solve(at.v);
     const Real rate = at.shear / (at.y.slope + dot(at.n, by_v));
