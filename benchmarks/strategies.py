@@ -40,11 +40,16 @@ def demo() -> None:
         free_bending(case, frames=0, progress=False)
 
 
-def demo_at_a_pace() -> None:
-    """The first run of the demo with its release, in perfect plasticity, in increments at a pace."""
-    case = FreeBending()
-    model, punch = build_bending(case)
-    uf.solve(model, [uf.Move(punch, to=-case.stroke), uf.Release(punch)], frames=0, progress=False)
+def one_of_the_demo(increments: int | None) -> Callable[[], object]:
+    """The first run of the demo with its release, in perfect plasticity, in few increments."""
+
+    def run() -> object:
+        case = FreeBending()
+        model, punch = build_bending(case)
+        steps = [uf.Move(punch, to=-case.stroke, steps=increments), uf.Release(punch)]
+        return uf.solve(model, steps, frames=0, progress=False)
+
+    return run
 
 
 def contact_chapter() -> None:
@@ -64,7 +69,8 @@ WORKLOADS: dict[str, Callable[[], object]] = {
     "dome, 2 500 elements, at a pace": domes(50, None),
     "dome, 10 000 elements, 10 increments": domes(100, 10),
     "demo, 14 runs of 300 increments": demo,
-    "one run of the demo at a pace": demo_at_a_pace,
+    "one run of the demo at a pace": one_of_the_demo(None),
+    "one run of the demo, 20 increments": one_of_the_demo(20),
     "stroke for 90 degrees in air bending": lambda: find_stroke(AirBending(), 90.0, progress=False),
     "chapter of contact in the book": contact_chapter,
 }

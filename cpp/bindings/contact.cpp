@@ -230,6 +230,15 @@ void bind_history(nb::class_<ContactBlock>& contact) {
             },
             nb::sig("def state(self) -> NDArray[float64]"),
             "Converged history (points, size) in the order of the quantities of the law.")
+        .def_prop_ro(
+            "read",
+            [](const ContactBlock& b) {
+                return to_numpy(b.read(),
+                                {static_cast<std::size_t>(b.points()), static_cast<std::size_t>(b.history().size())});
+            },
+            nb::sig("def read(self) -> NDArray[float64]"),
+            "The history that the last evaluation has read, with the multipliers that it was to take (points, size).")
+        .def_prop_ro("begun", &ContactBlock::begun, "Whether there is a converged history.")
         .def(
             "begin", &ContactBlock::begin,
             "Take the places where the points are now as those of a sheet that was never held; nothing once there is a history.")

@@ -286,8 +286,17 @@ class Multifrontal:
 
     def residual(self, values: NDArray[float64], b: NDArray[float64], x: NDArray[float64], r: NDArray[float64]) -> None: ...
 
-    def column_sizes(self, values: NDArray[float64]) -> NDArray[float64]:
-        """Largest entry of each column."""
+    @property
+    def column_sizes(self) -> NDArray[float64]:
+        """
+        Largest entry of each column of the matrix that was eliminated; none for Cholesky.
+        """
+
+    @property
+    def scales(self) -> tuple[NDArray[float64], NDArray[float64]]:
+        """
+        Powers of two for rows and columns of that; empty where it is the matrix itself.
+        """
 
 class Tying:
     """One row of an assumed-strain rule."""
@@ -649,6 +658,16 @@ class ContactBlock:
         """
         Converged history (points, size) in the order of the quantities of the law.
         """
+
+    @property
+    def read(self) -> NDArray[float64]:
+        """
+        The history that the last evaluation has read, with the multipliers that it was to take (points, size).
+        """
+
+    @property
+    def begun(self) -> bool:
+        """Whether there is a converged history."""
 
     def begin(self) -> None:
         """

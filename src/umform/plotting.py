@@ -38,6 +38,7 @@ _STYLE: Any = {
     "axes.titlesize": 10.0,
     "axes.titleweight": "bold",
     "axes.titlelocation": "left",
+    "axes.titley": 1.0,  # matplotlib would look for room above ticks, which are all below
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.edgecolor": "#777777",

@@ -117,6 +117,20 @@ def pressed():
     return model, [uf.Move(force, -100.0, steps=1), uf.Move(force, weighing, steps=4), uf.Move(force, -50.0)], None
 
 
+def rubbed():
+    """A sheet under a holder that a force presses, drawn over a die with friction, back and forth."""
+    model = uf.Model(strip(30.0, 4.0, 1.0, (12, 3)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
+    model.symmetry("y0", "y")
+    pull = model.prescribe("x1", "x", "pull")
+    decaying = uf.Friction(0.25, kinetic=0.2, decay=0.1)
+    for number, x in enumerate((10.0, 28.0)):
+        die = uf.Cylinder(centre=(x, 0.0, -5.49), axis="y", radius=5.0)
+        model.contact("lower", die, penalty=1e3, points=3, friction=decaying, name=f"die{number}")
+    lid = model.contact("upper", uf.Plane((0, 0, 0.5), (0, 0, -1)), penalty=50.0, friction=0.1, name="lid")
+    force = model.press(lid, "z", "force")
+    return model, [uf.Move(force, -16.0, steps=2), uf.Move(pull, 0.3, steps=4), uf.Move(pull, 0.1, steps=3)], None
+
+
 class Foam(NodalTerm):
     """A bed of springs along z that are crushed for good beyond a force, which grows with the crush."""
 
@@ -205,7 +219,7 @@ def trouble_at(fraction):
 
 
 CASES = [free_bending, air_bending, hinged_strip, blown_strip, held_by_multipliers, cut]
-CASES += [pressed, foundation, two_bodies]
+CASES += [pressed, rubbed, foundation, two_bodies]
 
 
 def rank():

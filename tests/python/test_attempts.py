@@ -112,3 +112,19 @@ def test_the_command_line_and_the_report_show_them(capsys, tmp_path):
     text = page.read_text(encoding="utf-8")
     assert f"{result.timing.attempts.evaluations} evaluations, 0.0 % of them thrown away" in text
     assert "<td>extrapolation</td>" in text or ">extrapolation<" in text
+
+
+@pytest.mark.parametrize("steps", [None, 15, 20])
+def test_increments_that_are_too_large_for_a_sharp_hinge_are_cut_without_much_ado(steps):
+    """The first run of the demo, in perfect plasticity: softer penalties do not help there, and are given up soon."""
+    from umform.processes.bending.case import build
+    from umform.processes.bending.parameters import FreeBending
+
+    case = FreeBending()
+    model, punch = build(case)
+    result = uf.solve(model, uf.Move(punch, to=-case.stroke, steps=steps), frames=0, progress=False)
+    attempts = result.timing.attempts
+    assert result["punch"][-1] == -case.stroke
+    assert attempts.tried["softer penalties"] >= 1  # they are not left out from the beginning
+    assert attempts.share < 0.15
+    assert attempts.evaluations < 300

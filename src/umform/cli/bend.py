@@ -20,10 +20,10 @@ from umform.cli.warnings import echo_warnings, print_warnings_once
 from umform.errors import UmformError
 
 if TYPE_CHECKING:
+    from umform.model import Model
     from umform.processes.air_bending.bend import AirBend
     from umform.processes.air_bending.budget import Budget
     from umform.processes.air_bending.measures import Measures
-    from umform.processes.air_bending.parameters import AirBending
     from umform.run import Result
 
 
@@ -135,12 +135,13 @@ def bend(
             case = find_stroke(case, angle, tolerance=tolerance, frames=1).case
         typer.echo(deck_of(case), nl=False)
         return
-    _refuse_implausible(case, force=force)
+    with timings() as spent:
+        brake = Brake(case, frames=FRAMES)
+    _refuse_implausible(brake.model, force=force)
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/bend"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):
-        with timings() as spent, _what_was_reached(place) as rows:
-            brake = Brake(case, frames=FRAMES)
+        with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
             if angle is None:
                 done = air_bending(case, brake=brake)
@@ -162,13 +163,11 @@ def bend(
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
 
 
-def _refuse_implausible(case: AirBending, *, force: bool) -> None:
+def _refuse_implausible(model: Model, *, force: bool) -> None:
     """Refuse numbers that cannot be meant, and warn of those that are unusual, before time is spent on a run."""
     from umform.deck.findings import accept
     from umform.deck.plausible import of_model
-    from umform.processes.air_bending.brake import build
 
-    model, _ = build(case)
     for warning in accept(of_model(model, millimetres=True), force=force):
         typer.echo(f"umform: {warning}", err=True)
 

@@ -8,13 +8,14 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Strict, Tag, model_validator
 from pydantic_core import PydanticCustomError
 
-from umform.deck.parts import Name, Part, Positive, Vector
+from umform.deck.parts import Name, NotNegative, Part, Positive, Vector, number_or_array
 from umform.deck.selection import Selection, faces_of
 from umform.model import Model
 from umform.model.contact import Contact
+from umform.model.contact.friction import Friction, FrictionByRegion, Region
 from umform.model.tool import Motion
 from umform.surfaces import Tool
 
@@ -76,6 +77,65 @@ Points = Annotated[
 ]
 
 
+Coefficient = Annotated[float, Field(ge=0, le=2)]
+_Coordinate = Annotated[float, Field(allow_inf_nan=True)]
+Corner = Annotated[tuple[_Coordinate, _Coordinate, _Coordinate], Strict(False)]
+
+
+_Row = Annotated[tuple[NotNegative, Coefficient], Strict(False)]
+
+
+class FrictionPart(Part):
+    """A law of friction: t <= min(mu p, cap)."""
+
+    mu: Annotated[
+        Annotated[Coefficient, Tag("number")] | Annotated[list[_Row], Tag("array")], Discriminator(number_or_array)
+    ]
+    """Coefficient, or pairs of pressure and coefficient, linear in between."""
+    kinetic: Coefficient | None = None
+    """Coefficient of a place that slides; with a table the first entry falls to it, and all others in proportion."""
+    decay: Positive | None = None
+    """Distance slid after which 1/e of the difference to the kinetic coefficient is left."""
+    cap: Positive | None = None
+    """Largest tangential traction."""
+
+    def build(self) -> Friction:
+        """The law."""
+        return Friction(self.mu, self.kinetic, self.decay, self.cap)
+
+
+class FrictionRegionPart(FrictionPart):
+    """Another friction within a box in the frame of the tool."""
+
+    lower: Corner
+    """Lower corner; inf and -inf are numbers in TOML."""
+    upper: Corner
+    """Upper corner."""
+
+
+class FrictionsPart(FrictionPart):
+    """A law of friction, and others in regions of the tool."""
+
+    regions: list[FrictionRegionPart] = []
+    """The first one that a place is in counts."""
+
+    def build(self) -> Friction | FrictionByRegion:  # type: ignore[override]
+        """The law."""
+        if not self.regions:
+            return super().build()
+        regions = [Region(part.lower, part.upper, part.build()) for part in self.regions]
+        return FrictionByRegion(super().build(), regions)
+
+
+def _friction(value: Any) -> str:
+    return "number" if isinstance(value, int | float) else "law"
+
+
+AnyFriction = Annotated[
+    Annotated[Coefficient, Tag("number")] | Annotated[FrictionsPart, Tag("law")], Discriminator(_friction)
+]
+
+
 class ContactPart(Part):
     """Contact of lower or upper faces with one tool."""
 
@@ -91,6 +151,10 @@ class ContactPart(Part):
     """Multipliers take the penetration away that is not allowed."""
     points: Points = 2
     """Contact points per direction of a face, 1 to 10; at the nodes; or as many as the tool needs (auto)."""
+    friction: AnyFriction | None = None
+    """Coefficient of friction, or a law."""
+    slip: Positive | None = None
+    """Elastic slip that is allowed; by default 1/200 of the thickness."""
     motion: MotionPart | None = None
     """Motion in time."""
 
@@ -109,6 +173,8 @@ class ContactPart(Part):
             penetration=self.penetration,
             augmented=self.augmented,
             points=self.points,
+            friction=self.friction.build() if isinstance(self.friction, FrictionsPart) else self.friction,
+            slip=self.slip,
             name=name,
         )
         if self.motion is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from umform import steps
 from umform.deck.parts import Count, Name, Part, Positive
@@ -171,6 +171,11 @@ class Free(Part):
 StepPart = Annotated[Move | Release | Arc | Free, Field(discriminator="kind")]
 
 
+def _order(value: object) -> object:
+    """Order of an extrapolation that is wanted or not: true is 1, false 0."""
+    return int(value) if isinstance(value, bool) else value
+
+
 class Solution(Part):
     """Sparse solver and Newton's method."""
 
@@ -184,8 +189,8 @@ class Solution(Part):
     """Iterations before an increment is cut."""
     line_search: bool | None = None
     """Shorten increments that go too far; default: where a law has a history."""
-    extrapolate: bool = True
-    """Start an increment from the extrapolated last one."""
+    extrapolate: Annotated[Literal[0, 1, 2], BeforeValidator(_order)] = 1
+    """Start an increment from the tangent (0), or from a line (1) or a parabola (2) through the last states."""
     mixed: bool | None = None
     """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets."""
 

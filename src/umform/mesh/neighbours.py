@@ -54,14 +54,22 @@ def shared_sides(points: Floats, sides: Whole, kind: str) -> Whole:
     return np.stack([order[starts], order[starts + 1]], axis=1)
 
 
-def connected(count: int, links: Whole) -> Whole:
-    """Number of the connected part in which each of `count` things lies; links have shape (p, 2)."""
-    from scipy.sparse import coo_array  # slow to import
-    from scipy.sparse.csgraph import connected_components
+def connected(count: int, links: Whole) -> NDArray[np.int64]:
+    """Number of the connected part in which each of `count` things lies; links have shape (p, 2).
 
-    a, b = links.T
-    _, labels = connected_components(coo_array((np.ones(len(a)), (a, b)), shape=(count, count)), directed=False)
-    return np.asarray(labels)
+    Each thing points to the lowest one that is known to be connected with it. Where a link joins two of these, the
+    higher points to the lower, and all pointers are followed to their ends; until no link joins two. No SciPy, which is
+    slow to import.
+    """
+    lowest = np.arange(count)
+    while len(links):
+        ends = np.sort(lowest[links], axis=1)
+        links = links[ends[:, 0] != ends[:, 1]]
+        np.minimum.at(lowest, ends[:, 1], ends[:, 0])
+        while not np.array_equal(lowest, following := lowest[lowest]):
+            lowest = following
+    parts: NDArray[np.int64] = np.unique(lowest, return_inverse=True)[1]
+    return parts
 
 
 def outer_faces(cells: Whole) -> dict[str, Ids]:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.mesh import Ids
+from umform.mesh.neighbours import connected
 from umform.model.control import Control
 
 Floats = NDArray[np.float64]
@@ -89,12 +90,9 @@ class Groups:
         self._inverse = _stacked([])
         if len(self.dofs) == 0:
             return
-        from scipy.sparse import coo_array  # slow to import, and few models have supports in local axes
-        from scipy.sparse.csgraph import connected_components
-
         count, size = self._all[3], len(self.dofs)
-        links = coo_array((np.ones(len(row)), (row, count + place)), shape=(count + size, count + size))
-        groups, group = connected_components(links, directed=False)
+        group = connected(count + size, np.stack([row, count + place], axis=1))
+        groups = int(group.max()) + 1
         rows_in, at_row = _counted(group[:count], groups)
         dofs_in, at_dof = _counted(group[count:], groups)
         columns: list[tuple[Numbers, Numbers, Floats]] = []

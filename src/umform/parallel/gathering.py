@@ -73,7 +73,7 @@ class Gathering:
         points: dict[str, Any] = {name: self.own_nodes.collect(values[owned]) for name, values in frame.points.items()}
         cells: dict[str, Any] = {name: self.cells.collect(values) for name, values in frame.cells.items()}
         contacts: dict[str, dict[str, Any]] = {
-            name: {key: self.points(by_name[name], values) for key, values in vars(at).items()}
+            name: {key: self.points(by_name[name], values) for key, values in at.known().items()}
             for name, at in frame.contacts.items()
         }
         if self.ranks.rank > 0:
@@ -94,7 +94,7 @@ class Gathering:
                 "terms": {key: self._collected(key, state) for key, state in model["terms"].items()},
             },
             "before": {key: self.rows[key].collect(values) for key, values in tree["before"].items()},
-            "last_dx": None if tree["last_dx"] is None else self._collected_x(tree["last_dx"]),
+            "trail": self._collected_trail(tree["trail"]),
         }
 
     def _collected(self, key: str, state: Tree) -> Tree:
@@ -103,10 +103,15 @@ class Gathering:
             return state
         return {name: self.rows[key].collect(values) for name, values in state.items()}
 
-    def _collected_x(self, x: Floats) -> Floats | None:
+    def _collected_trail(self, trail: Tree | None) -> Tree | None:
+        """Trail over the whole model, on the first rank."""
+        if trail is None:
+            return None
         dofs = self.share.u.size
-        whole = self.displacement(x[:dofs])
-        return None if whole is None else np.concatenate([whole, x[dofs:]])
+        whole = [self.displacement(row[:dofs]) for row in trail["terms"]]
+        if self.ranks.rank > 0:
+            return None
+        return {**trail, "terms": np.concatenate([np.array(whole), trail["terms"][:, dofs:]], axis=1)}
 
     def own_state(self, read: Callable[[], dict[str, Any]]) -> dict[str, Any]:
         """What this rank has of the tree of a checkpoint, which the first rank reads.
@@ -119,16 +124,18 @@ class Gathering:
         tree = self.ranks.on_first(read)
         outline: dict[str, Any] = self.ranks.comm.bcast(None if tree is None else self._outline(tree))
         model = outline["model"]
-        whole: Any = tree or {"model": {"u": None, "terms": {}}, "before": {}, "last_dx": None, "result": {}}
+        whole: Any = tree or {"model": {"u": None, "terms": {}}, "before": {}, "trail": None, "result": {}}
         model["u"] = self._at_nodes(whole["model"]["u"])
         for key, names in model["rows"].items():
             state = whole["model"]["terms"].get(key, {})
             model["terms"][key] = {name: self.rows[key].hand_out(state.get(name)) for name in names}
         del model["rows"]
         outline["before"] = {key: self.rows[key].hand_out(whole["before"].get(key)) for key in outline["before"]}
-        if outline["last_dx"] is not None:
-            dofs = None if whole["last_dx"] is None else whole["last_dx"][: whole["model"]["u"].size]
-            outline["last_dx"] = np.concatenate([self._at_nodes(dofs), outline["last_dx"]])
+        if outline["trail"] is not None:
+            scalars = outline["trail"]["terms"]
+            rows = [None] * len(scalars) if whole["trail"] is None else whole["trail"]["terms"]
+            here = [self._at_nodes(None if row is None else row[: whole["model"]["u"].size]) for row in rows]
+            outline["trail"]["terms"] = np.concatenate([np.array(here), scalars], axis=1)
         outline["result"]["frames"] = None if tree is None else tree["result"]["frames"]
         return outline
 
@@ -143,6 +150,7 @@ class Gathering:
         model["rows"] = {key: list(state) for key, state in terms.items() if key in self.rows}
         result = {key: value for key, value in tree["result"].items() if key != "frames"}
         small = {key: tree[key] for key in ("fingerprint", "note", "number", "factors", "loop", "habits")}
-        last = tree["last_dx"]
-        scalars = None if last is None else last[tree["model"]["u"].size :]
-        return {**small, "model": model, "before": list(tree["before"]), "last_dx": scalars, "result": result}
+        trail = tree["trail"]
+        if trail is not None:  # of its rows only what no node has
+            trail = {**trail, "terms": trail["terms"][:, tree["model"]["u"].size :]}
+        return {**small, "model": model, "before": list(tree["before"]), "trail": trail, "result": result}

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+
+from umform.mesh.neighbours import connected
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int64]
@@ -43,10 +43,8 @@ def smooth_groups(points: Floats, faces: Ids) -> Ids:
     one, other = one[met], other[met]
     normal = unit_normals(points, faces)
     flat = np.einsum("ei,ei->e", normal[one // k], normal[other // k]) > np.cos(np.radians(CREASE))
-    a, b = ids[one[flat]].ravel(), ids[other[flat]].ravel()
-    joined = coo_array((np.ones(len(a)), (a, b)), shape=(m * k, m * k))
-    groups: Ids = connected_components(joined, directed=False)[1].astype(np.int64)
-    return groups.reshape(m, k)
+    links = np.stack([ids[one[flat]].ravel(), ids[other[flat]].ravel()], axis=1)
+    return connected(m * k, links).reshape(m, k)
 
 
 def unit_normals(points: Floats, faces: Ids) -> Floats:

@@ -50,7 +50,7 @@ class Quantised:
 
 def compressed(data: bytes) -> str:
     """Bytes in the format of gzip, without a date, as base64."""
-    packer = zlib.compressobj(9, wbits=31)
+    packer = zlib.compressobj(6, wbits=31)
     return b64encode(packer.compress(data) + packer.flush()).decode("ascii")
 
 

@@ -46,6 +46,8 @@ _ORDER = (
     "stress_von_mises",
     "displacement",
     "contact_pressure",
+    "friction_traction",
+    "slip",
 )
 
 

@@ -210,6 +210,34 @@ def contact_at_nodes(model: Model, evaluation: Evaluation | None = None) -> tupl
     return pressure, gap
 
 
+def friction_at_nodes(model: Model, evaluation: Evaluation | None = None) -> tuple[Floats, Floats]:
+    """Tangential traction of the tools on the sheet, and distance slid along them, at the nodes of all contact faces.
+
+    Parameters
+    ----------
+    model : Model
+        The model, at a converged state.
+    evaluation : Evaluation, optional
+        The evaluation there; default what the contacts found last.
+
+    Returns
+    -------
+    traction : ndarray, shape (n, 3)
+        On the reference area; zero off the faces and without friction.
+    slip : ndarray, shape (n,)
+        Of points that are held.
+    """
+    traction, slip = np.zeros((len(model.mesh.points), 3)), np.zeros(len(model.mesh.points))
+    for contact in model.contacts:
+        if contact.friction is None:
+            continue
+        found = contact.found if evaluation is None else evaluation.found[contact]
+        here, way = contact.friction_at_nodes(found, model.mesh, model.sum_at_nodes)
+        traction += here
+        slip = np.maximum(slip, way)
+    return traction, slip
+
+
 def contact_pressure(model: Model) -> Floats:
     """Contact pressure at the nodes of all contact faces; shape (n,)."""
     return contact_at_nodes(model)[0]

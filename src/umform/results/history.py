@@ -189,6 +189,8 @@ class History:
         }
         if model.contacts:
             points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model, evaluation)
+        if any(contact.friction is not None for contact in model.contacts):
+            points["friction_traction"], points["slip"] = fields.friction_at_nodes(model, evaluation)
         contacts = {contact.name: evaluation.found[contact].points() for contact in model.contacts}
         return Frame(len(self.rows) - 1, model.time, points, fields.cell_fields(model), contacts)
 

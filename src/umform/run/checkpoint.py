@@ -26,6 +26,7 @@ from umform.solution.habits import Habits
 from umform.solution.records import Iteration
 from umform.solvers.protocol import Remembering
 from umform.steps.loop import Run
+from umform.steps.trail import Trail
 
 _KIND = "checkpoint of umform"
 
@@ -166,7 +167,8 @@ def take_up(run: Run, checkpoints: Checkpoints) -> dict[str, Any] | None:
     checkpoints.note = tree["note"]
     run.model.restore(Snapshot(**tree["model"]))
     run.evaluation = run.model.repeat(tree["before"])
-    run.number, run.last_dx, run.habits = tree["number"], tree["last_dx"], Habits(**tree["habits"])
+    run.number, run.habits = tree["number"], Habits(**tree["habits"])
+    run.trail = None if tree["trail"] is None else Trail(**tree["trail"])
     solver = run.newton.ready_solver().solver.solver
     if isinstance(solver, Remembering):
         solver.recall(tree["factors"])
@@ -185,7 +187,7 @@ def _tree(run: Run) -> dict[str, Any]:
             "loop": None if run.loop is None else run.loop.memory(),
             "model": vars(model.snapshot()),
             "before": {term.key: term.before for term in model.terms if model.ranks.any(term.before.size > 0)},
-            "last_dx": run.last_dx,
+            "trail": None if run.trail is None else vars(run.trail),
             "habits": vars(run.habits),
             "result": _result_tree(run.result),
         }
@@ -248,7 +250,7 @@ def _recall_result(result: History, tree: dict[str, Any], evaluation: Evaluation
 
 
 def _frame_tree(frame: Frame) -> dict[str, Any]:
-    return {**vars(frame), "contacts": {name: vars(points) for name, points in frame.contacts.items()}}
+    return {**vars(frame), "contacts": {name: points.known() for name, points in frame.contacts.items()}}
 
 
 def _frame(tree: dict[str, Any]) -> Frame:

@@ -294,6 +294,8 @@ def _loop(step: Step) -> Any:
 def _finish(run: Run, step: Step) -> None:
     """Take a step to its end, from its beginning or from where it stands."""
     if run.loop is None:
+        if not isinstance(step, Move):
+            run.trail = None  # only a move goes on from the step before
         run.loop = _loop(step).begin(run, step)
     while not run.loop.done:
         run.pause()

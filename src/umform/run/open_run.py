@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from umform.model import Evaluation, Model
 from umform.model.state import Snapshot
@@ -18,7 +19,10 @@ from umform.solution.options import NewtonOptions
 from umform.solution.records import Iteration
 from umform.solvers.protocol import Remembering
 from umform.steps import Step
+from umform.steps.trail import Trail
 from umform.timing import new_timing
+
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -29,10 +33,12 @@ class Mark:
     ----------
     snapshot : Snapshot
         State of the model.
-    evaluation : Evaluation
-        The evaluation there, without its tangent.
+    before : dict of str to ndarray
+        Histories that the evaluation there had read.
     steps : list of Step
         The steps that have led there.
+    trail : Trail or None
+        The increments that the next one is extrapolated from.
     history : HistoryMark
         What of the result belongs to it.
     factors : int or None
@@ -42,8 +48,9 @@ class Mark:
     """
 
     snapshot: Snapshot
-    evaluation: Evaluation
+    before: dict[str, Floats]
     steps: list[Step]
+    trail: Trail | None
     history: HistoryMark
     factors: int | None
     habits: Habits
@@ -112,15 +119,17 @@ class OpenRun:
         """The present state, to go back to."""
         run, solver = self._run, self._run.newton.ready_solver().solver.solver
         factors = solver.memory() if isinstance(solver, Remembering) else None
-        bare = replace(run.evaluation, values=np.empty(0))
-        return Mark(run.model.snapshot(), bare, list(self.steps), self.result.mark(), factors, replace(run.habits))
+        before = {term.key: term.before for term in run.model.terms if term.before.size > 0}
+        return Mark(
+            run.model.snapshot(), before, list(self.steps), run.trail, self.result.mark(), factors, replace(run.habits)
+        )
 
     def go_back(self, mark: Mark) -> None:
         """Go back to a state, of this branch or another one; steps and result are what they were there."""
         run, solver = self._run, self._run.newton.ready_solver().solver.solver
         run.model.restore(mark.snapshot)
-        run.model.stand(mark.evaluation)
-        run.evaluation, run.last_dx, run.loop, run.number = mark.evaluation, None, None, len(mark.steps) + 1
+        run.evaluation = run.model.repeat(mark.before)
+        run.trail, run.loop, run.number = mark.trail, None, len(mark.steps) + 1
         if isinstance(solver, Remembering) and mark.factors is not None:
             solver.recall(mark.factors)
         run.habits = replace(mark.habits)

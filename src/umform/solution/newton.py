@@ -21,7 +21,7 @@ from umform.solution.bordered import Bordered
 from umform.solution.criteria import Criteria, largest
 from umform.solution.factor_reuse import Reuse
 from umform.solution.line_search import shortened
-from umform.solution.options import Manner, NewtonOptions
+from umform.solution.options import Manner, NewtonOptions, Wary
 from umform.solution.prospects import Prospects
 from umform.solution.recorder import Recorder
 from umform.solution.records import Cause, Converged, Failed, First, Iteration
@@ -35,8 +35,8 @@ log = logging.getLogger("umform.newton")
 Floats = NDArray[np.float64]
 _T = TypeVar("_T")
 
-#: A residual this large, over the force scale, is far from equilibrium.
-_FAR = 0.1
+#: A displacement of so many times the extent of the sheet is none of a sheet that something holds.
+_FLIGHT = 1e4
 
 
 class Newton:
@@ -67,15 +67,15 @@ class Newton:
         """Whether tangents have the geometric stiffness of the stress that the last increment foresaw. eq. (5.39)"""
         return self.system.elastic if self.options.mixed is None else self.options.mixed
 
-    def manner(self, *, consistent: bool = False, wary: bool = False) -> Manner:
+    def manner(self, *, consistent: bool = False, wary: Wary = Wary.NOT) -> Manner:
         """How iterations are made, with the options of the user.
 
         Parameters
         ----------
         consistent : bool
             Take the consistent tangent even if the options ask for the mixed one.
-        wary : bool
-            Give up as soon as the tangent is indefinite far from equilibrium.
+        wary : Wary
+            When to give up because the tangent is indefinite far from equilibrium.
         """
         search = self.options.line_search
         if search is None:  # in elastic sheets, whose energy is a narrow bent valley, it creeps
@@ -100,7 +100,7 @@ class Newton:
         """
         return self.guarded(lambda: self._solve(extrapolation, manner or self.manner()))
 
-    def go_on(self, converged: Converged, change: Floats) -> Converged:
+    def go_on(self, converged: Converged, change: Floats, manner: Manner | None = None) -> Converged:
         """Find the equilibrium again after forces in the system have changed at the same loads, supports and tools.
 
         Parameters
@@ -109,6 +109,8 @@ class Newton:
             The equilibrium before, which the last evaluation was at.
         change : ndarray, shape (3 n,)
             Change of the residual there, to first order; the first increment answers it with the tangent of before.
+        manner : Manner, optional
+            How to iterate; default: as the options say.
 
         Raises
         ------
@@ -120,7 +122,7 @@ class Newton:
             solver = self.ready_solver()
             solver.factor(converged.evaluation)
             du = self.system.extend(solver.solve(-self.system.restrict(change)))
-            return self.correct(converged.x, du, self.manner())
+            return self.correct(converged.x, du, manner or self.manner())
 
         return self.guarded(work)
 
@@ -204,6 +206,7 @@ class Newton:
             moved = bool(entered or left) or system.ranks.any(not np.array_equal(status, previous))
             if criteria.met(norm, increment, u, evaluation, moved=moved):
                 recorder.add(evaluation.flowing, norm / scale, increment, 0.0, entered, left, step_length, pivots)
+                self._check_flight(evaluation, iterations)
                 if lean:
                     system.follow()
                 return Converged(evaluation, iterations)
@@ -212,9 +215,7 @@ class Newton:
                 if lean:
                     evaluation = system.evaluate(u)
                 pivots = reuse.remember(solver.factor(evaluation))
-                if manner.wary and pivots and norm > _FAR * scale:
-                    reason = f"the tangent has {pivots} negative pivots far from equilibrium"
-                    raise Failed(reason, iterations, Cause.INDEFINITE)
+                prospects.bear(pivots, norm / scale, manner.wary, iterations)
                 criteria.entry = system.largest_entry(evaluation.values)
             elif lean:
                 system.follow()
@@ -268,3 +269,10 @@ class Newton:
         """Size of an increment over that of the displacement."""
         displacement = largest(self.system, evaluation.x, evaluation)
         return largest(self.system, dx, evaluation) / displacement if displacement > 0 else 0.0
+
+    def _check_flight(self, evaluation: Evaluation, iterations: list[Iteration]) -> None:
+        """Fail where nothing holds the sheet and round-off has hidden that from the factorisation: it flies away."""
+        displacement = largest(self.system, evaluation.x, evaluation)
+        if displacement > _FLIGHT * self.system.extent:
+            reason = f"nothing holds the sheet: a displacement of {displacement:.3g} follows from round-off"
+            raise Failed(reason, iterations, Cause.SINGULAR)

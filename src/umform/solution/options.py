@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 
 from umform.errors import InvalidValue
 
@@ -21,8 +22,10 @@ class NewtonOptions:
         Iterations before a step is given up.
     line_search : bool, optional
         Shorten increments that go too far, see :mod:`umform.solution.line_search`. Default: where a law has a history.
-    extrapolate : bool
-        Start a step from the extrapolated last one instead of the tangent.
+    extrapolate : int
+        Where an increment starts: 0 from the tangent; 1 from the last increment of the step, extrapolated; 2 from the
+        parabola through the last three states, over the end of a move too if the next one goes on the same way.
+        eq. (5.50) The parabola is for smooth ways: many increments, and contact at many points.
     factor_cost : float, optional
         What a factorisation costs over an evaluation with a solve; where it is dear, old factors serve for more than
         one iteration, see :mod:`umform.solution.factor_reuse`. Default: an estimate from the entries of the factors; 0
@@ -36,15 +39,30 @@ class NewtonOptions:
     increment: float = 1e-6
     max_iterations: int = 25
     line_search: bool | None = None
-    extrapolate: bool = True
+    extrapolate: int = 1
     factor_cost: float | None = None
     mixed: bool | None = None
 
     def __post_init__(self) -> None:
         if not self.residual > 0 or not self.increment > 0 or self.max_iterations < 1:
             raise InvalidValue("tolerances and iterations must be positive", where="NewtonOptions", value=self)
+        if self.extrapolate not in (0, 1, 2):
+            raise InvalidValue(
+                "an increment starts from the tangent, a line or a parabola",
+                where="extrapolate",
+                value=self.extrapolate,
+                remedy="0, 1 or 2",
+            )
         if self.factor_cost is not None and not self.factor_cost >= 0:
             raise InvalidValue("a cost is zero or more", where="factor_cost", value=self.factor_cost)
+
+
+class Wary(Enum):
+    """What becomes of an attempt whose tangent is indefinite far from equilibrium."""
+
+    NOT = "it goes on"
+    OF_MORE = "it ends where negative pivots become more from one iteration to the next"
+    OF_ANY = "it ends at once"
 
 
 @dataclass(frozen=True)
@@ -59,11 +77,11 @@ class Manner:
         Whether the factors of the iteration before may serve for the next one.
     mixed : bool
         Whether the geometric stiffness is that of the stress which the last increment foresaw. eq. (5.39)
-    wary : bool
-        Whether iterations end where the tangent is indefinite far from equilibrium.
+    wary : Wary
+        When iterations end because the tangent is indefinite far from equilibrium.
     """
 
     line_search: bool
     reuses: bool
     mixed: bool
-    wary: bool = False
+    wary: Wary = Wary.NOT

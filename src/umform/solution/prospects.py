@@ -8,8 +8,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.solution.options import Wary
 from umform.solution.records import Cause, Failed, Iteration
 from umform.solution.system import Evaluation, System
+
+#: A residual this large, over the force scale, is far from equilibrium.
+_FAR = 0.1
 
 
 class Prospects:
@@ -18,6 +22,7 @@ class Prospects:
     def __init__(self, system: System) -> None:
         self._cycle = Cycle(system)
         self._stall = None if system.smooth else Stall()
+        self._pivots = 0
 
     def longest(
         self, evaluation: Evaluation, before: NDArray[np.uint8], norm: float, iterations: list[Iteration]
@@ -48,6 +53,32 @@ class Prospects:
         if stall is not None and stall.seen(norm):
             raise Failed(f"the residual has not fallen for {stall.patience} iterations", iterations, Cause.STALL)
         return longest
+
+    def bear(self, pivots: int | None, residual: float, wary: Wary, iterations: list[Iteration]) -> None:
+        """Look at the negative pivots of the tangent; asked where there is a new one.
+
+        Parameters
+        ----------
+        pivots : int or None
+            Their number, where the solver tells.
+        residual : float
+            Over the force scale.
+        wary : Wary
+            What is borne.
+        iterations : list of Iteration
+            Those before.
+
+        Raises
+        ------
+        Failed
+            If there are too many far from equilibrium.
+        """
+        before, self._pivots = self._pivots, pivots or 0
+        if residual <= _FAR or not pivots:
+            return
+        if wary is Wary.OF_ANY or (wary is Wary.OF_MORE and pivots > before > 0):
+            reason = f"the tangent has {pivots} negative pivots far from equilibrium"
+            raise Failed(reason, iterations, Cause.INDEFINITE)
 
 
 class Cycle:

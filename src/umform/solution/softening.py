@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from umform.model import Model
 from umform.model.contact import Contact
 from umform.solution.newton import Newton
-from umform.solution.records import Converged, Failed
+from umform.solution.options import Manner
+from umform.solution.records import Cause, Converged, Failed
 
 log = logging.getLogger("umform.contact")
 
@@ -22,7 +23,13 @@ _SOFTER = (3, 6)
 
 
 def softened(
-    model: Model, newton: Newton, start: NDArray[np.float64] | None, accept: Callable[[Converged], Converged]
+    model: Model,
+    newton: Newton,
+    start: NDArray[np.float64] | None,
+    accept: Callable[[Converged], Converged],
+    manner: Manner | None = None,
+    *,
+    touched: bool = False,
 ) -> Converged:
     """Find the equilibrium with a part of the penalty, and stiffen it tenfold at a time. docs/theory, 4.14
 
@@ -36,6 +43,11 @@ def softened(
         Guess of the increment; without it that of the tangent.
     accept : callable
         Returns an equilibrium, or raises Failed: while a tool is soft the sheet may go through it.
+    manner : Manner, optional
+        How to iterate; default: as the options say.
+    touched : bool
+        Whether the sheet touches a tool in the converged state. If so, the first penalty is hardly too stiff, and the
+        second is tried only where the contact was lost.
 
     Returns
     -------
@@ -49,23 +61,27 @@ def softened(
     """
     soft, softest = _SOFTER
     try:
-        return accept(_stiffened(model, newton, start, soft))
-    except Failed:
+        return accept(_stiffened(model, newton, start, soft, manner))
+    except Failed as failure:
+        if touched and failure.cause is not Cause.SINGULAR:
+            raise
         model.prepare()
-        return accept(_stiffened(model, newton, start, softest))
+        return accept(_stiffened(model, newton, start, softest, manner))
 
 
-def _stiffened(model: Model, newton: Newton, start: NDArray[np.float64] | None, powers: int) -> Converged:
+def _stiffened(
+    model: Model, newton: Newton, start: NDArray[np.float64] | None, powers: int, manner: Manner | None
+) -> Converged:
     """Equilibrium with 10^-powers of the penalty, then with ten times as much, up to all of it. eq. (4.39)"""
     with _own_penalties(model) as penalties:
         for contact, penalty in penalties.items():
             contact.penalty = 10.0**-powers * penalty
-        converged = newton.solve(start)
+        converged = newton.solve(start, manner)
         for power in range(powers - 1, -1, -1):
             change, found = np.zeros_like(converged.x), converged.evaluation.found
             for contact, penalty in penalties.items():
                 contact.stiffen(found[contact], 10.0**-power * penalty, change[: model.u.size])
-            again = newton.go_on(converged, change)
+            again = newton.go_on(converged, change, manner)
             converged = replace(again, iterations=converged.iterations + again.iterations)
     log.debug("    by way of softer penalties, %d iterations", len(converged.iterations))
     return converged

@@ -16,6 +16,7 @@ from umform.model import Evaluation, Model
 from umform.model.control import Control
 from umform.solution.habits import Habits
 from umform.solution.newton import Newton
+from umform.solution.options import Wary
 from umform.solution.passage import same_side
 from umform.solution.records import Cause, Converged, Failed
 from umform.solution.softening import softened
@@ -54,14 +55,29 @@ class Increment:
         return same_side(self.model, self.last, converged)
 
     @property
-    def wary(self) -> bool:
-        """Whether an indefinite tangent far from equilibrium ends an attempt: softer penalties lead there sooner."""
-        return self.touches and self.habits.stable
+    def wary(self) -> Wary:
+        """An indefinite tangent far from equilibrium ends an attempt: softer penalties lead there sooner."""
+        return Wary.OF_ANY if self.touches and self.habits.stable else Wary.NOT
+
+    @property
+    def wary_with_soft_tools(self) -> Wary:
+        """With softer penalties a sheet goes astray where negative pivots become more and more."""
+        return Wary.OF_MORE if self.habits.stable else Wary.NOT
 
     @property
     def touches(self) -> bool:
         """Whether there is contact."""
         return bool(self.model.contacts)
+
+    @property
+    def touched(self) -> bool:
+        """Whether the sheet touches a tool in the converged state."""
+        return self.last.touching(self.model.ranks)
+
+    def soft(self) -> Converged:
+        """The equilibrium by way of softer penalties."""
+        manner = self.newton.manner(wary=self.wary_with_soft_tools)
+        return softened(self.model, self.newton, self.tangent(), self.accept, manner, touched=self.touched)
 
     def tangent(self) -> Floats | None:
         """Increment along the tangent of the converged state: the sheet follows the tools that touch it. eq. (4.36)
@@ -114,7 +130,7 @@ STRATEGIES = (
     # The last increment again, in proportion: no evaluation is needed to begin with.
     Strategy(
         "extrapolation",
-        lambda at: at.guess is not None and at.newton.options.extrapolate and at.habits.extrapolates,
+        lambda at: at.guess is not None and at.newton.options.extrapolate > 0 and at.habits.extrapolates,
         lambda at: at.newton.solve(at.guess, at.newton.manner(wary=at.wary)),
     ),
     Strategy(
@@ -131,8 +147,8 @@ STRATEGIES = (
     # A stiff tool may come to where nothing touched before: with a soft one the sheet finds its shape first.
     Strategy(
         "softer penalties",
-        lambda at: at.touches,
-        lambda at: softened(at.model, at.newton, at.tangent(), at.accept),
+        lambda at: at.touches and (at.habits.softens or not at.touched),
+        lambda at: at.soft(),
     ),
 )
 
@@ -145,8 +161,8 @@ def equilibrium(increment: Increment) -> Converged:
     Failed
         If none does; the model is reverted. It is the failure with the penalty of the user, of the last start.
     """
-    attempts, failures = increment.newton.timing.attempts, []
-    touched = increment.last.touching(increment.model.ranks)
+    attempts, failures = increment.newton.timing.attempts, {}
+    touched = increment.touched
     for strategy in STRATEGIES:
         if not strategy.serves(increment):
             continue
@@ -154,16 +170,17 @@ def equilibrium(increment: Increment) -> Converged:
             with attempts.trying(strategy.name):
                 converged = increment.accept(strategy.attempt(increment))
         except Failed as failure:
-            failures.append((strategy.name, failure))
+            failures[strategy.name] = failure
             attempts.causes[_cause(strategy.name, failure, touched)] += 1
         else:
             increment.habits.learn(
-                failed=[name for name, _ in failures],
+                failed={name: failure.cause for name, failure in failures.items()},
                 won=strategy.name,
                 negative_pivots=converged.iterations[-1].negative_pivots,
             )
             return converged
-    plain = [failure for name, failure in failures if name != "softer penalties"]
+    increment.habits.learn_of_cut({name: failure.cause for name, failure in failures.items()})
+    plain = [failure for name, failure in failures.items() if name != "softer penalties"]
     if any(failure.cause is Cause.SINGULAR for failure in plain):
         plain[-1].cause = Cause.SINGULAR
     raise plain[-1]

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 
+import numpy as np
+
 from umform.errors import NoConvergence
 from umform.model.checks import diagnosis
 from umform.model.control import Control
@@ -14,6 +16,7 @@ from umform.solution.augmentation import augmented
 from umform.solution.records import Cause, Converged, Failed, Iteration
 from umform.solution.strategies import Increment, equilibrium
 from umform.steps.loop import Run
+from umform.steps.trail import Trail, changes
 
 log = logging.getLogger("umform.steps")
 
@@ -30,7 +33,7 @@ def take_increment(
     x_before = model.x.copy()
     try:
         starts = dict(zip(controls, before, strict=True))
-        guess = None if extrapolation is None or run.last_dx is None else extrapolation * run.last_dx
+        guess = None if extrapolation is None or run.trail is None else run.trail.guess(extrapolation)
         increment = Increment(model, run.newton, run.habits, starts, time_before, guess, run.evaluation)
         converged = equilibrium(increment)
         try:
@@ -47,7 +50,10 @@ def take_increment(
         model.revert()
         raise
     model.commit(converged.evaluation)
-    run.last_dx, run.evaluation = model.x - x_before, converged.evaluation
+    way = changes(model.controls, controls, np.subtract(values, before))
+    earlier = run.trail if run.newton.options.extrapolate > 1 else None
+    run.trail = Trail.of(model.x - x_before, way, earlier, extrapolation)
+    run.evaluation = converged.evaluation
     return converged
 
 

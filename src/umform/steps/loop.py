@@ -10,9 +10,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from umform.model import Evaluation, Model
 from umform.model.control import Control
 from umform.progress import Tick, silent
@@ -20,8 +17,7 @@ from umform.results.history import History
 from umform.solution.habits import Habits
 from umform.solution.newton import Newton
 from umform.solution.records import Converged
-
-Floats = NDArray[np.float64]
+from umform.steps.trail import Trail
 
 
 class Loop(Protocol):
@@ -52,8 +48,8 @@ class Run:
         The step under way, counted from 1.
     loop : Loop, optional
         Where it stands; None before it begins.
-    last_dx : ndarray, shape (3 n + k,), optional
-        The last increment of displacement and scalar unknowns, for the extrapolation.
+    trail : Trail, optional
+        The last increments of the move or release under way and of moves before it, for the extrapolation.
     evaluation : Evaluation
         That of the converged state.
     habits : Habits
@@ -70,7 +66,7 @@ class Run:
     frames: int = 60
     number: int = 1
     loop: Loop | None = None
-    last_dx: Floats | None = None
+    trail: Trail | None = None
     tick: Tick = silent
     pause: Callable[[], None] = field(default=lambda: None)
 

@@ -9,11 +9,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Self
 
+import numpy as np
+
 from umform.solution.records import Cause, Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
 from umform.steps.move import Move
 from umform.steps.pace import Happened
+from umform.steps.trail import changes
 
 log = logging.getLogger("umform.steps")
 
@@ -21,6 +24,10 @@ log = logging.getLogger("umform.steps")
 _NEAR = 1e-9
 #: Easy increments after which a size that has failed is tried again, at most.
 _LONGEST_PATIENCE = 24
+#: A size is trusted once so many increments in a row have been made with it.
+_TRUSTED = 2
+#: After a cut, increments at a pace stay below this part of the size that failed; each of them raises the limit.
+_BELOW_FAILED, _RAISE = 0.6, 1.05
 
 
 @dataclass
@@ -38,7 +45,8 @@ class Moving:
     fraction : float
         How much of the step is done.
     last_size : float, optional
-        Size of the last increment, for the extrapolation; None after a cut.
+        Size of the last increment, for the extrapolation; None after a cut. At the beginning that of the step
+        before, if this one goes on the same way.
     count : int
         Increments so far.
     done : bool
@@ -56,7 +64,8 @@ class Moving:
     @classmethod
     def begin(cls, run: Run, step: Move) -> Self:
         """The loop at the beginning of the step."""
-        return cls([control.value for control in step.moved()], run.model.time, step.nominal)
+        starts = [control.value for control in step.moved()]
+        return cls(starts, run.model.time, step.nominal, last_size=_size_of_last(run, step, starts))
 
     @classmethod
     def recall(cls, run: Run, step: Move, memory: dict[str, Any]) -> Self:
@@ -72,6 +81,8 @@ class Moving:
         target, model = self._target(step), run.model
         extrapolation = None if self.last_size is None else (target - self.fraction) / self.last_size
         x_before, active_before = model.x.copy(), run.evaluation.active
+        if self._hopeless(step, 0.5 * (target - self.fraction)):
+            run.habits.last_chance()
         try:
             values = step.values(target, self.starts)
             converged = take_increment(run, values, step.moved(), self.start_time + target, extrapolation)
@@ -105,9 +116,14 @@ class Moving:
             time = self.start_time + target
             run.result.warn(f"step {run.number}, time {time:.4f}: {failure.reason}; the increment is cut")
         log.info("step %d: %s; increment cut to %.3g", run.number, failure.reason, self.size)
-        if self.size < step.nominal / 2**step.cuts:
+        if self._hopeless(step, self.size):
             values = step.values(target, self.starts)
             raise no_convergence(run, failure, step.moved(), values) from None
+
+    @staticmethod
+    def _hopeless(step: Move, size: float) -> bool:
+        """Whether the run is given up rather than tried with so small an increment."""
+        return bool(size < step.nominal / 2**step.cuts)
 
 
 @dataclass
@@ -121,12 +137,15 @@ class Marching(Moving):
     patience : int
         So many of them let the increments grow; twice as many after each increment that had grown and failed.
     grown : bool
-        Whether the last increment had grown.
+        Whether increments have grown to a size that is not trusted yet.
+    held : int
+        Increments in a row of this size.
     """
 
     easy: int = 0
     patience: int = 3
     grown: bool = False
+    held: int = 0
 
     def _target(self, step: Move) -> float:
         """Off the nominal marks, after a cut, the next one is met again."""
@@ -140,16 +159,19 @@ class Marching(Moving):
     def _adapt(self, step: Move, converged: Converged, happened: Callable[[], Happened]) -> None:
         """Grow after some increments that were easy."""
         largest = step.grow * step.nominal
-        self.easy, self.grown = self.easy + 1 if len(converged.iterations) <= 8 else 0, False
+        self.easy = self.easy + 1 if len(converged.iterations) <= 8 else 0
+        assert self.last_size is not None
+        self.held = self.held + 1 if self.last_size > self.size * (1 - _NEAR) else 0
+        self.grown = self.grown and self.held < _TRUSTED
         if self.easy >= self.patience and self.size < largest * (1 - 1e-12):
             self.size, self.grown = min(2.0 * self.size, largest), True
-            self.easy = 0
+            self.easy = self.held = 0
 
     def _pictured(self, step: Move, frames: int, before: float) -> bool:
         return self.count % max(1, round(1.0 / step.nominal / frames)) == 0
 
     def _cut(self, run: Run, step: Move, failure: Failed, target: float) -> None:
-        self.easy = 0
+        self.easy = self.held = 0
         if self.grown:
             self.patience, self.grown = min(2 * self.patience, _LONGEST_PATIENCE), False
         super()._cut(run, step, failure, target)
@@ -161,11 +183,11 @@ class Pacing(Moving):
 
     Attributes
     ----------
-    failed : bool
-        Whether the last increment was cut: the next one does not grow.
+    limit : float
+        Largest size after a cut.
     """
 
-    failed: bool = False
+    limit: float = math.inf
 
     def _target(self, step: Move) -> float:
         """The rest of the way is divided equally where less than two increments are left."""
@@ -178,16 +200,24 @@ class Pacing(Moving):
         """Follow the pace."""
         assert step.pace is not None
         assert self.last_size is not None
-        factor = step.pace.factor(happened())
-        self.size = min((min(factor, 1.0) if self.failed else factor) * self.last_size, step.pace.largest)
-        self.failed = False
+        self.size = min(step.pace.factor(happened()) * self.last_size, step.pace.largest, self.limit)
+        self.limit *= _RAISE
 
     def _pictured(self, step: Move, frames: int, before: float) -> bool:
         return math.floor(self.fraction * frames) > math.floor(before * frames)
 
     def _cut(self, run: Run, step: Move, failure: Failed, target: float) -> None:
-        self.failed = True
+        self.limit = _BELOW_FAILED * (target - self.fraction)
         super()._cut(run, step, failure, target)
+
+
+def _size_of_last(run: Run, step: Move, starts: list[float]) -> float | None:
+    """Size that the last increment would have in the step that begins, if the step goes on where that one led."""
+    if run.trail is None or run.newton.options.extrapolate < 2:
+        return None
+    by = np.subtract(step.values(step.nominal, starts), starts)
+    size = run.trail.size(changes(run.model.controls, step.moved(), by))
+    return None if size is None else size * step.nominal
 
 
 def loop_of(step: Move) -> type[Moving]:

@@ -21,6 +21,8 @@ from umform.steps.loop import Run
 
 #: Part of the force that counts as zero which the residual of an increment may reach.
 _PART = 0.1
+#: An increment shorter than this part of the way to the bound does not lead there but for rounding.
+_SHORT = 1.0 - 1e-9
 
 
 @dataclass(frozen=True)
@@ -163,7 +165,7 @@ class Releasing:
         """Restore the state before an increment that went too far; its end is the new bound."""
         self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
         saved.restore(run.model)
-        run.evaluation, run.last_dx, self.taken = saved.evaluation, None, None
+        run.evaluation, run.trail, self.taken = saved.evaluation, None, None
 
 
 @dataclass(frozen=True)
@@ -239,7 +241,7 @@ def _next_release(
     if abs(bound - value) <= 2.5 * resolution:
         return bound
     if before is None or before[0] == value:  # crossed zero: the size is that of the secant
-        return value + size if abs(size) < abs(bound - value) else 0.5 * (value + bound)
+        return value + size if abs(size) < _SHORT * abs(bound - value) else 0.5 * (value + bound)
     slope = (force - before[1]) / (value - before[0])
     zero = value - force / slope if slope != 0.0 else bound
     if sign * (zero - value) <= 0.0 or sign * (bound - zero) < 0.0:

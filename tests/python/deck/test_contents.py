@@ -1,7 +1,11 @@
 import json
 from pathlib import Path
 
+import pytest
+from pydantic import ValidationError
+
 from umform.deck.contents import json_schema
+from umform.deck.steps import Solution
 
 PAGE = Path(__file__).parents[3] / "docs" / "deck-schema.json"
 
@@ -23,3 +27,12 @@ def test_each_key_is_described_and_no_other_is_allowed():
     assert list(described(schema)) == []
     assert all(part["additionalProperties"] is False for part in schema["$defs"].values() if part["type"] == "object")
     assert schema["properties"]["title"]["description"]
+
+
+def test_extrapolation_has_an_order_and_may_be_true_or_false():
+    orders = {value: Solution(extrapolate=value).build().extrapolate for value in (0, 1, 2)}
+    assert orders == {0: 0, 1: 1, 2: 2}
+    assert [Solution(extrapolate=value).build().extrapolate for value in (False, True)] == [0, 1]
+    for value in (3, -1, 1.5, "line"):
+        with pytest.raises(ValidationError, match="0, 1 or 2"):
+            Solution(extrapolate=value)

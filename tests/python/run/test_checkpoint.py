@@ -44,6 +44,13 @@ def bending(cells=(8, 1), kappa=175e3, penalty=100.0, stroke=-5.0, radius=20.0):
     return model, [Move(punch, stroke, steps=10), Release(punch)], {"solver": "banded", "frames": 4}
 
 
+def moves():
+    """Bent in moves that go on from each other along parabolas."""
+    model, (move, release), options = bending()
+    parts = [replace(move, to=to, steps=steps) for to, steps in ((-1.0, 3), (-2.0, 2), (-2.5, 1), (-4.0, 4))]
+    return model, [*parts, release], options | {"options": NewtonOptions(extrapolate=2)}
+
+
 def cut():
     """The same in increments that fail and are cut, along a function of time."""
     model, (move, release), options = bending()
@@ -83,6 +90,28 @@ def arch():
     load = model.force(nodes, (0.0, 0.0, -1.0 / len(nodes)), "load")
     steps = [Arc(load, 0.2, increment=0.5, kind="spherical"), Arc(load, 1.0, increment=0.5, cuts=6)]
     return model, steps, {"solver": "superlu", "frames": 7, "options": NewtonOptions(max_iterations=6)}
+
+
+def rubbed():
+    """A strip under a holder that a force presses, drawn over two dies with friction, back and forth."""
+    material = mt.J2(kappa=175e3, mu=80.77e3, hardening=mt.Linear(160.0, 500.0))
+    model = Model(strip(30.0, 2.0, 1.0, (12, 1)), material=material)
+    model.symmetry("y0", "y")
+    pull = model.prescribe("x1", "x", "pull")
+    bump = Cylinder(centre=(10.0, 0.0, -5.49), axis="y", radius=5.0)
+    model.contact("lower", bump, penalty=1e3, points=3, friction=0.2, name="die")
+    model.contact("lower", Cylinder((28.0, 0.0, -5.49), "y", 5.0), penalty=1e3, points=3, friction=0.1, name="bed")
+    lid = model.contact(
+        "upper",
+        Plane((0, 0, 0.5), (0, 0, -1)),
+        penalty=50.0,
+        penetration=0.01,
+        augmented=True,
+        friction=0.1,
+        name="lid",
+    )
+    force = model.press(lid, "z", "force")
+    return model, [Move(force, -8.0, steps=2), Move(pull, 0.3, steps=4), Move(pull, 0.1, steps=3)], {"frames": 3}
 
 
 def pressed():
@@ -145,7 +174,7 @@ def copies(monkeypatch, tmp_path):
 # The same bits ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("build", [bending, cut, bar, block, arch, pressed])
+@pytest.mark.parametrize("build", [bending, moves, cut, bar, block, arch, pressed, rubbed])
 def test_a_run_goes_on_from_any_place_to_the_same_bits(build, copies, tmp_path, assert_the_same):
     model, steps, options = build()
     expected = solve(model, steps, **options)

@@ -10,6 +10,7 @@ import pytest
 import umform as uf
 from umform.errors import NoConvergence
 from umform.run.open_run import OpenRun
+from umform.solution.records import Cause
 
 
 def strip():
@@ -44,11 +45,16 @@ def test_steps_one_by_one_are_a_run():
     assert run.result.timing.run.calls == straight.timing.run.calls
 
 
-def test_a_branch_that_is_left_leaves_no_trace():
+@pytest.mark.parametrize("order", [1, 2])
+def test_a_branch_that_is_left_leaves_no_trace(order):
     model, punch = strip()
-    straight = uf.solve(model, [uf.Move(punch, to=-0.4, steps=4), uf.Move(punch, to=-0.7, steps=3)], progress=False)
+    steps, options = (
+        [uf.Move(punch, to=-0.4, steps=4), uf.Move(punch, to=-0.7, steps=3)],
+        uf.NewtonOptions(extrapolate=order),
+    )
+    straight = uf.solve(model, steps, options=options, progress=False)
     model, punch = strip()
-    run = OpenRun(model)
+    run = OpenRun(model, options=options)
     run.take(uf.Move(punch, to=-0.4, steps=4))
     mark = run.mark()
     for _ in range(2):
@@ -80,7 +86,8 @@ def test_what_was_learnt_on_a_branch_is_forgotten_on_the_way_back():
     run = OpenRun(model)
     run.take(uf.Move(punch, to=-0.4, steps=4))
     mark, habits = run.mark(), replace(run._run.habits)
-    run._run.habits.learn(failed=["extrapolation"], won="tangent", negative_pivots=1)
-    assert run._run.habits != habits
+    run._run.habits.learn(failed={"extrapolation": Cause.STALL}, won="tangent", negative_pivots=1)
+    run._run.habits.learn_of_cut({"softer penalties": Cause.STALL})
+    assert all(vars(run._run.habits)[name] != value for name, value in vars(habits).items())
     run.go_back(mark)
     assert run._run.habits == habits

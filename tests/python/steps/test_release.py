@@ -58,3 +58,12 @@ def test_only_the_release_is_solved_more_tightly():
     last = np.array([records[-1].residual for records in iterations])
     assert last[step == 1].max() > 1e-6
     assert last[step == 2].max() < 1e-7
+
+
+def test_an_increment_that_went_too_far_is_not_tried_again_for_a_rounding_error():
+    """From 2.0201... back by 0.04, where contact has lifted off: the way to that bound is 0.04 and one ulp."""
+    value, size = 2.0201269080136908, -0.04
+    bound = value + size
+    assert abs(size) < abs(bound - value)
+    again = release._next_release(value, force=-715.0, before=None, bound=bound, size=size, resolution=2e-6)
+    assert again == pytest.approx(value + 0.5 * size)

@@ -17,6 +17,7 @@ from umform.model.control import Prescribed
 from umform.run import Result, solve
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
+from umform.solution.records import Cause, Failed
 from umform.solvers import pardiso
 from umform.steps import Move, Release
 from umform.surfaces import Plane, UserSurface
@@ -105,10 +106,10 @@ def test_a_cut_step_meets_the_run_with_the_same_increments_and_leaves_no_trace(b
         return case.model, case.punch
 
     model, punch = run()
-    calls = failing(*range(2, 6))  # the second increment: extrapolation, tangent, two softer penalties
+    calls = failing(*range(2, 5))  # the second increment: extrapolation, tangent, softer penalties
     result = solve(model, Move(punch, -2.0, steps=4), options=TIGHT, frames=0)
     failing()
-    assert calls[:7] == [0.25, *4 * [0.5], 0.375, 0.5]
+    assert calls[:6] == [0.25, *3 * [0.5], 0.375, 0.5]
     np.testing.assert_allclose(result["time"][:4], [0, 0.25, 0.375, 0.5])
     assert result["time"][-1] == 1.0
     other, control = run()
@@ -169,6 +170,30 @@ def test_a_cut_on_the_way_to_a_mark_is_one_of_that_way(build, failing):
     result = solve(model, Move(pull, 0.1, steps=4), options=ONE_TRY, frames=0)
     assert calls[:10] == pytest.approx([0.25, 0.5, 0.5, 0.375, 0.5, 0.625, 0.75, 0.75, 0.6875, 0.75])
     np.testing.assert_allclose(result["time"][5:], [0.6875, 0.75, 0.8125, 0.875, 0.9375, 1.0], atol=1e-14)
+
+
+def test_a_size_that_fails_in_the_second_increment_after_it_had_grown_is_not_tried_again_soon(build, failing):
+    model, pull = build.bar()
+    failing(2, 3, 9, 10)  # on the way from 0.1 to 0.2, and from 0.4 to 0.5
+    result = solve(model, Move(pull, 0.1, steps=10), options=ONE_TRY, frames=0)
+    expected = [0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0]
+    np.testing.assert_allclose(result["time"][1:], expected, atol=1e-14)
+
+
+@pytest.mark.parametrize(("cuts", "tried"), [(0, 1), (1, 2), (2, 2), (3, 3)])
+def test_softer_penalties_rest_after_a_miss_but_not_before_the_run_is_given_up(build, monkeypatch, cuts, tried):
+    case = build.free_bending((8, 1))
+    solve(case.model, Move(case.punch, -1.0, steps=4), frames=0)
+
+    def fail(self, extrapolation=None, manner=None):
+        raise Failed("no", [], Cause.STALL)
+
+    monkeypatch.setattr(Newton, "solve", fail)
+    with pytest.raises(NoConvergence) as ended:
+        solve(case.model, Move(case.punch, -2.0, steps=1, cuts=cuts), frames=0)
+    attempts = ended.value.result.timing.attempts
+    assert attempts.tried["tangent"] == cuts + 1
+    assert attempts.tried["softer penalties"] == tried
 
 
 def test_increments_grow_up_to_their_limit_while_newton_is_at_ease(build):

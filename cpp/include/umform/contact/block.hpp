@@ -67,6 +67,14 @@ class ContactBlock {
     /// Makes the places where the points are now, by `locate` or `evaluate`, those of a sheet that nothing has held before. It does
     /// nothing once there is a history.
     virtual void begin() = 0;
+    bool begun() const { return begun_; }
+    /// The history that the last `evaluate` has read, with the multipliers that it was to take: with it it can be repeated.
+    std::vector<double> read() const {
+        std::vector<double> read = history_.state();
+        for (int q = 0; q < points(); ++q)
+            law_->put_wanted(history_.point(q), read.data() + static_cast<std::size_t>(q) * history_.size());
+        return read;
+    }
     void commit() {
         begun_ = true;
         if (law_->follows_places())

@@ -45,7 +45,8 @@ struct Rubbing {
 /// the largest gap at which the place can be held. `respond` says whether it is held, and writes the reaction then, without `held`
 /// and times the weight. A law that is `symmetric` has a symmetric K; what is below its diagonal is not read. One that
 /// `follows_places` has more to say: what it remembers of a place that the tool does not hold, or no longer (`leave`), what friction
-/// does there (`rubbing`), how its tangential multipliers are set (`augment`) and become those of the new history (`settle`).
+/// does there (`rubbing`), how its tangential multipliers are set (`augment`), belong to what was read (`put_wanted`), and become
+/// those of the new history (`settle`).
 template <class L>
 concept PlaceLaw =
     requires(const L& law, L& mutable_law, const Place& place, const double* state, double* trial, Reaction& reaction) {
@@ -87,6 +88,7 @@ class ContactLaw {
     virtual void leave(const Vec3& z, const double* state, double* trial) const = 0;
     virtual Rubbing rubbing(const double* history) const = 0;
     virtual void augment(const Place& place, const double* state, double* trial) const = 0;
+    virtual void put_wanted(const double* trial, double* read) const = 0;
     virtual void settle(double* trial) const = 0;
 };
 
@@ -123,6 +125,9 @@ class ContactLawOf final : public ContactLaw {
     }
     void augment(const Place& place, const double* state, double* trial) const override {
         if constexpr (Law::follows_places) law_.augment(place, state, trial);
+    }
+    void put_wanted(const double* trial, double* read) const override {
+        if constexpr (Law::follows_places) law_.put_wanted(trial, read);
     }
     void settle(double* trial) const override {
         if constexpr (Law::follows_places) law_.settle(trial);

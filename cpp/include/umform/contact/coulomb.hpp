@@ -39,6 +39,12 @@ struct Coulomb {
         trial[Slip] = state[Slip], trial[Work] = state[Work];
     }
 
+    /// Puts the multipliers that were wanted into the history that was read.
+    void put_wanted(const double* trial, double* read) const {
+        read[Multiplier] = trial[Multiplier];
+        put(read + Change, at(trial + Change));
+    }
+
     /// The multipliers wanted have become those of the new history.
     void settle(double* trial) const { put(trial + Change, Vec3{}); }
 
@@ -52,7 +58,8 @@ struct Coulomb {
     /// Lets multipliers carry the traction that was found at a place that is held. eq. (4.50)
     void augment(const Place& place, const double* state, double* trial) const {
         const bool held = state[Held] != 0.0;
-        const Vec3 t = carried_back(place, place.pose.turn(at(trial + Traction)), at(state + Normal), held);
+        const Vec3 t =
+            carried_back(place.pose, Facing(place), place.pose.turn(at(trial + Traction)), at(state + Normal), held);
         for (int k = 0; k < 3; ++k) trial[Change + k] = t[k] - (held ? state[Tangential + k] : 0.0);
     }
 
@@ -65,13 +72,14 @@ struct Coulomb {
         }
         const bool held = state[Held] != 0.0;
         const double pressure = -(penalty * gap), eps = tangential_stiffness();
-        const Slide slide(place, at(state + Where), held);
-        const Carried before(place, sum(held ? at(state + Traction) : Vec3{}, at(trial + Change)), at(state + Normal),
-                             held);
+        const Facing facing(place);
+        const Slide slide(place, facing, at(state + Where), held);
+        const Carried before(place.pose, facing, sum(held ? at(state + Traction) : Vec3{}, at(trial + Change)),
+                             at(state + Normal), held);
         Vec3 t, m{};
         for (int k = 0; k < 3; ++k) t[k] = before.value[k] - eps * slide.D[k];
         const double size = std::sqrt(dot(t, t));
-        const Bound bound = friction->bound(pressure, state[Slip] + slide.length, z);
+        const Bound bound = friction->bound(facing.scale * pressure, state[Slip] + slide.length, z);
         const bool slips = size > bound.value;
         const double part = slips ? bound.value / size : 1.0;
         if (slips)
@@ -81,12 +89,15 @@ struct Coulomb {
         Mat3 dt;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) dt(i, j) = before.d(i, j) - eps * slide.d(i, j);
-        if (slips)
+        if (slips) {
+            const Vec3 d_scale = facing.scale == 1.0 ? Vec3{} : product(place.H, facing.n);
             for (int j = 0; j < 3; ++j) {
-                const double ds = bound.by_slip * slide.d_length(j) - bound.by_pressure * penalty * n[j];
+                const double dp = pressure * d_scale[j] - facing.scale * penalty * n[j];
+                const double ds = bound.by_slip * slide.d_length(j) + bound.by_pressure * dp;
                 const double along = m[0] * dt(0, j) + m[1] * dt(1, j) + m[2] * dt(2, j);
                 for (int i = 0; i < 3; ++i) dt(i, j) = m[i] * ds + part * (dt(i, j) - m[i] * along);
             }
+        }
         reaction.slipping = slips;
         reaction.pressure = weight * pressure;
         for (int i = 0; i < 3; ++i) {
@@ -94,7 +105,7 @@ struct Coulomb {
             for (int j = 0; j < 3; ++j)
                 reaction.K[i][j] = weight * (penalty * (n[i] * n[j] + gap * place.H(i, j)) - dt(i, j));
         }
-        remember(place, z, t, slide, state, trial);
+        remember(place.pose, facing, z, t, slide, state, trial);
         return true;
     }
 
@@ -124,16 +135,16 @@ struct Coulomb {
     }
 
     /// The new history. The work of friction is that of the mean traction along the way, less what is stored. eq. (4.49)
-    void remember(const Place& place, const Vec3& z, const Vec3& t, const Slide& slide, const double* state,
-                  double* trial) const {
+    void remember(const Pose& pose, const Facing& facing, const Vec3& z, const Vec3& t, const Slide& slide,
+                  const double* state, double* trial) const {
         const bool held = state[Held] != 0.0;
-        const Carried t_n(place, at(state + Traction), at(state + Normal), held);
-        const Carried lambda(place, sum(at(state + Tangential), at(trial + Change)), at(state + Normal), held);
+        const Carried t_n(pose, facing, at(state + Traction), at(state + Normal), held);
+        const Carried lambda(pose, facing, sum(at(state + Tangential), at(trial + Change)), at(state + Normal), held);
         trial[Held] = 1.0;
         put(trial + Where, z);
-        put(trial + Normal, place.pose.turn_back(place.n));
-        put(trial + Traction, place.pose.turn_back(t));
-        put(trial + Tangential, place.pose.turn_back(lambda.value));
+        put(trial + Normal, pose.turn_back(facing.n));
+        put(trial + Traction, pose.turn_back(t));
+        put(trial + Tangential, pose.turn_back(lambda.value));
         double work = 0.0;
         for (int k = 0; k < 3; ++k) work -= 0.5 * ((held ? t_n.value[k] : 0.0) + t[k]) * slide.D[k];
         trial[Slip] = state[Slip] + slide.length;

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -31,6 +31,12 @@ class ContactPoints:
         Unit normal out of the tool.
     area : ndarray, shape (n,)
         Reference area that belongs to the point.
+    friction : ndarray, shape (n, 3), optional
+        Tangential traction of the tool on the sheet, on the reference area; None without friction.
+    slip : ndarray, shape (n,), optional
+        Distance slid so far by points that are held.
+    status : ndarray of uint8, shape (n,), optional
+        0 for points that are open, 1 for those that stick, 2 for those that slip.
     """
 
     x: Floats
@@ -38,6 +44,13 @@ class ContactPoints:
     pressure: Floats
     normal: Floats
     area: Floats
+    friction: Floats | None = None
+    slip: Floats | None = None
+    status: NDArray[np.uint8] | None = None
+
+    def known(self) -> dict[str, Any]:
+        """The arrays that there are, by their names."""
+        return {name: values for name, values in vars(self).items() if values is not None}
 
 
 @dataclass(frozen=True)
@@ -60,6 +73,8 @@ class ContactFound(Found):
         Pressures that are there without a penetration.
     penalty : float
         Pressure per penetration.
+    rubs : bool
+        Whether there is friction.
     """
 
     held: Any = None
@@ -67,6 +82,7 @@ class ContactFound(Found):
     area: Floats = field(default_factory=lambda: np.empty(0), repr=False)
     multiplier: Floats = field(default_factory=lambda: np.empty(0), repr=False)
     penalty: float = 0.0
+    rubs: bool = False
 
     @cached_property
     def _measured(self) -> tuple[Floats, Floats, Floats]:
@@ -145,8 +161,21 @@ class ContactFound(Found):
         return float(self.held.penetration)
 
     def points(self) -> ContactPoints:
-        """Positions, gap, pressure, normal and area of all points."""
-        return ContactPoints(self.x, self.gap, self.pressure, self.normal, self.area)
+        """Positions, gap, pressure, normal and area of all points; with friction what it does there."""
+        plain = ContactPoints(self.x, self.gap, self.pressure, self.normal, self.area)
+        if not self.rubs:
+            return plain
+        return replace(plain, friction=self.friction, slip=self.slip, status=self.status.copy())
+
+    @cached_property
+    def friction(self) -> Floats:
+        """Tangential traction of the tool on the sheet on the reference area at all points, shape (n, 3)."""
+        return self._spread(self.held.traction - self.held.pressure[:, None] * self.held.normal)
+
+    @cached_property
+    def slip(self) -> Floats:
+        """Distances slid so far by the points that are held, zero elsewhere, shape (n,)."""
+        return self._spread(self.held.slip)
 
     def resultant(self, about: Floats | None = None) -> tuple[Floats, Floats]:
         """Resultant of the contact tractions. eq. (4.17)

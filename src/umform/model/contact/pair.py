@@ -92,20 +92,23 @@ class Contact(PairPoints):
 
     def commit(self, found: Found) -> None:
         """Make the trial history, multipliers too, and what was found those of the converged state."""
-        if self.friction is not None:
-            self.before = self.block.state
-        self.block.commit()
+        self._commit()
         assert isinstance(found, ContactFound)
         self.stand(found)
 
-    def begin(self) -> None:
-        """Take the places where the points are now, in the last evaluation, as those that friction slides from."""
+    def _commit(self) -> None:
         if self.friction is not None:
-            self.block.begin()
+            self.before = self._by_facet(self.block.read)
+        self.block.commit()
+
+    def begin(self) -> None:
+        """Let friction begin at the last evaluation, where it has no history yet."""
+        if self.friction is not None and not self.block.begun:
+            self._commit()
 
     def go_back(self, before: Floats) -> None:
         """Take the history that the evaluation of the converged state had read."""
-        self.block.restore(np.ascontiguousarray(before))
+        self.block.restore(np.ascontiguousarray(before).reshape(-1, before.shape[-1]))
 
     def revert(self) -> None:
         """Go back to the converged history."""
@@ -113,8 +116,11 @@ class Contact(PairPoints):
 
     def state(self) -> Tree:
         """History of the points, a row for each facet."""
-        state = self.block.state
-        return {"history": state.reshape(len(self.facets), -1, state.shape[1])}
+        return {"history": self._by_facet(self.block.state)}
+
+    def _by_facet(self, history: Floats) -> Floats:
+        """A history of points with a row for each facet."""
+        return history.reshape(len(self.facets), -1, history.shape[1])
 
     def restore(self, tree: Tree) -> None:
         """Put a history back."""
@@ -237,16 +243,31 @@ class Contact(PairPoints):
         self, at: ContactFound, u: Floats, mesh: Mesh, add: Callable[[Floats], Floats] = lambda shares: shares
     ) -> tuple[Floats, Floats]:
         """The same of any evaluation at ``u``."""
+        count, nodes = len(mesh.points), np.unique(self.facets)
+        shares = np.zeros((count, 2))  # gap, and how many know it
+        shares[nodes, 0], shares[nodes, 1] = self.gap((mesh.points + u.reshape(-1, 3))[nodes], self.pose), 1.0
+        pressure = self._mean_at_nodes(at.pressure[:, None], at.area, count, add)[:, 0]
+        gap, known = add(shares).T
+        return pressure, np.divide(gap, known, out=np.full(count, np.nan), where=known > 0)
+
+    def friction_at_nodes(
+        self, at: ContactFound, mesh: Mesh, add: Callable[[Floats], Floats] = lambda shares: shares
+    ) -> tuple[Floats, Floats]:
+        """Tangential traction (nodes, 3) and distance slid (nodes,), averaged as the pressure is. eq. (4.38)"""
+        values = np.column_stack([at.friction, at.slip])
+        mean = self._mean_at_nodes(values, at.area, len(mesh.points), add)
+        return mean[:, :3], mean[:, 3]
+
+    def _mean_at_nodes(self, values: Floats, areas: Floats, count: int, add: Callable[[Floats], Floats]) -> Floats:
+        """Averages (count, k) of values (points, k), weighted by areas and hat functions; zero off the facets."""
         hats = hat_functions(self.block.shape_values)
         places = len(self.facets), len(hats)
-        weight = hats * at.area.reshape(*places, 1)  # [facet][point][node]
-        share = np.einsum("eqa,eq->ea", weight, at.pressure.reshape(places))
-        count = len(mesh.points)
-        shares = np.zeros((count, 4))  # pressure times area, area; gap, and how many know it
-        shares[:, 0] = np.bincount(self.facets.ravel(), share.ravel(), count)
-        shares[:, 1] = np.bincount(self.facets.ravel(), weight.sum(axis=1).ravel(), count)
-        nodes = np.unique(self.facets)
-        shares[nodes, 2], shares[nodes, 3] = self.gap((mesh.points + u.reshape(-1, 3))[nodes], self.pose), 1.0
-        total, area, gap, known = add(shares).T
-        pressure = np.divide(total, area, out=np.zeros(count), where=area > 0)
-        return pressure, np.divide(gap, known, out=np.full(count, np.nan), where=known > 0)
+        weight = hats * areas.reshape(*places, 1)  # [facet][point][node]
+        shares = np.zeros((count, values.shape[1] + 1))
+        for column, part in enumerate([*values.T, np.ones(len(values))]):
+            share = np.einsum("eqa,eq->ea", weight, part.reshape(places))
+            shares[:, column] = np.bincount(self.facets.ravel(), share.ravel(), count)
+        total = add(shares)
+        area = total[:, -1:]
+        mean: Floats = np.divide(total[:, :-1], area, out=np.zeros_like(total[:, :-1]), where=area > 0)
+        return mean

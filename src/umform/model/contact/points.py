@@ -159,6 +159,7 @@ class PairPoints(Term):
             area=self._areas,
             multiplier=multiplier,
             penalty=self.penalty,
+            rubs=self.friction is not None,
         )
 
     @cached_property

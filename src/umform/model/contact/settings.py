@@ -85,11 +85,10 @@ def contact_settings(
     """
     _check(penalty, penetration, points, augmented, tool, where)
     law = _friction_law(friction, slip, where)
-    estimated = penalty is None or points == "auto" or law is not None
+    estimated = penalty is None or points == "auto"
     allowed = penetration
     if allowed is None and (penalty is None or augmented):
         allowed = _PENETRATION * sheet_thickness(mesh)
-    met = None
     if estimated:
         met = Encounter.of(mesh, mesh.facets(faces), tool.kernel(), material, where)
         if points == "auto":
@@ -104,10 +103,13 @@ def contact_settings(
     assert penalty is not None
     points = "nodes" if points == "nodes" else int(points)
     allowed = None if allowed is None else float(allowed)
-    if law is None or met is None:
+    if law is None:
         return ContactSettings(float(penalty), points, allowed, bool(augmented))
-    slip = _SLIP * met.thickness if slip is None else float(slip)
-    pressure = penalty * allowed if allowed is not None else _pressure(met, penalty, points)
+    slip = _SLIP * sheet_thickness(mesh) if slip is None else float(slip)
+    if allowed is not None:
+        pressure = penalty * allowed
+    else:
+        pressure = _pressure(mesh, faces, tool, material, penalty, points)
     ratio = _tangential_stiffness(law, pressure, slip) / penalty
     return ContactSettings(float(penalty), points, allowed, bool(augmented), friction, slip, ratio)
 
@@ -131,8 +133,14 @@ def _friction_law(friction: AnyFriction | None, slip: float | None, where: str) 
         raise
 
 
-def _pressure(met: Encounter, penalty: float, points: int | str) -> float:
+def _pressure(
+    mesh: Mesh, faces: Selector, tool: Surface, material: Material, penalty: float, points: int | str
+) -> float:
     """Pressure to expect with a penalty. eqs. (4.28), (4.15)"""
+    try:
+        met = Encounter.of(mesh, mesh.facets(faces), tool.kernel(), material, "")
+    except InvalidPenalty:  # the law has no bending stress: the penalty is taken for that of the default penetration
+        return penalty * _PENETRATION * sheet_thickness(mesh)
     spacing = met.length if isinstance(points, str) else met.length / points
     length = max(contact_length(met.radius, met.line_force, penalty), spacing)
     return met.line_force / length

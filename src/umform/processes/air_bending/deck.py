@@ -60,7 +60,7 @@ def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
         yield "[[steps]]", {"kind": "move", "to": {"stroke": end}, "increments": count}
     yield "[[steps]]", {"kind": "release", "control": "stroke", **unloading_keys(case)}
     tolerances = {"residual": OPTIONS.residual, "increment": OPTIONS.increment}
-    yield "[solution]", {**tolerances, "line_search": OPTIONS.line_search}
+    yield "[solution]", {**tolerances, "line_search": OPTIONS.line_search, "extrapolate": OPTIONS.extrapolate}
 
 
 def _element_name(case: AirBending) -> str:

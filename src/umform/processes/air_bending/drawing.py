@@ -18,6 +18,8 @@ from umform.processes.air_bending.section import Section
 Floats = NDArray[np.float64]
 
 _BLUE, _VERMILION, _GREEN = COLOURS[:3]
+#: Where the axes lie in the figure: to find room for the labels takes matplotlib as long as to draw them.
+_PLACE = (0.02, 0.02, 0.96, 0.96)
 _THIN: dict[str, Any] = {"color": "#777777", "linewidth": 0.7, "linestyle": (0, (6, 3))}
 
 
@@ -25,8 +27,8 @@ def drawing(bend: AirBend) -> Figure:
     """The released section with what is measured of it; of a flat one there is nothing to measure."""
     section = bend.released
     with house_style():
-        figure = Picture(figsize=(7.2, 5.0), layout="constrained")
-        axes = figure.add_subplot()
+        figure = Picture(figsize=(7.2, 5.0))
+        axes = figure.add_axes(_PLACE)
         _draw_outline(axes, section)
         if section.is_bent:
             _draw_neutral_fibre(axes, section)
