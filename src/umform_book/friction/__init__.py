@@ -1,10 +1,10 @@
 """Friction: stick, slip and reversal, bands over cylinders, tools that turn, partial slip, drawing and bending."""
 
 from umform_book.case import Chapter
-from umform_book.friction import block, capstan, history
+from umform_book.friction import block, capstan, history, turning
 
 CHAPTER = Chapter(
     "Friction",
     "Stick, slip and reversal, bands over cylinders, tools that turn, partial slip, drawing and bending.",
-    (block.CASE, capstan.CASE, history.CASE),
+    (block.CASE, capstan.CASE, history.CASE, turning.CASE),
 )
