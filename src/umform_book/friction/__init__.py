@@ -1,10 +1,10 @@
 """Friction: stick, slip and reversal, bands over cylinders, tools that turn, partial slip, drawing and bending."""
 
 from umform_book.case import Chapter
-from umform_book.friction import block, capstan, history, turning
+from umform_book.friction import bending_work, block, capstan, free_bending, history, partial_slip, turning
 
 CHAPTER = Chapter(
     "Friction",
     "Stick, slip and reversal, bands over cylinders, tools that turn, partial slip, drawing and bending.",
-    (block.CASE, capstan.CASE, history.CASE, turning.CASE),
+    (block.CASE, capstan.CASE, history.CASE, turning.CASE, partial_slip.CASE, bending_work.CASE, free_bending.CASE),
 )

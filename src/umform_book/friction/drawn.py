@@ -84,20 +84,22 @@ def sliding(weight: float, radius: float, angle: float, mu: float) -> Sliding:
     return Sliding(float(x[4]), float(arc), friction)
 
 
-def draw(page: Page, edge: Edge, variant: Variant, divisions: int, points: int | str, frames: int = 0) -> Result:
+def draw(page: Page, edge: Edge, variant: Variant, divisions: int, points: int | str, mu: float = MU) -> Result:
     """Hang the weight to one end of the flat strip, then draw the other one away from the edge."""
     strip = mesh.strip(ENDS[1] - ENDS[0], WIDTH, THICKNESS, (variant.cells(divisions), 1), cell=variant.cell)
     strip = strip.transformed(lambda X: X + np.array([ENDS[0], 0.0, 0.0]))
     model = Model(strip, variant.element, material=SVK(E=E, nu=0.0))
     model.fix(np.arange(len(strip.points)), "y")
     tool = Cylinder((0.0, 0.0, OVERLAP - edge.radius - 0.5 * THICKNESS), "y", edge.radius)
-    model.contact("lower", tool, penalty=edge.penalty, points=points, friction=MU, slip=1e-3, name="tool")
+    model.contact(
+        "lower", tool, penalty=edge.penalty, points=points, friction=mu or None, slip=1e-3 if mu else None, name="tool"
+    )
     load = model.traction("x1", (0.0, 0.0, -1 / (WIDTH * THICKNESS)), "force")
     model.prescribe("x0", "z", "level")
     pull = model.prescribe("x0", "x", "pull")
     hang = Move(load, lambda fraction: edge.weight * fraction**2, steps=40)
-    label = f"R = {edge.radius:g}, {variant.label}, {divisions} intervals, {rule_name(points)}"
-    return page.solve(label, model, [hang, Move(pull, -TRAVEL, steps=80)], frames=frames)
+    label = f"R = {edge.radius:g}, {variant.label}, {divisions} intervals, {rule_name(points)}, mu = {mu:g}"
+    return page.solve(label, model, [hang, Move(pull, -TRAVEL, steps=80)])
 
 
 def over_exact(edge: Edge, result: Result) -> tuple[float, float, float]:

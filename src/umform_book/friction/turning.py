@@ -149,9 +149,8 @@ def run(page: Page) -> None:
     against_the_sheet(page)
     page.text(
         "A sheet that nothing but friction holds must be carried in increments whose error of position, R (angle)^2/2 "
-        "of an increment, is not much more than the elastic slip that is allowed: with 12 increments a quarter in "
-        "place of 60 the plate on the plane slips as a whole in the first guess, and then nothing holds it at the angle "
-        "where it was."
+        "each, is not much more than the elastic slip that is allowed: with 12 increments a quarter in place of 60 the "
+        "plate on the plane slips as a whole in the first guess, and nothing holds it at the angle where it was."
     )
 
 
