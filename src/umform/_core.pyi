@@ -437,7 +437,7 @@ class ContactFound:
 
     @property
     def elastic_slip(self) -> NDArray[float64]:
-        """Elastic slips (held,), zero without friction."""
+        """Elastic slips along the tool (held, 3), zero without friction."""
 
     @property
     def slip(self) -> NDArray[float64]:
@@ -674,9 +674,9 @@ class ContactBlock:
         Take the places where the points are now as those of a sheet that was never held; nothing once there is a history.
         """
 
-    def augment(self) -> None:
+    def augment(self, tractions: NDArray[float64]) -> None:
         """
-        Let multipliers carry the tractions along the tool of the last evaluation.
+        Let multipliers carry tractions (points, 3) along the tool at the points that are held.
         """
 
     def commit(self) -> None:
