@@ -163,7 +163,7 @@ def by_force(page: Page) -> None:
             made = block(EIGHT, divisions, 2, augmented=augmented)
             push = made.model.press(made.plane, "x", "push")
             normal = normal_force(made, augmented)
-            steps = [Move(made.press, -PRESSED, steps=2), Move(push, 0.9 * MU * normal, steps=40)]
+            steps = [Move(made.press, -PRESSED, steps=2), Move(push, 0.9 * MU * normal, steps=9)]
             kind = "multipliers" if augmented else "penalty"
             result = page.solve(f"force, {divisions} intervals, {kind}", made.model, steps)
             way, held = float(result["push_way"][-1]), MU * -float(result["plane_fz"][-1])
