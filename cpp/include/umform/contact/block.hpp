@@ -146,6 +146,7 @@ class ContactBlockOf final : public ContactBlock {
         for_each_near([&](int e, int q, const Reaction& reaction, const double* history) {
             const Rubbing rubbing = law_->rubbing(history);
             found.friction_work += area_[q] * rubbing.work;
+            found.stored += area_[q] * rubbing.stored;
             if (!reaction.held) return;
             round_off.add(e, weight_of_errors(q), values_at(q));
             const Vec3 &x = locator_.positions()[q], &n = locator_.normals()[q];
@@ -155,17 +156,16 @@ class ContactBlockOf final : public ContactBlock {
             found.traction.push_back(reaction.traction(n));
             found.gap.push_back(locator_.gaps()[q]), found.pressure.push_back(reaction.pressure);
             found.elastic_slip.push_back(rubbing.elastic_slip), found.slip.push_back(rubbing.slip);
-            found.stored += area_[q] * rubbing.stored;
             found.area.push_back(area_[q]);
             Vec3 force;  // (pressure area) n, in this order: that of the forces at nodes
             for (int k = 0; k < 3; ++k)
                 force[k] = -(reaction.pressure * area_[q] * n[k] + area_[q] * reaction.tangential[k]);
             found.force.push_back(force);
         });
-        for (int e = 0; e < connectivity().size(); ++e)
-            for (int q = 0; locator_.far(e) && q < per_facet(); ++q)
-                found.friction_work +=
-                    area_[e * per_facet() + q] * law_->rubbing(history_.state(e) + q * history_.size()).work;
+        for_each_far([&](int q, const Rubbing& rubbing) {
+            found.friction_work += area_[q] * rubbing.work;
+            found.stored += area_[q] * rubbing.stored;
+        });
         found.penetration = penetration();
         found.round_off_squared = round_off.squared();
         return found;
@@ -298,6 +298,22 @@ class ContactBlockOf final : public ContactBlock {
             respond(e, nullptr, trial.data(), reactions.data());
             for (int q = 0; q < per_facet(); ++q)
                 work(e, e * per_facet() + q, reactions[q], trial.data() + history_.size() * q);
+        }
+    }
+
+    /// Calls work(point, rubbing) for all points of facets that are far, if the law follows places.
+    template <class Work>
+    void for_each_far(const Work& work) const {
+        if (!law_->follows_places()) return;
+        std::vector<double> trial(history_.stride());
+        for (int e = 0; e < connectivity().size(); ++e) {
+            if (!locator_.far(e)) continue;
+            std::copy_n(history_.trial(e), trial.size(), trial.begin());
+            for (int q = 0; q < per_facet(); ++q) {
+                double* of_point = trial.data() + history_.size() * q;
+                law_->leave(locator_.in_tool(e, q), history_.state(e) + history_.size() * q, of_point);
+                work(e * per_facet() + q, law_->rubbing(of_point));
+            }
         }
     }
 

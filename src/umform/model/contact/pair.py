@@ -97,13 +97,13 @@ class Contact(PairPoints):
         self.stand(found)
 
     def _commit(self) -> None:
-        if self.friction is not None:
+        if self.rubs:
             self.before = self._by_facet(self.block.read)
         self.block.commit()
 
     def begin(self) -> None:
         """Let friction begin at the last evaluation, where it has no history yet."""
-        if self.friction is not None and not self.block.begun:
+        if self.rubs and not self.block.begun:
             self._commit()
 
     def go_back(self, before: Floats) -> None:

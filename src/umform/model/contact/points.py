@@ -99,7 +99,7 @@ class PairPoints(Term):
         per_side = 1 if isinstance(self.points, str) else self.points
         block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self.tool.kernel, self._law())
         block.name = f"contact {self.name}"
-        if self.friction is not None:
+        if self.rubs:
             block.set_pose(*self.pose)
             block.locate(np.zeros(block.dofs))
             block.begin()
@@ -116,6 +116,11 @@ class PairPoints(Term):
         return self._settings.friction
 
     @property
+    def rubs(self) -> bool:
+        """Whether it has a history of what slides along the tool."""
+        return self.friction is not None
+
+    @property
     def slip(self) -> float:
         """Elastic slip that is allowed; zero without friction."""
         return self._settings.slip
@@ -123,7 +128,7 @@ class PairPoints(Term):
     @property
     def symmetric(self) -> bool:  # type: ignore[override]
         """Whether the tangent of its law is."""
-        return self.friction is None
+        return not self.rubs
 
     @property
     def multipliers(self) -> Floats:
@@ -159,7 +164,7 @@ class PairPoints(Term):
             area=self._areas,
             multiplier=multiplier,
             penalty=self.penalty,
-            rubs=self.friction is not None,
+            rubs=self.rubs,
         )
 
     @cached_property
