@@ -132,7 +132,7 @@ def rubbed():
 
 
 def beaded():
-    """A sheet on a bed under a lid that a force presses, drawn through a bead across and one that is closed, and back."""
+    """A sheet on a bed under a lid that a force presses, drawn through a bead across and a closed one, and back."""
     model = uf.Model(strip(30.0, 8.0, 1.0, (12, 4)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
     model.symmetry("y0", "y")
     pull = model.prescribe("x1", "x", "pull")

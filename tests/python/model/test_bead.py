@@ -202,7 +202,7 @@ def drawn_strip(uplift=0.0, E=2e5, **settings):
 
 def test_a_strip_that_is_drawn_through_pulls_with_the_restraint():
     """Element after element passes the band: the force stays, and turns with the way."""
-    model, pull, bead = drawn_strip(uplift=20.0)
+    model, pull, _ = drawn_strip(uplift=20.0)
     result = solve(model, [Move(pull, 0.5, steps=4), Move(pull, 7.0, steps=26), Move(pull, 2.0, steps=20)])
     force = result["pull_force"]
     np.testing.assert_allclose(force[4:31], 50.0 * 3.0, rtol=1.5e-3)

@@ -159,16 +159,17 @@ def bead_line(
                 cause="a sign: restraint acts against the way of the sheet, uplift off the tool",
                 remedy="from a test, or from the section of the bead by `umform bead`",
             )
-    for name, value in (("width", width), ("slip", slip)):
-        if not ((name == "slip" and value is None) or (_is_number(value) and value > 0.0)):  # type: ignore[operator]
-            raise InvalidBead(f"the {name} of a bead must be positive", where=where, value=value)
     thickness = sheet_thickness(mesh)
+    slip = _SLIP * thickness if slip is None else slip
+    for name, value in (("width", width), ("slip", slip)):
+        if not (_is_number(value) and value > 0.0):
+            raise InvalidBead(f"the {name} of a bead must be positive", where=where, value=value)
     line = BeadLine(
         _corners(curve, closed, where),
         float(restraint),
         float(uplift),
         float(width),
-        _SLIP * thickness if slip is None else float(slip),
+        float(slip),
         _OFF * thickness,
         bool(closed),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property, partial
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,7 @@ Floats = NDArray[np.float64]
 class PairPoints(Term):
     """Facets, their points in the kernel, and what is measured at them; see :class:`umform.model.contact.Contact`."""
 
-    fixed = ("tool", "name")
+    fixed: ClassVar[tuple[str, ...]] = ("tool", "name")
 
     before: Floats
 
@@ -205,7 +205,8 @@ class PairPoints(Term):
     def piece(self, cut: Cut) -> tuple[Ids, NDArray[np.int64], Tree | None]:
         """Faces of the rank, which rows of this contact they are, and their history if there is any yet."""
         faces, rows = cut.faces_of(self.faces)
-        history = {name: values[rows] for name, values in self.state().items()} if "block" in vars(self) else None
+        begun = "block" in vars(self) and self.block.begun
+        history = {name: values[rows] for name, values in self.state().items()} if begun else None
         return faces, rows, history
 
     def fill(self, piece: tuple[Ids, NDArray[np.int64], Tree | None], mesh: Any) -> None:
