@@ -45,8 +45,8 @@ class Beaded(Touched):
     ) -> Bead:
         """Let a line on a tool hold the sheet back, in place of a draw bead of real geometry.
 
-        The tool must touch the sheet by a :meth:`contact` as well: a bead acts where the gap is below half of the
-        thickness, in full where it is closed.
+        The tool must touch the sheet by a :meth:`contact` as well: a bead acts in full up to a gap of a quarter of
+        the thickness, and not at all from half of it on.
 
         Parameters
         ----------

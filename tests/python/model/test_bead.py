@@ -45,7 +45,8 @@ CURVES = {
 def drawn_plate(build, rng, tool, curve, closed, cell="hex8", slip=0.01, way=0.05):
     """A plate near a tool that moves and turns, after an increment that has called the bead up in part."""
     mesh = build.jittered(strip(2.0, 1.5, 0.2, (3, 2), cell=cell), 0.1)
-    mesh = mesh.transformed(lambda x: x + np.array([0.0, 0.0, 0.13]))
+    height = 0.13 if isinstance(tool, UserSurface) else 0.17  # where the bead fades, with three times the gap
+    mesh = mesh.transformed(lambda x: x + np.array([0.0, 0.0, height]))
     model = Model(mesh, {"hex8": "ANS3DEAS", "hex18": "MI9K3DEAS"}[cell], material=ELASTIC)
     die = model.tool("die", tool)
     bead = model.bead("lower", die, curve, closed=closed, restraint=7.0, uplift=3.0, width=1.0, slip=slip, points=6)
@@ -169,7 +170,7 @@ def test_a_way_along_the_line_is_free():
 
 
 def test_a_bead_fades_with_the_gap():
-    """In full where the gap is closed, nothing from half of the thickness on, smooth between."""
+    """In full up to a quarter of the thickness, nothing from half of it on, smooth between."""
     forces = []
     for gap in np.linspace(-0.02, 0.12, 29):
         mesh = strip(8.0, 6.0, 0.2, (8, 6)).transformed(lambda x, gap=gap: x + np.array([0.0, 0.0, 0.1 + gap]))
@@ -177,10 +178,10 @@ def test_a_bead_fades_with_the_gap():
         bead = model.bead("lower", model.tool("die", TOOLS["plane"]), [(4, 1, 0), (4, 5, 0)], restraint=7.0, width=2.0)
         forces.append(rigid_way(bead, np.tile([0.3, 0.0, 0.0], (len(mesh.points), 1))).force[:, 0].sum())
     forces = np.array(forces) / 28.0
-    np.testing.assert_allclose(forces[:5], 1.0, rtol=1e-3)
+    np.testing.assert_allclose(forces[:15], 1.0, rtol=1e-3)
     assert (np.diff(forces) < 1e-12).all() and (forces[25:] == 0.0).all()
-    assert forces[14] == pytest.approx(0.5, abs=0.01)
-    assert np.abs(np.diff(forces)).max() < 0.08
+    assert forces[19] == pytest.approx(0.5, abs=0.01)
+    assert np.abs(np.diff(forces)).max() < 0.16
 
 
 # A strip that is drawn through ---------------------------------------------------------------------------------
@@ -222,7 +223,7 @@ def test_no_point_bears_more_than_its_bound():
         solve(model, Move(pull, way, steps=3))
         found = bead.found.held
         weight = 15 / 16 * np.maximum(1.0 - ((found.x[:, 0] - 15.3) / 3.0) ** 2, 0.0) ** 2 / 3.0
-        near = np.clip(found.gap / bead.line.off, 0.0, 1.0)
+        near = np.clip(2.0 * found.gap / bead.line.off - 1.0, 0.0, 1.0)
         bound = bead.line.restraint * weight * (1.0 - near**2 * (3 - 2 * near))
         size = np.linalg.norm(found.traction[:, :2], axis=1)
         assert (size <= bound * (1 + 1e-9)).all()

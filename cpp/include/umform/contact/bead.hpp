@@ -117,7 +117,7 @@ struct Bead {
         Mat3 dc;  // dc_i/dx_j
 
         Band(const Bead& bead, const Place& place, const Facing& facing, const Vec3& z) {
-            const double fade = place.gap > 0.0 ? place.gap / bead.off : 0.0;
+            const double fade = std::max(2.0 * place.gap / bead.off - 1.0, 0.0);
             if (!(fade < 1.0)) return;
             const Foot foot = bead.line->foot(z, bead.off);
             if (!foot.within || !(foot.end > 0.0)) return;
@@ -127,7 +127,7 @@ struct Bead {
             if (!(w > 0.0)) return;
             const double hat = 0.9375 * w * w, near = 1.0 - fade * fade * (3.0 - 2.0 * fade);
             weight = hat * foot.end * near / b;
-            const double d_near = -6.0 * fade * (1.0 - fade) / bead.off;
+            const double d_near = -12.0 * fade * (1.0 - fade) / bead.off;
             for (int j = 0; j < 3; ++j) {
                 const double in_line = foot.moves ? S[j] : 0.0;
                 double d_above = n[j] - dot(n, S) * in_line;

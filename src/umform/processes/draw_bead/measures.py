@@ -38,7 +38,7 @@ class Drawn:
     case : DrawBead
         The parameters.
     way, restraint_curve, uplift_curve : ndarray, shape (n,)
-        Way of the strip in mm, force that draws it, and force that pushes the tools apart, in the increments of drawing.
+        Way of the strip in mm, force that draws it, and force that pushes the tools apart, increment by increment.
     restraint, uplift : float
         Means over the steady part of the way: from where the sheet that comes out has passed the whole bead.
     restraint_spread, uplift_spread : float
