@@ -28,7 +28,7 @@ unexport PYTHONPATH PYTHONHOME
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
 .PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-stubs lint-format lint-cpp stubs \
-        format bench dome robust compare peers clean
+        format bench dome robust ubend compare peers clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -76,6 +76,10 @@ dome: env  ## a sphere pressed into sheets of up to 160 000 elements: time, memo
 
 robust: env  ## 300 random jobs and how many arrive (some 10 minutes of CPU); writes docs/robust-rate.md
 	@$(BIN)/python benchmarks/robust.py --json build/robust.json --page docs/robust-rate.md $(ARGS)
+
+ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter of an hour)
+	$(SAY) 'Drawing the U-bend'
+	@$(BIN)/python benchmarks/ubend.py --page docs/performance.md $(ARGS)
 
 compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)

@@ -1,10 +1,10 @@
 """How the sparse solvers compare: analysis, factorisation with the analysis kept, solve, and peak memory.
 
 Tangents of flat sheets: as they are at rest (positive), moved down until some eigenvalues are negative (indefinite),
-and with another lower than upper triangle (unsymmetric). Each measurement has a process of its own, which gives its
-best of some factorisations; solvers take turns, so that a shared machine troubles all alike. Milliseconds of CPU time
-on one thread, by the clock on several. Memory is what the process grows by from the analysis on: the model and its
-matrix are not counted.
+and with another lower than upper triangle (unsymmetric); scaled ones have equations and unknowns in units between 1e-12
+and 1e12. Each measurement has a process of its own, which gives its best of some factorisations; solvers take turns, so
+that a shared machine troubles all alike. Milliseconds of CPU time on one thread, by the clock on several. Memory is
+what the process grows by from the analysis on: the model and its matrix are not counted.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ CASES = {
     "sheet 200x200": ((200, 200), "hex8", 3),
     "sheet 316x316": ((316, 316), "hex8", 2),
 }
-KINDS = ("positive", "indefinite", "unsymmetric")
+KINDS = ("positive", "indefinite", "unsymmetric", "scaled indefinite", "scaled unsymmetric")
 #: What is measured: milliseconds, and megabytes.
 COLUMNS = ("analysis", "factor", "solve", "MB")
 TIMES = COLUMNS[:3]
@@ -44,6 +44,10 @@ TIMES = COLUMNS[:3]
 
 def tangent(cells: tuple[int, int], cell: str, kind: str = "positive") -> tuple[Pattern, np.ndarray]:
     """Pattern and entries of the tangent of a clamped sheet."""
+    if kind.startswith("scaled "):
+        pattern, values = tangent(cells, cell, kind.removeprefix("scaled "))
+        rows, columns = 10.0 ** np.random.default_rng(0).uniform(-12.0, 12.0, (2, pattern.n))
+        return pattern, values * rows[pattern.rows] * (rows if pattern.symmetric else columns)[pattern.indices]
     mesh = uf.mesh.strip(length=float(cells[0]), width=float(cells[1]), thickness=0.5, cells=cells, cell=cell)
     model = uf.Model(mesh, "ANS3DEAS" if cell == "hex8" else "MI9K3DEAS", material=uf.SVK(E=210e3, nu=0.3))
     model.fix("x0")

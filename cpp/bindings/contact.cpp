@@ -57,7 +57,8 @@ void bind_found(nb::module_& m) {
             "For each contact point 1 where the tool holds it, 2 where it slips as well, else 0.")
         .def_prop_ro(
             "elastic_slip", [](const ContactFound& f) { return view(f.elastic_slip); }, inside,
-            nb::sig("def elastic_slip(self) -> NDArray[float64]"), "Elastic slips (held,), zero without friction.")
+            nb::sig("def elastic_slip(self) -> NDArray[float64]"),
+            "Elastic slips along the tool (held, 3), zero without friction.")
         .def_prop_ro(
             "slip", [](const ContactFound& f) { return view(f.slip); }, inside,
             nb::sig("def slip(self) -> NDArray[float64]"), "Distances slid so far (held,).")
@@ -253,8 +254,17 @@ void bind_history(nb::class_<ContactBlock>& contact) {
         .def(
             "begin", &ContactBlock::begin,
             "Take the places where the points are now as those of a sheet that was never held; nothing once there is a history.")
-        .def("augment", &ContactBlock::augment,
-             "Let multipliers carry the tractions along the tool of the last evaluation.")
+        .def(
+            "augment",
+            [](ContactBlock& b, const Input& tractions) {
+                require(tractions.size() == 3 * static_cast<std::size_t>(b.points()),
+                        "there is one traction for each contact point");
+                Vectors t(b.points());
+                for (std::size_t i = 0; i < tractions.size(); ++i) t[i / 3][i % 3] = tractions.data()[i];
+                b.augment(t.data());
+            },
+            nb::arg("tractions"), nb::sig("def augment(self, tractions: NDArray[float64]) -> None"),
+            "Let multipliers carry tractions (points, 3) along the tool at the points that are held.")
         .def("commit", &ContactBlock::commit, "Make the trial history the converged one.")
         .def("revert", &ContactBlock::revert, "Go back to the converged history.")
         .def(

@@ -1,12 +1,14 @@
 #include <cstring>
 #include <memory>
 
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
 #include "umform/assembly/threads.hpp"
 #include "umform/multifrontal/elimination.hpp"
+#include "umform/multifrontal/equilibration.hpp"
 #include "umform/multifrontal/factors.hpp"
 #include "umform/multifrontal/pivots.hpp"
 #include "umform/multifrontal/residual.hpp"
@@ -108,7 +110,9 @@ void bind_multifrontal(nb::module_& m) {
             [](Multifrontal& s, const Input& values, bool positive) {
                 nb::gil_scoped_release release;
                 const Kind kind = !s.symmetric() ? Kind::Unsymmetric : positive ? Kind::Positive : Kind::Symmetric;
-                return s.factors().factor(kind, values.data(), thread_count());
+                // Cholesky's factors of D K D are D L: powers of two change nothing
+                Scaling scaling = positive ? Scaling() : equilibrated(s.rows(), s.symmetric(), values.data());
+                return s.factors().factor(kind, values.data(), std::move(scaling), thread_count());
             },
             nb::arg("values"), nb::arg("positive"),
             nb::sig("def factor(self, values: NDArray[float64], positive: bool) -> Outcome"))
@@ -135,13 +139,21 @@ void bind_multifrontal(nb::module_& m) {
             nb::arg("values"), nb::arg("b"), nb::arg("x"), nb::arg("r"),
             nb::sig("def residual(self, values: NDArray[float64], b: NDArray[float64], x: NDArray[float64], "
                     "r: NDArray[float64]) -> None"))
-        .def(
+        .def_prop_ro(
             "column_sizes",
-            [](const Multifrontal& s, const Input& values) {
-                std::vector<double> sizes = column_sizes(s.rows(), s.symmetric(), values.data());
-                const std::size_t n = sizes.size();
-                return to_numpy(std::move(sizes), {n});
+            [](Multifrontal& s) {
+                const std::vector<double>& size = s.factors().scaling().size;
+                return to_numpy(size, {size.size()});
             },
-            nb::arg("values"), nb::sig("def column_sizes(self, values: NDArray[float64]) -> NDArray[float64]"),
-            "Largest entry of each column.");
+            nb::sig("def column_sizes(self) -> NDArray[float64]"),
+            "Largest entry of each column of the matrix that was eliminated; none for Cholesky.")
+        .def_prop_ro(
+            "scales",
+            [](Multifrontal& s) {
+                const Scaling& scaling = s.factors().scaling();
+                const std::size_t n = scaling.row.size();
+                return std::pair(to_numpy(scaling.row, {n}), to_numpy(scaling.column, {n}));
+            },
+            nb::sig("def scales(self) -> tuple[NDArray[float64], NDArray[float64]]"),
+            "Powers of two for rows and columns of that; empty where it is the matrix itself.");
 }

@@ -286,8 +286,17 @@ class Multifrontal:
 
     def residual(self, values: NDArray[float64], b: NDArray[float64], x: NDArray[float64], r: NDArray[float64]) -> None: ...
 
-    def column_sizes(self, values: NDArray[float64]) -> NDArray[float64]:
-        """Largest entry of each column."""
+    @property
+    def column_sizes(self) -> NDArray[float64]:
+        """
+        Largest entry of each column of the matrix that was eliminated; none for Cholesky.
+        """
+
+    @property
+    def scales(self) -> tuple[NDArray[float64], NDArray[float64]]:
+        """
+        Powers of two for rows and columns of that; empty where it is the matrix itself.
+        """
 
 class Tying:
     """One row of an assumed-strain rule."""
@@ -428,7 +437,7 @@ class ContactFound:
 
     @property
     def elastic_slip(self) -> NDArray[float64]:
-        """Elastic slips (held,), zero without friction."""
+        """Elastic slips along the tool (held, 3), zero without friction."""
 
     @property
     def slip(self) -> NDArray[float64]:
@@ -670,9 +679,9 @@ class ContactBlock:
         Take the places where the points are now as those of a sheet that was never held; nothing once there is a history.
         """
 
-    def augment(self) -> None:
+    def augment(self, tractions: NDArray[float64]) -> None:
         """
-        Let multipliers carry the tractions along the tool of the last evaluation.
+        Let multipliers carry tractions (points, 3) along the tool at the points that are held.
         """
 
     def commit(self) -> None:

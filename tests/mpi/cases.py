@@ -261,7 +261,7 @@ def save(result, path):
     columns = {f"history {name}": result[name] for name in result.columns()}
     fields = {f"point {name}": values for name, values in last.points.items()}
     fields |= {f"cell {name}": values for name, values in last.cells.items()}
-    fields |= {f"{name} {key}": values for name, at in last.contacts.items() for key, values in vars(at).items()}
+    fields |= {f"{name} {key}": values for name, at in last.contacts.items() for key, values in at.known().items()}
     imbalance = result.balance().force_imbalance
     counts = [len(records) for records in result.iterations]
     np.savez(path, iterations=counts, imbalance=imbalance, events=result.events, **columns, **fields)

@@ -1,4 +1,4 @@
-"""The mesh of a deck: a strip, a grid, or a file of hexahedra or quadrilaterals."""
+"""The mesh of a deck: a strip, a grid, a disc, a ring, or a file of hexahedra or quadrilaterals."""
 
 from __future__ import annotations
 
@@ -100,6 +100,68 @@ class Grid(Part):
         return mesh.grid(self.x, self.y, self.z, cell)
 
 
+Portion = Literal["whole", "half", "quarter"]
+
+
+class Blank(Part):
+    """What discs and rings have in common: they lie about the z-axis, with the mid-surface at z = 0."""
+
+    thickness: Positive
+    """Along z."""
+    cells: Annotated[tuple[Divisions, Divisions], Strict(False)]
+    """Elements along a side of the core (of a ring: on a quarter of the circle), and towards the rim."""
+    part: Portion = "whole"
+    """A half has x >= 0, a quarter y >= 0 as well."""
+    layers: Annotated[int, Field(ge=1, le=100)] = 1
+    """Elements through the thickness."""
+    grading: Positive = 1.0
+    """Size of the last element over that of the first one, towards the rim."""
+
+
+class Disc(Blank):
+    """A disc with a square core; with the sets rim and centre, those of parts also x0 and y0."""
+
+    generator: Literal["disc"]
+    """The word disc."""
+    radius: Positive
+    """Of the rim."""
+
+    @model_validator(mode="after")
+    def _is_possible(self) -> Disc:
+        _refuse_too_many(4 * self.cells[0] * (self.cells[0] + 2 * self.cells[1]) * self.layers)
+        return self
+
+    def build(self, cell: str, folder: Path) -> Mesh:
+        """Mesh of cells of a type."""
+        del folder
+        how = {"part": self.part, "cell": cell, "layers": self.layers, "grading": self.grading}
+        return mesh.disc(self.radius, self.thickness, self.cells, **how)  # type: ignore[arg-type]
+
+
+class Ring(Blank):
+    """A ring; with the sets rim and hole, those of parts also x0 and y0."""
+
+    generator: Literal["ring"]
+    """The word ring."""
+    inner: Positive
+    """Radius of the hole."""
+    outer: Positive
+    """Radius of the rim."""
+
+    @model_validator(mode="after")
+    def _is_possible(self) -> Ring:
+        if self.inner >= self.outer:
+            raise PydanticCustomError("ring", "the outer radius of a ring must be larger than the inner one")
+        _refuse_too_many(4 * self.cells[0] * self.cells[1] * self.layers)
+        return self
+
+    def build(self, cell: str, folder: Path) -> Mesh:
+        """Mesh of cells of a type."""
+        del folder
+        how = {"part": self.part, "cell": cell, "layers": self.layers, "grading": self.grading}
+        return mesh.ring(self.inner, self.outer, self.thickness, self.cells, **how)  # type: ignore[arg-type]
+
+
 Through = Annotated[
     Annotated[str, Field(min_length=1), Tag("word")] | Annotated[Vector, Tag("array")],
     Discriminator(
@@ -179,12 +241,14 @@ MeshPart = Annotated[
     Annotated[Strip, Tag("strip")]
     | Annotated[Strip, Tag("plate")]
     | Annotated[Grid, Tag("grid")]
+    | Annotated[Disc, Tag("disc")]
+    | Annotated[Ring, Tag("ring")]
     | Annotated[File, Tag("file")]
     | Annotated[Shell, Tag("shell")],
     Discriminator(
         _kind,
         custom_error_type="mesh",
-        custom_error_message="a mesh has generator = strip, plate or grid, or file = a path",
-        custom_error_context={"key": "generator", "expected_tags": "'strip', 'plate', 'grid'"},
+        custom_error_message="a mesh has generator = strip, plate, grid, disc or ring, or file = a path",
+        custom_error_context={"key": "generator", "expected_tags": "'strip', 'plate', 'grid', 'disc', 'ring'"},
     ),
 ]

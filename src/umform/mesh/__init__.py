@@ -1,5 +1,6 @@
 """Meshes of solid-shells: the mesh itself, structured generators, files, and meshes of other programs."""
 
+from umform.mesh.blanks import disc, ring
 from umform.mesh.files import read, read_shell
 from umform.mesh.generators import graded, grid, plate, strip
 from umform.mesh.mesh import FACE_NODES, FACES, Floats, Ids, Mesh, Selector
@@ -13,12 +14,14 @@ __all__ = [
     "Ids",
     "Mesh",
     "Selector",
+    "disc",
     "graded",
     "grid",
     "orient",
     "plate",
     "read",
     "read_shell",
+    "ring",
     "strip",
     "thicken",
 ]

@@ -13,7 +13,7 @@ from umform.model import Model
 from umform.model.removal import fading
 from umform.model.support import Support
 from umform.progress import Tick, progress_bar
-from umform.results.penetration import warn_of_penetration
+from umform.results.penetration import warn_of_contact
 from umform.run.interrupt import Interrupt, gentle_interrupt
 from umform.run.result import Result
 from umform.solution.newton import Newton
@@ -278,7 +278,7 @@ def taken(
                 _finish(run, steps[run.number - 1])
                 run.number, run.loop = run.number + 1, None
             if last:
-                warn_of_penetration(run.model, result)
+                warn_of_contact(run.model, result)
             _pause(run, start, checkpoints, stop, last=last)
         except BaseException as error:  # whatever ends the run: what was reached is kept with the error
             result.seconds = clock.perf_counter() - start

@@ -11,7 +11,7 @@ from umform.model import Evaluation, Model
 from umform.model.state import Snapshot
 from umform.progress import Tick, silent
 from umform.results.history import Mark as HistoryMark
-from umform.results.penetration import warn_of_penetration
+from umform.results.penetration import warn_of_contact
 from umform.run.execute import begun, checked, taken
 from umform.run.result import Result
 from umform.solution.habits import Habits
@@ -138,5 +138,5 @@ class OpenRun:
 
     def close(self) -> Result:
         """The result of the steps taken, with the warnings that are given at the end of a run."""
-        warn_of_penetration(self._run.model, self.result)
+        warn_of_contact(self._run.model, self.result)
         return self.result

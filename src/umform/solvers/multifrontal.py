@@ -26,8 +26,8 @@ from .protocol import (
     check_accuracy,
     not_factored,
     singular,
-    vanishing_pivot,
 )
+from .singularity import resistance, vanishing_equation
 
 # A backward error above this is worth a step of iterative refinement, of which so many are made at most.
 _POOR_RESIDUAL, _STEPS = 1e-14, 2
@@ -64,10 +64,10 @@ class Multifrontal:
             if not outcome.done:
                 raise singular(self.name, outcome.equation if outcome.equation >= 0 else None)
             pivots = factors.pivots()
-            scale = values[self._pattern.indptr[:-1]] if self._with_cholesky else factors.column_sizes(values)
-            weakest = vanishing_pivot(pivots.size, scale)
-        if weakest is not None:
-            raise singular(self.name, weakest)
+            size = values[self._pattern.indptr[:-1]] if self._with_cholesky else factors.column_sizes
+            lost = vanishing_equation(pivots.size, size, lambda equation: self._resistance(equation, values))
+        if lost is not None:
+            raise singular(self.name, lost)
         self._positive = symmetric and pivots.negative == 0
         self._values = values
         return Factorisation(pivots.negative if symmetric else None, factors.fill, pivots.odd)
@@ -94,13 +94,38 @@ class Multifrontal:
         """Go on with the kind of factors of a run that was kept."""
         self._positive = kind == 1 and self._pattern.symmetric
 
+    def _resistance(self, equation: int, values: FloatArray) -> float:
+        """How much the matrix resists the displacement that a weak pivot lets go, as a part of its entries."""
+        sizes, nothing = np.abs(values), np.zeros(self._pattern.n)
+        row, column = self._factors.scales
+        if self._with_cholesky:
+            row = column = 1.0 / np.sqrt(values[self._pattern.indptr[:-1]])
+        elif not row.size:
+            row = column = np.ones(self._pattern.n)
+
+        def solve(b: FloatArray) -> FloatArray:
+            x = np.empty_like(b)
+            self._factors.solve(b, x)
+            return x
+
+        def magnitude(x: FloatArray) -> FloatArray:
+            product = np.empty_like(x)
+            self._factors.residual(sizes, nothing, x, product)
+            return -product
+
+        return resistance(equation, row, column, solve, magnitude)
+
     def _refine(self, values: FloatArray, b: FloatArray, x: FloatArray) -> None:
         """Improve the solution while its residual is poor; refuse it if that does not help."""
         residual, change = np.empty_like(b), np.empty_like(b)
-        size = max(float(values.max()), -float(values.min()))
+        size = float(self._factors.column_sizes.max())
+        row, column = self._factors.scales
         for left in range(_STEPS, -1, -1):
             self._factors.residual(values, b, x, residual)
-            error = backward_error(residual.T, size, x.T, b.T)
+            if row.size:  # of the equations that were eliminated
+                error = backward_error((residual * row).T, size, (x / column).T, (b * row).T)
+            else:
+                error = backward_error(residual.T, size, x.T, b.T)
             if not error > _POOR_RESIDUAL or left == 0:
                 break
             self._factors.solve(residual, change)

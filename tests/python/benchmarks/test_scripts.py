@@ -92,6 +92,13 @@ def test_run(run):
     assert each * evaluations == pytest.approx(1e3 * numbers["all, s"], rel=0.01)
 
 
+def test_ubend(run):
+    lines, numbers = run("ubend", "--stroke", "1", "--calculix", "0", benchmark="ubend")
+    assert [line.split("|")[1].strip() for line in lines[2:4]] == ["umform, BEND8", "umform, BEND8, without friction"]
+    assert numbers["umform, BEND8: stroke"] == 1.0
+    assert float(lines[2].split("|")[3]) > float(lines[3].split("|")[3]) > 0.0  # friction costs force
+
+
 def test_memory(run):
     lines, numbers = run("memory", "--elements", "4", benchmark="memory 4")
     assert [line[:16] for line in lines[1:3]] == ["umform and numpy", "history, converg"]

@@ -44,8 +44,8 @@ def test_a_run_refuses_what_cannot_be_meant(change, text, deck, tmp_path):
 
 
 def test_force_runs_it_all_the_same(deck, tmp_path):
-    forced = umform("run", deck, *SHORT, "--set", "mesh.width=0.009", "--set", "output.report=false", "--force")
-    assert "a side of 0.009 thicknesses" in forced.stderr
+    forced = umform("run", deck, *SHORT, "--set", "mesh.width=0.005", "--set", "output.report=false", "--force")
+    assert "a side of 0.005 thicknesses" in forced.stderr
     assert forced.exit_code == 0
     assert (tmp_path / "results/deck/history.csv").exists()
 

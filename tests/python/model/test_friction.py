@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from umform import materials as mt
 from umform.errors import InvalidFriction, InvalidValue, NoConvergence
 from umform.mesh import strip
 from umform.model import Model
+from umform.model.contact.face_basis import in_face_basis
 from umform.model.contact.friction import friction_kernel
 from umform.run import solve
 from umform.solution.options import NewtonOptions
@@ -83,8 +85,10 @@ def rubbing_plate(build, rng, tool, cell="hex8", points=3, friction=0.3, slip=0.
 
     touch(u)
     contact.block.begin()
-    full(u)
-    contact.block.commit()
+    for way in (0.0, 0.004):  # the second time tractions along the tool are there
+        u = u + np.tile([way, -way, 0.0], len(mesh.points))
+        full(u)
+        contact.block.commit()
     u = u + 0.02 * rng.normal(size=u.size) + np.tile([0.01, 0.006, 0.0], len(mesh.points))
     turn[:] += (0.01, 0.02, -0.03)
     touch(u)
@@ -170,7 +174,7 @@ def test_a_sheet_and_a_tool_that_move_together_feel_no_friction(build, rng, name
     after = contact.block.found()
     assert before.points.size > 3
     np.testing.assert_allclose(after.traction, before.traction @ Q.T, atol=1e-12)
-    np.testing.assert_allclose(after.elastic_slip, before.elastic_slip, atol=1e-14)
+    np.testing.assert_allclose(after.elastic_slip, before.elastic_slip @ Q.T, atol=1e-14)
 
 
 # A block on a table ------------------------------------------------------------------------------------------
@@ -265,10 +269,53 @@ def test_multipliers_take_the_elastic_slip_and_the_creep_away():
     result = solve(model, [Move(ways["z"], -0.01, steps=2), Move(ways["x"], 0.0015, steps=30)])
     found = model.contacts[0].found
     assert not found.slipping.any()
-    assert found.held.elastic_slip.max() <= 1e-5
+    assert np.linalg.norm(found.elastic_slip, axis=1).max() <= 1e-5
     stiff, ways = block(slip=1e-7, penalty=1e6)
     other = solve(stiff, [Move(ways["z"], -0.01, steps=2), Move(ways["x"], 0.0015, steps=30)])
     assert result["table_fx"][-1] == pytest.approx(other["table_fx"][-1], rel=0.02)
+
+
+def test_multipliers_in_the_basis_of_the_face_leave_no_penetration_that_it_could_take_away():
+    """With 36 points a face on a sphere the fit of the gaps is closed, and what is left is the shape of the face."""
+    mesh, forces = strip(4.0, 4.0, 1.0, (4, 4)), {}
+    for points in (2, 6):
+        model = Model(mesh, material=mt.SVK(E=1000.0, nu=0.3))
+        way = model.prescribe("upper", "z", "way")
+        model.fix("upper", "x")
+        model.fix("upper", "y")
+        settings = {"penalty": 2e4, "penetration": 1e-4, "augmented": True, "friction": 0.2, "slip": 1e-4}
+        contact = model.contact("lower", Sphere((2.0, 2.0, -10.5), 10.0), points=points, name="ball", **settings)
+        result = solve(model, Move(way, -0.1, steps=4))
+        assert not contact.loose(contact.found)
+        assert result["ball_penetration"][-1] <= 1e-4
+        assert (contact.found.penetration > 2e-3) == (points == 6)
+        forces[points] = result["ball_fz"][-1]
+    assert forces[6] == pytest.approx(forces[2], rel=0.1)
+
+
+def test_the_fit_of_a_face_is_a_least_squares_fit_over_held_points(rng):
+    mesh = strip(2.0, 1.0, 0.2, (2, 1))
+    contact = Model(mesh, material=ELASTIC).contact("lower", Plane((0, 0, -0.1)), points=4)
+    N, area = contact.block.shape_values, contact.block.areas
+    held = rng.random(area.size) < 0.7
+    nodal = rng.normal(size=4)
+    exact = np.tile(N @ nodal, 2)
+    np.testing.assert_allclose(in_face_basis(exact, held, area, N), np.where(held, exact, 0.0), atol=1e-12)
+    values = rng.normal(size=(area.size, 3))
+    fit = in_face_basis(values, held, area, N)
+    rest = (np.where(held[:, None], values, 0.0) - fit) * area[:, None]
+    np.testing.assert_allclose(np.einsum("qa,eqk->eak", N, rest.reshape(2, 16, 3)), 0.0, atol=1e-12)
+
+
+def test_an_elastic_slip_that_is_larger_than_allowed_is_told_with_a_remedy_that_works():
+    model, ways = block(slip=1e-3)
+    steps = [Move(ways["z"], -0.1, steps=1), Move(ways["x"], 0.2, steps=6)]
+    warned = [text for text in solve(model, steps).warnings if "elastic slip" in text]
+    assert len(warned) == 1
+    remedy = float(re.search(r"slip = (\S+),", warned[0])[1])
+    model, ways = block(slip=remedy)
+    reached = solve(model, [Move(ways["z"], -0.1, steps=1), Move(ways["x"], 0.2, steps=6)])["table_elastic_slip"].max()
+    assert reached == pytest.approx(1e-3, rel=0.1)
 
 
 # Laws and bad input ------------------------------------------------------------------------------------------

@@ -72,3 +72,19 @@ def saddle(rows, held, seed):
         (np.ones(held), (np.arange(held), random.permutation(stiffness.shape[0])[:held])), shape=border.shape
     )
     return sparse.bmat([[stiffness, border.T], [border, None]]).tocsr()
+
+
+def some_matrix(seed, symmetric):
+    """Sparse, of random size and density, with a diagonal of zeros, of very unequal entries or of large ones."""
+    random = np.random.default_rng(seed)
+    n = int(random.integers(1, 160))
+    matrix = random.normal(size=(n, n)) * (random.random((n, n)) < random.uniform(0.01, 0.3))
+    matrix = matrix + matrix.T if symmetric else matrix
+    kind = random.integers(4)
+    if kind == 0:
+        np.fill_diagonal(matrix, 0.0)
+    elif kind == 1:
+        matrix += np.diag(random.normal(size=n) * random.choice([1e-3, 1.0, 1e3]))
+    elif kind == 2:
+        matrix += 0.5 * n * np.eye(n)
+    return matrix

@@ -43,11 +43,14 @@ struct Bead {
     }
 
     void put_wanted(const double*, double*) const {}
-    void augment(const Place&, const double*, double*) const {}
+    void augment(const Place&, const Vec3&, const double*, double*) const {}
     void settle(double*) const {}
 
     Rubbing rubbing(const double* history) const {
-        return {slip * std::abs(history[Share]), history[Slip], history[Stored] + history[LiftWork], history[Work]};
+        Vec3 elastic = at(history + Traction);
+        const double size = std::sqrt(dot(elastic, elastic));
+        for (double& value : elastic) value *= size > 0.0 ? -slip * std::abs(history[Share]) / size : 0.0;
+        return {elastic, history[Slip], history[Stored] + history[LiftWork], history[Work]};
     }
 
     bool respond(const Place& place, double weight, const double* state, double* trial, Reaction& reaction) const {

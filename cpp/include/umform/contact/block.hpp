@@ -62,8 +62,8 @@ class ContactBlock {
     void set_multipliers(const double* values) {
         for (int q = 0; q < points(); ++q) history_.trial(0)[q * history_.size()] = values[q];
     }
-    /// Lets multipliers carry the tractions along the tool that were found by the last `evaluate`. eq. (4.50)
-    virtual void augment() = 0;
+    /// Lets multipliers carry tractions [point] along the tool at the points that are held. eq. (4.50)
+    virtual void augment(const Vec3* tractions) = 0;
     /// Makes the places where the points are now, by `locate` or `evaluate`, those of a sheet that nothing has held before. It does
     /// nothing once there is a history.
     virtual void begin() = 0;
@@ -155,7 +155,8 @@ class ContactBlockOf final : public ContactBlock {
             found.x.push_back(x), found.normal.push_back(n);
             found.traction.push_back(reaction.traction(n));
             found.gap.push_back(locator_.gaps()[q]), found.pressure.push_back(reaction.pressure);
-            found.elastic_slip.push_back(rubbing.elastic_slip), found.slip.push_back(rubbing.slip);
+            found.elastic_slip.push_back(locator_.pose().turn(rubbing.elastic_slip));
+            found.slip.push_back(rubbing.slip);
             found.area.push_back(area_[q]);
             Vec3 force;  // (pressure area) n, in this order: that of the forces at nodes
             for (int k = 0; k < 3; ++k)
@@ -212,12 +213,13 @@ class ContactBlockOf final : public ContactBlock {
         history_.restore(places.data(), places.size());
     }
 
-    void augment() override {
+    void augment(const Vec3* tractions) override {
         if (!law_->follows_places()) return;
         for_each_held([&](int e, int q, const Reaction&) {
             const Place place{locator_.gaps()[q], locator_.positions()[q], locator_.normals()[q],
                               locator_.hessians()[q], locator_.pose()};
-            law_->augment(place, history_.state(e) + history_.size() * (q % per_facet()), history_.point(q));
+            law_->augment(place, tractions[q], history_.state(e) + history_.size() * (q % per_facet()),
+                          history_.point(q));
         });
     }
 

@@ -36,7 +36,8 @@ struct Reaction {
 
 /// What friction holds and has cost at a place, per area.
 struct Rubbing {
-    double elastic_slip = 0.0, slip = 0.0;  // now, and the distance slid in all
+    Vec3 elastic_slip{};  // now, in the frame of the tool
+    double slip = 0.0;    // distance slid in all
     double stored = 0.0, work = 0.0;
 };
 
@@ -87,7 +88,7 @@ class ContactLaw {
     // Of one place, and of laws that follow places only; z is in the frame of the tool.
     virtual void leave(const Vec3& z, const double* state, double* trial) const = 0;
     virtual Rubbing rubbing(const double* history) const = 0;
-    virtual void augment(const Place& place, const double* state, double* trial) const = 0;
+    virtual void augment(const Place& place, const Vec3& t, const double* state, double* trial) const = 0;
     virtual void put_wanted(const double* trial, double* read) const = 0;
     virtual void settle(double* trial) const = 0;
 };
@@ -123,8 +124,8 @@ class ContactLawOf final : public ContactLaw {
         if constexpr (Law::follows_places) return law_.rubbing(history);
         return {};
     }
-    void augment(const Place& place, const double* state, double* trial) const override {
-        if constexpr (Law::follows_places) law_.augment(place, state, trial);
+    void augment(const Place& place, const Vec3& t, const double* state, double* trial) const override {
+        if constexpr (Law::follows_places) law_.augment(place, t, state, trial);
     }
     void put_wanted(const double* trial, double* read) const override {
         if constexpr (Law::follows_places) law_.put_wanted(trial, read);

@@ -50,17 +50,20 @@ struct Coulomb {
 
     Rubbing rubbing(const double* history) const {
         const Vec3 t = at(history + Traction), lambda = at(history + Tangential);
-        const Vec3 difference{lambda[0] - t[0], lambda[1] - t[1], lambda[2] - t[2]};
-        return {std::sqrt(dot(difference, difference)) / tangential_stiffness(), history[Slip], stored(history),
-                history[Work]};
+        Vec3 elastic;
+        for (int k = 0; k < 3; ++k) elastic[k] = (lambda[k] - t[k]) / tangential_stiffness();
+        return {elastic, history[Slip], stored(history), history[Work]};
     }
 
-    /// Lets multipliers carry the traction that was found at a place that is held. eq. (4.50)
-    void augment(const Place& place, const double* state, double* trial) const {
+    /// Lets multipliers carry a traction at a place that is held, as far as it points along the tool. eq. (4.50)
+    void augment(const Place& place, const Vec3& t, const double* state, double* trial) const {
+        const Facing facing(place);
         const bool held = state[Held] != 0.0;
-        const Vec3 t =
-            carried_back(place.pose, Facing(place), place.pose.turn(at(trial + Traction)), at(state + Normal), held);
-        for (int k = 0; k < 3; ++k) trial[Change + k] = t[k] - (held ? state[Tangential + k] : 0.0);
+        const double normal = dot(facing.n, t);
+        Vec3 along;
+        for (int k = 0; k < 3; ++k) along[k] = t[k] - normal * facing.n[k];
+        const Vec3 wanted = carried_back(place.pose, facing, along, at(state + Normal), held);
+        for (int k = 0; k < 3; ++k) trial[Change + k] = wanted[k] - (held ? state[Tangential + k] : 0.0);
     }
 
     bool respond(const Place& place, double weight, const double* state, double* trial, Reaction& reaction) const {

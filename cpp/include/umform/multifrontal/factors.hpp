@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cholesky.hpp"
+#include "equilibration.hpp"
 #include "indefinite.hpp"
 #include "plan.hpp"
 #include "schedule.hpp"
@@ -47,8 +48,8 @@ class Factors {
   public:
     explicit Factors(const Plan& plan) : plan_(plan), schedule_(plan), fronts_(plan.fronts.size()) {}
 
-    Outcome factor(Kind kind, const double* values, int threads) {
-        kind_ = kind, values_ = values, state_ = Outcome::Done, equation_ = -1;
+    Outcome factor(Kind kind, const double* values, Scaling scaling, int threads) {
+        kind_ = kind, values_ = values, scaling_ = std::move(scaling), state_ = Outcome::Done, equation_ = -1;
         storage_.grow(plan_.factor_size);
         if (static_cast<int>(workers_.size()) < threads) workers_ = std::vector<Worker>(threads);
         const OneBlasThread alone;
@@ -65,6 +66,7 @@ class Factors {
 
     const Plan& plan() const { return plan_; }
     Kind kind() const { return kind_; }
+    const Scaling& scaling() const { return scaling_; }
     const Schedule& schedule() const { return schedule_; }
     const Eliminated& front(int f) const { return fronts_[f]; }
 
@@ -89,8 +91,9 @@ class Factors {
     };
     struct Worker {
         Stacks stacks;
-        std::vector<Child> seats;   // grows only
-        std::span<Child> children;  // of the present front
+        std::vector<Child> seats;         // grows only
+        std::span<Child> children;        // of the present front
+        std::vector<double> row, column;  // scales of its rows and columns
     };
 
     const Plan& plan_;
@@ -101,6 +104,7 @@ class Factors {
     Pool pool_;
     Kind kind_ = Kind::Positive;
     const double* values_ = nullptr;
+    Scaling scaling_;
     std::atomic<Outcome::State> state_{Outcome::Done};
     int equation_ = -1;
 
@@ -111,6 +115,7 @@ class Factors {
         Eliminated& front = fronts_[f];
         open(f, front, worker);
         add_entries(f, front);
+        if (scaling_.active()) scale(f, front, worker);
         for (const Child& child : worker.children) add_pivots(child, front);
         if (!eliminate(f, front)) return;
         if (front.order() > 0) make_update(f, front, worker, stack);
@@ -208,6 +213,26 @@ class Factors {
             } else {
                 front.b()[target[k] - p * m] += values_[source[k]];
             }
+        }
+    }
+
+    /// Scales the entries of the matrix, before anything else is added to them.
+    void scale(int f, Eliminated& front, Worker& worker) {
+        const Front& planned = plan_.fronts[f];
+        const int p = planned.pivots, m = front.size, beyond = m - front.pivots;
+        std::vector<double>&r = worker.row, &c = worker.column;
+        r.assign(m, 1.0), c.assign(m, 1.0);  // of what children have left there is nothing yet
+        for (int k = 0; k < planned.size; ++k) {
+            const int at = k < p ? k : k + front.pivots - p;
+            const int i = plan_.equation[k < p ? planned.first + k : plan_.rows[planned.rows + k - p]];
+            r[at] = scaling_.row[i], c[at] = scaling_.column[i];
+        }
+        for (int j = 0; j < p; ++j) {
+            double* column = front.a + static_cast<std::ptrdiff_t>(j) * m;
+            for (int i = kind_ == Kind::Unsymmetric ? 0 : j; i < m; ++i) column[i] *= r[i] * c[j];
+            if (kind_ != Kind::Unsymmetric) continue;
+            double* row = front.b() + static_cast<std::ptrdiff_t>(j) * beyond;
+            for (int i = 0; i < beyond; ++i) row[i] *= r[j] * c[front.pivots + i];
         }
     }
 

@@ -1,9 +1,7 @@
-// Products with the matrix as it was given, and the size of its columns.
+// Products with the matrix as it was given.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "structure.hpp"
 
@@ -25,19 +23,6 @@ inline void residual(const Rows& rows, bool symmetric, const double* values, con
             r[i] -= sum;
         }
     }
-}
-
-/// Largest entry of each column.
-inline std::vector<double> column_sizes(const Rows& rows, bool symmetric, const double* values) {
-    std::vector<double> size(rows.n, 0.0);
-    for (int i = 0; i < rows.n; ++i)
-        for (int k = rows.indptr[i]; k < rows.indptr[i + 1]; ++k) {
-            const double here = std::abs(values[k]);
-            const int column = rows.indices[k];
-            size[column] = std::max(size[column], here);
-            if (symmetric) size[i] = std::max(size[i], here);
-        }
-    return size;
 }
 
 }  // namespace umform

@@ -10,7 +10,7 @@
 
 namespace umform {
 
-/// Solves K X = B for a few columns at once. The right-hand side of a front is changed by its children only, in their order:
+/// Solves K X = B for a few columns at once: R K C Y = R B, X = C Y with the scales of rows and columns. The right-hand side of a front is changed by its children only, in their order:
 /// the same bits for any number of threads.
 class Substitution {
   public:
@@ -24,8 +24,11 @@ class Substitution {
     /// Columns of b and x are `n` long, in the order of the equations.
     void run(const double* b, double* x) {
         const std::size_t n = plan_.n;
+        const Scaling& scaling = factors_.scaling();
+        const bool scaled = scaling.active();
         for (int j = 0; j < columns_; ++j)
-            for (std::size_t i = 0; i < n; ++i) right_[j * n + plan_.place[i]] = b[j * n + i];
+            for (std::size_t i = 0; i < n; ++i)
+                right_[j * n + plan_.place[i]] = scaled ? scaling.row[i] * b[j * n + i] : b[j * n + i];
         const OneBlasThread alone;
         factors_.schedule().run(
             plan_, threads_,
@@ -39,7 +42,10 @@ class Substitution {
             for (int f = unit.root; f >= unit.begin; --f) back(f, scratch_[thread]);
         });
         for (int j = 0; j < columns_; ++j)
-            for (std::size_t i = 0; i < n; ++i) x[j * n + i] = found_[j * n + plan_.place[i]];
+            for (std::size_t i = 0; i < n; ++i) {
+                const double y = found_[j * n + plan_.place[i]];
+                x[j * n + i] = scaled ? scaling.column[i] * y : y;
+            }
     }
 
   private:

@@ -173,6 +173,11 @@ class ContactFound(Found):
         return self._spread(self.held.traction - self.held.pressure[:, None] * self.held.normal)
 
     @cached_property
+    def elastic_slip(self) -> Floats:
+        """Elastic slip along the tool of the points that are held, zero elsewhere, shape (n, 3)."""
+        return self._spread(self.held.elastic_slip)
+
+    @cached_property
     def slip(self) -> Floats:
         """Distances slid so far by the points that are held, zero elsewhere, shape (n,)."""
         return self._spread(self.held.slip)

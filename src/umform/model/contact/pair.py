@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.errors import ModelError
 from umform.mesh import Mesh
+from umform.model.contact.face_basis import in_face_basis
 from umform.model.contact.found import ContactFound, ContactPoints
 from umform.model.contact.points import PairPoints, hat_functions
 from umform.model.control import Control
@@ -132,13 +133,14 @@ class Contact(PairPoints):
         """Largest penetration and number of points that are held; with friction those that slip, and how far."""
         assert isinstance(found, ContactFound)
         columns = {
-            f"{self.name}_penetration": ranks.max(found.penetration),
+            f"{self.name}_penetration": ranks.max(self._depth(found)),
             f"{self.name}_active": int(ranks.sum(float(found.active.sum()))),
         }
         if self.friction is not None:
+            elastic = float(np.linalg.norm(found.held.elastic_slip, axis=1).max(initial=0.0))
             columns |= {
                 f"{self.name}_slipping": int(ranks.sum(float(found.slipping.sum()))),
-                f"{self.name}_elastic_slip": ranks.max(float(found.held.elastic_slip.max(initial=0.0))),
+                f"{self.name}_elastic_slip": ranks.max(elastic),
                 f"{self.name}_friction_work": ranks.sum(found.friction_work),
             }
         return columns
@@ -190,11 +192,19 @@ class Contact(PairPoints):
     # Multipliers and penalties -------------------------------------------------------------------------------
 
     def loose(self, found: ContactFound) -> bool:
-        """Whether multipliers are wanted and a point that the tool holds is further from it than allowed."""
+        """Whether multipliers are wanted and a face is further from the tool than allowed, or has slid farther."""
         if not self.augmented or self.allowed is None:
             return False
-        slides = self.friction is not None and bool((found.held.elastic_slip > self.slip).any())
-        return slides or bool((np.abs(found.held.gap) > self.allowed).any())
+        if (np.abs(self._in_basis(found.held_gap, found)) > self.allowed).any():
+            return True
+        slides = self.friction is not None and np.linalg.norm(self._in_basis(found.elastic_slip, found), axis=1)
+        return bool(np.any(slides > self.slip))
+
+    def _depth(self, found: ContactFound) -> float:
+        """Largest penetration; with multipliers the part of it that the face could take away."""
+        if not self.augmented or not found.active.any():
+            return found.penetration
+        return float(-min(self._in_basis(found.held_gap, found).min(), 0.0))
 
     def augment(self, found: ContactFound, change: Floats) -> None:
         """Let the multipliers carry the pressure that was found, and add what that changes in the residual.
@@ -202,9 +212,14 @@ class Contact(PairPoints):
         The points that are held now stay so to first order, and close their gaps: where the tool goes back, new
         multipliers on old gaps would let go of points that bear a pressure. eqs. (4.34), (4.35)
         """
-        self._close(found, found.held_gap, change)
-        self.block.multipliers = found.pressure
-        self.block.augment()
+        self._close(found, self._in_basis(found.held_gap, found), change)
+        self.block.multipliers = np.maximum(self._in_basis(found.pressure, found), 0.0)
+        if self.friction is not None:
+            self.block.augment(self._in_basis(found.friction, found))
+
+    def _in_basis(self, values: Floats, found: ContactFound) -> Floats:
+        """Values at the points that are held as the shape functions of the faces can have them."""
+        return in_face_basis(values, found.active, found.area, self.block.shape_values)
 
     def stiffen(self, found: ContactFound, penalty: float, change: Floats) -> None:
         """Take another penalty, and add to the residual what lets the points that are held keep their pressure.

@@ -85,7 +85,7 @@ def contact_settings(
     """
     _check(penalty, penetration, points, augmented, tool, where)
     law = _friction_law(friction, slip, where)
-    estimated = penalty is None or points == "auto"
+    estimated, given = penalty is None or points == "auto", penalty is not None
     allowed = penetration
     if allowed is None and (penalty is None or augmented):
         allowed = _PENETRATION * sheet_thickness(mesh)
@@ -106,10 +106,10 @@ def contact_settings(
     if law is None:
         return ContactSettings(float(penalty), points, allowed, bool(augmented))
     slip = _SLIP * sheet_thickness(mesh) if slip is None else float(slip)
-    if allowed is not None:
-        pressure = penalty * allowed
-    else:
+    if given or allowed is None:
         pressure = _pressure(mesh, faces, tool, material, penalty, points)
+    else:
+        pressure = penalty * allowed
     ratio = _tangential_stiffness(law, pressure, slip) / penalty
     return ContactSettings(float(penalty), points, allowed, bool(augmented), friction, slip, ratio)
 

@@ -1,0 +1,188 @@
+"""Flat blanks of quadrilaterals without degenerate elements: discs and rings, whole, half or a quarter."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue, WrongCellType
+from umform.mesh.generators import graded
+from umform.mesh.mesh import FACE_NODES, Floats, Mesh
+from umform.mesh.neighbours import Whole, outer_faces
+
+#: Half the side of the core of a disc, and how far its sides bulge from straight lines towards a circle.
+_CORE, _BULGE = 0.5, 0.6
+_PARTS = ("whole", "half", "quarter")
+
+
+def disc(
+    radius: float,
+    thickness: float,
+    cells: tuple[int, int],
+    *,
+    part: str = "whole",
+    cell: str = "hex8",
+    layers: int = 1,
+    grading: float = 1.0,
+) -> Mesh:
+    """Flat disc about the z-axis, mid-surface at z = 0: a square core in the middle, rings of elements around it.
+
+    Parameters
+    ----------
+    radius, thickness : float
+        Dimensions.
+    cells : tuple of int
+        Elements along an edge of the core of a quarter, which are half of those on a quarter of the rim; and from the
+        core to the rim.
+    part : {"whole", "half", "quarter"}
+        A half has x >= 0, a quarter y >= 0 as well.
+    cell : {"hex8", "hex18"}
+        Cell type.
+    layers : int
+        Elements stacked through the thickness.
+    grading : float
+        Size of the last element over that of the first one, from the core to the rim.
+
+    Returns
+    -------
+    Mesh
+        With face sets ``lower`` and ``upper``, and node sets ``rim``, ``centre``, of parts ``x0`` and ``y0``, each also
+        with ``_lower`` and ``_upper``.
+
+    Raises
+    ------
+    InvalidValue
+        If a number is out of range.
+    """
+    _check(part, cells, layers, radius=radius, thickness=thickness)
+    core, rings = cells
+    order = _order(cell)
+    square = np.linspace(0.0, 1.0, core * order + 1)
+    u, v = np.meshgrid(square, square, indexing="ij")
+    round_ = np.stack([u * np.sqrt(1.0 - 0.5 * v * v), v * np.sqrt(1.0 - 0.5 * u * u)], axis=-1)
+    straight = np.stack([u, v], axis=-1) / math.sqrt(2.0) * 1.15
+    middle = _CORE * radius * (_BULGE * round_ + (1.0 - _BULGE) * straight)
+    out = _along(1.0, rings, grading, order)
+    patches = [middle]
+    for edge, angles in ((middle[-1], 0.25 * math.pi * square), (middle[::-1, -1], 0.25 * math.pi * (1.0 + square))):
+        arc = radius * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        patches.append(edge[None] + out[:, None, None] * (arc - edge)[None])
+    points, quads = _joined(patches, part, order, 1e-9 * radius)
+    far = np.hypot(*points.T)
+    sets = {"rim": far > radius * (1 - 1e-9), "centre": far < radius * 1e-9}
+    return _stacked(points, quads, thickness, layers, sets | _symmetry(points, part, 1e-9 * radius), cell)
+
+
+def ring(
+    inner: float,
+    outer: float,
+    thickness: float,
+    cells: tuple[int, int],
+    *,
+    part: str = "whole",
+    cell: str = "hex8",
+    layers: int = 1,
+    grading: float = 1.0,
+) -> Mesh:
+    """Flat ring about the z-axis, mid-surface at z = 0.
+
+    Parameters
+    ----------
+    inner, outer, thickness : float
+        Radii and thickness.
+    cells : tuple of int
+        Elements on a quarter of the circle, and from the hole to the rim.
+    part, cell, layers, grading
+        As for :func:`disc`; the grading goes from the hole to the rim.
+
+    Returns
+    -------
+    Mesh
+        As :func:`disc`, with the node set ``hole`` in place of ``centre``.
+
+    Raises
+    ------
+    InvalidValue
+        If a number is out of range.
+    """
+    _check(part, cells, layers, inner=inner, outer=outer, thickness=thickness)
+    if not inner < outer:
+        raise InvalidValue("the outer radius of a ring is larger than the inner one", value=f"{inner:g}, {outer:g}")
+    around, rings = cells
+    order = _order(cell)
+    angles = np.linspace(0.0, 0.5 * math.pi, around * order + 1)
+    radii = inner + _along(outer - inner, rings, grading, order)
+    arcs = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    points, quads = _joined([radii[:, None, None] * arcs[None]], part, order, 1e-9 * outer)
+    far = np.hypot(*points.T)
+    sets = {"rim": far > outer * (1 - 1e-9), "hole": far < inner * (1 + 1e-9)}
+    return _stacked(points, quads, thickness, layers, sets | _symmetry(points, part, 1e-9 * outer), cell)
+
+
+def _along(length: float, cells: int, grading: float, order: int) -> Floats:
+    """Nodes on a graded line from 0 on; middle nodes of 18-node cells lie half-way."""
+    ends = graded(length, cells, grading)
+    return ends if order == 1 else np.sort(np.concatenate([ends, 0.5 * (ends[1:] + ends[:-1])]))
+
+
+def _joined(patches: Sequence[Floats], part: str, order: int, tolerance: float) -> tuple[Floats, Whole]:
+    """Points (n, 2) and quadrilaterals of patches (i, j, 2) of a quarter, mirrored for a half or the whole."""
+    mirrored = list(patches)
+    if part != "quarter":  # exchanging the directions of a patch turns its mirror image the right way round
+        mirrored += [np.swapaxes(patch * (1.0, -1.0), 0, 1) for patch in mirrored]
+    if part == "whole":
+        mirrored += [np.swapaxes(patch * (-1.0, 1.0), 0, 1) for patch in mirrored]
+    offsets = ((FACE_NODES[: 4 if order == 1 else 9] + 1) / 2 * order).astype(int)
+    points, quads, count = [], [], 0
+    for patch in mirrored:
+        number = count + np.arange(patch.shape[0] * patch.shape[1]).reshape(patch.shape[:2])
+        starts = (np.arange(0, size - 1, order) for size in patch.shape[:2])
+        i, j = (index.ravel() for index in np.meshgrid(*starts, indexing="ij"))
+        quads.append(np.stack([number[i + a, j + b] for a, b in offsets], axis=1))
+        points.append(patch.reshape(-1, 2))
+        count += number.size
+    X = np.concatenate(points)
+    X[np.abs(X) < tolerance] = 0.0
+    _, first, same = np.unique(np.round(X / tolerance), axis=0, return_index=True, return_inverse=True)
+    return X[first], same.ravel()[np.concatenate(quads)]
+
+
+def _symmetry(points: Floats, part: str, tolerance: float) -> dict[str, NDArray[np.bool_]]:
+    """Nodes of the planes of symmetry of a part."""
+    on = {"x0": np.abs(points[:, 0]) < tolerance, "y0": np.abs(points[:, 1]) < tolerance}
+    return {} if part == "whole" else {"x0": on["x0"]} if part == "half" else on
+
+
+def _stacked(
+    points: Floats, quads: Whole, thickness: float, layers: int, sets: Mapping[str, NDArray[np.bool_]], cell: str
+) -> Mesh:
+    """Layers of cells above each other."""
+    count, heights = len(points), graded(thickness, layers) - 0.5 * thickness
+    nodes = np.concatenate([np.column_stack([points, np.full(count, z)]) for z in heights])
+    bottom = np.concatenate([quads + layer * count for layer in range(layers)])
+    cells = np.concatenate([bottom, bottom + count], axis=1).astype(np.int32)
+    named: dict[str, Whole] = {}
+    for name, chosen in sets.items():
+        ids = np.flatnonzero(chosen)
+        named[name] = np.concatenate([ids + layer * count for layer in range(layers + 1)])
+        named[f"{name}_lower"], named[f"{name}_upper"] = ids, ids + layers * count
+    return Mesh(nodes, {cell: cells}, named, outer_faces(cells))
+
+
+def _order(cell: str) -> int:
+    if cell not in ("hex8", "hex18"):
+        raise WrongCellType("unknown cell type", value=cell, remedy="hex8 or hex18")
+    return 1 if cell == "hex8" else 2
+
+
+def _check(part: str, cells: tuple[int, int], layers: int, **lengths: float) -> None:
+    if part not in _PARTS:
+        raise InvalidValue("unknown part of a blank", value=part, remedy=f"choose one of {', '.join(_PARTS)}")
+    if not isinstance(cells, tuple | list) or len(cells) != 2 or min(cells) < 1 or layers < 1:
+        raise InvalidValue("cells are two numbers, layers one, all at least 1", value=f"cells {cells}, layers {layers}")
+    for name, value in lengths.items():
+        if not (math.isfinite(value) and value > 0):
+            raise InvalidValue(f"the {name} of a blank must be positive", value=value)

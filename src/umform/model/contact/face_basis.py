@@ -1,0 +1,46 @@
+"""Values at the contact points of a face as its shape functions can have them. docs/theory, 4.16
+
+Multipliers at more points than a face has nodes hold more than the face can do, and oscillate.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+def in_face_basis(values: Floats, held: NDArray[np.bool_], area: Floats, N: Floats) -> Floats:
+    """Least-squares fit of values by the shape functions of each face, over the points that are held.
+
+    Parameters
+    ----------
+    values : ndarray, shape (faces * points,) or (faces * points, k)
+        Values at the contact points.
+    held : ndarray of bool, shape (faces * points,)
+        Which points count.
+    area : ndarray, shape (faces * points,)
+        Their weights.
+    N : ndarray, shape (points, nodes)
+        Shape functions at the points of a face.
+
+    Returns
+    -------
+    ndarray, as values
+        The fit at the points that are held, zero elsewhere; the values themselves where there are no more points than
+        nodes.
+    """
+    points, nodes = N.shape
+    flat = np.where(held[:, None], values.reshape(len(values), -1), 0.0)
+    if points > nodes:
+        faces = held.reshape(-1, points)
+        some = faces.any(axis=1)
+        root = np.sqrt(np.where(faces, area.reshape(-1, points), 0.0))[some]
+        weighted = root[:, :, None] * N
+        wanted = root[:, :, None] * flat.reshape(-1, points, flat.shape[1])[some]
+        fit = np.zeros((len(faces), points, flat.shape[1]))
+        fit[some] = N @ (np.linalg.pinv(weighted) @ wanted)
+        flat = np.where(held[:, None], fit.reshape(flat.shape), 0.0)
+    answer: Floats = flat.reshape(values.shape)
+    return answer

@@ -1,0 +1,133 @@
+// Friction at one place: stick, slip, first touch, a tool that moves, what is remembered, and tangents by differences.
+#include "check.hpp"
+#include "umform/contact/coulomb.hpp"
+
+using namespace umform;
+
+namespace {
+
+constexpr int numbers = 19;
+
+Coulomb law(double mu = 0.3) {
+    auto friction = std::make_shared<CoulombFriction>();
+    friction->pressure = {0.0}, friction->mu = {mu};
+    return {50.0, 0.4, friction};
+}
+
+/// A ball of radius 2 about the origin.
+struct Ball {
+    Vec3 n;
+    Mat3 H;
+    double gap;
+
+    explicit Ball(const Vec3& x) {
+        const double length = std::sqrt(dot(x, x));
+        gap = length - 2.0;
+        for (int k = 0; k < 3; ++k) n[k] = x[k] / length;
+        for (int k = 0; k < 3; ++k)
+            for (int l = 0; l < 3; ++l) H(k, l) = ((k == l ? 1.0 : 0.0) - n[k] * n[l]) / length;
+    }
+};
+
+Reaction at(const Coulomb& law, const Vec3& x, const double* state, double* trial) {
+    const Ball ball(x);
+    const Pose pose;
+    Reaction reaction{};
+    reaction.held = law.respond({ball.gap, x, ball.n, ball.H, pose}, 1.0, state, trial, reaction);
+    return reaction;
+}
+
+Vec3 traction(const Coulomb& law, const Vec3& x, const double* state) {
+    double trial[numbers]{};
+    return at(law, x, state, trial).traction(Ball(x).n);
+}
+
+void check_tangent(const Coulomb& law, const Vec3& x, const double* state, bool slips) {
+    double trial[numbers]{};
+    const Reaction reaction = at(law, x, state, trial);
+    CHECK(reaction.held && reaction.slipping == slips);
+    for (int j = 0; j < 3; ++j) {
+        Vec3 ahead = x, behind = x;
+        ahead[j] += 1e-6, behind[j] -= 1e-6;
+        const Vec3 t = traction(law, ahead, state), s = traction(law, behind, state);
+        for (int i = 0; i < 3; ++i) CHECK_NEAR(reaction.K[i][j], -(t[i] - s[i]) / 2e-6, 2e-7);
+    }
+}
+
+void check_states() {
+    const Coulomb rubbing = law();
+    double state[numbers]{}, held[numbers]{}, after[numbers]{};
+    rubbing.leave({0.0, 0.0, 2.3}, state, state);
+    CHECK_NEAR(state[4], 2.3, 0.0);
+
+    // First touch: of a way of 0.4 down and 0.04 aside, 0.0484 along the tool there, a quarter is in the tool.
+    const Vec3 touched{0.04, 0.0, 1.9};
+    const Reaction first = at(rubbing, touched, state, held);
+    CHECK(first.held && !first.slipping);
+    CHECK_NEAR(first.tangential[0], -20.0 * 0.25 * 0.0484, 1e-3);
+    check_tangent(rubbing, touched, state, false);
+
+    // It sticks, then slips: the traction is at its bound, against the way.
+    check_tangent(rubbing, {0.06, 0.01, 1.9}, held, false);
+    check_tangent(rubbing, {0.30, 0.10, 1.88}, held, true);
+    const Reaction slip = at(rubbing, {0.30, 0.10, 1.88}, held, after);
+    CHECK_NEAR(std::sqrt(dot(slip.tangential, slip.tangential)), 0.3 * slip.pressure, 1e-13);
+    CHECK_NEAR(dot(slip.tangential, Ball({0.30, 0.10, 1.88}).n), 0.0, 1e-14);
+    CHECK(slip.tangential[0] < 0.0 && slip.tangential[1] < 0.0);
+    CHECK(after[18] > held[18]);  // friction has cost work
+    CHECK(after[17] > held[17]);
+
+    // At rest nothing moves, and the tangent sticks.
+    double again[numbers]{};
+    const Reaction rest = at(rubbing, {0.30, 0.10, 1.88}, after, again);
+    CHECK(!rest.slipping);
+    for (int k = 0; k < 3; ++k) CHECK_NEAR(rest.tangential[k], slip.tangential[k], 1e-14);
+    CHECK_NEAR(again[18], after[18], 1e-15);
+
+    // It lets go: what is left is the place, the distance slid and the work.
+    double gone[numbers]{};
+    CHECK(!at(rubbing, {0.30, 0.10, 2.1}, after, gone).held);
+    CHECK(gone[1] == 0.0 && gone[8] == 0.0 && gone[17] == after[17] && gone[18] == after[18]);
+}
+
+/// A full circle about an axis brings a vector along the tool back to where it was, turned by the holonomy of the cap.
+void check_transport() {
+    const double colatitude = 0.5;
+    const int steps = 4000;
+    Vec3 a{std::cos(colatitude), 0.0, -std::sin(colatitude)};  // along the meridian
+    Vec3 before = Ball({2.0 * std::sin(colatitude), 0.0, 2.0 * std::cos(colatitude)}).n;
+    const Pose pose;
+    for (int i = 1; i <= steps; ++i) {
+        const double angle = 2.0 * M_PI * i / steps;
+        const Vec3 x{2.0 * std::sin(colatitude) * std::cos(angle), 2.0 * std::sin(colatitude) * std::sin(angle),
+                     2.0 * std::cos(colatitude)};
+        const Ball ball(x);
+        const Facing facing({ball.gap, x, ball.n, ball.H, pose});
+        a = Carried(pose, facing, a, before, true).value;
+        CHECK_NEAR(dot(a, ball.n), 0.0, 1e-12);
+        before = ball.n;
+    }
+    const double turned = 2.0 * M_PI * std::cos(colatitude);
+    CHECK_NEAR(dot(a, a), 1.0, 1e-12);
+    CHECK_NEAR(a[0], std::cos(turned) * std::cos(colatitude), 1e-5);
+    CHECK_NEAR(std::abs(a[1]), std::abs(std::sin(turned)), 1e-5);
+}
+
+void check_laws() {
+    CoulombFriction friction;
+    friction.pressure = {1.0, 3.0}, friction.mu = {0.1, 0.3};
+    CHECK_NEAR(friction.bound(2.0, 0.0, {}).value, 0.4, 1e-15);
+    CHECK_NEAR(friction.bound(2.0, 0.0, {}).by_pressure, 0.4, 1e-15);
+    CHECK_NEAR(friction.bound(9.0, 0.0, {}).value, 2.7, 1e-15);
+    friction.cap = 0.35;
+    CHECK(friction.bound(2.0, 0.0, {}).value == 0.35 && friction.bound(2.0, 0.0, {}).by_pressure == 0.0);
+}
+
+}  // namespace
+
+int main() {
+    check_states();
+    check_transport();
+    check_laws();
+    return report("contact friction");
+}
