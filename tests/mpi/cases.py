@@ -138,7 +138,7 @@ def beaded():
     pull = model.prescribe("x1", "x", "pull")
     bed = model.contact("lower", uf.Plane((0, 0, -0.5)), penalty=1e3, name="bed")
     lid = model.contact("upper", uf.Plane((0, 0, 0.5), (0, 0, -1)), penalty=1e3, name="lid")
-    model.bead("lower", bed, [(9, -9, -0.5), (10, 9, -0.5)], restraint=30.0, uplift=5.0, width=6.0, name="across")
+    model.bead("lower", bed, [(9, -9, -0.5), (10, 9, -0.5)], restraint=30.0, uplift=2.0, width=6.0, name="across")
     square = [(18, -3, 0.5), (24, -3, 0.5), (24, 3, 0.5), (18, 3, 0.5)]
     model.bead("upper", lid, square, restraint=8.0, width=3.0, closed=True, slip=0.05, name="ring")
     force = model.press(lid, "z", "force")
