@@ -13,6 +13,7 @@ from umform_book.references import table
 #: Changes that make a run of a template short.
 SHORT = {
     "air-bending": {"steps.0.increments": 12, "steps.0.to.stroke": 0.6, "mesh.cells": [20, 1]},
+    "cup": {"steps.0.to.stroke": 1.0, "mesh.cells": [2, 3]},
     "cantilever": {"steps.0.increments": 3, "steps.0.to.force": 0.6},
     "free-bending": {"steps.0.increments": 5, "steps.0.to.punch": -1.0},
     "hinged-roof": {"steps.0.most": 3, "mesh.cells": [2, 2]},
