@@ -51,7 +51,7 @@ def bead(
     ] = None,
     draw: Annotated[float | None, _option("Way of the strip; default 1.5 times the way through.", _SOLUTION)] = None,
     element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "BEND8",
-    elements: Annotated[float, _option("Elements on a quarter turn of the sharper radius.", _SOLUTION)] = 14.0,
+    elements: Annotated[float, _option("Elements on a quarter turn of the sharper radius.", _SOLUTION)] = 20.0,
     contact_points: Annotated[int, _option("Contact points per direction and facet.", _SOLUTION)] = 4,
     overwrite: Overwrite = False,
     timing: Timed = False,

@@ -41,7 +41,7 @@ RULES: dict[str, Rule] = {
         lambda value: positive(value) and 2.0 <= value <= 100.0,
         "the number of elements on a quarter turn of the sharper radius lies between 2 and 100",
         "the number of all elements in place of those on an arc",
-        "14 is usual, 7 with 18 nodes",
+        "20 is usual, 10 with 18 nodes",
     ),
     "contact_points": Rule(
         lambda value: whole(value, 1, 10),

@@ -64,7 +64,7 @@ class DrawBead:
     friction: float = 0.1
     draw: float | None = None
     element: str | Element = "BEND8"
-    elements: float = 14.0
+    elements: float = 20.0
     contact_points: int = 4
 
     def __post_init__(self) -> None:
