@@ -9,6 +9,7 @@
 #include "evaluate.hpp"
 #include "umform/contact/bead.hpp"
 #include "umform/contact/block.hpp"
+#include "umform/contact/cells.hpp"
 #include "umform/contact/coulomb.hpp"
 #include "umform/contact/penalty.hpp"
 
@@ -18,13 +19,29 @@ namespace {
 
 using Vectors = std::vector<Vec3>;
 
-std::unique_ptr<ContactBlock> contact_block(const InputIds& facets, const Input& X, int points, bool at_nodes,
-                                            const std::shared_ptr<Surface>& surface, std::shared_ptr<ContactLaw> law) {
+using SharedSurface = std::shared_ptr<Surface>;
+using SharedLaw = std::shared_ptr<ContactLaw>;
+
+template <template <int> class FaceRule>
+std::unique_ptr<ContactBlock> block_of(const InputIds& facets, const Input& X, typename FaceRule<4>::Setting setting,
+                                       const SharedSurface& surface, const SharedLaw& law) {
     const Connectivity part = to_connectivity(facets);
-    const ContactRule rule{points, at_nodes};
-    if (part.nodes == 4) return std::make_unique<ContactBlockOf<4>>(part, to_vector(X), rule, surface, std::move(law));
-    if (part.nodes == 9) return std::make_unique<ContactBlockOf<9>>(part, to_vector(X), rule, surface, std::move(law));
+    if (part.nodes == 4)
+        return std::make_unique<ContactBlockOf<4, FaceRule<4>>>(part, to_vector(X), setting, surface, law);
+    if (part.nodes == 9)
+        return std::make_unique<ContactBlockOf<9, FaceRule<9>>>(part, to_vector(X), setting, surface, law);
     throw std::invalid_argument("a facet has 4 or 9 nodes");
+}
+
+std::unique_ptr<ContactBlock> contact_block(const InputIds& facets, const Input& X, int points, bool at_nodes,
+                                            const SharedSurface& surface, const SharedLaw& law) {
+    return block_of<AtPoints>(facets, X, {points, at_nodes}, surface, law);
+}
+
+std::unique_ptr<ContactBlock> contact_cells(const InputIds& facets, const Input& X, int cells,
+                                            const SharedSurface& surface, const SharedLaw& law) {
+    require(cells >= 1, "a facet has at least one cell");
+    return block_of<OverCells>(facets, X, {cells}, surface, law);
 }
 
 nb::object copied(const std::vector<double>& values) { return to_numpy(values, {values.size()}); }
@@ -90,6 +107,11 @@ void bind_found(nb::module_& m) {
         .def_prop_ro(
             "area", [](const ContactFound& f) { return view(f.area); }, inside,
             nb::sig("def area(self) -> NDArray[float64]"), "Reference areas (held,).")
+        .def_prop_ro(
+            "share", [](const ContactFound& f) { return view(f.share); }, inside,
+            nb::sig("def share(self) -> NDArray[float64]"), "Parts of the areas that are held (held,), 1 at points.")
+        .def_ro("contact_work", &ContactFound::contact_work,
+                "Work of the pressure so far, of rules that measure it along the way; zero at points.")
         .def_ro("penetration", &ContactFound::penetration, "The largest penetration, zero if there is none.")
         .def_ro("round_off_squared", &ContactFound::round_off_squared,
                 "Square of what a relative error 1 of all positions makes of the residual.");
@@ -310,14 +332,15 @@ void bind_contact(nb::module_& m) {
         .def_prop_ro(
             "shape_values",
             [](const ContactBlock& b) {
-                const std::size_t nodes = b.connectivity().nodes;
+                const std::size_t nodes = b.connectivity().nodes, points = b.per_facet();
                 std::vector<double> values = b.shape_values();
-                const std::size_t points = values.size() / nodes;
-                return to_numpy(std::move(values), {points, nodes});
+                const std::size_t kinds = values.size() / (points * nodes);
+                return to_numpy(std::move(values), {kinds, points, nodes});
             },
             nb::sig("def shape_values(self) -> NDArray[float64]"),
-            "Shape functions at the points of a facet (points, nodes).")
-        .def_prop_ro("points", &ContactBlock::points);
+            "Shape functions at the points of all facets (1, points, nodes), or of each (facets, points, nodes).")
+        .def_prop_ro("points", &ContactBlock::points)
+        .def_prop_ro("per_facet", &ContactBlock::per_facet, "Contact points of each facet.");
     bind_points(contact);
     bind_history(contact);
     m.def(
@@ -325,4 +348,10 @@ void bind_contact(nb::module_& m) {
         nb::arg("surface"), nb::arg("law"),
         nb::sig(
             "def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface, law: ContactLaw) -> ContactBlock"));
+    m.def(
+        "contact_cells", &contact_cells, nb::arg("facets"), nb::arg("X"), nb::arg("cells"), nb::arg("surface"),
+        nb::arg("law"),
+        nb::sig(
+            "def contact_cells(facets: NDArray[int32], X: NDArray[float64], cells: int, surface: Surface, law: ContactLaw) -> ContactBlock"),
+        "Contact integrated over cells x cells cells of each facet.");
 }

@@ -486,6 +486,16 @@ class ContactFound:
         """Reference areas (held,)."""
 
     @property
+    def share(self) -> NDArray[float64]:
+        """Parts of the areas that are held (held,), 1 at points."""
+
+    @property
+    def contact_work(self) -> float:
+        """
+        Work of the pressure so far, of rules that measure it along the way; zero at points.
+        """
+
+    @property
     def penetration(self) -> float:
         """The largest penetration, zero if there is none."""
 
@@ -599,10 +609,16 @@ class ContactBlock:
 
     @property
     def shape_values(self) -> NDArray[float64]:
-        """Shape functions at the points of a facet (points, nodes)."""
+        """
+        Shape functions at the points of all facets (1, points, nodes), or of each (facets, points, nodes).
+        """
 
     @property
     def points(self) -> int: ...
+
+    @property
+    def per_facet(self) -> int:
+        """Contact points of each facet."""
 
     @property
     def positions(self) -> NDArray[float64]:
@@ -694,6 +710,9 @@ class ContactBlock:
         """Put a stored history back."""
 
 def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface, law: ContactLaw) -> ContactBlock: ...
+
+def contact_cells(facets: NDArray[int32], X: NDArray[float64], cells: int, surface: Surface, law: ContactLaw) -> ContactBlock:
+    """Contact integrated over cells x cells cells of each facet."""
 
 class PressureBlock:
     """Follower pressure on element faces."""

@@ -125,7 +125,8 @@ def rubbed():
     decaying = uf.Friction(0.25, kinetic=0.2, decay=0.1)
     for number, x in enumerate((10.0, 28.0)):
         die = uf.Cylinder(centre=(x, 0.0, -5.49), axis="y", radius=5.0)
-        model.contact("lower", die, penalty=1e3, points=3, friction=decaying, name=f"die{number}")
+        rule = {"cells": 3} if number else {"points": 3}
+        model.contact("lower", die, penalty=1e3, friction=decaying, name=f"die{number}", **rule)
     lid = model.contact("upper", uf.Plane((0, 0, 0.5), (0, 0, -1)), penalty=50.0, friction=0.1, name="lid")
     force = model.press(lid, "z", "force")
     return model, [uf.Move(force, -16.0, steps=2), uf.Move(pull, 0.3, steps=4), uf.Move(pull, 0.1, steps=3)], None

@@ -149,8 +149,10 @@ class ContactPart(Part):
     """Penetration that is allowed; by default 1/200 of the thickness."""
     augmented: bool = False
     """Multipliers take the penetration away that is not allowed."""
-    points: Points = 2
-    """Contact points per direction of a face, 1 to 10; at the nodes; or as many as the tool needs (auto)."""
+    points: Points | None = None
+    """Contact points per direction of a face, 1 to 10, by default 2; at the nodes; or as many as are needed (auto)."""
+    cells: Annotated[int, Field(ge=1, le=20)] | None = None
+    """Instead of points: cells per direction of a face, over which the pressure is integrated."""
     friction: AnyFriction | None = None
     """Coefficient of friction, or a law."""
     slip: Positive | None = None
@@ -162,6 +164,8 @@ class ContactPart(Part):
     def _is_one(self) -> ContactPart:
         if self.penalty is not None and self.penetration is not None and not self.augmented:
             raise PydanticCustomError("penalty", "give the penalty or the penetration, and not both, unless augmented")
+        if self.points is not None and self.cells is not None:
+            raise PydanticCustomError("cells", "give points or cells, and not both")
         return self
 
     def add_to(self, model: Model, tool: Tool, name: str) -> Contact:
@@ -173,6 +177,7 @@ class ContactPart(Part):
             penetration=self.penetration,
             augmented=self.augmented,
             points=self.points,
+            cells=self.cells,
             friction=self.friction.build() if isinstance(self.friction, FrictionsPart) else self.friction,
             slip=self.slip,
             name=name,

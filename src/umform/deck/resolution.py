@@ -37,8 +37,8 @@ _HIGHEST, _FOR_BENDS = 4, {"hex8": "BEND8", "hex18": "BEND18"}
 _POINTS, _SHARP_POINTS, _SHARP = 5, 7, 0.1
 #: Way in an increment, in thicknesses.
 _WAY = 0.5
-#: Contact points per direction of a facet with 4 and with 9 nodes.
-_LEAST = {4: 2, 9: 3}
+#: Contact points, and cells, per direction of a facet with 4 and with 9 nodes.
+_LEAST, _LEAST_CELLS = {4: 2, 9: 3}, {4: 3, 9: 5}
 
 
 def resolution(deck: Deck, problem: Problem) -> Iterator[Finding]:
@@ -152,8 +152,14 @@ def locking_moment(order: int, strain: float, stiffness: float, layers: int = 1)
 
 
 def contact_points(problem: Problem) -> Iterator[Finding]:
-    """Contact points of all contacts against the order of their facets."""
+    """Contact points or cells of all contacts against the order of their facets."""
     for name, contact in problem.contacts.items():
+        if contact.cells is not None:
+            least = _LEAST_CELLS[contact.facets.shape[1]]
+            if contact.cells < least:
+                text = f"contact cells {contact.cells} x {contact.cells}: the contact is stiffer than its penalty"
+                yield warning(f"contact {name}", text, f"cells = {least} or more")
+            continue
         least = _LEAST[contact.facets.shape[1]]
         if isinstance(contact.points, str) or contact.points < least:
             points = "at the nodes only" if isinstance(contact.points, str) else f"{contact.points} x {contact.points}"

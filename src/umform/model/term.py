@@ -77,7 +77,7 @@ class Energies:
     plastic : float
         Work of the yield stress on the plastic strains so far: heat, and what hardening keeps. NaN if not known.
     contact : float
-        Held by penalty and multipliers of all contacts.
+        Held by penalty and multipliers of all contacts; of cells the work of their pressure so far.
     friction : float
         Work of friction so far.
     """

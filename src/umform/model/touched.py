@@ -65,7 +65,8 @@ class Touched(Controlled):
         *,
         penalty: float | None = None,
         penetration: float | None = None,
-        points: int | str = 2,
+        points: int | str | None = None,
+        cells: int | None = None,
         augmented: bool = False,
         friction: AnyFriction | None = None,
         slip: float | None = None,
@@ -87,7 +88,11 @@ class Touched(Controlled):
             exceeds it is warned.
         points : int, "auto" or "nodes"
             Gauss points per direction and facet, 1 to 10, or as many as the length that touches asks for by eq. (4.31),
-            or the nodes with their tributary areas. Take at least 2 on 4-node and 3 on 9-node facets.
+            or the nodes with their tributary areas; default 2. Take at least 2 on 4-node and 3 on 9-node facets.
+        cells : int, optional
+            Instead of points: cells per direction and facet, 1 to 20, over which a linear gap is integrated with the
+            moving edge of contact, so that the force has no stairs. Take at least 3 on 4-node and 5 on 9-node facets.
+            The tangent is unsymmetric. docs/cells.md
         augmented : bool
             Take what penetrates further than allowed back, by multipliers; penalty and penetration may then both be
             given. It costs a few iterations more in each increment.
@@ -122,6 +127,7 @@ class Touched(Controlled):
             penalty=penalty,
             penetration=penetration,
             points=points,
+            cells=cells,
             augmented=augmented,
             friction=friction,
             slip=slip,

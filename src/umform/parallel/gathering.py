@@ -62,7 +62,7 @@ class Gathering:
 
     def points(self, contact: Contact, values: Floats) -> Floats | None:
         """Values at the contact points (points here, ...) of a contact, at all of its points."""
-        per_facet = len(contact.block.shape_values)
+        per_facet = contact.block.per_facet
         rows = values.reshape(len(contact.facets), per_facet, *values.shape[1:])
         whole = self.rows[contact.key].collect(rows)
         return None if whole is None else whole.reshape(-1, *values.shape[1:])

@@ -121,6 +121,7 @@ def _contact(contact: Contact) -> str:
             contact.tool.name,
             contact.facets,
             contact.points,
+            contact.cells,
             contact.penalty,
             contact.allowed,
             contact.augmented,

@@ -17,8 +17,9 @@ const std::vector<double> X{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 struct Skewed {
     double penalty, mu;
 
-    static constexpr bool symmetric = false;
+    static constexpr bool symmetric = false, follows_places = false;
     static std::vector<Quantity> quantities() { return {{"multiplier", 1}, {"place", 3}}; }
+    double stiffness() const { return penalty; }
     double reach(const double* trial) const { return trial[0] / penalty; }
 
     bool respond(const Place& place, double weight, const double*, double* trial, Reaction& reaction) const {
@@ -32,6 +33,14 @@ struct Skewed {
             for (int l = 0; l < 3; ++l)
                 reaction.K[k][l] = stiffness * ((place.n[k] + (k == 0 ? mu : 0.0)) * place.n[l] + g * place.H(k, l));
         return true;
+    }
+    void press(const Place& place, double pressure, double weight, const double*, double*, Reaction& reaction) const {
+        reaction.pressure = weight * pressure;
+        reaction.tangential = {mu * weight * pressure, 0.0, 0.0};
+        for (int k = 0; k < 3; ++k) {
+            reaction.by_pressure[k] = weight * (place.n[k] + (k == 0 ? mu : 0.0));
+            for (int l = 0; l < 3; ++l) reaction.K[k][l] = -weight * pressure * place.H(k, l);
+        }
     }
 };
 

@@ -43,9 +43,9 @@ void check_wrapped() {
     ContactLawOf<Penalty> wrapped{law};
     CHECK(wrapped.symmetric() && wrapped.quantities().size() == 1 && wrapped.quantities()[0].name == "multiplier");
     const std::vector<double> multipliers{1.0, 4.0, 2.0};
-    CHECK_NEAR(wrapped.reach(3, multipliers.data()), 0.08, 1e-17);
+    CHECK_NEAR(wrapped.reach(3, multipliers.data(), 1), 0.08, 1e-17);
     wrapped.set_penalty(100.0);
-    CHECK_NEAR(wrapped.reach(3, multipliers.data()), 0.04, 1e-17);
+    CHECK_NEAR(wrapped.reach(3, multipliers.data(), 1), 0.04, 1e-17);
 }
 
 }  // namespace

@@ -97,6 +97,14 @@ def test_contact_points(texts, found):
     assert any("points = 3 or more" in finding.remedy for finding in large)
 
 
+def test_contact_cells(texts, found):
+    text = texts("free-bending")
+    for cells, few in ((2, True), (3, False)):
+        keys = {"contacts__cylinder__cells": cells, "contacts__cylinder__points": None}
+        findings = found(text, "contact cylinder", **keys)
+        assert any("stiffer" in finding.text and "cells = 3" in finding.remedy for finding in findings) == few
+
+
 def test_ways_of_steps(strip, texts, found):
     text = texts("free-bending")
     assert levels(found(text, "step 1")) == OK

@@ -125,6 +125,19 @@ def beaded():
     return model, [Move(pull, 1.0, steps=4), Move(pull, 0.5, steps=4)], {"frames": 3}
 
 
+def celled():
+    """A strip bent over a die with friction and a bare one, both over cells, and let go again."""
+    material = mt.J2(kappa=175e3, mu=80.77e3, hardening=mt.Linear(160.0, 500.0))
+    model = Model(strip(30.0, 2.0, 1.0, (12, 1)), material=material)
+    model.symmetry("y0", "y")
+    model.symmetry("x0", "x")
+    punch = model.prescribe("x0_lower", "z", "punch")
+    model.contact("lower", Cylinder((9.0, 0.0, -5.5), "y", 5.0), penalty=500.0, cells=3, friction=0.2, name="die")
+    lid = Cylinder((25.0, 0.0, 5.4), "y", 5.0)
+    model.contact("upper", lid, penalty=50.0, penetration=0.01, augmented=True, cells=2, name="lid")
+    return model, [Move(punch, -2.0, steps=5), Move(punch, -1.5, steps=3)], {"frames": 3}
+
+
 def pressed():
     """A clamped plate under a follower pressure, then pushed by a tool that moves and turns."""
     mesh = strip(4.0, 1.0, 0.2, (3, 1), cell="hex18")
@@ -185,7 +198,7 @@ def copies(monkeypatch, tmp_path):
 # The same bits ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("build", [bending, moves, cut, bar, block, arch, pressed, rubbed, beaded])
+@pytest.mark.parametrize("build", [bending, moves, cut, bar, block, arch, pressed, rubbed, celled, beaded])
 def test_a_run_goes_on_from_any_place_to_the_same_bits(build, copies, tmp_path, assert_the_same):
     model, steps, options = build()
     expected = solve(model, steps, **options)

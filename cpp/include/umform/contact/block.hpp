@@ -6,6 +6,7 @@
 #include "umform/contact/concept.hpp"
 #include "umform/contact/found.hpp"
 #include "umform/contact/locator.hpp"
+#include "umform/contact/points.hpp"
 
 namespace umform {
 
@@ -21,15 +22,16 @@ class ContactBlock {
     virtual Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) = 0;
     /// Moves the contact points to x = X + u, and measures their gaps to the tool in its present pose.
     virtual void locate(const double* u) = 0;
-    /// Shape functions at the contact points of a facet, [point][node].
+    /// Shape functions at the contact points, [point][node] of a facet, or [facet][point][node] where facets differ.
     virtual std::vector<double> shape_values() const = 0;
 
     Pose pose;
     std::string name = "a contact";  // for messages
 
     const std::shared_ptr<ContactLaw>& law() const { return law_; }
-    bool symmetric() const { return law_->symmetric(); }
+    virtual bool symmetric() const = 0;
     int points() const { return static_cast<int>(area_.size()); }
+    virtual int per_facet() const = 0;  // points of each facet
     const std::vector<double>& areas() const { return area_; }
 
     /// At all contact points, those of far facets too, which are located now.
@@ -71,8 +73,11 @@ class ContactBlock {
     /// The history that the last `evaluate` has read, with the multipliers that it was to take: with it it can be repeated.
     std::vector<double> read() const {
         std::vector<double> read = history_.state();
-        for (int q = 0; q < points(); ++q)
-            law_->put_wanted(history_.point(q), read.data() + static_cast<std::size_t>(q) * history_.size());
+        for (int q = 0; q < points(); ++q) {
+            double* row = read.data() + static_cast<std::size_t>(q) * history_.size();
+            row[0] = history_.point(q)[0];
+            if (law_->follows_places()) law_->put_wanted(history_.point(q), row);
+        }
         return read;
     }
     void commit() {
@@ -94,21 +99,31 @@ class ContactBlock {
     bool begun_ = false;        // whether there is a history
 };
 
-template <int Nodes>
+template <int Nodes, class FaceRule = AtPoints<Nodes>>
 class ContactBlockOf final : public ContactBlock {
   public:
     static constexpr int size = 3 * Nodes;
 
-    ContactBlockOf(const Connectivity& part, const std::vector<double>& X, ContactRule rule,
+    ContactBlockOf(const Connectivity& part, const std::vector<double>& X, typename FaceRule::Setting setting,
                    const std::shared_ptr<const Surface>& surface, std::shared_ptr<ContactLaw> law)
-        : ContactBlockOf(part, X, FacetPoints<Nodes>(part, X, rule), surface, std::move(law)) {}
+        : ContactBlock(std::move(law)), rule_(part, X, setting), locator_(part, X, rule_, surface),
+          colours_(make_colours(part)), scale_(part.size()) {
+        area_ = rule_.area;
+        std::vector<Quantity> quantities = law_->quantities();
+        for (const Quantity& quantity : quantities) of_law_ += quantity.size;
+        for (const Quantity& quantity : FaceRule::quantities()) quantities.push_back(quantity);
+        history_ = History(part.size(), rule_.count(), std::move(quantities));
+    }
+
+    int per_facet() const override { return rule_.count(); }
+    bool symmetric() const override { return FaceRule::symmetric && law_->symmetric(); }
 
     const Connectivity& connectivity() const override { return locator_.part(); }
     std::size_t dofs() const override { return locator_.dofs(); }
 
     std::vector<double> shape_values() const override {
         std::vector<double> values;
-        for (const Values& N : N_) values.insert(values.end(), N.begin(), N.end());
+        for (const Values& N : rule_.N) values.insert(values.end(), N.begin(), N.end());
         return values;
     }
 
@@ -120,12 +135,12 @@ class ContactBlockOf final : public ContactBlock {
     const std::vector<double>& gaps() override { return complete().gaps(); }
     const std::vector<Vec3>& normals() override { return complete().normals(); }
 
-    /// f_a = -int N_a t dA, K_ab = int N_a N_b (-dt/dx) dA with the traction t of the law at the points. eqs. (4.9), (4.10)
+    /// f_a = -int N_a t dA, K_ab = int N_a N_b (-dt/dx) dA with the traction t of the law at the points. eqs. (4.9), (4.10), (4.87)
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
         if (target.values != nullptr) scatter.require(symmetric(), name);
         const int threads = thread_count();  // once: another thread may change it while this one works
         locator_.move(u, pose, threads, [this](int e) { return reach(e); });
-        while (static_cast<int>(workspaces_.size()) < threads) workspaces_.emplace_back(N_.size());
+        while (static_cast<int>(workspaces_.size()) < threads) workspaces_.emplace_back(per_facet());
         for_each_by_colour(colours_, connectivity().size(), threads,
                            [&](int e, int thread) { add_facet(e, scatter, target, workspaces_[thread]); });
         Outcome outcome;
@@ -135,7 +150,7 @@ class ContactBlockOf final : public ContactBlock {
 
     std::vector<Reaction> reactions() override {
         std::vector<Reaction> reactions(points(), Reaction{});
-        for_each_held([&](int, int q, const Reaction& reaction) { reactions[q] = reaction; });
+        for_each_held([&](int, int q, const Reaction& reaction, const Workspace&) { reactions[q] = reaction; });
         return reactions;
     }
 
@@ -143,18 +158,22 @@ class ContactBlockOf final : public ContactBlock {
         ContactFound found;
         found.active.assign(points(), 0);
         RoundOff round_off;
-        for_each_near([&](int e, int q, const Reaction& reaction, const double* history) {
+        for_each_near([&](int e, int q, const Workspace& workspace, const double* history) {
+            const int i = q - e * per_facet();
+            const Reaction& reaction = workspace.reactions[i];
             const Rubbing rubbing = law_->rubbing(history);
             found.friction_work += area_[q] * rubbing.work;
             found.stored += area_[q] * rubbing.stored;
+            found.contact_work += area_[q] * rule_.contact_work(history + of_law_);
             if (!reaction.held) return;
-            round_off.add(e, weight_of_errors(q), values_at(q));
+            round_off.add(e, weight_of_errors(q), values_at(e, q));
             const Vec3 &x = locator_.positions()[q], &n = locator_.normals()[q];
             found.active[q] = reaction.slipping ? 2 : 1;
             found.points.push_back(q);
             found.x.push_back(x), found.normal.push_back(n);
             found.traction.push_back(reaction.traction(n));
-            found.gap.push_back(locator_.gaps()[q]), found.pressure.push_back(reaction.pressure);
+            found.gap.push_back(rule_.gap(*law_, locator_, e, i, workspace, history));
+            found.share.push_back(rule_.share(workspace, i)), found.pressure.push_back(reaction.pressure);
             found.elastic_slip.push_back(locator_.pose().turn(rubbing.elastic_slip));
             found.slip.push_back(rubbing.slip);
             found.area.push_back(area_[q]);
@@ -163,10 +182,7 @@ class ContactBlockOf final : public ContactBlock {
                 force[k] = -(reaction.pressure * area_[q] * n[k] + area_[q] * reaction.tangential[k]);
             found.force.push_back(force);
         });
-        for_each_far([&](int q, const Rubbing& rubbing) {
-            found.friction_work += area_[q] * rubbing.work;
-            found.stored += area_[q] * rubbing.stored;
-        });
+        add_works_of_far(found);
         found.penetration = penetration();
         found.round_off_squared = round_off.squared();
         return found;
@@ -174,17 +190,21 @@ class ContactBlockOf final : public ContactBlock {
 
     std::vector<double> row(const Vec3& w, const Vec3& omega, const Vec3& p) override {
         std::vector<double> row(dofs(), 0.0);
-        for_each_held([&](int e, int q, const Reaction& reaction) {
+        for_each_held([&](int e, int q, const Reaction& reaction, const Workspace& workspace) {
             const Vec3 &x = locator_.positions()[q], t = reaction.traction(locator_.normals()[q]);
             const Vec3 turned = cross(omega, {x[0] - p[0], x[1] - p[1], x[2] - p[2]}), turning = cross(t, omega);
+            const Spread<Nodes>* spread = rule_.spread(workspace, q - e * per_facet());
+            const std::int32_t* ids = connectivity()[e];
             for (int l = 0; l < 3; ++l) {
-                double value = turning[l];
+                double value = turning[l], spread_value = 0.0;
                 for (int k = 0; k < 3; ++k) {
                     const bool stored = !symmetric() || k <= l;
                     value -= (w[k] + turned[k]) * (stored ? reaction.K[k][l] : reaction.K[l][k]);
+                    if (spread != nullptr) spread_value -= (w[k] + turned[k]) * spread->S(k, l);
                 }
-                const std::int32_t* ids = connectivity()[e];
-                for (int a = 0; a < Nodes; ++a) row[3 * ids[a] + l] += area_[q] * values_at(q)[a] * value;
+                for (int a = 0; a < Nodes; ++a) row[3 * ids[a] + l] += area_[q] * values_at(e, q)[a] * value;
+                for (int a = 0; spread != nullptr && a < Nodes; ++a)
+                    row[3 * ids[a] + l] += area_[q] * spread->c[a] * spread_value;
             }
         });
         return row;
@@ -192,7 +212,9 @@ class ContactBlockOf final : public ContactBlock {
 
     double round_off_squared() override {
         RoundOff round_off;
-        for_each_held([&](int e, int q, const Reaction&) { round_off.add(e, weight_of_errors(q), values_at(q)); });
+        for_each_held([&](int e, int q, const Reaction&, const Workspace&) {
+            round_off.add(e, weight_of_errors(q), values_at(e, q));
+        });
         return round_off.squared();
     }
 
@@ -200,22 +222,21 @@ class ContactBlockOf final : public ContactBlock {
         double deepest = 0.0;
         for (int e = 0; e < connectivity().size(); ++e) {
             if (locator_.far(e)) continue;
-            for (int q = e * per_facet(); q < (e + 1) * per_facet(); ++q)
-                deepest = std::max(deepest, -locator_.gaps()[q]);
+            for (int q = 0; q < per_facet(); ++q) deepest = std::max(deepest, rule_.penetration(locator_, e, q));
         }
         return deepest;
     }
 
     void begin() override {
         if (begun_ || !law_->follows_places()) return;
-        for (int e = 0; e < connectivity().size(); ++e) leave(e);
+        for (int e = 0; e < connectivity().size(); ++e) leave_law(e, history_.trial(e));
         const std::vector<double> places = history_.trial();
         history_.restore(places.data(), places.size());
     }
 
     void augment(const Vec3* tractions) override {
         if (!law_->follows_places()) return;
-        for_each_held([&](int e, int q, const Reaction&) {
+        for_each_held([&](int e, int q, const Reaction&, const Workspace&) {
             const Place place{locator_.gaps()[q], locator_.positions()[q], locator_.normals()[q],
                               locator_.hessians()[q], locator_.pose()};
             law_->augment(place, tractions[q], history_.state(e) + history_.size() * (q % per_facet()),
@@ -231,15 +252,7 @@ class ContactBlockOf final : public ContactBlock {
 
   private:
     using Values = std::array<double, Nodes>;
-    using Reactions = std::vector<Reaction>;
-
-    ContactBlockOf(const Connectivity& part, const std::vector<double>& X, const FacetPoints<Nodes>& facet,
-                   const std::shared_ptr<const Surface>& surface, std::shared_ptr<ContactLaw> law)
-        : ContactBlock(std::move(law)), locator_(part, X, facet, surface), colours_(make_colours(part)), N_(facet.N),
-          scale_(part.size()) {
-        area_ = facet.area;
-        history_ = History(part.size(), facet.count(), law_->quantities());
-    }
+    using Workspace = typename FaceRule::Workspace;
 
     /// Sum over facets and nodes of the squares of what errors of the positions make of the forces at the nodes.
     class RoundOff {
@@ -260,19 +273,43 @@ class ContactBlockOf final : public ContactBlock {
         double sum_ = 0.0;
     };
 
-    /// Remembers where the points of a facet are that nothing holds.
-    void leave(int e) {
-        for (int q = 0; q < per_facet(); ++q)
-            law_->leave(locator_.in_tool(e, q), history_.state(e) + history_.size() * q,
-                        history_.trial(e) + history_.size() * q);
+    bool remembers() const { return FaceRule::remembers || law_->follows_places(); }
+
+    /// What the points of a facet remember that nothing holds: what the law does, and the rule.
+    void leave_law(int e, double* trial) const {
+        for (int q = 0; law_->follows_places() && q < per_facet(); ++q)
+            law_->leave(locator_.in_tool(e, q), history_.state(e) + history_.size() * q, trial + history_.size() * q);
+    }
+    void leave(int e, double* trial) const {
+        leave_law(e, trial);
+        for (int q = 0; FaceRule::remembers && q < per_facet(); ++q) {
+            const int at = history_.size() * q + of_law_;
+            rule_.leave(history_.state(e) + at, trial + at);
+        }
+    }
+
+    /// Works of friction and pressure so far at the points of far facets, and what their law has stored.
+    void add_works_of_far(ContactFound& found) const {
+        if (!remembers()) return;
+        std::vector<double> trial(history_.stride());
+        for (int e = 0; e < connectivity().size(); ++e) {
+            if (!locator_.far(e)) continue;
+            leave(e, trial.data());
+            for (int q = 0; q < per_facet(); ++q) {
+                const double *row = trial.data() + history_.size() * q, area = area_[e * per_facet() + q];
+                const Rubbing rubbing = law_->rubbing(row);
+                found.friction_work += area * rubbing.work, found.stored += area * rubbing.stored;
+                found.contact_work += area * rule_.contact_work(row + of_law_);
+            }
+        }
     }
 
     double weight_of_errors(int q) const { return law_->stiffness() * area_[q] * largest_length(q); }
-    const Values& values_at(int q) const { return N_[q % per_facet()]; }
+    const Values& values_at(int e, int q) const { return locator_.shapes(e)[q - e * per_facet()]; }
 
-    int per_facet() const { return static_cast<int>(N_.size()); }
-
-    double reach(int e) const { return law_->reach(per_facet(), history_.trial(e)); }
+    double reach(int e) const {
+        return law_->reach(per_facet(), history_.trial(e), history_.size()) + rule_.reach(locator_, e);
+    }
 
     const Locator<Nodes>& complete() {
         locator_.complete(thread_count());
@@ -280,60 +317,43 @@ class ContactBlockOf final : public ContactBlock {
     }
 
     /// Asks the law at the points of a facet.
-    void respond(int e, const double* weights, double* trial, Reaction* reactions) const {
-        const std::size_t first = static_cast<std::size_t>(e) * per_facet();
-        const Places places{&locator_.gaps()[first], &locator_.positions()[first], &locator_.normals()[first],
-                            &locator_.hessians()[first], &locator_.pose()};
-        law_->respond(per_facet(), places, weights, history_.state(e), trial, reactions);
+    void respond(int e, const double* weights, double* trial, Workspace& workspace) const {
+        rule_.respond(*law_, locator_, e, weights, {history_.state(e), trial, history_.size(), of_law_}, workspace);
     }
 
-    /// Calls work(facet, point, reaction, new history) for all points of facets that are not far, in their order; the trial
+    /// Calls work(facet, point, workspace, new history) for all points of facets that are not far, in their order; the trial
     /// history stays as it is.
     template <class Work>
     void for_each_near(const Work& work) {
         locator_.settle([this](int e) { return reach(e); });
-        Reactions reactions(per_facet());
+        Workspace workspace(per_facet());
         std::vector<double> trial(history_.stride());
         for (int e = 0; e < connectivity().size(); ++e) {
             if (locator_.far(e)) continue;
             std::copy_n(history_.trial(e), trial.size(), trial.begin());
-            respond(e, nullptr, trial.data(), reactions.data());
+            respond(e, nullptr, trial.data(), workspace);
             for (int q = 0; q < per_facet(); ++q)
-                work(e, e * per_facet() + q, reactions[q], trial.data() + history_.size() * q);
+                work(e, e * per_facet() + q, workspace, trial.data() + history_.size() * q);
         }
     }
 
-    /// Calls work(point, rubbing) for all points of facets that are far, if the law follows places.
-    template <class Work>
-    void for_each_far(const Work& work) const {
-        if (!law_->follows_places()) return;
-        std::vector<double> trial(history_.stride());
-        for (int e = 0; e < connectivity().size(); ++e) {
-            if (!locator_.far(e)) continue;
-            std::copy_n(history_.trial(e), trial.size(), trial.begin());
-            for (int q = 0; q < per_facet(); ++q) {
-                double* of_point = trial.data() + history_.size() * q;
-                law_->leave(locator_.in_tool(e, q), history_.state(e) + history_.size() * q, of_point);
-                work(e * per_facet() + q, law_->rubbing(of_point));
-            }
-        }
-    }
-
-    /// Calls work(facet, point, reaction) for all points that are held now, in their order.
+    /// Calls work(facet, point, reaction, workspace) for all points that are held now, in their order.
     template <class Work>
     void for_each_held(const Work& work) {
-        for_each_near([&](int e, int q, const Reaction& reaction, const double*) {
-            if (reaction.held) work(e, q, reaction);
+        for_each_near([&](int e, int q, const Workspace& workspace, const double*) {
+            const Reaction& reaction = workspace.reactions[q - e * per_facet()];
+            if (reaction.held) work(e, q, reaction, workspace);
         });
     }
 
-    void add_facet(int e, const Scatter& scatter, const Target& target, Reactions& reactions) {
+    void add_facet(int e, const Scatter& scatter, const Target& target, Workspace& workspace) {
         scale_[e] = 0.0;
         if (locator_.far(e)) {
-            if (law_->follows_places()) leave(e);
+            if (remembers()) leave(e, history_.trial(e));
             return;
         }
-        respond(e, area_.data() + static_cast<std::size_t>(e) * per_facet(), history_.trial(e), reactions.data());
+        const std::vector<Reaction>& reactions = workspace.reactions;
+        respond(e, area_.data() + static_cast<std::size_t>(e) * per_facet(), history_.trial(e), workspace);
         bool active = false;
         for (const Reaction& reaction : reactions) active = active || reaction.held;
         if (!active) return;
@@ -341,14 +361,15 @@ class ContactBlockOf final : public ContactBlock {
         std::array<double, size> f{};
         for (int q = 0; q < per_facet(); ++q)
             if (reactions[q].held)
-                add_point(reactions[q], locator_.normals()[e * per_facet() + q], N_[q], target.wants_tangent(),
-                          K.data(), f.data());
+                add_point(reactions[q], rule_.spread(workspace, q), locator_.normals()[e * per_facet() + q],
+                          locator_.shapes(e)[q], target.wants_tangent(), K.data(), f.data());
         for (const double value : f) scale_[e] += value * value;
         scatter_element<Nodes>(connectivity(), scatter, e, K.data(), f.data(), target, !symmetric());
     }
 
     /// Of a symmetric law what is on and above the diagonal of K, and the diagonal blocks.
-    void add_point(const Reaction& reaction, const Vec3& n, const Values& N, bool tangent, double* K, double* f) const {
+    void add_point(const Reaction& reaction, const Spread<Nodes>* spread, const Vec3& n, const Values& N, bool tangent,
+                   double* K, double* f) const {
         const Vec3 t = reaction.traction(n);
         for (int k = 0; k < 3; ++k)
             for (int a = 0; a < Nodes; ++a) f[k * Nodes + a] -= t[k] * N[a];
@@ -360,6 +381,14 @@ class ContactBlockOf final : public ContactBlock {
                     for (int b = 0; b < Nodes; ++b)
                         K[(k * Nodes + a) * size + l * Nodes + b] += stiffness * N[a] * N[b];
             }
+        if (spread == nullptr) return;
+        for (int k = 0; k < 3; ++k)
+            for (int l = 0; l < 3; ++l)
+                for (int a = 0; a < Nodes; ++a) {
+                    const double stiffness = spread->S(k, l) * N[a];
+                    for (int b = 0; b < Nodes; ++b)
+                        K[(k * Nodes + a) * size + l * Nodes + b] += stiffness * spread->c[b];
+                }
     }
 
     /// Length of the largest number that the gap of point q is a difference of: the position in space, that of the tool,
@@ -376,11 +405,12 @@ class ContactBlockOf final : public ContactBlock {
     /// Radii above so many times the place of a point are those of a plane, whose H may be noise.
     static constexpr double flattest = 1e3;
 
+    FaceRule rule_;
     Locator<Nodes> locator_;
     std::vector<std::vector<std::int32_t>> colours_;
-    std::vector<Values> N_;  // shape functions at the points of a facet
     std::vector<double> scale_;
-    std::vector<Reactions> workspaces_;  // one a thread
+    std::vector<Workspace> workspaces_;  // one a thread
+    int of_law_ = 0;                     // numbers of a point's history that are the law's
 };
 
 }  // namespace umform

@@ -21,11 +21,12 @@ struct Place {
 /// What the tool does to the sheet at a place: a traction on the reference area, in its parts along and across the normal, times
 /// a weight.
 struct Reaction {
-    bool held;        // if not, the rest has no meaning
-    bool slipping;    // whether the tangential traction is at its bound
-    double pressure;  // along n, positive
-    Vec3 tangential;  // across n
-    double K[3][3];   // minus the derivative of the traction with respect to x
+    bool held;         // if not, the rest has no meaning
+    bool slipping;     // whether the tangential traction is at its bound
+    double pressure;   // along n, positive
+    Vec3 tangential;   // across n
+    double K[3][3];    // minus the derivative of the traction with respect to x
+    Vec3 by_pressure;  // of `press` only: derivative of the traction with respect to the pressure, which K keeps fixed
 
     Vec3 traction(const Vec3& n) const {
         Vec3 t;
@@ -47,7 +48,8 @@ struct Rubbing {
 /// and times the weight. A law that is `symmetric` has a symmetric K; what is below its diagonal is not read. One that
 /// `follows_places` has more to say: what it remembers of a place that the tool does not hold, or no longer (`leave`), what friction
 /// does there (`rubbing`), how its tangential multipliers are set (`augment`), belong to what was read (`put_wanted`), and become
-/// those of the new history (`settle`).
+/// those of the new history (`settle`). A law that may be asked over cells also has `press`, the response to a pressure that
+/// comes from elsewhere than the gap of the place, with a K that is not symmetric.
 template <class L>
 concept PlaceLaw =
     requires(const L& law, L& mutable_law, const Place& place, const double* state, double* trial, Reaction& reaction) {
@@ -66,6 +68,15 @@ struct Places {
     const Vec3 *x, *n;
     const Mat3* H;
     const Pose* pose;
+
+    Place operator[](int q) const { return {gap[q], x[q], n[q], H[q], *pose}; }
+};
+
+/// History of the places of a facet: the converged one and that of now, rows of `size` numbers, those of the law first.
+struct HistoryRows {
+    const double* state;
+    double* trial;
+    int size, of_law;
 };
 
 /// The law as the facets see it: one virtual call for all places of a facet.
@@ -80,11 +91,14 @@ class ContactLaw {
     virtual void set_penalty(double value) = 0;
     /// Largest traction per way of a place in any direction.
     virtual double stiffness() const = 0;
-    /// Largest gap at which one of `count` places can be held.
-    virtual double reach(int count, const double* trial) const = 0;
+    /// Largest gap at which one of `count` places can be held, from rows of `size` numbers.
+    virtual double reach(int count, const double* trial, int size) const = 0;
     /// Reactions at `count` places times their weights, or as they are without weights.
-    virtual void respond(int count, const Places& places, const double* weights, const double* state, double* trial,
+    virtual void respond(int count, const Places& places, const double* weights, const HistoryRows& rows,
                          Reaction* reactions) const = 0;
+    /// The same under pressures that are given, where `held` says that there is one.
+    virtual void press(int count, const Places& places, const double* pressures, const double* weights,
+                       const HistoryRows& rows, Reaction* reactions) const = 0;
     // Of one place, and of laws that follow places only; z is in the frame of the tool.
     virtual void leave(const Vec3& z, const double* state, double* trial) const = 0;
     virtual Rubbing rubbing(const double* history) const = 0;
@@ -96,26 +110,39 @@ class ContactLaw {
 template <PlaceLaw Law>
 class ContactLawOf final : public ContactLaw {
   public:
-    explicit ContactLawOf(Law law) : law_(std::move(law)) {
-        for (const Quantity& quantity : Law::quantities()) size_ += quantity.size;
-    }
+    explicit ContactLawOf(Law law) : law_(std::move(law)) {}
     bool symmetric() const override { return Law::symmetric; }
     bool follows_places() const override { return Law::follows_places; }
     std::vector<Quantity> quantities() const override { return Law::quantities(); }
     double penalty() const override { return law_.penalty; }
     void set_penalty(double value) override { law_.penalty = value; }
     double stiffness() const override { return law_.stiffness(); }
-    double reach(int count, const double* trial) const override {
+    double reach(int count, const double* trial, int size) const override {
         double largest = law_.reach(trial);
-        for (int q = 1; q < count; ++q) largest = std::max(largest, law_.reach(trial + q * size_));
+        for (int q = 1; q < count; ++q) largest = std::max(largest, law_.reach(trial + q * size));
         return largest;
     }
-    void respond(int count, const Places& places, const double* weights, const double* state, double* trial,
+    void respond(int count, const Places& places, const double* weights, const HistoryRows& rows,
                  Reaction* reactions) const override {
         for (int q = 0; q < count; ++q)
-            reactions[q].held =
-                law_.respond({places.gap[q], places.x[q], places.n[q], places.H[q], *places.pose},
-                             weights == nullptr ? 1.0 : weights[q], state + q * size_, trial + q * size_, reactions[q]);
+            reactions[q].held = law_.respond(places[q], weights == nullptr ? 1.0 : weights[q],
+                                             rows.state + q * rows.size, rows.trial + q * rows.size, reactions[q]);
+    }
+    void press(int count, const Places& places, const double* pressures, const double* weights, const HistoryRows& rows,
+               Reaction* reactions) const override {
+        for (int q = 0; q < count; ++q) {
+            const double* state = rows.state + q * rows.size;
+            double* trial = rows.trial + q * rows.size;
+            if constexpr (requires { law_.press(places[q], 1.0, 1.0, state, trial, reactions[q]); }) {
+                if (reactions[q].held) {
+                    const double weight = weights == nullptr ? 1.0 : weights[q];
+                    law_.press(places[q], pressures[q], weight, state, trial, reactions[q]);
+                    continue;
+                }
+            }
+            reactions[q].held = false;
+            leave(places.pose->to_tool(places.x[q]), state, trial);
+        }
     }
     void leave(const Vec3& z, const double* state, double* trial) const override {
         if constexpr (Law::follows_places) law_.leave(z, state, trial);
@@ -136,7 +163,6 @@ class ContactLawOf final : public ContactLaw {
 
   private:
     Law law_;
-    int size_ = 0;
 };
 
 }  // namespace umform

@@ -67,14 +67,22 @@ struct Coulomb {
     }
 
     bool respond(const Place& place, double weight, const double* state, double* trial, Reaction& reaction) const {
-        const Vec3 &n = place.n, z = place.pose.to_tool(place.x);
         const double gap = place.gap - trial[Multiplier] / penalty;
         if (!(gap <= 0.0)) {
-            leave(z, state, trial);
+            leave(place.pose.to_tool(place.x), state, trial);
             return false;
         }
+        press(place, -(penalty * gap), weight, state, trial, reaction);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) reaction.K[i][j] += penalty * reaction.by_pressure[i] * place.n[j];
+        return true;
+    }
+
+    void press(const Place& place, double pressure, double weight, const double* state, double* trial,
+               Reaction& reaction) const {
+        const Vec3 &n = place.n, z = place.pose.to_tool(place.x);
         const bool held = state[Held] != 0.0;
-        const double pressure = -(penalty * gap), eps = tangential_stiffness();
+        const double eps = tangential_stiffness();
         const Facing facing(place);
         const Slide slide(place, facing, at(state + Where), held);
         const Carried before(place.pose, facing, sum(held ? at(state + Traction) : Vec3{}, at(trial + Change)),
@@ -88,14 +96,14 @@ struct Coulomb {
         if (slips)
             for (int k = 0; k < 3; ++k) m[k] = t[k] / size, t[k] = bound.value * m[k];
 
-        // dt = dt_trial, or m ds + s/|t_trial| (1 - m m^T) dt_trial. eq. (4.47)
+        // At this pressure dt = dt_trial, or m ds + s/|t_trial| (1 - m m^T) dt_trial. eq. (4.47)
         Mat3 dt;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) dt(i, j) = before.d(i, j) - eps * slide.d(i, j);
         if (slips) {
             const Vec3 d_scale = facing.scale == 1.0 ? Vec3{} : product(place.H, facing.n);
             for (int j = 0; j < 3; ++j) {
-                const double dp = pressure * d_scale[j] - facing.scale * penalty * n[j];
+                const double dp = pressure * d_scale[j];
                 const double ds = bound.by_slip * slide.d_length(j) + bound.by_pressure * dp;
                 const double along = m[0] * dt(0, j) + m[1] * dt(1, j) + m[2] * dt(2, j);
                 for (int i = 0; i < 3; ++i) dt(i, j) = m[i] * ds + part * (dt(i, j) - m[i] * along);
@@ -105,11 +113,10 @@ struct Coulomb {
         reaction.pressure = weight * pressure;
         for (int i = 0; i < 3; ++i) {
             reaction.tangential[i] = weight * t[i];
-            for (int j = 0; j < 3; ++j)
-                reaction.K[i][j] = weight * (penalty * (n[i] * n[j] + gap * place.H(i, j)) - dt(i, j));
+            reaction.by_pressure[i] = weight * (n[i] + (slips ? bound.by_pressure * facing.scale * m[i] : 0.0));
+            for (int j = 0; j < 3; ++j) reaction.K[i][j] = -weight * (pressure * place.H(i, j) + dt(i, j));
         }
         remember(place.pose, facing, z, t, slide, state, trial);
-        return true;
     }
 
   private:

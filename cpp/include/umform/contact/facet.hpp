@@ -16,6 +16,20 @@ struct ContactRule {
     bool at_nodes = false;
 };
 
+/// Reference area of a facet over that of the square of r and s. eq. (4.8)
+template <int Nodes>
+double face_jacobian(const std::int32_t* ids, const std::vector<double>& X, double r, double s) {
+    const FaceShape<Nodes> shape = face_shape<Nodes>(r, s);
+    Vec3 Gr{}, Gs{};
+    for (int a = 0; a < Nodes; ++a)
+        for (int k = 0; k < 3; ++k) {
+            Gr[k] += shape.Nr[a] * X[3 * ids[a] + k];
+            Gs[k] += shape.Ns[a] * X[3 * ids[a] + k];
+        }
+    const Vec3 normal = cross(Gr, Gs);
+    return std::sqrt(dot(normal, normal));
+}
+
 /// Shape functions at the points of a facet, and the reference areas of the points of all facets.
 template <int Nodes>
 struct FacetPoints {
@@ -51,7 +65,7 @@ struct FacetPoints {
         for (int e = 0; e < part.size(); ++e)
             for (int is = 0; is < rule.size(); ++is)
                 for (int ir = 0; ir < rule.size(); ++ir)
-                    area.push_back(rule.w[ir] * rule.w[is] * jacobian(part[e], X, rule.x[ir], rule.x[is]));
+                    area.push_back(rule.w[ir] * rule.w[is] * face_jacobian<Nodes>(part[e], X, rule.x[ir], rule.x[is]));
     }
 
     /// Tributary areas int N_a dA: 1/4 of a plane 4-node facet, 1/36, 4/36 and 16/36 of a plane 9-node facet. eq. (4.12)
@@ -66,24 +80,13 @@ struct FacetPoints {
             Values tributary{};
             for (int is = 0; is < rule.size(); ++is)
                 for (int ir = 0; ir < rule.size(); ++ir) {
-                    const double dA = rule.w[ir] * rule.w[is] * jacobian(part[e], X, rule.x[ir], rule.x[is]);
+                    const double dA =
+                        rule.w[ir] * rule.w[is] * face_jacobian<Nodes>(part[e], X, rule.x[ir], rule.x[is]);
                     const Values values = face_shape<Nodes>(rule.x[ir], rule.x[is]).N;
                     for (int a = 0; a < Nodes; ++a) tributary[a] += values[a] * dA;
                 }
             area.insert(area.end(), tributary.begin(), tributary.end());
         }
-    }
-
-    static double jacobian(const std::int32_t* ids, const std::vector<double>& X, double r, double s) {
-        const FaceShape<Nodes> shape = face_shape<Nodes>(r, s);
-        Vec3 Gr{}, Gs{};
-        for (int a = 0; a < Nodes; ++a)
-            for (int k = 0; k < 3; ++k) {
-                Gr[k] += shape.Nr[a] * X[3 * ids[a] + k];
-                Gs[k] += shape.Ns[a] * X[3 * ids[a] + k];
-            }
-        const Vec3 normal = cross(Gr, Gs);
-        return std::sqrt(dot(normal, normal));
     }
 };
 

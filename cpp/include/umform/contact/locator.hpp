@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "umform/assembly/threads.hpp"
+#include "umform/contact/concept.hpp"
 #include "umform/contact/facet.hpp"
-#include "umform/contact/pose.hpp"
 #include "umform/surfaces/concept.hpp"
 
 namespace umform {
@@ -17,12 +17,16 @@ namespace umform {
 template <int Nodes>
 class Locator {
   public:
-    Locator(Connectivity part, std::vector<double> X, const FacetPoints<Nodes>& facet,
-            std::shared_ptr<const Surface> surface)
-        : part_(std::move(part)), X_(std::move(X)), N_(facet.N), largest_motion_(facet.largest_motion()),
+    using Values = std::array<double, Nodes>;
+
+    /// Facet is a rule: shape functions N, [point] or [facet][point] where facets differ.
+    template <class Facet>
+    Locator(Connectivity part, std::vector<double> X, const Facet& facet, std::shared_ptr<const Surface> surface)
+        : part_(std::move(part)), X_(std::move(X)), N_(facet.N), points_(facet.count()),
+          own_shapes_(static_cast<int>(N_.size()) > points_), largest_motion_(facet.largest_motion()),
           surface_(std::move(surface)), culls_(surface_->is_distance()) {
         number_nodes();
-        const std::size_t facets = part_.size(), count = facets * N_.size();
+        const std::size_t facets = part_.size(), count = facets * points_;
         x_.resize(count), n_.resize(count), H_.resize(count), g_.resize(count);
         far_.assign(facets, 0), wanted_.assign(facets, 0);
         bound_.assign(facets, -std::numeric_limits<double>::infinity());
@@ -31,7 +35,10 @@ class Locator {
 
     const Connectivity& part() const { return part_; }
     std::size_t dofs() const { return X_.size(); }
-    int points() const { return static_cast<int>(N_.size()); }
+    int points() const { return points_; }
+    /// Shape functions at the points of a facet.
+    const Values* shapes(int e) const { return N_.data() + (own_shapes_ ? static_cast<std::size_t>(e) * points_ : 0); }
+    const std::vector<Values>& shapes() const { return N_; }
     const Pose& pose() const { return pose_; }
     bool far(int facet) const { return far_[facet] != 0; }
 
@@ -74,8 +81,29 @@ class Locator {
         if (!culls_) return pose_.to_tool(x_[e * points() + q]);
         Vec3 z{};
         for (int a = 0; a < Nodes; ++a)
-            for (int k = 0; k < 3; ++k) z[k] += N_[q][a] * z_[local_[e][a]][k];
+            for (int k = 0; k < 3; ++k) z[k] += shapes(e)[q][a] * z_[local_[e][a]][k];
         return z;
+    }
+
+    /// Where a node of a facet is, and how far one is from their mean at most.
+    const Vec3& node(int e, int a) const { return y_[local_[e][a]]; }
+    double extent(int e) const {
+        Vec3 mean{};
+        for (int a = 0; a < Nodes; ++a)
+            for (int k = 0; k < 3; ++k) mean[k] += node(e, a)[k] / Nodes;
+        double largest = 0.0;
+        for (int a = 0; a < Nodes; ++a) {
+            const Vec3& y = node(e, a);
+            const Vec3 d{y[0] - mean[0], y[1] - mean[1], y[2] - mean[2]};
+            largest = std::max(largest, dot(d, d));
+        }
+        return std::sqrt(largest);
+    }
+
+    /// The places of a facet, for a law.
+    Places places(int e) const {
+        const std::size_t first = static_cast<std::size_t>(e) * points_;
+        return {&g_[first], &x_[first], &n_[first], &H_[first], &pose_};
     }
 
     /// At the points of all facets, [facet][point]; those of far facets are what they were.
@@ -160,7 +188,7 @@ class Locator {
             Vec3 x{};
             for (int a = 0; a < Nodes; ++a) {
                 const Vec3& y = y_[local_[e][a]];
-                for (int k = 0; k < 3; ++k) x[k] += N_[q][a] * y[k];
+                for (int k = 0; k < 3; ++k) x[k] += shapes(e)[q][a] * y[k];
             }
             x_[e * points() + q] = pose_.to_tool(x);
         }
@@ -185,7 +213,9 @@ class Locator {
 
     Connectivity part_;
     std::vector<double> X_;
-    std::vector<std::array<double, Nodes>> N_;
+    std::vector<Values> N_;
+    int points_;
+    bool own_shapes_;
     double largest_motion_;
     std::shared_ptr<const Surface> surface_;
     bool culls_;

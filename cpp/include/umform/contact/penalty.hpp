@@ -29,6 +29,17 @@ struct Penalty {
                 reaction.K[k][l] = stiffness * std::fma(place.n[k], place.n[l], g * place.H(k, l));
         return true;
     }
+
+    /// Traction p n, which turns with the place by -p H.
+    void press(const Place& place, double pressure, double weight, const double*, double*, Reaction& reaction) const {
+        reaction.slipping = false;
+        reaction.pressure = weight * pressure;
+        reaction.tangential = {0.0, 0.0, 0.0};
+        for (int k = 0; k < 3; ++k) {
+            reaction.by_pressure[k] = weight * place.n[k];
+            for (int l = 0; l < 3; ++l) reaction.K[k][l] = -reaction.pressure * place.H(k, l);
+        }
+    }
 };
 
 }  // namespace umform

@@ -35,9 +35,12 @@ class Slide {
             turning_[j] = facing.dn(0, j) * way_[0] + facing.dn(1, j) * way_[1] + facing.dn(2, j) * way_[2];
         const double approach = dot(place.n, way_);
         if (!held && approach < place.gap) {  // it touched on the way
-            w_ = place.gap < 0.0 ? place.gap / approach : 0.0;
-            const Vec3 Hway = product(place.H, way_);
-            for (int k = 0; k < 3; ++k) dw_[k] = (place.n[k] - w_ * (place.n[k] + Hway[k])) / approach;
+            w_ = 0.0;
+            if (place.gap <= 0.0) {
+                w_ = place.gap / approach;
+                const Vec3 Hway = product(place.H, way_);
+                for (int k = 0; k < 3; ++k) dw_[k] = (place.n[k] - w_ * (place.n[k] + Hway[k])) / approach;
+            }
         }
         for (int k = 0; k < 3; ++k) D[k] = w_ * (way_[k] - facing.n[k] * along_);
         length = std::sqrt(dot(D, D));

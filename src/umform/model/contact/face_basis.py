@@ -22,8 +22,8 @@ def in_face_basis(values: Floats, held: NDArray[np.bool_], area: Floats, N: Floa
         Which points count.
     area : ndarray, shape (faces * points,)
         Their weights.
-    N : ndarray, shape (points, nodes)
-        Shape functions at the points of a face.
+    N : ndarray, shape (1 or faces, points, nodes)
+        Shape functions at the points of all faces, or of each.
 
     Returns
     -------
@@ -31,12 +31,13 @@ def in_face_basis(values: Floats, held: NDArray[np.bool_], area: Floats, N: Floa
         The fit at the points that are held, zero elsewhere; the values themselves where there are no more points than
         nodes.
     """
-    points, nodes = N.shape
+    points, nodes = N.shape[1:]
     flat = np.where(held[:, None], values.reshape(len(values), -1), 0.0)
     if points > nodes:
         faces = held.reshape(-1, points)
         some = faces.any(axis=1)
         root = np.sqrt(np.where(faces, area.reshape(-1, points), 0.0))[some]
+        N = N if len(N) == 1 else N[some]
         weighted = root[:, :, None] * N
         wanted = root[:, :, None] * flat.reshape(-1, points, flat.shape[1])[some]
         fit = np.zeros((len(faces), points, flat.shape[1]))

@@ -75,6 +75,8 @@ class ContactFound(Found):
         Pressure per penetration.
     rubs : bool
         Whether there is friction.
+    has_potential : bool
+        Whether the energy follows from the pressures; that of cells is measured along the way.
     """
 
     held: Any = None
@@ -83,6 +85,7 @@ class ContactFound(Found):
     multiplier: Floats = field(default_factory=lambda: np.empty(0), repr=False)
     penalty: float = 0.0
     rubs: bool = False
+    has_potential: bool = True
 
     @cached_property
     def _measured(self) -> tuple[Floats, Floats, Floats]:
@@ -151,6 +154,11 @@ class ContactFound(Found):
         return self._spread(self.held.gap)
 
     @cached_property
+    def share(self) -> Floats:
+        """Part of the area of each point that is held: 0 or 1, and of a cell in between, shape (n,)."""
+        return self._spread(self.held.share)
+
+    @cached_property
     def held_normal(self) -> Floats:
         """Normals at the points that are held, zero elsewhere, shape (n, 3)."""
         return self._spread(self.held.normal)
@@ -201,8 +209,10 @@ class ContactFound(Found):
     def energy(self) -> float:
         """Potential of penalty and multipliers, (p^2 - lambda^2) / (2 penalty) over the reference area. eq. (4.32)
 
-        With friction that of the elastic slip as well.
+        Of cells the work of the pressure so far, eq. (4.89). With friction that of the elastic slip as well.
         """
+        if not self.has_potential:
+            return float(self.held.contact_work + self.held.stored)
         # (p - lambda)(p + lambda): a point that its multiplier alone holds has no energy, to the last digit.
         difference, total = self.pressure - self.multiplier, self.pressure + self.multiplier
         return 0.5 / self.penalty * float((difference * self.area) @ total) + float(self.held.stored)

@@ -98,13 +98,13 @@ class Contact(PairPoints):
         self.stand(found)
 
     def _commit(self) -> None:
-        if self.rubs:
+        if self.remembers:
             self.before = self._by_facet(self.block.read)
         self.block.commit()
 
     def begin(self) -> None:
-        """Let friction begin at the last evaluation, where it has no history yet."""
-        if self.rubs and not self.block.begun:
+        """Let friction and cells begin at the last evaluation, where they have no history yet."""
+        if self.remembers and not self.block.begun:
             self._commit()
 
     def go_back(self, before: Floats) -> None:
@@ -130,7 +130,7 @@ class Contact(PairPoints):
         self._last = None
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
-        """Largest penetration and number of points that are held; with friction those that slip, and how far."""
+        """Largest penetration and number of points that are held; those that slip, and how far; works along the way."""
         assert isinstance(found, ContactFound)
         columns = {
             f"{self.name}_penetration": ranks.max(self._depth(found)),
@@ -143,12 +143,15 @@ class Contact(PairPoints):
                 f"{self.name}_elastic_slip": ranks.max(elastic),
                 f"{self.name}_friction_work": ranks.sum(found.friction_work),
             }
+        if self.cells is not None:
+            columns[f"{self.name}_contact_work"] = ranks.sum(float(found.held.contact_work))
         return columns
 
     def column_names(self) -> Iterable[str]:
-        """Largest penetration, number of points that are held; of friction those that slip, elastic slip and work."""
+        """Largest penetration, number of points that are held; of friction and cells what they add."""
         of_friction = [] if self.friction is None else ["slipping", "elastic_slip", "friction_work"]
-        return [f"{self.name}_{what}" for what in ["penetration", "active", *of_friction]]
+        of_cells = [] if self.cells is None else ["contact_work"]
+        return [f"{self.name}_{what}" for what in ["penetration", "active", *of_friction, *of_cells]]
 
     def energies(self, found: Found, u: Floats) -> Energies:
         """What penalty and multipliers hold, and the work of friction. eqs. (4.32), (4.49)"""
@@ -212,14 +215,14 @@ class Contact(PairPoints):
         The points that are held now stay so to first order, and close their gaps: where the tool goes back, new
         multipliers on old gaps would let go of points that bear a pressure. eqs. (4.34), (4.35)
         """
-        self._close(found, self._in_basis(found.held_gap, found), change)
+        self._close(found, found.share * self._in_basis(found.held_gap, found), change)
         self.block.multipliers = np.maximum(self._in_basis(found.pressure, found), 0.0)
         if self.friction is not None:
             self.block.augment(self._in_basis(found.friction, found))
 
     def _in_basis(self, values: Floats, found: ContactFound) -> Floats:
         """Values at the points that are held as the shape functions of the faces can have them."""
-        return in_face_basis(values, found.active, found.area, self.block.shape_values)
+        return in_face_basis(values, found.active, found.share * found.area, self.block.shape_values)
 
     def stiffen(self, found: ContactFound, penalty: float, change: Floats) -> None:
         """Take another penalty, and add to the residual what lets the points that are held keep their pressure.
@@ -276,7 +279,7 @@ class Contact(PairPoints):
     def _mean_at_nodes(self, values: Floats, areas: Floats, count: int, add: Callable[[Floats], Floats]) -> Floats:
         """Averages (count, k) of values (points, k), weighted by areas and hat functions; zero off the facets."""
         hats = hat_functions(self.block.shape_values)
-        places = len(self.facets), len(hats)
+        places = len(self.facets), self.block.per_facet
         weight = hats * areas.reshape(*places, 1)  # [facet][point][node]
         shares = np.zeros((count, values.shape[1] + 1))
         for column, part in enumerate([*values.T, np.ones(len(values))]):

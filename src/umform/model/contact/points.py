@@ -52,12 +52,17 @@ class PairPoints(Term):
 
     @property
     def points(self) -> int | str:
-        """Gauss points per direction and facet, or "nodes"; fixed when the pair is made."""
+        """Gauss points (or cells) per direction and facet, or "nodes"; fixed when the pair is made."""
         return self._settings.points
 
     @points.setter
     def points(self, value: object) -> None:
         self.refuse("points", value)
+
+    @property
+    def cells(self) -> int | None:
+        """Cells per direction and facet that the pressure is integrated over; None at points."""
+        return self._settings.cells
 
     @property
     def allowed(self) -> float | None:
@@ -95,15 +100,21 @@ class PairPoints(Term):
         """
         if self.elsewhere:
             raise self._not_here()
-        at_nodes = isinstance(self.points, str)
-        per_side = 1 if isinstance(self.points, str) else self.points
-        block = _core.contact_block(self.facets, self._mesh_points, per_side, at_nodes, self.tool.kernel, self._law())
+        block = self._new_block()
         block.name = f"contact {self.name}"
         if self.rubs:
             block.set_pose(*self.pose)
             block.locate(np.zeros(block.dofs))
             block.begin()
         return block
+
+    def _new_block(self) -> _core.ContactBlock:
+        where, tool, law = (self.facets, self._mesh_points), self.tool.kernel, self._law()
+        if self.cells is not None:
+            return _core.contact_cells(*where, self.cells, tool, law)
+        if isinstance(self.points, str):
+            return _core.contact_block(*where, 1, True, tool, law)
+        return _core.contact_block(*where, self.points, False, tool, law)
 
     def _law(self) -> _core.ContactLaw:
         if self.friction is None:
@@ -127,8 +138,13 @@ class PairPoints(Term):
 
     @property
     def symmetric(self) -> bool:  # type: ignore[override]
-        """Whether the tangent of its law is."""
-        return not self.rubs
+        """Whether the tangents of its law and its rule are."""
+        return not self.rubs and self.cells is None
+
+    @property
+    def remembers(self) -> bool:
+        """Whether an evaluation writes more history than multipliers."""
+        return self.rubs or self.cells is not None
 
     @property
     def multipliers(self) -> Floats:
@@ -165,6 +181,7 @@ class PairPoints(Term):
             multiplier=multiplier,
             penalty=self.penalty,
             rubs=self.rubs,
+            has_potential=self.cells is None,
         )
 
     @cached_property
@@ -190,7 +207,7 @@ class PairPoints(Term):
     def _spread(self, forces: Floats, change: Floats) -> None:
         """Add forces (points, 3) at the contact points to their nodes. eq. (4.9)"""
         N = self.block.shape_values
-        nodal = np.einsum("qa,eqk->eak", N, forces.reshape(len(self.facets), len(N), 3))
+        nodal = np.swapaxes(N, 1, 2) @ forces.reshape(len(self.facets), self.block.per_facet, 3)
         np.add.at(change.reshape(-1, 3), self.facets, nodal)
 
     # Ranks ---------------------------------------------------------------------------------------------------
@@ -223,16 +240,16 @@ def hat_functions(N: Floats) -> Floats:
 
     Parameters
     ----------
-    N : ndarray, shape (points, nodes)
+    N : ndarray, shape (..., nodes)
         Shape functions of a face of 4 or 9 nodes.
 
     Returns
     -------
-    ndarray, shape (points, nodes)
+    ndarray, shape (..., nodes)
         N itself on 4-node faces; on 9-node faces the hats (1 - |r - r_a|)(1 - |s - s_a|) of their four quarters.
     """
-    if N.shape[1] == 4:
+    if N.shape[-1] == 4:
         return N
-    distance = np.abs((N @ FACE_NODES)[:, None, :] - FACE_NODES)
+    distance = np.abs((N @ FACE_NODES)[..., None, :] - FACE_NODES)
     hats: Floats = np.maximum(1.0 - distance, 0.0).prod(axis=-1)
     return hats

@@ -29,6 +29,8 @@ _STIFFEST = 10.0
 #: Contact points that the expected contact length should hold, and the most points per direction. Where the force is a
 #: third of what is expected, as late in air bending, the contact is 0.7 times as long and still holds four.
 _WITHIN, _MOST = 6.0, 10
+#: Points per direction where nothing is said, and the most cells.
+_POINTS, _MOST_CELLS = 2, 20
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ class ContactSettings:
     penalty : float
         Pressure per penetration.
     points : int or "nodes"
-        Gauss points per direction and facet, or the nodes.
+        Gauss points per direction and facet, or cells, or the nodes.
     allowed : float, optional
         Penetration that is allowed; None where only a penalty was given.
     augmented : bool
@@ -51,6 +53,8 @@ class ContactSettings:
         Elastic slip that is allowed.
     ratio : float
         Tangential stiffness over the penalty, so that the pressure that is expected slips at that elastic slip.
+    cells : int, optional
+        Cells per direction and facet; None at points.
     """
 
     penalty: float
@@ -60,6 +64,7 @@ class ContactSettings:
     friction: AnyFriction | None = None
     slip: float = 0.0
     ratio: float = 0.0
+    cells: int | None = None
 
 
 def contact_settings(
@@ -70,7 +75,8 @@ def contact_settings(
     *,
     penalty: float | None = None,
     penetration: float | None = None,
-    points: int | str = 2,
+    points: int | str | None = None,
+    cells: int | None = None,
     augmented: bool = False,
     friction: AnyFriction | None = None,
     slip: float | None = None,
@@ -83,7 +89,8 @@ def contact_settings(
     InvalidPenalty, InvalidValue
         If a number is out of range, or two say the same thing.
     """
-    _check(penalty, penetration, points, augmented, tool, where)
+    _check(penalty, penetration, augmented, tool, where)
+    points = _places(points, cells, where)
     law = _friction_law(friction, slip, where)
     estimated, given = penalty is None or points == "auto", penalty is not None
     allowed = penetration
@@ -104,14 +111,14 @@ def contact_settings(
     points = "nodes" if points == "nodes" else int(points)
     allowed = None if allowed is None else float(allowed)
     if law is None:
-        return ContactSettings(float(penalty), points, allowed, bool(augmented))
+        return ContactSettings(float(penalty), points, allowed, bool(augmented), cells=cells)
     slip = _SLIP * sheet_thickness(mesh) if slip is None else float(slip)
     if given or allowed is None:
         pressure = _pressure(mesh, faces, tool, material, penalty, points)
     else:
         pressure = penalty * allowed
     ratio = _tangential_stiffness(law, pressure, slip) / penalty
-    return ContactSettings(float(penalty), points, allowed, bool(augmented), friction, slip, ratio)
+    return ContactSettings(float(penalty), points, allowed, bool(augmented), friction, slip, ratio, cells)
 
 
 def _friction_law(friction: AnyFriction | None, slip: float | None, where: str) -> _core.FrictionLaw | None:
@@ -181,9 +188,35 @@ def _points(met: Encounter, penalty: float | None, allowed: float | None, least:
     return min(max(math.ceil(wanted), least), _MOST)
 
 
-def _check(
-    penalty: float | None, penetration: float | None, points: int | str, augmented: bool, tool: Surface, where: str
-) -> None:
+def _places(points: int | str | None, cells: int | None, where: str) -> int | str:
+    """Points or cells per direction, checked."""
+    if cells is None:
+        points = _POINTS if points is None else points
+        if points not in ("auto", "nodes") and (isinstance(points, str) or points not in range(1, _MOST + 1)):
+            raise InvalidValue(
+                "contact points per direction must be 1 to 10, 'auto' or 'nodes'", where=where, value=points
+            )
+        return points
+    if points is not None:
+        raise InvalidValue(
+            "contact is held at points or over cells, not both",
+            where=where,
+            value=f"points {points}, cells {cells}",
+            cause="cells take the place of points",
+            remedy="leave one of them away",
+        )
+    if isinstance(cells, bool | str) or cells not in range(1, _MOST_CELLS + 1):
+        raise InvalidValue(
+            f"cells per direction of a face must be 1 to {_MOST_CELLS}",
+            where=where,
+            value=cells,
+            cause="a number of cells in all, or a word",
+            remedy="3 on 4-node and 5 on 9-node faces to begin with",
+        )
+    return int(cells)
+
+
+def _check(penalty: float | None, penetration: float | None, augmented: bool, tool: Surface, where: str) -> None:
     if penalty is not None and not (np.isfinite(penalty) and penalty > 0):
         raise InvalidPenalty(
             "the penalty must be positive",
@@ -202,10 +235,6 @@ def _check(
             cause="the penalty follows from the penetration",
             remedy="leave one of them away; with augmented=True both may be given",
         )
-    if not (isinstance(points, str) and points in ("auto", "nodes")) and (
-        isinstance(points, str) or points not in range(1, _MOST + 1)
-    ):
-        raise InvalidValue("contact points per direction must be 1 to 10, 'auto' or 'nodes'", where=where, value=points)
     if not isinstance(tool, Surface):
         raise InvalidValue(
             "a tool must be a surface",
