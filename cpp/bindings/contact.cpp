@@ -303,6 +303,8 @@ void bind_contact(nb::module_& m) {
     auto contact = nb::class_<ContactBlock>(m, "ContactBlock", "Contact of element faces with one rigid tool.");
     bind_common(contact);
     contact.def_rw("name", &ContactBlock::name, "For messages.")
+        .def_rw("open", &ContactBlock::open,
+                "Whether the tool has been taken away: it holds no point, wherever it stands.")
         .def_prop_ro("law", &ContactBlock::law)
         .def_prop_ro("symmetric", &ContactBlock::symmetric, "Whether its tangent is symmetric.")
         .def_prop_rw(

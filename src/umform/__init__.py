@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from umform.run import Result, resume, solve
     from umform.run.stages import Stage, solve_stages
     from umform.solution.options import NewtonOptions
-    from umform.steps import Arc, Free, Move, Pace, Release
+    from umform.steps import Arc, Close, Free, Move, Pace, Release
     from umform.surfaces import (
         Box,
         Cylinder,
@@ -80,7 +80,7 @@ _HOME = {
     "umform.run": ("Result", "resume", "solve"),
     "umform.run.stages": ("Stage", "solve_stages"),
     "umform.solution.options": ("NewtonOptions",),
-    "umform.steps": ("Arc", "Free", "Move", "Pace", "Release"),
+    "umform.steps": ("Arc", "Close", "Free", "Move", "Pace", "Release"),
     "umform.surfaces": (
         "Box",
         "Cylinder",
@@ -115,6 +115,7 @@ __all__ = [
     "Arc",
     "Body",
     "Box",
+    "Close",
     "Cylinder",
     "Element",
     "Extruded",

@@ -580,6 +580,15 @@ class ContactBlock:
     def name(self, arg: str, /) -> None: ...
 
     @property
+    def open(self) -> bool:
+        """
+        Whether the tool has been taken away: it holds no point, wherever it stands.
+        """
+
+    @open.setter
+    def open(self, arg: bool, /) -> None: ...
+
+    @property
     def law(self) -> ContactLaw: ...
 
     @property

@@ -146,6 +146,25 @@ def beaded():
     return model, [uf.Move(force, -60.0, steps=2), uf.Move(pull, 1.0, steps=4), uf.Move(pull, 0.8, steps=3)], None
 
 
+def closed():
+    """A holder that hovers, closes with friction, follows a table of forces and is released; the die follows it."""
+    model = uf.Model(strip(20.0, 4.0, 0.8, (14, 2)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
+    model.symmetry("x0", normal="x")
+    model.symmetry("y0", normal="y")
+    model.fix("x0_lower", "z")
+    model.rest()
+    rule = {"penalty": 2e3, "friction": 0.1}
+    die = model.contact("lower", uf.Plane((0.0, 0.0, -0.4)), name="die", **rule)
+    holder = model.contact("upper", uf.Plane((0.0, 0.0, 1.4), (0.0, 0.0, -1.0)), name="holder", **rule)
+    hold = model.press(holder, "z", "hold")
+    model.stop(hold, at=-1.004, stiffness=1e3, below=True)
+    model.attach(die, model.turn(holder, "z", (5.0, 2.0, 0.0), "twist"))
+    pull = model.prescribe("x1_lower", "x", "pull")
+    table = [(0.0, -160.0), (0.02, -200.0)]
+    steps = [uf.Close(hold, force=-160.0), uf.Move(pull, sliding, steps=4, follow={hold: table}), uf.Release(hold)]
+    return model, steps, None
+
+
 class Foam(NodalTerm):
     """A bed of springs along z that are crushed for good beyond a force, which grows with the crush."""
 
@@ -219,6 +238,12 @@ def downwards(fraction):
     return -4.0 * fraction**1.5
 
 
+def sliding(fraction):
+    """Way of an end that is pulled."""
+    trouble_at(fraction)
+    return 0.04 * fraction
+
+
 def weighing(fraction):
     """A load, or the force of a punch."""
     trouble_at(fraction)
@@ -234,7 +259,7 @@ def trouble_at(fraction):
 
 
 CASES = [free_bending, air_bending, hinged_strip, blown_strip, held_by_multipliers, cut]
-CASES += [pressed, rubbed, beaded, foundation, two_bodies]
+CASES += [pressed, closed, rubbed, beaded, foundation, two_bodies]
 
 
 def rank():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 NAMES = ["free_bending", "air_bending", "hinged_strip", "blown_strip", "held_by_multipliers", "cut"]
-NAMES += ["pressed", "beaded", "foundation", "two_bodies"]
+NAMES += ["pressed", "closed", "beaded", "foundation", "two_bodies"]
 #: The last states are released: what is left of pressures and balances there is round-off.
 RESIDUES = ("imbalance", "point contact_pressure", "pressure")
 
@@ -42,6 +42,7 @@ def test_the_cases_are_not_easy(found):
     assert np.abs(found(0, "blown_strip")["point displacement"]).max() > 0.5
     assert found(0, "pressed")["history press_way"][-3] < -0.3
     assert found(0, "pressed")["history gas_way"][-3] < -0.3
+    assert found(0, "closed")["history holder_fz"].max() > 150.0
     assert found(0, "foundation")["history foam_crush"][-1] > 0.1
     assert found(0, "two_bodies")["cell plastic_strain_max"].max() > 0.01
     for case in NAMES:
@@ -49,7 +50,7 @@ def test_the_cases_are_not_easy(found):
         assert found(3, case)["imbalance"][1:].max() < 1e-9
 
 
-@pytest.mark.parametrize("case", ["cut", "held_by_multipliers", "pressed", "foundation", "two_bodies"])
+@pytest.mark.parametrize("case", ["cut", "held_by_multipliers", "pressed", "closed", "foundation", "two_bodies"])
 @pytest.mark.parametrize(("first", "second"), [(2, 3), (2, 0), (0, 2)])
 def test_a_run_stopped_on_some_ranks_goes_on_on_others(case, first, second, found, tmp_path, mpi):
     solver = {True: "petsc", False: "superlu"}

@@ -7,13 +7,14 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from umform.deck.parts import Axis, Name, Part, Vector, Way
+from umform.deck.parts import Axis, Name, Part, Positive, Vector, Way
 from umform.deck.selection import Selection, faces_of, nodes_of
 from umform.model import Model
 from umform.model.axes import Axes, cylindrical
 from umform.model.contact import Contact
 from umform.model.control import Control
 from umform.model.support import Support as Held
+from umform.model.tool_controls import ToolForce, ToolWay
 
 Contacts = Mapping[str, Contact]
 
@@ -96,7 +97,23 @@ class Director(_Supporting):
         return self._hold(model.hold_director, model)
 
 
-Support = Annotated[Fix | Symmetry | Hinge | Director, Field(discriminator="kind")]
+class Rigid(Part):
+    """As few degrees of freedom as hold the sheet as a rigid body beside all else; a step puts it in place."""
+
+    kind: Literal["rigid"]
+    """The word rigid."""
+    name: Name
+    """Name, by which a step puts it in place."""
+    nodes: Selection = "all"
+    """Nodes that may be held: three that are not on a line, or all."""
+
+    def add_to(self, model: Model) -> Held:
+        """Let the support wait."""
+        nodes = "all" if self.nodes == "all" else nodes_of(model.mesh, self.nodes)
+        return model.hold_rigid(nodes, self.name)
+
+
+Support = Annotated[Fix | Symmetry | Hinge | Director | Rigid, Field(discriminator="kind")]
 
 # Controls ----------------------------------------------------------------------------------------------------
 
@@ -204,21 +221,131 @@ class BodyForce(Part):
         return model.body_force(self.force, name)
 
 
-class Drive(Part):
+class _OfTool(Part):
+    """What controls of tools have in common."""
+
+    contact: Name
+    """Name of the contact."""
+    followers: list[Name] = []
+    """Contacts whose tools go with this one."""
+
+    def _followed(self, model: Model, way: ToolWay, contacts: Contacts) -> ToolWay:
+        for name in self.followers:
+            model.attach(contacts[name], way)
+        return way
+
+
+class Drive(_OfTool):
     """Translation of the tool of a contact; its force is that of the sheet on the tool."""
 
     kind: Literal["tool"]
     """The word tool."""
-    contact: Name
-    """Name of the contact."""
     direction: Way
     """Direction."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        return model.drive(contacts[self.contact], self.direction, name)
+        return self._followed(model, model.drive(contacts[self.contact], self.direction, name), contacts)
+
+
+class Turn(_OfTool):
+    """Turn of the tool of a contact about an axis, in radians; its force is the moment of the sheet on the tool."""
+
+    kind: Literal["turn"]
+    """The word turn."""
+    axis: Way
+    """Axis."""
+    about: Vector = (0.0, 0.0, 0.0)
+    """Point of the axis."""
+
+    def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
+        """The control."""
+        return self._followed(model, model.turn(contacts[self.contact], self.axis, self.about, name), contacts)
+
+
+class StopPart(Part):
+    """Something elastic that a pressed tool comes to lie on: distance blocks, the end of a spring."""
+
+    at: float
+    """Way at which the tool meets it."""
+    stiffness: Positive
+    """Force per length beyond."""
+    below: bool = False
+    """The way must not fall below it, instead of not growing beyond it."""
+
+
+class _Pressed(Part):
+    """What controls of pressed tools have in common."""
+
+    contact: Name
+    """Name of the contact."""
+    stops: list[StopPart] = []
+    """What keeps the way within bounds."""
+
+    def _stopped(self, model: Model, force: ToolForce) -> ToolForce:
+        for stop in self.stops:
+            model.stop(force, stop.at, stop.stiffness, below=stop.below)
+        return force
+
+
+class Press(_Pressed):
+    """Force on the tool of a contact along a direction; its way is found."""
+
+    kind: Literal["press"]
+    """The word press."""
+    direction: Way
+    """Direction."""
+
+    def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
+        """The control."""
+        return self._stopped(model, model.press(contacts[self.contact], self.direction, name))
+
+
+class Spring(_Pressed):
+    """A spring that holds the tool of a contact, and a force beside it; its way is found."""
+
+    kind: Literal["spring"]
+    """The word spring."""
+    direction: Way
+    """Direction in which the spring pushes the tool."""
+    stiffness: Positive
+    """Force per length."""
+    preload: float = 0.0
+    """Force with which it pushes the tool where it stands."""
+
+    def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
+        """The control."""
+        contact = contacts[self.contact]
+        return self._stopped(model, model.spring(contact, self.direction, self.stiffness, self.preload, name))
+
+
+class Moment(_Pressed):
+    """Moment on the tool of a contact about an axis; its angle is found."""
+
+    kind: Literal["moment"]
+    """The word moment."""
+    axis: Way
+    """Axis."""
+    about: Vector = (0.0, 0.0, 0.0)
+    """Point of the axis."""
+
+    def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
+        """The control."""
+        return self._stopped(model, model.press_turn(contacts[self.contact], self.axis, self.about, name))
 
 
 ControlPart = Annotated[
-    Displacement | MidLine | Force | Traction | LineLoad | Pressure | BodyForce | Drive, Field(discriminator="kind")
+    Displacement
+    | MidLine
+    | Force
+    | Traction
+    | LineLoad
+    | Pressure
+    | BodyForce
+    | Drive
+    | Turn
+    | Press
+    | Spring
+    | Moment,
+    Field(discriminator="kind"),
 ]

@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 
 from umform.deck.contents import Contents
+from umform.deck.controls import Rigid
 from umform.deck.errors import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey
 from umform.deck.lines import Path
 from umform.deck.material import J2
 from umform.deck.source import Source
+from umform.deck.steps import Named
 from umform.deck.tools import Profiled
 from umform.elements.technology import Element
 from umform.errors import UmformError
@@ -124,11 +126,12 @@ class _Builder:
         if model is None:
             raise DeckError(self.errors)
         contacts = self._contacts(model, tools)
-        supports = self._supports(model)
+        supports = self._supports(model, rigid=False)
         controls = self._controls(model, contacts)
+        supports |= self._supports(model, rigid=True)
         options = self._options(model)
         self._raise()
-        steps = self._steps(controls, supports)
+        steps = self._steps(Named(controls, supports, contacts))
         self._raise()
         return Problem(
             model=model,
@@ -201,10 +204,12 @@ class _Builder:
                     bead.add_to(model, contacts[bead.contact], name)
         return contacts
 
-    def _supports(self, model: Model) -> dict[str, Support]:
-        """The supports by name."""
+    def _supports(self, model: Model, *, rigid: bool) -> dict[str, Support]:
+        """The supports by name, those that hold what is free beside all others or these others."""
         supports: dict[str, Support] = {}
         for number, part in enumerate(self.contents.supports):
+            if isinstance(part, Rigid) != rigid:
+                continue
             with self._at("supports", number):
                 support = part.add_to(model)
                 supports[support.name] = support
@@ -213,7 +218,8 @@ class _Builder:
     def _controls(self, model: Model, contacts: dict[str, Contact]) -> dict[str, Control]:
         controls: dict[str, Control] = {}
         for name, part in self.contents.controls.items():
-            if getattr(part, "contact", None) not in (None, *contacts):
+            touched = [getattr(part, "contact", None), *getattr(part, "followers", [])]
+            if any(contact not in (None, *contacts) for contact in touched):
                 continue  # the same
             with self._at("controls", name):
                 controls[name] = part.add_to(model, name, contacts)
@@ -237,11 +243,11 @@ class _Builder:
                 _ = Newton(model, options, self.solver).solver
         return options
 
-    def _steps(self, controls: dict[str, Control], supports: dict[str, Support]) -> list[Step]:
+    def _steps(self, named: Named) -> list[Step]:
         steps: list[Step] = []
         for number, part in enumerate(self.contents.steps):
             with self._at("steps", number):
-                steps.append(part.build(controls, supports))
+                steps.append(part.build(named))
         return steps
 
     def _at(self, *path: str | int) -> _Place:

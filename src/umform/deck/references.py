@@ -39,17 +39,29 @@ def references(data: dict[str, Any]) -> Iterator[tuple[str, str, Path]]:
         for name, part in _table(data, kind).items():
             if isinstance(part, dict) and isinstance(part.get("contact"), str):
                 yield "contacts", part["contact"], (kind, name, "contact")
+            if isinstance(part, dict):
+                yield from _listed(part, "followers", "contacts", (kind, name))
     steps = data.get("steps")
     for number, step in enumerate(steps if isinstance(steps, list) else []):
         if not isinstance(step, dict):
             continue
-        if isinstance(step.get("to"), dict):
-            for name in step["to"]:
-                yield "controls", name, ("steps", number, "to", name)
+        for key in ("to", "follow"):
+            for name in _table(step, key):
+                yield "controls", name, ("steps", number, key, name)
         if isinstance(step.get("control"), str):
             yield "controls", step["control"], ("steps", number, "control")
-        if isinstance(step.get("support"), str):
-            yield "supports", step["support"], ("steps", number, "support")
+        for key in ("support", "on"):
+            if isinstance(step.get(key), str):
+                yield "supports", step[key], ("steps", number, key)
+        yield from _listed(step, "contacts", "contacts", ("steps", number))
+
+
+def _listed(part: dict[str, Any], key: str, kind: str, path: Path) -> Iterator[tuple[str, str, Path]]:
+    """References in an array of names."""
+    names = part.get(key)
+    for number, name in enumerate(names if isinstance(names, list) else []):
+        if isinstance(name, str):
+            yield kind, name, (*path, key, number)
 
 
 def _names(data: dict[str, Any], kind: str) -> list[str]:

@@ -175,7 +175,7 @@ def ways(deck: Deck, problem: Problem) -> Iterator[Finding]:
     for number, step in enumerate(deck.contents.steps):
         about = f"step {number + 1}"
         if not isinstance(step, Move):  # where it ends is not known
-            moved = [] if step.kind == "free" else [step.control] if step.kind == "release" else step.to
+            moved = [] if step.kind == "free" else step.to if step.kind == "arc" else [step.control]
             for name in moved:
                 stands[name] = np.nan
             continue

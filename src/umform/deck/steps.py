@@ -3,18 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from umform import steps
-from umform.deck.parts import Count, Name, Part, Positive
+from umform.deck.parts import Count, Name, Pair, Part, Positive
+from umform.model.contact import Contact
 from umform.model.control import Control
 from umform.model.support import Support
 from umform.solution.options import NewtonOptions
 
-Controls = Mapping[str, Control]
-Supports = Mapping[str, Support]
+
+@dataclass(frozen=True)
+class Named:
+    """What steps name.
+
+    Attributes
+    ----------
+    controls, supports, contacts : mapping
+        By their names in the deck.
+    """
+
+    controls: Mapping[str, Control]
+    supports: Mapping[str, Support]
+    contacts: Mapping[str, Contact]
+
+
 Targets = Annotated[dict[Name, float], Field(min_length=1)]
 Cuts = Annotated[int, Field(ge=0, le=40)]
 Grow = Annotated[float, Field(ge=1)]
@@ -24,6 +41,8 @@ Share = Annotated[float, Field(gt=0, le=1)]
 _AT_A_PACE = 40
 #: Increments of a release until its force is zero, roughly: it grows from a thousandth to a twentieth of the way.
 _OF_A_RELEASE = 30
+#: Increments of closing a tool, roughly.
+_OF_CLOSING = 10
 
 
 class Pace(Part):
@@ -62,6 +81,8 @@ class Move(Part):
     """How often an increment may be halved."""
     grow: Grow = 1.0
     """Largest increment over the nominal one, where their number is given."""
+    follow: dict[Name, Annotated[list[Pair], Field(min_length=1)]] = {}
+    """More controls as tables over the first one: pairs of its value and theirs, straight lines between them."""
 
     @model_validator(mode="after")
     def _one_of_both(self) -> Move:
@@ -69,12 +90,17 @@ class Move(Part):
             raise ValueError("give the number of increments or their pace, not both")
         return self
 
-    def build(self, controls: Controls, supports: Supports) -> steps.Step:
+    def build(self, named: Named) -> steps.Step:
         """The step."""
-        moved = [controls[name] for name in self.to]
+        moved = [named.controls[name] for name in self.to]
         limits = None if self.pace is None else self.pace.build()
         return steps.Move(
-            moved, list(self.to.values()), steps=self.increments or limits, cuts=self.cuts, grow=self.grow
+            moved,
+            list(self.to.values()),
+            steps=self.increments or limits,
+            cuts=self.cuts,
+            grow=self.grow,
+            follow={named.controls[name]: table for name, table in self.follow.items()},
         )
 
     @property
@@ -95,9 +121,9 @@ class Release(Part):
     tolerance: Positive = 1e-6
     """Force that counts as zero, relative to that at the beginning."""
 
-    def build(self, controls: Controls, supports: Supports) -> steps.Step:
+    def build(self, named: Named) -> steps.Step:
         """The step."""
-        return steps.Release(controls[self.control], self.increment, self.tolerance)
+        return steps.Release(named.controls[self.control], self.increment, self.tolerance)
 
     @property
     def expected(self) -> int:
@@ -125,10 +151,10 @@ class Arc(Part):
     most: Annotated[int, Field(ge=1, le=1_000_000)] = 200
     """Number of increments at which the step ends with a warning."""
 
-    def build(self, controls: Controls, supports: Supports) -> steps.Step:
+    def build(self, named: Named) -> steps.Step:
         """The step."""
         return steps.Arc(
-            [controls[name] for name in self.to],
+            [named.controls[name] for name in self.to],
             list(self.to.values()),
             increment=self.increment,
             kind=self.length,
@@ -145,12 +171,16 @@ class Arc(Part):
 
 
 class Free(Part):
-    """Take a support away gradually: its reactions become a load that goes to zero."""
+    """Take a support away, or tools, gradually: their forces become loads that go to zero."""
 
     kind: Literal["free"]
     """The word free."""
-    support: Name
+    support: Name | None = None
     """Name of the support."""
+    contacts: list[Name] = []
+    """Contacts whose tools open."""
+    on: Name | None = None
+    """Name of a support of the kind rigid, which holds the sheet from then on."""
     increments: Annotated[int, Field(ge=1, le=1_000_000)] = 10
     """Number of equal increments."""
     cuts: Cuts = 10
@@ -158,9 +188,19 @@ class Free(Part):
     grow: Grow = 1.0
     """Largest increment over the nominal one."""
 
-    def build(self, controls: Controls, supports: Supports) -> steps.Step:
+    @model_validator(mode="after")
+    def _something(self) -> Free:
+        if self.support is None and not self.contacts:
+            raise PydanticCustomError("free", "a step frees a support, or contacts, or both")
+        return self
+
+    def build(self, named: Named) -> steps.Step:
         """The step."""
-        return steps.Free(supports[self.support], steps=self.increments, cuts=self.cuts, grow=self.grow)
+        things: list[Support | Contact] = [named.contacts[name] for name in self.contacts]
+        if self.support is not None:
+            things.insert(0, named.supports[self.support])
+        on = None if self.on is None else named.supports[self.on]
+        return steps.Free(things, steps=self.increments, cuts=self.cuts, grow=self.grow, on=on)
 
     @property
     def expected(self) -> int:
@@ -168,7 +208,29 @@ class Free(Part):
         return self.increments
 
 
-StepPart = Annotated[Move | Release | Arc | Free, Field(discriminator="kind")]
+class Close(Part):
+    """Take a pressed tool to the sheet by its way until a force is reached, and hold it by the force."""
+
+    kind: Literal["close"]
+    """The word close."""
+    control: Name
+    """Control of the kind press, spring or moment."""
+    force: float
+    """Force (or moment) that it is closed with."""
+    way: Positive | None = None
+    """Largest way that it may go; by default its distance from the sheet and the largest extent of the sheet."""
+
+    def build(self, named: Named) -> steps.Step:
+        """The step."""
+        return steps.Close(named.controls[self.control], self.force, self.way)  # type: ignore[arg-type]
+
+    @property
+    def expected(self) -> int:
+        """About how many increments it takes."""
+        return _OF_CLOSING
+
+
+StepPart = Annotated[Move | Release | Arc | Free | Close, Field(discriminator="kind")]
 
 
 def _order(value: object) -> object:

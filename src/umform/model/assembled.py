@@ -60,11 +60,11 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
 
     @property
     def terms(self) -> list[Term]:
-        """All that adds to the residual: bodies, contacts, pressures and loads, what was added, and pressed tools."""
+        """All that adds to the residual: bodies, contacts, pressures and loads, what was added, tools."""
         controls = [control for control in self.controls if isinstance(control, Term)]
         pressures = [control for control in controls if control.couples()]
         loads = [control for control in controls if not control.couples()]
-        pressed = [tool for tool in self.tools if tool.unknowns]
+        pressed = [tool for tool in self.tools if tool.presses or tool.load is not None]
         return [*self.bodies, *self.contacts, *pressures, *loads, *self.others, *pressed]
 
     def add(self, term: Term) -> Term:

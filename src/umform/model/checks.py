@@ -11,6 +11,7 @@ from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
 from umform.mesh import Mesh
 from umform.model import forces
 from umform.model.evaluated import Evaluated
+from umform.model.evaluation import Evaluation
 from umform.model.term import At
 
 Floats = NDArray[np.float64]
@@ -63,7 +64,8 @@ def check_held(model: Evaluated) -> None:
             f"the sheet can move as a rigid whole in {len(free)} way{'s' if len(free) > 1 else ''}",
             value="free: " + "; ".join(free),
             cause="too few supports, or a tool that does not touch the sheet yet",
-            remedy="hold the sheet with fix(), symmetry(), hinge() or prescribe(), or let a tool overlap it by a hair",
+            remedy="hold the sheet with fix(), symmetry(), hinge() or prescribe(), let a tool overlap it by a hair, "
+            "or rest() it on springs until tools hold it",
         )
 
 
@@ -80,14 +82,19 @@ def free_motions(model: Evaluated, touched: Sequence[tuple[Floats, Floats]] = ()
     points = model.mesh.points + model.u.reshape(-1, 3)
     centre, size = middle(model, points)
     modes = forces.rigid_body_modes(points, centre, size)
+    rows = [_motion_along(x, n, centre, size) for x, n in touched]
+    return [_describe_motion(motion) for motion in left_free(model, modes, rows)]
+
+
+def left_free(model: Evaluated, modes: Floats, more: Sequence[Floats] = ()) -> Floats:
+    """Combinations (k, 6) of the rigid-body modes (6, 3 n) that supports and more rows (m, 6) leave free."""
     rows = [modes[:, np.flatnonzero(model.constrained())].T]
     rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.ties]
     rows += [np.einsum("mkd,kd->km", modes[:, part.dofs], part.weights) for part in model.rows]
-    rows += [_motion_along(x, n, centre, size) for x, n in touched]
-    matrix = model.ranks.rows(np.concatenate([np.zeros((1, 6)), *rows]))
+    matrix = model.ranks.rows(np.concatenate([np.zeros((1, 6)), *rows, *more]))
     _, singular, directions = np.linalg.svd(matrix, full_matrices=True)
     rank = int((singular > 1e-8 * max(singular.max(), 1e-300)).sum())
-    return [_describe_motion(motion) for motion in directions[rank:]]
+    return np.asarray(directions[rank:])
 
 
 def diagnosis(model: Evaluated) -> tuple[str, str] | None:
@@ -109,6 +116,18 @@ def diagnosis(model: Evaluated) -> tuple[str, str] | None:
         f"tools alone hold the sheet against {'; '.join(without)}, and let it go in this increment",
         f"{hold}, or stop the tool while it still touches",
     )
+
+
+def held_by_tools(model: Evaluated, evaluation: Evaluation) -> bool:
+    """Whether tools and supports hold the sheet as a rigid body: along normals, and all ways where friction sticks."""
+    touched = []
+    for contact in model.contacts:
+        found = evaluation.found[contact]
+        touched.append((found.held.x, found.held.normal))
+        if contact.friction is not None:
+            sticks = found.held.x[found.status[found.held.points] == 1]
+            touched += [(sticks, np.tile(axis, (len(sticks), 1))) for axis in np.eye(3)]
+    return not free_motions(model, touched)
 
 
 def _in_touch(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
@@ -137,7 +156,7 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
     directors = mesh.points[mesh.connectivity[:, half:]] - mesh.points[mesh.connectivity[:, :half]]
     thickness = float(np.median(np.linalg.norm(directors, axis=-1)))
     for contact in model.contacts:
-        if len(contact.facets) == 0:
+        if len(contact.facets) == 0 or contact.tool.open:
             continue
         at = contact.locate(model.u, contact.pose)
         undefined = ~(np.isfinite(at.gap) & np.isfinite(at.normal).all(axis=1))

@@ -58,6 +58,13 @@ class Held(Controlled):
         """Let the supports act as they stand, after one of them has been removed, put back or moved."""
         self._support(self._holders)
 
+    def wait(self, nodes: Ids, dofs: Ids, name: str) -> Support:
+        """A support of degrees of freedom that does not act before it is put in place."""
+        support = self._new(HELD, "all", nodes, False, name)
+        support.held, support.removed, support.waits = dofs, True, True
+        self._holders = [*self._holders, support]
+        return support
+
     def constrained(self) -> NDArray[np.bool_]:
         """Which degrees of freedom are held or prescribed; tied ones and those in local axes are not."""
         return _constrained(self._fixed, self.of_kind(Prescribed))

@@ -29,11 +29,14 @@ class Global:
         Controls that move with it, and how fast: their values are what they were plus the rate times the unknown.
     value : float
         Converged value.
+    what : str
+        What it is, for messages.
     """
 
     name: str
     rates: dict[Control, float]
     value: float = 0.0
+    what: str = "a scalar unknown"
 
     def move(self, values: dict[Control, float], value: float) -> None:
         """Write what the controls that move with it are at a value of it into those of all controls."""

@@ -5,19 +5,25 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from umform.elements import Element
 from umform.errors import InvalidValue
 from umform.materials import Material
-from umform.mesh import Mesh
+from umform.mesh import Mesh, Selector
 from umform.model import removal
 from umform.model.body import Body
 from umform.model.checks import check_model
 from umform.model.contact import Contact
 from umform.model.dead_load import Load
+from umform.model.gauge import gauge_dofs
+from umform.model.opening import put_tool_back
+from umform.model.press import check_stiffness
+from umform.model.rest import Rest
 from umform.model.standing import Standing
 from umform.model.support import Support
+from umform.model.tool import Tool
 
 
 class Model(Standing):
@@ -77,7 +83,7 @@ class Model(Standing):
         """Take a support or a contact away; the forces that it exerted stay as a dead load of factor 1.
 
         Move the load to zero to let the sheet go gradually, see docs/supports.md. A step :class:`umform.Free` does both
-        within a run.
+        within a run, and opens tools that stay in the model.
 
         Parameters
         ----------
@@ -97,17 +103,61 @@ class Model(Standing):
         """
         return removal.remove(self, thing)
 
-    def put_back(self, support: Support, *, here: bool = True) -> None:
-        """Let a support that was removed act again.
+    def put_back(self, thing: Support | Tool, *, here: bool = True) -> None:
+        """Let a support that was removed act again, or a tool that was opened touch the sheet again.
 
         Parameters
         ----------
-        support : Support
-            The support.
+        thing : Support or Tool
+            The support or the tool.
         here : bool
-            Hold its nodes where they are now, not where they were in the undeformed mesh.
+            Hold the nodes of a support where they are now, not where they were in the undeformed mesh.
         """
-        removal.put_back(self, support, here=here)
+        if isinstance(thing, Tool):
+            put_tool_back(self, thing)
+        else:
+            removal.put_back(self, thing, here=here)
+
+    def hold_rigid(self, nodes: Selector = "all", name: str = "") -> Support:
+        """A support of as few degrees of freedom as hold the sheet as a rigid body; a step Free puts it in place.
+
+        It holds six of them, at three nodes for one, or what the supports of the model leave free; until ``Free(...,
+        on=...)`` or :meth:`put_back` it does not act. Where no other forces act, its reactions are zero.
+
+        Parameters
+        ----------
+        nodes : str, callable or array_like
+            Nodes that may be held: three that are not on a line, or all, of which those far apart are taken.
+        name : str, optional
+            Name of the support.
+
+        Raises
+        ------
+        InvalidValue
+            If the supports leave nothing free, the nodes cannot hold the sheet, or the name is taken.
+        """
+        everything = isinstance(nodes, str) and nodes == "all"
+        ids = np.arange(len(self.mesh.points), dtype=np.int32) if everything else self.mesh.nodes(nodes)
+        dofs = gauge_dofs(self, ids)
+        return self.wait(np.unique(dofs // 3).astype(np.int32), dofs, name)
+
+    def rest(self, stiffness: float | None = None, name: str = "rest") -> Rest:
+        """Let a sheet that nothing holds yet rest on weak springs, which let go for good once tools hold it.
+
+        Parameters
+        ----------
+        stiffness : float, optional
+            Force per length of all springs together. Default: 1e-12 of the largest entry of the tangent.
+        name : str
+            Columns of the history: ``<name>_energy`` and ``<name>_acts``. A run warns if the springs still act at its
+            end, or if their energy is more than 1e-6 of the work.
+        """
+        if stiffness is None:
+            stiffness = 1e-12 * self.largest_entry(self.evaluate(self.x).values)
+        check_stiffness(stiffness, 0.0, f"rest {name}", "displacement")
+        term = Rest(name, self.u, stiffness)
+        self.add(term)
+        return term
 
     def check(self) -> None:
         """Refuse what cannot be solved before time is spent on it, see :func:`umform.model.checks.check_model`."""

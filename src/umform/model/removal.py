@@ -54,7 +54,7 @@ def remove(model: Evaluated, thing: Support | Contact) -> Load:
     load.value, thing.removed = 0.0, True
     try:
         model.hold_again()
-        load.vector = _unbalanced(model)
+        load.vector = unbalanced(model)
     except BaseException:
         load.vector, load.value, thing.removed = before, value, False
         model.hold_again()
@@ -107,10 +107,10 @@ def states_of_supports(model: Evaluated) -> dict[str, Any]:
         support.name: {
             "removed": support.removed,
             "base": None if support.base is None else support.base.copy(),
-            "vector": support.load.vector.copy(),
+            "vector": None if support.load is None else support.load.vector.copy(),
         }
         for support in model.all_supports
-        if support.load is not None
+        if support.load is not None or support.waits
     }
 
 
@@ -118,11 +118,12 @@ def put_supports(model: Evaluated, states: Mapping[str, Any]) -> None:
     """Let the supports stand as they did in a state from :func:`states_of_supports`."""
     changed = False
     for support in model.all_supports:
-        if support.load is None or support.name not in states:
+        if support.name not in states:
             continue
         state = states[support.name]
         base, removed = state["base"], bool(state["removed"])
-        support.load.vector = np.array(state["vector"])
+        if support.load is not None:
+            support.load.vector = np.array(state["vector"])
         if support.removed == removed and _same(support.base, base):
             continue
         changed, support.removed = True, removed
@@ -150,12 +151,12 @@ def _remove_contact(model: Evaluated, contact: Contact) -> Load:
     model.others = [other for other in others if other is not contact]
     tool.pairs.remove(contact)
     if not tool.pairs:
-        gone = [*tool.ways, *(force for press in tool.presses for force in press.forces)]
+        gone = [*tool.ways, *(press.force for press in tool.presses)]
         model.tools = [other for other in tools if other is not tool]
         model.controls = [control for control in controls if control not in gone]
     model.forget_assembly()
     try:
-        load.vector = _unbalanced(model)
+        load.vector = unbalanced(model)
         load = model.add_load(load)
     except BaseException:
         model.contacts, model.others, model.tools, model.controls = contacts, others, tools, controls
@@ -166,7 +167,7 @@ def _remove_contact(model: Evaluated, contact: Contact) -> Load:
     return load
 
 
-def _unbalanced(model: Evaluated) -> NDArray[np.float64]:
+def unbalanced(model: Evaluated) -> NDArray[np.float64]:
     """Forces on the unknowns that nothing in the model balances at its present state."""
     residual: NDArray[np.float64] = model.extend(model.restrict(model.evaluate(model.x).residual))
     return residual[: model.u.size]

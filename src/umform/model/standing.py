@@ -27,6 +27,8 @@ class Standing(Evaluated):
         for term in self.terms:
             term.commit(evaluation.found[term])
         self.u, self._converged_time = evaluation.u.copy(), evaluation.time
+        for term in self.others:
+            term.settled(self, evaluation)
 
     def stand(self, evaluation: Evaluation) -> None:
         """Let contacts know what was found at the converged state, where there was no commit."""

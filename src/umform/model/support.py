@@ -52,6 +52,8 @@ class Support:
         The forces that take its place once it is removed.
     removed : bool
         Whether it does not act.
+    waits : bool
+        Whether it was made to be put in place later, where its nodes are then.
     """
 
     name: str
@@ -65,6 +67,7 @@ class Support:
     control: Control | None = None
     load: Load | None = None
     removed: bool = False
+    waits: bool = False
 
     def hold_at(self, base: Floats | None) -> None:
         """Hold the nodes at a displacement of the model, or where they are in the undeformed mesh."""

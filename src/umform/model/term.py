@@ -157,6 +157,9 @@ class Term(Frozen):
     def commit(self, found: Found) -> None:
         """Make the trial history that belongs to ``found`` the converged one."""
 
+    def settled(self, model: Any, evaluation: Any) -> None:
+        """Look at the model, which has just been committed at an evaluation, and change what later increments see."""
+
     def revert(self) -> None:
         """Go back to the converged history."""
 

@@ -14,10 +14,12 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.model.control import Control, Twins
+from umform.model.dead_load import Load
 from umform.model.forces import vector3
 from umform.model.now import Now
+from umform.model.press import Press
 from umform.model.term import At, Found, Global, Into, Term, Tree
-from umform.model.tool_controls import Press, ToolMotion, ToolTurn
+from umform.model.tool_controls import ToolMotion, ToolTurn, ToolWay
 from umform.ranks import Ranks
 from umform.surfaces import Surface
 from umform.surfaces.directions import rotation_matrix
@@ -47,10 +49,16 @@ class Tool(Term):
         The pairs of faces that touch it.
     ways : list of ToolMotion or ToolTurn
         Controls that move it.
+    presses : list of Press
+        What finds some of them.
     motion : callable, optional
         Motion in time, in addition.
     reference_point : ndarray, shape (3,)
         Point that the motion turns it about.
+    open : bool
+        Whether it has been taken away from the sheet: it holds no point, wherever it stands.
+    load : Load, optional
+        The forces on the sheet that take its place then.
     """
 
     timed_as = "contact"
@@ -68,10 +76,12 @@ class Tool(Term):
         self.name, self.surface = name, surface
         self.kernel, self.now = surface.kernel(), now
         self.pairs: list[Any] = []
-        self.ways: list[ToolMotion | ToolTurn] = []
+        self.ways: list[ToolWay] = []
         self.presses: list[Press] = []
         self.motion: Motion | None = None
         self.reference_point = np.zeros(3)
+        self.open = False
+        self.load: Load | None = None
 
     # Where it is ---------------------------------------------------------------------------------------------
 
@@ -113,6 +123,16 @@ class Tool(Term):
         """Whether one of its ways has a rate."""
         return any(rates.get(control, 0.0) != 0.0 for control in self.ways)
 
+    def carries(self, turn: ToolTurn, rates: Mapping[Control, float], at: At) -> tuple[Floats, Floats]:
+        """Velocity of the point of a turn, and spin of its axis, with the rates of the motions that come after it."""
+        _, point = self.axis_of(turn, at.values, at.time)
+        inner = self.ways[: self.ways.index(turn) + 1]
+        after = {control: rate for control, rate in rates.items() if control not in inner or _slides(control)}
+        velocity, spin = np.zeros(3) + self.shift_rate(after), np.zeros(3)
+        for turning, centre in self.spins(after, at):
+            velocity, spin = velocity + np.cross(turning, point - centre), spin + turning
+        return velocity, spin
+
     def shift_rate(self, rates: Mapping[Control, float]) -> Floats | float:
         """Rate of its translation."""
         along = [control for control in self.ways if isinstance(control, ToolMotion)]
@@ -130,7 +150,7 @@ class Tool(Term):
 
     # What moves it -------------------------------------------------------------------------------------------
 
-    def add_way(self, way: ToolMotion | ToolTurn) -> None:
+    def add_way(self, way: ToolWay) -> None:
         """Let a control move it."""
         self.ways.append(way)
 
@@ -141,43 +161,33 @@ class Tool(Term):
     @property
     def unknowns(self) -> tuple[Global, ...]:  # type: ignore[override]
         """Ways that forces and springs find."""
-        return tuple(press.unknown for press in self.presses)
+        return tuple(press.unknown for press in self._finding())
+
+    def _finding(self) -> list[Press]:
+        """Presses that find a way now."""
+        return [press for press in self.presses if not press.held]
 
     # Term ----------------------------------------------------------------------------------------------------
 
     def evaluate(self, at: At, into: Into) -> Found:
-        """Add the equations of its unknown ways: forces of sheet, press and springs balance. eq. (4.41)"""
+        """Add the equations of its unknown ways: sheet, press, spring and stops balance. eqs. (4.42), (4.61)"""
         border = into.border
-        for press in self.presses:
-            k = border.number(press.unknown)
-            sheet = press.way.force(_Seen(into.residual, into.found, at.values, at.time), into.ranks)
-            pressing = sum(at.values[force] for force in press.forces)
-            border.residual[k] = press.stiffness * (at.values[press.way] - press.free) - sheet - pressing
-            border.rows[k] = self._row(press.way, border.columns[k])
-            border.corner[k, k] += press.stiffness
+        seen = _Seen(into.residual, into.found, at.values, at.time)
+        for press in self._finding():
+            k, way = border.number(press.unknown), press.way
+            takes, slope = press.takes(at.values[way], way.force(seen, into.ranks))
+            border.residual[k] = takes - at.values[press.force]
+            border.rows[k] = border.columns[k] if way.symmetric else way.row(at)
+            border.corner[k, k] += slope
             for other, unknown in enumerate(border.unknowns):
-                border.corner[k, other] -= sum(unknown.rates.get(force, 0.0) for force in press.forces)
-                for pair in self.pairs:
-                    if (pair, unknown) in into.moved:
-                        border.corner[k, other] -= self._along(press.way, into.moved[pair, unknown], into)
-            border.predictor[k] -= sum(at.rates.get(force, 0.0) for force in press.forces)
-            for pair in self.pairs:
-                if (pair, None) in into.moved:
-                    border.predictor[k] -= self._along(press.way, into.moved[pair, None], into)
+                border.corner[k, other] -= unknown.rates.get(press.force, 0.0)
+                border.corner[k, other] -= way.rate(unknown.rates, _moved(into, unknown), at, into)
+            border.predictor[k] -= at.rates.get(press.force, 0.0)
+            if at.rates:
+                border.predictor[k] -= way.rate(at.rates, _moved(into, None), at, into)
             if at.du is not None:
                 border.predictor[k] += into.ranks.sum(float(border.rows[k] @ at.du))
         return Found()
-
-    def _row(self, way: ToolMotion, column: Floats) -> Floats:
-        """Derivative of minus the force of the sheet along a way with respect to u, shape (3 n,). eq. (4.42)"""
-        if all(pair.symmetric for pair in self.pairs):  # the potential of contact has one Hessian
-            return column
-        rows: Floats = np.sum([pair.block.row(way.direction) for pair in self.pairs], axis=0)
-        return rows
-
-    def _along(self, way: ToolMotion, column: Floats, into: Into) -> float:
-        """Resultant of nodal forces (3 n,) along a way."""
-        return into.ranks.sum(float(column.reshape(-1, 3).sum(axis=0) @ np.asarray(way.direction)))
 
     def resultant(self, found: Mapping[Term, Any], ranks: Ranks) -> tuple[Floats, Floats]:
         """Force of the sheet on it and moment about the origin, over all pairs. eq. (4.17)"""
@@ -191,13 +201,33 @@ class Tool(Term):
         return {name: float(value) for name, value in zip(self.column_names(), [*force, *moment], strict=True)}
 
     def state(self) -> Tree:
-        """Unknown ways."""
-        return {press.unknown.name: press.unknown.value for press in self.presses}
+        """Ways that are found, those that are given for now; whether it is open, and the forces in its place."""
+        ways = {press.unknown.name: [press.unknown.value, float(press.held)] for press in self.presses}
+        tree: Tree = {"ways": ways}
+        if self.load is not None:
+            tree |= {"open": self.open, "vector": self.load.vector.copy()}
+        return tree
 
     def restore(self, tree: Tree) -> None:
         """Put them back."""
         for press in self.presses:
-            press.unknown.value = tree[press.unknown.name]
+            value, held = tree["ways"][press.unknown.name]
+            press.unknown.value, press.held = float(value), bool(held)
+        if self.load is not None:
+            self.load.vector = np.array(tree["vector"])
+            self._open(bool(tree["open"]))
+
+    def stay_open(self, open_now: bool) -> None:
+        """Take it away from the sheet, or put it back; its ways are given while it is open."""
+        self._open(open_now)
+        for press in self.presses:
+            press.held = open_now
+
+    def _open(self, open_now: bool) -> None:
+        self.open = open_now
+        for pair in self.pairs:
+            if "block" in vars(pair):  # else it is made as the tool stands
+                pair.block.open = open_now
 
     def column_names(self) -> Iterable[str]:
         """Force and moment of the sheet on it."""
@@ -209,16 +239,8 @@ class Tool(Term):
         bare.pairs = [twins.of(pair) for pair in self.pairs]
         bare.ways = [twins.of(way) for way in self.ways]
         bare.__dict__.pop("kernel", None)
-        bare.presses = [
-            Press(
-                twins.of(press.unknown),
-                twins.of(press.way),
-                [twins.of(force) for force in press.forces],
-                press.stiffness,
-                press.free,
-            )
-            for press in self.presses
-        ]
+        bare.load = None if self.load is None else twins.of(self.load)
+        bare.presses = [press.twin(twins) for press in self.presses]
 
     def fill(self, piece: Any, mesh: Any) -> None:
         """Make its kernel."""
@@ -233,6 +255,15 @@ class _Seen:
     found: Mapping[Term, Any]
     controls: Mapping[Control, float]
     time: float
+
+
+def _moved(into: Into, unknown: Global | None) -> dict[Any, Floats]:
+    """Rates of the forces of the sheet on tools, by pair."""
+    return {pair: rate for (pair, by), rate in into.moved.items() if by is unknown}
+
+
+def _slides(control: Control) -> bool:
+    return isinstance(control, ToolMotion)
 
 
 def _turned(turn: ToolTurn, angle: float) -> Pose:

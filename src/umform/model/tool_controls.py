@@ -1,55 +1,143 @@
-"""What moves a tool: ways along a direction, turns about an axis, and forces that press it."""
+"""Controls of a tool: ways along a direction, turns about an axis, and the forces that press it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from umform.errors import InvalidValue, NotFinite
 from umform.model.control import Control, Seen, Twins
 from umform.model.forces import vector3
-from umform.model.into import Global
+from umform.model.into import At, Into
 from umform.ranks import Ranks
 from umform.surfaces import Direction, unit_vector
 
+Floats = NDArray[np.float64]
+
 
 @dataclass(eq=False, repr=False)
-class ToolMotion(Control):
+class ToolWay(Control):
+    """A rigid motion of a tool, and of the tools that follow it; its force is that of the sheet on all of them.
+
+    Attributes
+    ----------
+    tool : Tool
+        The tool that it was made for.
+    followers : list of Tool
+        Tools that go with it.
+    """
+
+    tool: Any = None
+    followers: list[Any] = field(default_factory=list)
+
+    @property
+    def tools(self) -> list[Any]:
+        """All tools that it moves."""
+        return [self.tool, *self.followers]
+
+    def force(self, evaluation: Seen, ranks: Ranks) -> float:
+        """Force, or moment, of the sheet on its tools that is conjugate to it."""
+        return sum(self._force_on(tool, evaluation, ranks) for tool in self.tools)
+
+    def row(self, at: At) -> Floats:
+        """Derivative of minus its force with respect to the nodes of this rank, shape (3 n,). eq. (4.62)"""
+        rows = [
+            pair.block.row(*self._motion(tool, at)) for tool in self.tools for pair in tool.pairs if not pair.tool.open
+        ]
+        return np.sum(rows, axis=0) if rows else np.zeros(at.u.size)
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the tangent of all that touches its tools is: then the row is the column."""
+        return all(pair.symmetric for tool in self.tools for pair in tool.pairs)
+
+    def rate(self, rates: Mapping[Control, float], moved: Mapping[Any, Floats], at: At, into: Into) -> float:
+        """Rate of its force with controls while the nodes are held. eq. (4.63)
+
+        Parameters
+        ----------
+        rates : mapping of Control to float
+            Rates of the controls.
+        moved : mapping of Contact to ndarray, shape (3 n,)
+            Rates of the forces of the sheet on the tool with these controls, at the nodes.
+        """
+        share = 0.0
+        for tool in self.tools:
+            for pair in tool.pairs:
+                if pair in moved:
+                    share += self._rate_on(tool, pair, rates, moved[pair].reshape(-1, 3), at, into)
+        return into.ranks.sum(share)
+
+    @abstractmethod
+    def _force_on(self, tool: Any, evaluation: Seen, ranks: Ranks) -> float:
+        """Force of the sheet on one of its tools."""
+
+    @abstractmethod
+    def _motion(self, tool: Any, at: At) -> tuple[Floats, Floats, Floats]:
+        """Velocity, angular velocity and a point of the axis of a tool at the rate 1."""
+
+    @abstractmethod
+    def _rate_on(
+        self, tool: Any, pair: Any, rates: Mapping[Control, float], moved: Floats, at: At, into: Into
+    ) -> float:
+        """Rate of the force of one pair on a tool."""
+
+    def strip(self, bare: Any, twins: Twins) -> None:
+        """Of the twins of its tools."""
+        bare.tool = twins.of(self.tool)
+        bare.followers = [twins.of(tool) for tool in self.followers]
+
+
+@dataclass(eq=False, repr=False)
+class ToolMotion(ToolWay):
     """Translation of a tool along a direction; its force is that of the sheet on the tool along it."""
 
     direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
-    tool: Any = None
 
-    def force(self, evaluation: Seen, ranks: Ranks) -> float:
-        """Force of the sheet on the tool along the direction."""
-        force, _ = self.tool.resultant(evaluation.found, ranks)
+    def _force_on(self, tool: Any, evaluation: Seen, ranks: Ranks) -> float:
+        force, _ = tool.resultant(evaluation.found, ranks)
         return float(force @ np.asarray(self.direction))
 
-    def strip(self, bare: Any, twins: Twins) -> None:
-        """Of the twin of its tool."""
-        bare.tool = twins.of(self.tool)
+    def _motion(self, tool: Any, at: At) -> tuple[Floats, Floats, Floats]:
+        return np.asarray(self.direction), np.zeros(3), np.zeros(3)
+
+    def _rate_on(
+        self, tool: Any, pair: Any, rates: Mapping[Control, float], moved: Floats, at: At, into: Into
+    ) -> float:
+        return float(moved.sum(axis=0) @ np.asarray(self.direction))
 
 
 @dataclass(eq=False, repr=False)
-class ToolTurn(Control):
+class ToolTurn(ToolWay):
     """Turn of a tool about an axis through a point, in radians; its force is the moment of the sheet on the tool."""
 
     axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
     about: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    tool: Any = None
 
-    def force(self, evaluation: Seen, ranks: Ranks) -> float:
+    def _force_on(self, tool: Any, evaluation: Seen, ranks: Ranks) -> float:
         """Moment of the sheet on the tool about the axis where it is now."""
-        axis, point = self.tool.axis_of(self, evaluation.controls, evaluation.time)
-        force, moment = self.tool.resultant(evaluation.found, ranks)
+        axis, point = tool.axis_of(self, evaluation.controls, evaluation.time)
+        force, moment = tool.resultant(evaluation.found, ranks)
         return float((moment - np.cross(point, force)) @ axis)
 
-    def strip(self, bare: Any, twins: Twins) -> None:
-        """Of the twin of its tool."""
-        bare.tool = twins.of(self.tool)
+    def _motion(self, tool: Any, at: At) -> tuple[Floats, Floats, Floats]:
+        axis, point = tool.axis_of(self, at.values, at.time)
+        return np.zeros(3), axis, point
+
+    def _rate_on(
+        self, tool: Any, pair: Any, rates: Mapping[Control, float], moved: Floats, at: At, into: Into
+    ) -> float:
+        """Forces change, and ways and turns that come after this one take the axis along."""
+        axis, point = tool.axis_of(self, at.values, at.time)
+        arms = (into.positions + at.u).reshape(-1, 3) - point
+        rate = float(np.cross(arms, moved).sum(axis=0) @ axis)
+        force, moment = into.found[pair].resultant(point)
+        velocity, spin = tool.carries(self, rates, at)
+        return rate - float(np.cross(velocity, force) @ axis) + float(moment @ np.cross(spin, axis))
 
 
 @dataclass(eq=False, repr=False)
@@ -63,50 +151,7 @@ class ToolForce(Control):
         bare.way = twins.of(self.way)
 
 
-@dataclass(eq=False)
-class Press:
-    """What presses a tool along a way: forces, and a spring.
-
-    Attributes
-    ----------
-    unknown : Global
-        The way that is found.
-    way : ToolMotion
-        The control that it moves.
-    forces : list of ToolForce
-        Controls of the forces on the tool along the way.
-    stiffness, free : float
-        Of a spring that holds the tool, and the way at which the spring has no force.
-    """
-
-    unknown: Global
-    way: ToolMotion
-    forces: list[ToolForce]
-    stiffness: float = 0.0
-    free: float = 0.0
-
-
 def turn_of(name: str, tool: Any, axis: Direction, about: ArrayLike) -> ToolTurn:
     """A turn of a tool, checked."""
     point = vector3(about, f"turn of tool {tool.name}")
     return ToolTurn(name, axis=unit_vector(axis, "turn"), about=tuple(point.tolist()), tool=tool)
-
-
-def check_spring(stiffness: float, preload: float, where: str) -> None:
-    """Refuse a spring that is none."""
-    if not np.isfinite([stiffness, preload]).all():
-        raise NotFinite(
-            "a spring needs finite numbers",
-            where=where,
-            value=f"stiffness {stiffness}, preload {preload}",
-            cause="an earlier computation",
-            remedy="give a finite stiffness and a finite preload",
-        )
-    if not stiffness > 0.0:
-        raise InvalidValue(
-            "the stiffness of a spring must be positive",
-            where=where,
-            value=stiffness,
-            cause="a sign, or a tool that a force alone presses",
-            remedy="a force per length; for a force alone model.press(tool, direction)",
-        )

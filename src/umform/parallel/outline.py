@@ -15,7 +15,7 @@ from umform.model.now import Now
 from umform.model.term import Term
 from umform.model.ties import MidLine
 from umform.parallel.mpi_ranks import MpiRanks
-from umform.steps import Free, Step
+from umform.steps import Free, Move, Step
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +99,8 @@ def _moving(step: Step, twins: Twins) -> Step:
     assert not isinstance(step, Free)  # refused before
     moved = step.control
     own: Any = twins.of(moved) if isinstance(moved, Control) else [twins.of(control) for control in moved]
+    if isinstance(step, Move):
+        return replace(step, control=own, follow={twins.of(control): law for control, law in step.follow.items()})
     return replace(step, control=own)
 
 

@@ -168,6 +168,9 @@ def _give_back(share: Share, result: History | None) -> None:
     whole.time = share.time
     for control, own in zip(whole.controls, share.controls, strict=True):
         control.value = own.value
+    for tool, own_tool in zip(whole.tools, share.tools, strict=True):
+        for press, own_press in zip(tool.presses, own_tool.presses, strict=True):
+            press.unknown.value, press.held = own_press.unknown.value, own_press.held
     for unknown, own_unknown in zip(whole.unknowns, share.unknowns, strict=True):
         unknown.value = own_unknown.value
     whole.elsewhere = True

@@ -188,6 +188,14 @@ class ExternalWork:
         self._before = state
         self.imbalances.append(self._imbalance(state))
 
+    def begin_anew(self, evaluation: Evaluation) -> None:
+        """Go on from the same state with loads in the place of tools, which take back what their contact held."""
+        model, before = self.model, self.energies
+        tools = [_Tool.of(tool, evaluation, model.ranks) for tool in model.tools]
+        self._before = _State(model.u.copy(), *self._nodal_forces(evaluation), tools)
+        self.energies = energies(model, evaluation)
+        self.value += self.energies.contact - before.contact
+
     def copy(self) -> Self:
         """The same, to go on with apart from this one."""
         other = copy(self)

@@ -149,6 +149,10 @@ class History:
         """Go on with the external work of a run that was kept, from the evaluation of its last state."""
         self._work.recall(memory, evaluation)
 
+    def begin_anew(self, evaluation: Evaluation) -> None:
+        """Go on from the last state with loads in the place of tools that have been opened."""
+        self._work.begin_anew(evaluation)
+
     def mark(self) -> Mark:
         """The present end of the history, to go back to."""
         return Mark(

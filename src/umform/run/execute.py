@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, Any
 
 from umform.errors import InvalidValue
 from umform.model import Model
-from umform.model.removal import fading
-from umform.model.support import Support
 from umform.progress import Tick, progress_bar
 from umform.results.penetration import warn_of_contact
+from umform.results.rest import tell_of_rest
+from umform.run.checked import checked
 from umform.run.interrupt import Interrupt, gentle_interrupt
 from umform.run.result import Result
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 from umform.steps import Step
 from umform.steps.arc_length.arc import Arc, Following
-from umform.steps.arc_length.checks import refuse_on_an_arc
+from umform.steps.close import Close, Closing
 from umform.steps.free import Free, Freeing
 from umform.steps.loop import Run
 from umform.steps.move import Move
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from umform.run.checkpoint import Checkpoints
 
 _Work = Callable[[Model, Sequence[Step]], Result]
-_LOOPS: dict[type, Any] = {Release: Releasing, Arc: Following, Free: Freeing}
+_LOOPS: dict[type, Any] = {Release: Releasing, Arc: Following, Free: Freeing, Close: Closing}
 
 
 def solve(
@@ -182,46 +182,6 @@ def _here(model: Model | None, steps: Callable[[], Sequence[Step]], work: _Work)
     return work(model, steps())
 
 
-def checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
-    """The steps, if the model can go them."""
-    assert model is not None
-    sequence = [steps] if isinstance(steps, Step) else list(steps)
-    for number, step in enumerate(sequence, start=1):
-        if isinstance(step, Arc):
-            refuse_on_an_arc(model, f"step {number}")
-        if not isinstance(step, Step):
-            raise InvalidValue("a step is a Move, a Release, an Arc or a Free", where=f"step {number}", value=step)
-        if isinstance(step, Free):
-            _refuse_to_free(model, step.support, sequence[: number - 1], f"step {number}")
-            continue
-        for control in [step.control] if isinstance(step, Release) else step.moved():
-            if control not in model.controls:
-                raise InvalidValue(
-                    "a step moves a control that the model does not have",
-                    where=f"step {number}",
-                    value=control,
-                    cause="it belongs to another model",
-                    remedy="use what prescribe(), force(), pressure() or drive() of this model returned",
-                )
-    for step in sequence:
-        if isinstance(step, Free):
-            fading(model, step.support)  # the history has the columns of its forces from the beginning on
-    return sequence
-
-
-def _refuse_to_free(model: Model, support: Support, earlier: Sequence[Step], where: str) -> None:
-    """Refuse to free a support that does not act when its step begins."""
-    freed = [step.support for step in earlier if isinstance(step, Free)]
-    if support not in model.all_supports or support in freed:
-        raise InvalidValue(
-            "a step frees a support that the model does not have then",
-            where=where,
-            value=support,
-            cause="it belongs to another model, or an earlier step has freed it",
-            remedy="use what fix(), symmetry(), hinge() or hold_director() of this model returned, once",
-        )
-
-
 def _ready(result: Result, solver: str, options: NewtonOptions | None, frames: int) -> Run:
     """Refuse a model that cannot be solved, and make the run that has not begun."""
     model, timing = result.model, result.timing
@@ -279,6 +239,7 @@ def taken(
                 run.number, run.loop = run.number + 1, None
             if last:
                 warn_of_contact(run.model, result)
+                tell_of_rest(run.model, result)
             _pause(run, start, checkpoints, stop, last=last)
         except BaseException as error:  # whatever ends the run: what was reached is kept with the error
             result.seconds = clock.perf_counter() - start

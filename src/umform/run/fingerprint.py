@@ -131,7 +131,7 @@ def _contact(contact: Contact) -> str:
 
 def _tool(tool: Tool) -> str:
     moved = [tool.ways, tool.motion, tool.reference_point]
-    presses = [[press.way, press.forces, press.stiffness, press.free] for press in tool.presses]
+    presses = [[press.way, press.force, press.stiffness, press.free, press.stops] for press in tool.presses]
     return text([tool.name, tool.surface, *moved, presses])
 
 

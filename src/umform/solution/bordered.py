@@ -53,19 +53,21 @@ class Bordered:
         supports = np.stack([system.displacement_of_supports(unknown.rates) for unknown in border.unknowns])
         corner = border.corner + ranks.sum(border.rows @ supports.T)
         self._schur = corner - ranks.sum(self._rows @ self._columns)
-        self._check([unknown.name for unknown in border.unknowns], corner)
+        self._check([unknown.what for unknown in border.unknowns], corner)
         self._eliminated = True
         return solved[:, 0]
 
-    def _check(self, names: list[str], corner: Floats) -> None:
+    def _check(self, what: list[str], corner: Floats) -> None:
+        """Refuse scalar unknowns that nothing answers, by name."""
         scale = np.abs(corner).max(initial=0.0)
-        sizes = np.linalg.svd(self._schur, compute_uv=False)
-        if not (np.isfinite(sizes).all() and sizes[-1] > 1e-13 * max(scale, sizes[0])):
+        finite = bool(np.isfinite(self._schur).all())
+        _, sizes, directions = np.linalg.svd(self._schur if finite else np.zeros_like(self._schur))
+        if not sizes[-1] > 1e-13 * max(scale, sizes[0]):
+            loose = what[int(np.abs(directions[-1]).argmax())]
             raise SingularMatrix(
-                "a scalar unknown is not determined: the sheet does not answer to it any more",
-                value=", ".join(names),
+                f"{loose} is not determined: the sheet does not answer to it any more",
                 cause="nothing holds a tool: it does not touch the sheet, or the sheet itself is not held",
-                remedy="drive the tool into touch first, then press it; or hold it by a spring",
+                remedy="Close the tool, which takes it to the sheet first; or hold it by a spring",
             )
 
     def solve(self, rhs: Floats) -> Floats:

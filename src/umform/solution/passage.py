@@ -34,7 +34,8 @@ def same_side(model: Model, last: Evaluation, converged: Converged) -> Converged
         If one has; the model is reverted.
     """
     found, least = converged.evaluation.found, _OVER_AN_EDGE * model.thickness
-    if model.ranks.any(any(_through(last.found[contact], found[contact], least) for contact in model.contacts)):
+    pairs = [contact for contact in model.contacts if not contact.tool.open]
+    if model.ranks.any(any(_through(last.found[contact], found[contact], least) for contact in pairs)):
         model.revert()
         raise Failed("the sheet goes through a tool", converged.iterations, Cause.PASSAGE)
     return converged

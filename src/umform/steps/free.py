@@ -1,14 +1,19 @@
-"""Free a support gradually: the forces that it exerts become a load, which goes to zero."""
+"""Free supports and open tools gradually: the forces that they exert become loads, which go to zero."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self
 
 from umform.errors import InvalidValue
+from umform.model import Model, Tool
+from umform.model.contact import Contact
 from umform.model.control import Control
-from umform.model.removal import put_supports, states_of_supports
+from umform.model.opening import fading_tool, open_tool
+from umform.model.removal import fading, put_back, put_supports, remove, states_of_supports
 from umform.model.support import Support
+from umform.model.term import Tree
 from umform.steps.loop import Run
 from umform.steps.move import Move
 from umform.steps.moving import Marching
@@ -16,51 +21,83 @@ from umform.steps.moving import Marching
 
 @dataclass(frozen=True)
 class Free:
-    """Remove a support; its reactions become a dead load that goes to zero over the step.
+    """Remove supports and open tools; the forces that they exert become dead loads that go to zero over the step.
 
-    The history has the columns ``<name>`` and ``<name>_force`` of the support, from the beginning of the run on: the
-    share of the reactions that is left, zero while the support acts.
+    The history has the columns ``<name>`` and ``<name>_force`` of a support, ``<name>_left`` and ``<name>_left_force``
+    of a tool, from the beginning of the run on: the share of the forces that is left, zero while the thing acts.
+
+    A tool that is opened stays where it is, and the sheet springs back as if it were not there: with all tools in one
+    step, on a support from :meth:`umform.Model.hold_rigid`, the part comes out free of forces from outside.
 
     Parameters
     ----------
-    support : Support
-        What ``fix``, ``symmetry``, ``hinge`` or ``hold_director`` of the model returned.
+    support : Support, Tool, Contact or sequence of them
+        What ``fix``, ``symmetry``, ``hinge``, ``hold_director``, ``tool`` or ``contact`` of the model returned; with a
+        contact its tool opens.
     steps, cuts, grow
         As for :class:`umform.Move`.
+    on : Support, optional
+        What ``hold_rigid`` of the model returned: it holds its nodes where they are when the step begins, from then on.
     """
 
-    support: Support
+    support: Support | Tool | Contact | Sequence[Support | Tool | Contact]
     steps: int = 10
     cuts: int = 10
     grow: float = 1.0
+    on: Support | None = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.support, Support):
+        for thing in self.things:
+            if not isinstance(thing, Support | Tool):
+                raise InvalidValue(
+                    "a step Free takes a support, a tool or several of them",
+                    where="Free",
+                    value=thing,
+                    cause="a control, or the name of a set",
+                    remedy="what fix(), symmetry(), hinge(), hold_director(), tool() or contact() returned; Release "
+                    "for a control",
+                )
+        if self.on is not None and not (isinstance(self.on, Support) and self.on.waits):
             raise InvalidValue(
-                "a step Free takes a support",
-                where="Free",
-                value=self.support,
-                cause="a control, or the name of a set",
-                remedy="what fix(), symmetry(), hinge() or hold_director() returned; Release for a control",
+                "a step Free puts a support in place that waits",
+                where="Free, on",
+                value=self.on,
+                cause="a support that acts already, or something else",
+                remedy="what hold_rigid() of the model returned",
             )
         Move([], [], self.steps, self.cuts, self.grow)  # refuses numbers that make no sense
 
+    @property
+    def things(self) -> list[Support | Tool]:
+        """Supports and tools, in the order in which they were given."""
+        given = list(self.support) if isinstance(self.support, Sequence) else [self.support]
+        return [thing.tool if isinstance(thing, Contact) else thing for thing in given]
+
+    def prepare(self, model: Model) -> None:
+        """Make the loads that take the place of what is freed, so that the history has their columns."""
+        for thing in self.things:
+            if isinstance(thing, Tool):
+                fading_tool(model, thing)
+            else:
+                fading(model, thing)
+
     def moved(self) -> list[Control]:
-        """The load that takes the place of the support."""
-        return [] if self.support.load is None else [self.support.load]
+        """The loads that take the place of supports and tools."""
+        return [thing.load for thing in self.things if thing.load is not None]
 
     def move(self) -> Move:
-        """The step as a move of the load."""
-        return Move(self.moved(), [0.0], self.steps, self.cuts, self.grow)
+        """The step as a move of the loads."""
+        loads = self.moved()
+        return Move(loads, [0.0] * len(loads), self.steps, self.cuts, self.grow)
 
 
 class Freeing(Marching):
-    """Moves the load that takes the place of a support; the support is gone once the first increment converges."""
+    """Moves the loads that take the place of supports and tools; these are gone once the first increment converges."""
 
     @classmethod
     def begin(cls, run: Run, step: Free) -> Self:  # type: ignore[override]
         """The loop at the beginning of the step."""
-        return cls([1.0], run.model.time, 1.0 / step.steps)
+        return cls([1.0] * len(step.things), run.model.time, 1.0 / step.steps)
 
     @classmethod
     def recall(cls, run: Run, step: Free, memory: dict[str, object]) -> Self:  # type: ignore[override]
@@ -68,16 +105,54 @@ class Freeing(Marching):
         return super().recall(run, step.move(), memory)
 
     def advance(self, run: Run, step: Free) -> None:  # type: ignore[override]
-        """Try one increment; as long as none has converged the support acts between two of them."""
+        """Try one increment; as long as none has converged, all acts between two of them."""
         if self.fraction > 0.0:
             super().advance(run, step.move())
             return
-        model = run.model
-        before = states_of_supports(model)
-        load = model.remove(step.support)
+        before = _Before(run, step)
         try:
+            _let_go(run, step)
             super().advance(run, step.move())
         finally:
             if self.fraction == 0.0:
-                put_supports(model, before)
-                load.value = 0.0
+                before.restore(run)
+
+
+def _let_go(run: Run, step: Free) -> None:
+    """Take all away; loads of factor 1 hold the sheet where it is."""
+    model = run.model
+    if step.on is not None:
+        put_back(model, step.on)
+    for thing in step.things:
+        if isinstance(thing, Tool):
+            open_tool(model, thing)
+        else:
+            remove(model, thing)
+    if any(isinstance(thing, Tool) for thing in step.things):
+        run.evaluation = model.evaluate(model.x, tangent=False)
+        run.result.begin_anew(run.evaluation)
+
+
+class _Before:
+    """What supports and tools were before the step."""
+
+    def __init__(self, run: Run, step: Free) -> None:
+        self._tools = [thing for thing in step.things if isinstance(thing, Tool)]
+        self._supports = states_of_supports(run.model)
+        self._states: list[Tree] = [tool.state() for tool in self._tools]
+        self._forces = {press.force: press.force.value for tool in self._tools for press in tool.presses}
+        self._loads, self._evaluation, self._mark = step.moved(), run.evaluation, run.result.mark()
+
+    def restore(self, run: Run) -> None:
+        """Let all act again as it did."""
+        put_supports(run.model, self._supports)
+        for tool, state in zip(self._tools, self._states, strict=True):
+            tool.restore(state)
+        for force, value in self._forces.items():
+            force.value = value
+        for load in self._loads:
+            load.value = 0.0
+        run.evaluation, warnings = self._evaluation, list(run.result.warnings)
+        run.result.go_back(self._mark)
+        run.result.warnings = warnings
+        run.model.stand(run.evaluation)

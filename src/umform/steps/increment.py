@@ -76,6 +76,10 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
     loose = diagnosis(run.model) if failure.cause is Cause.SINGULAR else None
     if loose is not None:
         cause, remedy = f"{cause}: {loose[0]}", loose[1]
+    pressed = pressed_tools(run)
+    if pressed:
+        cause = f"{cause}; at the last converged state {'; '.join(pressed)}"
+        remedy = f"{remedy}; a force that the sheet does not answer: less of it, a spring, a stop, or drive the tool"
     return NoConvergence(
         "Newton's method did not converge at the smallest increment",
         where=f"step {run.number}, on the way to {goal}",
@@ -83,6 +87,17 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
         cause=cause,
         remedy=remedy,
     )
+
+
+def pressed_tools(run: Run) -> list[str]:
+    """How many points of each tool that a force presses touch at the last converged state, in words."""
+    ranks, found, words = run.model.ranks, run.evaluation.found, []
+    for press in (press for tool in run.model.tools for press in tool.presses if not press.held):
+        pairs = [found[pair].active for tool in press.way.tools for pair in tool.pairs]
+        touching = int(ranks.sum(float(sum(active.sum() for active in pairs))))
+        held = f"holds the sheet at {touching} points" if touching else "does not touch the sheet"
+        words.append(f"tool {press.way.tool.name}, pressed with {press.force.name} = {press.force.value:.6g}, {held}")
+    return words
 
 
 def last_residuals(iterations: Sequence[Iteration]) -> str:

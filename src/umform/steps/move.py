@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from umform.errors import InvalidValue, NotFinite
 from umform.model.control import Control
 from umform.steps.pace import Pace
+
+#: Value of a control over that of another one: a function, or pairs of both.
+Law = Callable[[float], float] | Sequence[tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -30,6 +33,22 @@ class Move:
         How often an increment may be halved before the run is given up.
     grow : float
         Largest increment over the nominal one: 1 never grows beyond ``1/steps``. A pace has a limit of its own.
+    follow : mapping of Control to callable or sequence of (float, float), optional
+        More controls, as functions of the value of the first one: a holder force over the stroke. A sequence of pairs
+        (stroke, force) is a table with straight lines between them, constant outside.
+
+    Examples
+    --------
+    A holder force that rises from 35 to 60 over the first 20 of a stroke of 70, then stays:
+
+    >>> from umform import J2, Box, Linear, Model, Move, Plane
+    >>> from umform.mesh import strip
+    >>> model = Model(strip(80.0, 1.0, 0.8, (20, 1)), material=J2(E=206e3, nu=0.3, hardening=Linear(200.0, 500.0)))
+    >>> hold = model.press(model.tool("holder", Plane((0, 0, 0.4), (0, 0, -1))), "z", "hold")
+    >>> stroke = model.drive(model.tool("punch", Box((0, 0, 50.4), (25, 50, 100), 5)), "z", "stroke")
+    >>> step = Move(stroke, -70.0, follow={hold: [(0.0, -35.0), (-20.0, -60.0)]})
+    >>> [control.name for control in step.moved()]
+    ['stroke', 'hold']
     """
 
     control: Control | Sequence[Control]
@@ -37,6 +56,7 @@ class Move:
     steps: int | Pace | None = None
     cuts: int = 10
     grow: float = 1.0
+    follow: Mapping[Control, Law] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if (isinstance(self.steps, int) and self.steps < 1) or not isinstance(self.steps, int | Pace | None):
@@ -52,9 +72,20 @@ class Move:
         for target in self.targets():
             if not callable(target) and not (np.isscalar(target) and np.isrealobj(target) and np.isfinite(target)):
                 raise InvalidValue("a control is moved to a finite number or along a function", value=target)
-        if len(self.targets()) != len(self.moved()):
+        if len(self.targets()) != len(self._given()):
             raise InvalidValue(
-                "give one target for each control", value=f"{len(self.moved())} controls, {len(self.targets())} targets"
+                "give one target for each control",
+                value=f"{len(self._given())} controls, {len(self.targets())} targets",
+            )
+        for control, law in self.follow.items():
+            _check_law(control, law)
+        if self.follow and (not self._given() or len(set(self.moved())) < len(self.moved())):
+            raise InvalidValue(
+                "a control follows another one",
+                where="Move, follow",
+                value=", ".join(control.name for control in self.moved()),
+                cause="it is moved by itself already, or nothing moves that it could follow",
+                remedy="name it once: under control with a target, or under follow with a table",
             )
 
     @property
@@ -68,7 +99,10 @@ class Move:
         return self.pace.first if self.pace is not None else 1.0 / self.steps  # type: ignore[operator]
 
     def moved(self) -> list[Control]:
-        """The controls of the step."""
+        """The controls of the step: those that are given, then those that follow the first of them."""
+        return [*self._given(), *self.follow]
+
+    def _given(self) -> list[Control]:
         return [self.control] if isinstance(self.control, Control) else list(self.control)
 
     def targets(self) -> list[float | Callable[[float], float]]:
@@ -79,10 +113,34 @@ class Move:
         """Values of the controls at a fraction of the step that has begun at ``starts``."""
         values = [
             float(target(fraction)) if callable(target) else start + fraction * (target - start)
-            for start, target in zip(starts, self.targets(), strict=True)
+            for start, target in zip(starts, self.targets(), strict=False)
         ]
+        values += [_at(law, values[0]) for law in self.follow.values()]
         for control, value in zip(self.moved(), values, strict=True):
             if not math.isfinite(value):
                 where = f"fraction {fraction:g} of the step"
                 raise NotFinite(f"the function that moves {control.name} is not finite", where=where, value=value)
         return values
+
+
+def _at(law: Law, value: float) -> float:
+    """Value of a law at that of the control that is followed."""
+    if callable(law):
+        return float(law(value))
+    places, values = np.array(sorted(law), dtype=float).T
+    return float(np.interp(value, places, values))
+
+
+def _check_law(control: Control, law: Law) -> None:
+    """Refuse a law that is neither a function nor a table."""
+    if callable(law):
+        return
+    table = np.asarray(law, dtype=float)
+    if table.ndim != 2 or table.shape[1:] != (2,) or not np.isfinite(table).all() or len(set(table[:, 0])) < len(table):
+        raise InvalidValue(
+            "a control follows another one by a function or a table of pairs",
+            where=f"Move, follow {control.name}",
+            value=law,
+            cause="not pairs (value of the first control, value of this one), or one value given twice",
+            remedy="[(0.0, -35.0), (-20.0, -60.0)] for instance",
+        )

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, Self
 
-import numpy as np
-from numpy.typing import NDArray
-
 from umform.errors import InvalidValue
-from umform.model import Evaluation, Model, Snapshot
+from umform.model import Evaluation
 from umform.model.control import Control
-from umform.model.term import Term
+from umform.model.tool_controls import ToolForce
 from umform.solution.records import Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
+from umform.steps.saved import Saved, tightened
 
 #: Part of the force that counts as zero which the residual of an increment may reach.
 _PART = 0.1
@@ -29,13 +26,16 @@ _SHORT = 1.0 - 1e-9
 class Release:
     """Take a displacement or a tool back until its force is zero (or contact has lifted off).
 
+    A tool that a force presses goes back by its way, which is given from then on; a step :class:`umform.Close` presses
+    it again. The column of its control has the force that this takes, none at the end.
+
     The increments of a release are solved so far that the force is known to a part of the tolerance, even where the
     tolerance of the residual in :class:`umform.NewtonOptions` is looser.
 
     Parameters
     ----------
     control : Control
-        A prescribed displacement or a tool motion.
+        A prescribed displacement or a tool motion, or the force that presses a tool.
     increment : float, optional
         Size of the first increment of the way back; default 1/1000 of the present value. It doubles while Newton is at
         ease, up to a twentieth of the value.
@@ -94,13 +94,13 @@ class Releasing:
     @classmethod
     def begin(cls, run: Run, step: Release) -> Self:
         """The loop at the beginning of the step; done if there is nothing to release."""
-        model, value = run.model, step.control.value
-        evaluation = run.evaluation
-        force = step.control.force(evaluation, model.ranks)
+        model, control = run.model, _moved(run, step)
+        evaluation, value = run.evaluation, control.value
+        force = control.force(evaluation, model.ranks)
         size = -math.copysign(step.increment or abs(value) / 1000.0, value)
         loop = cls(model.time, value, abs(force), force, size, finest=1e-6 * abs(value))
         if value == 0.0 or loop.scale <= 1e-9 * evaluation.force_scale:
-            run.result.note(f"step {run.number}: nothing to release, the force of {step.control.name} is zero")
+            run.result.note(f"step {run.number}: nothing to release, the force of {control.name} is zero")
             loop.done = True
         return loop
 
@@ -115,9 +115,9 @@ class Releasing:
 
     def advance(self, run: Run, step: Release) -> None:
         """Try one increment."""
-        model, control = run.model, step.control
+        model, control = run.model, _moved(run, step)
         before, value = run.evaluation, control.value
-        saved, touching = _Saved.of(model, before), before.touching(model.ranks)
+        saved, touching = Saved.of(model, before), before.touching(model.ranks)
         attempts = run.newton.timing.attempts
         mark = attempts.mark()
         target = _next_release(value, self.force, self.before, self.bound, self.size, self.finest)
@@ -131,7 +131,7 @@ class Releasing:
         time = self.start_time + 1.0 - target / self.start_value
         extrapolation = None if self.taken is None else (target - value) / self.taken
         try:
-            with _tightened(run, _PART * step.tolerance * self.scale):
+            with tightened(run, _PART * step.tolerance * self.scale):
                 converged = take_increment(run, [target], [control], time, extrapolation)
         except Failed as failure:
             self.size, self.taken, self.failures = 0.25 * self.size, None, self.failures + 1
@@ -151,6 +151,8 @@ class Releasing:
                 self.size, self.before = (target - value) * self.force / (self.force - force), None
             return
         self.before, self.taken, self.force = (value, self.force), target - value, force
+        if isinstance(step.control, ToolForce):
+            step.control.value = model.press_of(step.control).takes(target, force)[0]
         self.done = zero or target == 0.0
         if self.bound is None and abs(2.0 * self.size) <= abs(self.start_value) / 20.0 and _at_ease(converged):
             self.size *= 2.0
@@ -161,43 +163,20 @@ class Releasing:
             how = "contact has lifted off" if lifted else "the force is zero" if zero else "the way back is complete"
             run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
 
-    def _go_back(self, run: Run, saved: _Saved, target: float, finest: float) -> None:
+    def _go_back(self, run: Run, saved: Saved, target: float, finest: float) -> None:
         """Restore the state before an increment that went too far; its end is the new bound."""
         self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
-        saved.restore(run.model)
-        run.evaluation, run.trail, self.taken = saved.evaluation, None, None
+        saved.restore(run)
+        self.taken = None
 
 
-@dataclass(frozen=True)
-class _Saved:
-    """A converged state with its evaluation, and the histories that this had read."""
-
-    snapshot: Snapshot
-    evaluation: Evaluation
-    before: list[tuple[Term, NDArray[np.float64]]]
-
-    @classmethod
-    def of(cls, model: Model, evaluation: Evaluation) -> Self:
-        """That of a model."""
-        return cls(model.snapshot(), evaluation, [(term, term.before) for term in model.terms])
-
-    def restore(self, model: Model) -> None:
-        """Put the model back, so that a checkpoint can repeat the evaluation to the last bit."""
-        model.restore(self.snapshot)
-        model.stand(self.evaluation)
-        for term, before in self.before:
-            term.before = before
-
-
-@contextmanager
-def _tightened(run: Run, force: float) -> Iterator[None]:
-    """Let Newton's method go on until the residual is no more than a force, if its tolerance asks for less."""
-    own = run.newton.options
-    run.newton.options = replace(own, residual=min(own.residual, force / run.evaluation.force_scale))
-    try:
-        yield
-    finally:
-        run.newton.options = own
+def _moved(run: Run, step: Release) -> Control:
+    """The control that goes back: of a pressed tool its way, which is given from now on."""
+    if not isinstance(step.control, ToolForce):
+        return step.control
+    press = run.model.press_of(step.control)
+    press.held = True
+    return press.way
 
 
 def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> float:

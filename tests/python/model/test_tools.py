@@ -110,6 +110,101 @@ def test_a_way_is_given_or_found_but_not_both():
     model.press(punch, "x", "push")  # across it is another way
 
 
+# Moments, stops, tools that follow --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("friction", [None, 0.3])
+@pytest.mark.parametrize("moved", ["turn", "way", "sheet", "angle"])
+def test_the_equation_of_a_moment_has_exact_rows_columns_and_corner(moved, friction, rng):
+    """Against central differences, beside a way that is found too and a turn that comes later."""
+    model, punch = beam(mt.SVK(E=210e3, nu=0.3), friction=friction)
+    moment = model.press_turn(punch, "y", (14.0, 0.0, 3.0), "moment")
+    model.turn(punch, (0.3, 1.0, 0.0), (18.0, 0.0, 1.0), "tilt").value = 0.01
+    press = model.press(punch, (0.3, 0.0, -1.0), "press")
+    moment.value, press.value = 40.0, 50.0
+    x = model.x.copy()
+    dofs = model.u.size
+    x[:dofs] += 1e-3 * rng.normal(size=dofs)
+    x[dofs:] = 0.004, 0.05  # angle and way
+    border, step, dx = model.evaluate(x).border, 1e-6, np.zeros(x.size)
+    if moved == "turn":
+        tilt = next(control for control in model.controls if control.name == "tilt")
+        found = model.evaluate(x, rates={tilt: 0.7}).predictor
+
+        def residual(fraction):
+            tilt.value = 0.01 + 0.7 * fraction
+            return model.evaluate(x).residual
+
+        difference = (residual(step) - residual(-step)) / (2 * step)
+    else:
+        if moved == "sheet":
+            dx[:dofs] = rng.normal(size=dofs)
+        dx[dofs:] = {"sheet": (0.0, 0.0), "angle": (1.0, 0.0), "way": (0.0, 1.0)}[moved]
+        difference = (model.evaluate(x + step * dx).residual - model.evaluate(x - step * dx).residual) / (2 * step)
+        found = np.concatenate([dx[dofs:] @ border.columns, border.rows @ dx[:dofs] + border.corner @ dx[dofs:]])
+    compared = slice(dofs, None) if moved == "sheet" else slice(None)
+    scale = np.abs(difference[compared]).max()
+    assert scale > 1.0
+    np.testing.assert_allclose(found[compared], difference[compared], atol=3e-6 * scale)
+
+
+def test_a_moment_turns_a_tool_until_the_sheet_answers():
+    model, punch = beam(mt.SVK(E=210e3, nu=0.3))
+    moment = model.press_turn(punch, "y", (0.0, 0.0, 10.0), "moment")
+    result = solve(model, Move(moment, 2000.0, steps=4), options=TIGHT)
+    np.testing.assert_allclose(result["moment_way_force"][1:], -result["moment"][1:], rtol=1e-9)
+    about = result["punch_my"] - 10.0 * result["punch_fx"]  # at (0, 0, 10)
+    np.testing.assert_allclose(about[1:], -2000.0 * np.array([0.25, 0.5, 0.75, 1.0]), rtol=1e-9)
+    assert 1e-4 < result["moment_way"][-1] < 0.2
+
+
+def test_a_stop_takes_what_the_sheet_does_not():
+    """A punch that would go deeper lies on distance blocks from -0.3 on."""
+    model, punch = beam(mt.SVK(E=210e3, nu=0.3))
+    press = model.press(punch, "z", "press")
+    model.stop(press, at=-0.3, stiffness=1e4, below=True)
+    result = solve(model, Move(press, -1000.0, steps=5), options=TIGHT)
+    way, sheet = result["press_way"], result["punch_fz"]
+    blocks = 1e4 * np.maximum(-0.3 - way, 0.0)
+    np.testing.assert_allclose((sheet + blocks)[1:], -result["press"][1:], rtol=1e-9)
+    assert blocks[1] < blocks[-1]
+    assert -0.4 < way[-1] < -0.3
+    free, other = beam(mt.SVK(E=210e3, nu=0.3))
+    driven = solve(free, Move(free.drive(other, "z", "way"), float(way[-1]), steps=5), options=TIGHT)
+    assert driven["punch_fz"][-1] == pytest.approx(sheet[-1], rel=1e-8)
+
+
+def test_a_tool_follows_the_way_of_another_one_at_its_distance():
+    """A pad on a spring in a punch: its spring feels the way that it has in the punch."""
+    model, punch = beam(mt.SVK(E=210e3, nu=0.3))
+    pad = model.tool("pad", Cylinder((20.0, 0.0, -10.48), "y", 10.0))
+    model.contact("lower", pad, penalty=1e4, points=4, name="bottom")
+    stroke = model.drive(punch, "z", "stroke")
+    model.attach(pad, stroke)
+    model.spring(pad, "z", stiffness=500.0, preload=20.0, name="gas")
+    result = solve(model, Move(stroke, -0.3, steps=4), options=TIGHT)
+    assert pad.pose_now[1][2] == pytest.approx(-0.3 + result["gas_way"][-1], abs=1e-12)
+    np.testing.assert_allclose(result["pad_fz"][1:], -(20.0 - 500.0 * result["gas_way"])[1:], rtol=1e-8)
+    np.testing.assert_allclose(result["stroke_force"], result["punch_fz"] + result["pad_fz"], rtol=1e-12, atol=1e-12)
+    assert np.abs(result.balance().drift).max() < 0.02
+    for wrong in (stroke, model.controls[-1]):
+        with pytest.raises(InvalidValue, match="follows the way"):
+            model.attach(pad, wrong)
+
+
+def test_stops_and_moments_that_make_no_sense_are_refused():
+    model, punch = beam()
+    press, way = model.press(punch, "z", "press"), model.drive(punch, "x", "slide")
+    model.press_turn(punch, "y", (1.0, 0.0, 0.0), "moment")
+    for stiffness in (0.0, -1.0, np.nan):
+        with pytest.raises(InvalidValue, match="spring"):
+            model.stop(press, at=0.0, stiffness=stiffness)
+    with pytest.raises(InvalidValue, match="presses no tool"):
+        model.stop(way, at=0.0, stiffness=1.0)
+    with pytest.raises(InvalidValue, match="driven and pressed"):
+        model.press_turn(punch, "y", (1.0, 0.0, 0.0), "again")
+
+
 # Ways and turns ----------------------------------------------------------------------------------------------
 
 

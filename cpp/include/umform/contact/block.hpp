@@ -27,6 +27,7 @@ class ContactBlock {
 
     Pose pose;
     std::string name = "a contact";  // for messages
+    bool open = false;               // whether the tool has been taken away: it holds no point, wherever it stands
 
     const std::shared_ptr<ContactLaw>& law() const { return law_; }
     virtual bool symmetric() const = 0;
@@ -44,7 +45,7 @@ class ContactBlock {
     /// What is known of the points that are held, as a copy.
     virtual ContactFound found() = 0;
     /// Derivative of sum A t . v with v = w + omega x (x - p) over all points that are held, with respect to u [3 n]: that of the
-    /// force, or moment, that a rigid motion of the tool is conjugate to. eq. (4.42)
+    /// force, or moment, that a rigid motion of the tool is conjugate to. eq. (4.62)
     virtual std::vector<double> row(const Vec3& w, const Vec3& omega, const Vec3& p) = 0;
     /// Square of what a relative error of all positions makes of the residual, over the square of that error. eq. (5.36)
     virtual double round_off_squared() = 0;
@@ -221,7 +222,7 @@ class ContactBlockOf final : public ContactBlock {
     double penetration() override {
         double deepest = 0.0;
         for (int e = 0; e < connectivity().size(); ++e) {
-            if (locator_.far(e)) continue;
+            if (open || locator_.far(e)) continue;
             for (int q = 0; q < per_facet(); ++q) deepest = std::max(deepest, rule_.penetration(locator_, e, q));
         }
         return deepest;
@@ -293,7 +294,7 @@ class ContactBlockOf final : public ContactBlock {
         if (!remembers()) return;
         std::vector<double> trial(history_.stride());
         for (int e = 0; e < connectivity().size(); ++e) {
-            if (!locator_.far(e)) continue;
+            if (!open && !locator_.far(e)) continue;
             leave(e, trial.data());
             for (int q = 0; q < per_facet(); ++q) {
                 const double *row = trial.data() + history_.size() * q, area = area_[e * per_facet() + q];
@@ -325,6 +326,7 @@ class ContactBlockOf final : public ContactBlock {
     /// history stays as it is.
     template <class Work>
     void for_each_near(const Work& work) {
+        if (open) return;
         locator_.settle([this](int e) { return reach(e); });
         Workspace workspace(per_facet());
         std::vector<double> trial(history_.stride());
@@ -348,7 +350,7 @@ class ContactBlockOf final : public ContactBlock {
 
     void add_facet(int e, const Scatter& scatter, const Target& target, Workspace& workspace) {
         scale_[e] = 0.0;
-        if (locator_.far(e)) {
+        if (open || locator_.far(e)) {
             if (remembers()) leave(e, history_.trial(e));
             return;
         }

@@ -206,6 +206,11 @@ class ContactFound(Found):
         arm = self.held.x if about is None else self.held.x - np.asarray(about, dtype=float)
         return self.held.force.sum(axis=0), moment(arm, self.held.force)
 
+    @property
+    def held_force(self) -> float:
+        """Sum of the magnitudes of the normal forces at all points."""
+        return float(self.held.pressure @ self.held.area)
+
     def energy(self) -> float:
         """Potential of penalty and multipliers, (p^2 - lambda^2) / (2 penalty) over the reference area. eq. (4.32)
 

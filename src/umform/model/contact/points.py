@@ -101,7 +101,7 @@ class PairPoints(Term):
         if self.elsewhere:
             raise self._not_here()
         block = self._new_block()
-        block.name = f"contact {self.name}"
+        block.name, block.open = f"contact {self.name}", self.tool.open
         if self.rubs:
             block.set_pose(*self.pose)
             block.locate(np.zeros(block.dofs))
@@ -151,6 +151,12 @@ class PairPoints(Term):
         """Multipliers of the converged state at the contact points; zero without augmentation."""
         return self.block.state[:, 0]
 
+    def forget_multipliers(self) -> None:
+        """Let no point have a pressure without a penetration any more."""
+        state = self.block.state
+        state[:, 0] = 0.0
+        self.block.restore(state)
+
     def _not_here(self) -> ModelError:
         return not_here(f"the state of contact {self.name}")
 
@@ -165,6 +171,10 @@ class PairPoints(Term):
         """Signed distance of positions (n, 3) to the tool, where it stands now or in a pose; shape (n,)."""
         rotation, shift = self.pose if pose is None else pose
         return self.tool.kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0]
+
+    def gap_now(self, u: Floats) -> Floats:
+        """Signed distances of the contact points to the tool where it stands now, shape (n,)."""
+        return self._measured(u, self.pose)[1]
 
     def _found(self, scale: float, u: Floats, pose: Pose) -> ContactFound:
         """What the kernel knows now of the points that are held, copied; the rest is measured when it is asked for."""

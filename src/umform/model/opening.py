@@ -1,0 +1,84 @@
+"""Open tools: the forces that they exert become a dead load, which may fade while they no longer touch. eq. (4.65)
+
+An opened tool stays where it stands and keeps its columns of the history; it holds no point, its ways are given, and
+its points forget what friction had held them with. docs/theory, 4.18
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from umform.errors import InvalidValue
+from umform.model.dead_load import Load
+from umform.model.evaluated import Evaluated
+from umform.model.removal import unbalanced
+from umform.model.tool import Tool
+
+
+def fading_tool(model: Evaluated, tool: Tool) -> Load:
+    """The control of the forces that take the place of a tool once it is open; zero until then."""
+    if tool.load is None:
+        name = model.free_name(f"{tool.name}_left")
+        tool.load = model.add_load(Load(name, vector=np.zeros_like(model.u)))
+    return tool.load
+
+
+def open_tool(model: Evaluated, tool: Tool) -> Load:
+    """Take a tool away from the sheet; its forces stay as a load of factor 1.
+
+    Raises
+    ------
+    InvalidValue
+        If the model does not have it, or it is open.
+    """
+    if tool not in model.tools or tool.open:
+        raise InvalidValue(
+            "the model has no such tool that touches",
+            where="remove()",
+            value=tool.name,
+            cause="it has been opened already, or belongs to another model",
+            remedy="open a tool once; put_back() lets it touch again",
+        )
+    load = fading_tool(model, tool)
+    load.value = 0.0
+    tool.stay_open(True)
+    try:
+        load.vector = unbalanced(model)
+    except BaseException:
+        tool.stay_open(False)
+        raise
+    load.value = 1.0
+    for press in tool.presses:
+        press.force.value = 0.0
+    return load
+
+
+def put_tool_back(model: Evaluated, tool: Tool) -> None:
+    """Let a tool that was opened touch the sheet again, where it stands now; what friction remembered is gone.
+
+    Raises
+    ------
+    InvalidValue
+        If it is not open, its forces have not faded, or the sheet stands where the tool is.
+    """
+    if tool not in model.tools or not tool.open:
+        raise InvalidValue(
+            "the tool is not open",
+            where="put_back()",
+            value=tool.name,
+            cause="it touches already, or belongs to another model",
+            remedy="put back what a step Free has opened",
+        )
+    assert tool.load is not None
+    deepest = max((-float(pair.gap_now(model.u).min(initial=0.0)) for pair in tool.pairs), default=0.0)
+    if tool.load.value != 0.0 or model.ranks.max(deepest) > 0.0:
+        raise InvalidValue(
+            "a tool can touch again once its forces have faded and the sheet is clear of it",
+            where=f"tool {tool.name}",
+            value=f"{tool.load.name} = {tool.load.value:.6g}, the sheet is {deepest:.6g} inside",
+            cause="the step that opens it has not come to its end, or the sheet has sprung to where it stands",
+            remedy="finish the step; move the tool away from the sheet first",
+        )
+    for pair in tool.pairs:
+        pair.forget_multipliers()
+    tool.stay_open(False)

@@ -1,0 +1,114 @@
+"""What presses a tool along a way that is found: a force or moment, a spring, stops; its equation. docs/theory, 4.18"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from umform.errors import InvalidValue, NotFinite
+from umform.model.control import Twins
+from umform.model.into import Global
+from umform.model.tool_controls import ToolForce, ToolWay
+
+
+@dataclass(frozen=True)
+class Stop:
+    """Something elastic that a tool comes to lie on: distance blocks, the end of a spring.
+
+    Attributes
+    ----------
+    at : float
+        The way at which the tool meets it.
+    stiffness : float
+        Force per length beyond.
+    side : float
+        1 if it keeps the way from growing, -1 from falling.
+    """
+
+    at: float
+    stiffness: float
+    side: float
+
+    def push(self, way: float) -> tuple[float, float]:
+        """Force on the tool along its way, and minus its derivative."""
+        beyond = self.side * (way - self.at)
+        return (-self.side * self.stiffness * beyond, self.stiffness) if beyond > 0.0 else (0.0, 0.0)
+
+
+@dataclass(eq=False)
+class Press:
+    """What presses a tool along a way: a force or a moment, a spring, stops.
+
+    Attributes
+    ----------
+    unknown : Global
+        The way that is found.
+    way : ToolMotion or ToolTurn
+        The control that it moves.
+    force : ToolForce
+        Control of the force on the tool along the way, or of the moment about its axis.
+    stiffness, free : float
+        Of a spring that holds the tool, and the way at which the spring has no force.
+    stops : list of Stop
+        What keeps the way within bounds.
+    held : bool
+        Whether the way is given for now, and the force is what it takes.
+    """
+
+    unknown: Global
+    way: ToolWay
+    force: ToolForce
+    stiffness: float = 0.0
+    free: float = 0.0
+    stops: list[Stop] = field(default_factory=list)
+    held: bool = False
+
+    def takes(self, way: float, sheet: float) -> tuple[float, float]:
+        """Force that the press must have at a way for the tool to stand there, and its derivative. eqs. (4.41), (4.61)
+
+        Parameters
+        ----------
+        way : float
+            Value of the way.
+        sheet : float
+            Force of the sheet on the tool along it.
+        """
+        pushes = [stop.push(way) for stop in self.stops]
+        force = self.stiffness * (way - self.free) - sum(push for push, _ in pushes) - sheet
+        return force, self.stiffness + sum(slope for _, slope in pushes)
+
+    def twin(self, twins: Twins) -> Press:
+        """The same of the twins of its controls."""
+        way, force = twins.of(self.way), twins.of(self.force)
+        return Press(twins.of(self.unknown), way, force, self.stiffness, self.free, list(self.stops), self.held)
+
+
+def check_stiffness(stiffness: float, other: float, where: str, names: str) -> None:
+    """Refuse a spring or a stop that is none.
+
+    Parameters
+    ----------
+    stiffness, other : float
+        Force per length, and the number beside it.
+    where : str
+        For the message.
+    names : str
+        What the other number is, and a remedy where there is no stiffness.
+    """
+    if not np.isfinite([stiffness, other]).all():
+        raise NotFinite(
+            "a spring needs finite numbers",
+            where=where,
+            value=f"stiffness {stiffness}, {names} {other}",
+            cause="an earlier computation",
+            remedy=f"give a finite stiffness and a finite {names}",
+        )
+    if not stiffness > 0.0:
+        raise InvalidValue(
+            "the stiffness of a spring must be positive",
+            where=where,
+            value=stiffness,
+            cause="a sign, or a tool that a force alone presses",
+            remedy="a force per length; for a force alone model.press(tool, direction)",
+        )

@@ -1,0 +1,78 @@
+"""Weak springs on which a loose sheet rests until contact holds it. docs/theory, 4.18"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model.checks import held_by_tools
+from umform.model.nodal_term import NodalFound, NodalTerm
+from umform.model.term import At, Found
+from umform.ranks import Ranks
+
+Floats = NDArray[np.float64]
+
+#: Forces of the springs over those of contact, below which they let go.
+_NEGLIGIBLE = 1e-3
+
+
+class Rest(NodalTerm):
+    """Springs between all nodes and the places where they lie; they let go for good once tools hold the sheet.
+
+    Parameters
+    ----------
+    name : str
+        Columns of the history: ``<name>_energy`` of the springs, in the end that with which they let go, and
+        ``<name>_acts``, 1 as long as they act.
+    u : ndarray, shape (3 n,)
+        Displacement at which they have no force.
+    stiffness : float
+        Force per length of all springs together.
+    """
+
+    each_node = ("origin",)
+
+    def __init__(self, name: str, u: Floats, stiffness: float) -> None:
+        self.origin = u.reshape(-1, 3).copy()
+        super().__init__(name, np.arange(len(self.origin), dtype=np.int32), history=2)  # let go, energy then
+        self.each = stiffness / len(self.origin)
+
+    def respond(self, u: Floats, history: Floats, at: At) -> tuple[Floats, Floats, Floats]:
+        """Linear springs, or nothing."""
+        stiffness = self.each * (1.0 - history[:, :1])
+        return stiffness * (u - self.origin), stiffness[:, :, None] * np.eye(3), history
+
+    def energy(self, u: Floats, history: Floats) -> tuple[Floats, Floats]:
+        """Of the springs, while they act."""
+        stored = 0.5 * self.each * (1.0 - history[:, 0]) * ((u - self.origin) ** 2).sum(axis=1)
+        return stored, np.zeros(len(u))
+
+    def acts(self, ranks: Ranks) -> bool:
+        """Whether the springs have not let go."""
+        return ranks.any(bool((self.history[:, 0] == 0.0).any()))
+
+    def settled(self, model: Any, evaluation: Any) -> None:
+        """Let go once tools hold the sheet, with forces beside which those of the springs are nothing."""
+        ranks, own = model.ranks, evaluation.found[self]
+        if not self.acts(ranks):
+            return
+        bearing = ranks.sum(float(sum(evaluation.found[pair].held_force for pair in model.contacts)))
+        springs = ranks.sum(float(np.abs(own.forces).sum()))
+        if springs <= _NEGLIGIBLE * bearing and held_by_tools(model, evaluation):
+            stored = self.energy(self._at_nodes(evaluation.u), self.history)[0]
+            self.history = np.column_stack([np.ones(len(stored)), stored])
+
+    def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
+        """Energy, and whether they act; of the state that was reached."""
+        assert isinstance(found, NodalFound)
+        acts = self.acts(ranks)
+        squares = (found.forces**2).sum() / (2.0 * self.each)
+        energy = ranks.sum(float(squares if acts else self.history[:, 1].sum()))
+        return {f"{self.name}_energy": energy, f"{self.name}_acts": float(acts)}
+
+    def column_names(self) -> Iterable[str]:
+        """Energy, and whether they act."""
+        return [f"{self.name}_energy", f"{self.name}_acts"]

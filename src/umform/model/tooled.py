@@ -1,0 +1,278 @@
+"""What moves the tools of a model: ways, turns, forces, moments, springs, stops, other tools, motions in time."""
+
+from __future__ import annotations
+
+import math
+
+from numpy.typing import ArrayLike
+
+from umform.errors import InvalidValue
+from umform.model import forces
+from umform.model.contact.pair import Contact
+from umform.model.controls import Controlled
+from umform.model.press import Press, Stop, check_stiffness
+from umform.model.term import Global
+from umform.model.tool import Motion, Tool
+from umform.model.tool_controls import ToolForce, ToolMotion, ToolTurn, ToolWay, turn_of
+from umform.surfaces import Direction, unit_vector
+
+
+class Tooled(Controlled):
+    """Tools, and the controls that move them."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.tools: list[Tool] = []
+
+    def drive(self, tool: Contact | Tool, direction: Direction, name: str = "") -> ToolMotion:
+        """Let steps move a tool along a direction.
+
+        Parameters
+        ----------
+        tool : Tool or Contact
+            The tool, or a pair that touches it.
+        direction : str or array_like, shape (3,)
+            "z", "-x", ... or a vector.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        ToolMotion
+            The control whose value (a length) steps move; its force is that of the sheet on the tool along it.
+        """
+        tool = _tool_of(tool)
+        way = ToolMotion(name or self._name(tool.name), direction=unit_vector(direction, "drive"), tool=tool)
+        self._add(way)
+        tool.add_way(way)
+        return way
+
+    def turn(
+        self, tool: Contact | Tool, axis: Direction, about: ArrayLike = (0.0, 0.0, 0.0), name: str = ""
+    ) -> ToolTurn:
+        """Let steps turn a tool about an axis.
+
+        Parameters
+        ----------
+        tool : Tool or Contact
+            The tool, or a pair that touches it.
+        axis : str or array_like, shape (3,)
+            Axis of the turn where the tool stands now.
+        about : array_like, shape (3,)
+            Point of the axis.
+        name : str, optional
+            Column of the history.
+
+        Returns
+        -------
+        ToolTurn
+            The control whose value (an angle in radians) steps move; its force is the moment of the sheet on the tool.
+        """
+        tool = _tool_of(tool)
+        way = turn_of(name or self._name(f"{tool.name}_turn"), tool, axis, about)
+        self._add(way)
+        tool.add_way(way)
+        return way
+
+    def press(self, tool: Contact | Tool, direction: Direction, name: str = "") -> ToolForce:
+        """Let steps press a tool with a force along a direction; its way along it is found.
+
+        The sheet must hold the tool: where nothing touches it, there is no equilibrium.
+
+        Parameters
+        ----------
+        tool : Tool or Contact
+            The tool, or a pair that touches it.
+        direction : str or array_like, shape (3,)
+            Direction of the force, and of the way.
+        name : str, optional
+            Column of the history; the way is the column ``<name>_way``.
+
+        Returns
+        -------
+        ToolForce
+            The control whose value (a force on the tool) steps move.
+
+        Raises
+        ------
+        InvalidValue
+            If the tool is driven, pressed or sprung along this direction already.
+        """
+        tool = _tool_of(tool)
+        name = name or self._name(f"{tool.name}_press")
+        return self._pressed(ToolMotion(f"{name}_way", direction=unit_vector(direction, "press"), tool=tool), name)
+
+    def press_turn(
+        self, tool: Contact | Tool, axis: Direction, about: ArrayLike = (0.0, 0.0, 0.0), name: str = ""
+    ) -> ToolForce:
+        """Let steps turn a tool with a moment about an axis; its angle is found.
+
+        Parameters
+        ----------
+        tool : Tool or Contact
+            The tool, or a pair that touches it.
+        axis : str or array_like, shape (3,)
+            Axis of the turn where the tool stands now.
+        about : array_like, shape (3,)
+            Point of the axis.
+        name : str, optional
+            Column of the history; the angle in radians is the column ``<name>_way``.
+
+        Returns
+        -------
+        ToolForce
+            The control whose value (a moment on the tool) steps move.
+        """
+        tool = _tool_of(tool)
+        name = name or self._name(f"{tool.name}_moment")
+        return self._pressed(turn_of(f"{name}_way", tool, axis, about), name)
+
+    def spring(
+        self, tool: Contact | Tool, direction: Direction, stiffness: float, preload: float = 0.0, name: str = ""
+    ) -> ToolForce:
+        """Hold a tool by a spring along a direction, as a pad on gas springs; its way along it is found.
+
+        Parameters
+        ----------
+        tool : Tool or Contact
+            The tool, or a pair that touches it.
+        direction : str or array_like, shape (3,)
+            Direction in which the spring pushes the tool.
+        stiffness : float
+            Force per length.
+        preload : float
+            Force with which the spring pushes the tool where it stands now.
+        name : str, optional
+            Column of the history; the way is the column ``<name>_way``.
+
+        Returns
+        -------
+        ToolForce
+            A control of a further force on the tool along the same direction.
+        """
+        tool = _tool_of(tool)
+        name = name or self._name(f"{tool.name}_spring")
+        check_stiffness(stiffness, preload, f"spring {name}", "preload")
+        way = ToolMotion(f"{name}_way", direction=unit_vector(direction, "spring"), tool=tool)
+        force = self._pressed(way, name)
+        tool.presses[-1].stiffness, tool.presses[-1].free = stiffness, preload / stiffness
+        return force
+
+    def stop(self, force: ToolForce, at: float, stiffness: float, *, below: bool = False) -> None:
+        """Let a pressed or sprung tool come to lie on a stop: distance blocks, the end of a gas spring.
+
+        Parameters
+        ----------
+        force : ToolForce
+            What :meth:`press`, :meth:`press_turn` or :meth:`spring` returned.
+        at : float
+            The way at which the tool meets the stop.
+        stiffness : float
+            Of the stop: force per length beyond it.
+        below : bool
+            Whether the way must not fall below it, instead of not growing beyond it.
+        """
+        check_stiffness(stiffness, at, f"stop of {force.name}", "way")
+        self.press_of(force).stops.append(Stop(float(at), float(stiffness), -1.0 if below else 1.0))
+
+    def attach(self, tool: Contact | Tool, way: ToolWay) -> None:
+        """Let a tool follow the way or turn of another one, at the distance at which it stands now.
+
+        A pad on springs in a punch follows the punch, and has a way of its own by :meth:`spring`; a holder on distance
+        blocks follows the die. The force of the control is then that on both tools.
+
+        Parameters
+        ----------
+        tool : Tool or Contact
+            The tool that follows, or a pair that touches it.
+        way : ToolMotion or ToolTurn
+            What :meth:`drive` or :meth:`turn` of the other one returned.
+
+        Raises
+        ------
+        InvalidValue
+            If it goes with it already, or the model does not have this way.
+        """
+        tool = _tool_of(tool)
+        if way not in self.controls or tool in way.tools:
+            raise InvalidValue(
+                "a tool follows the way of another tool of the model, once",
+                where=f"tool {tool.name}",
+                value=getattr(way, "name", way),
+                cause="its own way, one that it follows already, or one of another model",
+                remedy="what drive() or turn() returned for the other tool",
+            )
+        way.followers.append(tool)
+        tool.add_way(way)
+
+    def press_of(self, force: ToolForce) -> Press:
+        """What a force control presses with.
+
+        Raises
+        ------
+        InvalidValue
+            If it presses no tool of the model.
+        """
+        for press in (press for tool in self.tools for press in tool.presses):
+            if press.force is force:
+                return press
+        raise InvalidValue(
+            "the control presses no tool of the model",
+            where="press_of()",
+            value=force,
+            cause="a way, a load, or a control of another model",
+            remedy="what press(), press_turn() or spring() returned",
+        )
+
+    def _pressed(self, way: ToolWay, name: str) -> ToolForce:
+        """A force control with the way that it finds; all or nothing."""
+        tool = way.tool
+        for other in tool.ways:
+            if other.tool is tool and _along(other, way):
+                raise InvalidValue(
+                    "a tool cannot be driven and pressed along the same direction",
+                    where=f"tool {tool.name}",
+                    value=f"{other.name}, and {name}",
+                    cause="its way would be given and found at the same time",
+                    remedy="press it along another direction, or drive it only",
+                )
+        force = ToolForce(name, way=way)
+        self._refuse_taken([way.name, f"{way.name}_force", name, f"{name}_force"], name)
+        self._add(force)
+        self._add(way)
+        tool.add_way(way)
+        what = f"the way of tool {tool.name}, which {name} presses,"
+        tool.add_press(Press(Global(f"{name}_found", {way: 1.0}, what=what), way, force))
+        return force
+
+    def set_motion(self, tool: Contact | Tool, motion: Motion, about: ArrayLike = (0.0, 0.0, 0.0)) -> None:
+        """Give a tool a motion in time, in addition to what steps do to it.
+
+        Parameters
+        ----------
+        tool : Tool or Contact
+            The tool, or a pair that touches it.
+        motion : callable
+            time -> translation (3,), or (translation (3,), rotation vector (3,)).
+        about : array_like, shape (3,)
+            Point of the tool that the rotation is about.
+        """
+        tool = _tool_of(tool)
+        point = forces.vector3(about, "about")
+        tool.motion, tool.reference_point = motion, point
+
+
+def _along(one: ToolWay, other: ToolWay) -> bool:
+    """Whether two ways of a tool have a part in common; a turn and a way never do."""
+    if isinstance(one, ToolMotion) and isinstance(other, ToolMotion):
+        return abs(math.fsum(a * b for a, b in zip(one.direction, other.direction, strict=True))) > 1e-9
+    return (
+        isinstance(one, ToolTurn)
+        and isinstance(other, ToolTurn)
+        and one.axis == other.axis
+        and one.about == other.about
+    )
+
+
+def _tool_of(tool: Contact | Tool) -> Tool:
+    return tool.tool if isinstance(tool, Contact) else tool

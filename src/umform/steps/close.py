@@ -1,0 +1,279 @@
+"""Close a tool that a force presses: by its way until the sheet answers with the force, then by the force."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+
+from umform.errors import InvalidValue, NoConvergence
+from umform.model import Model
+from umform.model.press import Press
+from umform.model.tool_controls import ToolForce, ToolTurn
+from umform.solution.records import Failed
+from umform.steps.increment import no_convergence, take_increment
+from umform.steps.loop import Run
+from umform.steps.saved import Saved, tightened
+
+#: Part of the force that the residual of the last increment may reach.
+_EXACT = 1e-10
+#: Penetration of the first touch, over the thickness of the sheet.
+_HAIR = 1e-4
+#: Increments that fail or go too far before the step is given up.
+_MOST = 60
+#: Iterations after which an increment was easy.
+_EASY = 8
+
+
+@dataclass(frozen=True)
+class Close:
+    """Close a pressed tool that need not touch the sheet yet: by way until a force is reached, from then on by force.
+
+    The first increments take the tool to the sheet, which it cannot pass by more than a hair; the next ones grow as
+    long as they are easy. The last one asks for the force, with the way among the unknowns, and meets it exactly. While
+    the tool goes by way, the column of the control has the force that this takes.
+
+    Parameters
+    ----------
+    control : ToolForce
+        What ``press``, ``press_turn`` or ``spring`` of the model returned.
+    force : float
+        The force (or moment) on the tool that it is closed with, in the sense of the control.
+    way : float, optional
+        Largest way (or angle) that it may go. Default: its distance from the sheet and the largest extent of the sheet.
+    """
+
+    control: ToolForce
+    force: float
+    way: float | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.control, ToolForce):
+            raise InvalidValue(
+                "a step Close takes the control of a pressed tool",
+                where="Close",
+                value=self.control,
+                cause="the control of a tool that is driven, or a tool",
+                remedy="what press(), press_turn() or spring() of the model returned; Move for a tool that is driven",
+            )
+        if not (np.isscalar(self.force) and np.isfinite(self.force) and self.force != 0.0):
+            raise InvalidValue(
+                "a tool is closed with a finite force that is not zero",
+                where=f"Close, {self.control.name}",
+                value=self.force,
+                cause="no force holds a tool where it is",
+                remedy="the force of the holder along its direction, with its sign",
+            )
+        if self.way is not None and not 0.0 < self.way < math.inf:
+            raise InvalidValue("the largest way must be positive", where=f"Close, {self.control.name}", value=self.way)
+
+    def moved(self) -> list[ToolForce]:
+        """The control of the step."""
+        return [self.control]
+
+
+@dataclass
+class Closing:
+    """Increments of the way, then one of the force. docs/theory, 4.18
+
+    Attributes
+    ----------
+    start_time, start_way, start_force : float
+        Time, way, and force that the tool took at the beginning.
+    limit : float
+        Largest way.
+    hair : float
+        Way beyond the first touch that is aimed at.
+    size : float
+        Increment of the way that comes next, in touch.
+    before : tuple of float, optional
+        Way and force of the state before the present one, if the tool touched there.
+    taken : float, optional
+        The last increment of the way, for the extrapolation.
+    bound : float, optional
+        A way at which the force is known to be more than asked for.
+    failures : int
+        Increments that did not converge or went too far.
+    done : bool
+        Whether the tool is held by the force.
+    """
+
+    start_time: float
+    start_way: float
+    start_force: float
+    limit: float
+    hair: float
+    size: float
+    before: tuple[float, float] | None = None
+    taken: float | None = None
+    bound: float | None = None
+    failures: int = 0
+    done: bool = False
+
+    @classmethod
+    def begin(cls, run: Run, step: Close) -> Self:
+        """The loop at the beginning of the step."""
+        model = run.model
+        press = model.press_of(step.control)
+        hair = _as_way(run, press, _HAIR * model.thickness)
+        far = max(_gap(run, press), 0.0) + _extent(model)
+        limit = _as_way(run, press, far) if step.way is None else step.way
+        return cls(model.time, press.way.value, _takes(run, press), limit, hair, hair)
+
+    @classmethod
+    def recall(cls, run: Run, step: Close, memory: dict[str, Any]) -> Self:
+        """The loop as it stood."""
+        before = memory["before"]
+        return cls(**{**memory, "before": None if before is None else (float(before[0]), float(before[1]))})
+
+    def memory(self) -> dict[str, Any]:
+        """All that the loop remembers."""
+        return dict(vars(self))
+
+    def advance(self, run: Run, step: Close) -> None:
+        """Try one increment: of the way, or the last one of the force."""
+        press = run.model.press_of(step.control)
+        force, touches = _takes(run, press), _touches(run, press)
+        sense = math.copysign(1.0, step.force - self.start_force)
+        ahead = self._ahead(press, force, step.force)
+        size = self.size if touches else self._short_of_the_sheet(_as_way(run, press, _gap(run, press)))
+        near = ahead is not None and 0.0 <= sense * ahead <= (2.0 if touches else 1.0) * size
+        if near or (touches and self.failures == 0 and abs(step.force) <= abs(force)):
+            self._land(run, step, press)
+            return
+        left = self.limit - sense * (press.way.value - self.start_way)
+        if left <= 1e-12 * self.limit:
+            raise self._no_answer(run, step, force)
+        if self.bound is not None:
+            left = 0.5 * abs(self.bound - press.way.value)
+        self._go(run, step, press, force, sense * min(size, left))
+
+    def _short_of_the_sheet(self, gap: float) -> float:
+        """Way to a hair before the sheet, then to a hair beyond: no work is counted over the way in the air."""
+        return gap - self.hair if gap > 2.0 * self.hair else max(gap, 0.0) + self.hair
+
+    def _ahead(self, press: Press, force: float, target: float) -> float | None:
+        """Way to the force along the last secant, or along springs; None where neither is known. eq. (4.64)"""
+        slope = press.takes(press.way.value, 0.0)[1]
+        if self.before is not None and self.before[0] != press.way.value:
+            slope = (force - self.before[1]) / (press.way.value - self.before[0])
+        return (target - force) / slope if slope > 0.0 else None
+
+    def _go(self, run: Run, step: Close, press: Press, force: float, way: float) -> None:
+        """One increment of the way; one beyond the force is taken back."""
+        model, value, touched = run.model, press.way.value, _touches(run, press)
+        saved, attempts = Saved.of(model, run.evaluation), run.newton.timing.attempts
+        mark = attempts.mark()
+        extrapolation = None if self.taken is None else way / self.taken
+        travelled = abs(value + way - self.start_way) / self.limit
+        press.held = True
+        try:
+            converged = take_increment(
+                run, [value + way], [press.way], self.start_time + 0.99 * travelled, extrapolation
+            )
+        except Failed as failure:
+            self._shorten(run, step, 0.25, touched, failure)
+            return
+        finally:
+            press.held = False
+        found = _takes(run, press)
+        if (found - step.force) * (step.force - self.start_force) > 0.0:
+            attempts.take_back(mark, "closed beyond the force")
+            saved.restore(run)
+            self.bound = value + way
+            part = 0.5 * abs((step.force - force) / (found - force))
+            self._shorten(run, step, min(max(part, 1e-3), 0.5), touched, Failed("the force jumps over its value", []))
+            return
+        step.control.value = found
+        self.taken, self.before = way, (value, force) if touched else None
+        if touched and len(converged.iterations) <= _EASY:
+            self.size *= 4.0
+        done = abs(found - self.start_force) / abs(step.force - self.start_force)
+        run.keep(converged, [step.control], name=f"step {run.number}: close", fraction=min(done, 1.0), frame=False)
+
+    def _land(self, run: Run, step: Close, press: Press) -> None:
+        """The increment of the force, with the way among the unknowns."""
+        run.trail = None
+        step.control.value = _takes(run, press)
+        try:
+            with tightened(run, _EXACT * abs(step.force)):
+                converged = take_increment(run, [step.force], [step.control], self.start_time + 1.0, None)
+        except Failed as failure:
+            self._shorten(run, step, 0.25, _touches(run, press), failure)
+            return
+        self.done = True
+        name = f"step {run.number}: close"
+        run.keep(converged, [step.control], name=name, fraction=1.0, frame=run.frames > 0)
+        held = f"pressed with {step.control.name} = {step.force:.6g}, stands at {press.way.name}"
+        run.result.note(f"step {run.number}: tool {press.way.tool.name}, {held} = {press.way.value:.6g}")
+
+    def _shorten(self, run: Run, step: Close, part: float, touched: bool, failure: Failed) -> None:
+        """Go a part of the way next time, or give up."""
+        self.failures, self.taken = self.failures + 1, None
+        if touched:
+            self.size *= part
+        else:
+            self.hair *= part
+            self.size = self.hair
+        if self.failures > _MOST:
+            raise no_convergence(run, failure, [step.control], [step.force]) from None
+
+    def _no_answer(self, run: Run, step: Close, force: float) -> NoConvergence:
+        press = run.model.press_of(step.control)
+        found = _touches(run, press)
+        return NoConvergence(
+            "nothing answers the force that a tool is closed with",
+            where=f"step {run.number}, tool {press.way.tool.name}",
+            value=f"{step.control.name} = {force:.6g} after a way of {self.limit:.6g}, wanted {step.force:.6g}",
+            cause="the sheet gives way" if found else "the tool does not meet the sheet",
+            remedy="put a die or a support behind the sheet, less force, a larger way"
+            if found
+            else "look at the sign of the force and at where the tool stands, or allow a larger way",
+        )
+
+
+def _takes(run: Run, press: Press) -> float:
+    """Force that the press must have for its tool to stand where it does."""
+    return press.takes(press.way.value, press.way.force(run.evaluation, run.model.ranks))[0]
+
+
+def _touches(run: Run, press: Press) -> bool:
+    """Whether one of its tools holds the sheet anywhere."""
+    found = run.evaluation.found
+    return run.model.ranks.any(any(bool(found[pair].active.any()) for tool in press.way.tools for pair in tool.pairs))
+
+
+def _gap(run: Run, press: Press) -> float:
+    """Least distance of its tools from the sheet."""
+    found = run.evaluation.found
+    gaps = [float(found[pair].gap.min(initial=np.inf)) for tool in press.way.tools for pair in tool.pairs]
+    least = -run.model.ranks.max(-min(gaps, default=math.inf))
+    return least if math.isfinite(least) else 0.0
+
+
+def _extent(model: Model) -> float:
+    """Largest extent of the undeformed sheet along an axis, over all ranks."""
+    points, ranks = model.mesh.points, model.ranks
+    return max(ranks.max(float(points[:, k].max())) + ranks.max(-float(points[:, k].min())) for k in range(3))
+
+
+def _as_way(run: Run, press: Press, length: float) -> float:
+    """A way in which no point of the tools goes farther than a length: an angle where the tool is turned."""
+    if not isinstance(press.way, ToolTurn):
+        return length
+    axis, point = press.way.tool.axis_of(press.way, run.evaluation.controls, run.evaluation.time)
+    farthest = 0.0
+    for tool in press.way.tools:
+        for pair in tool.pairs:
+            arms = np.cross(axis, run.evaluation.found[pair].x - point)
+            farthest = max(farthest, float(np.linalg.norm(arms, axis=1).max(initial=0.0)))
+    farthest = run.model.ranks.max(farthest)
+    return length / farthest if farthest > 0.0 else length
+
+
+def way_is_found(model: Model, control: object) -> Press | None:
+    """The press that finds this way; None if it is given."""
+    presses = (press for tool in model.tools for press in tool.presses)
+    return next((press for press in presses if press.way is control), None)

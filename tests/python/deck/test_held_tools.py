@@ -1,0 +1,171 @@
+"""Tools of a deck that forces hold: pressed, sprung, turned by moments, stopped, closed and opened."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from umform.deck import Deck
+from umform.deck.check import check
+from umform.errors import UmformError
+
+DRAWN = """
+[mesh]
+generator = "strip"
+length = 20.0
+width = 2.0
+thickness = 0.8
+cells = [10, 1]
+
+[element]
+name = "ANS3DEAS"
+
+[material]
+law = "J2"
+E = 206e3
+nu = 0.3
+hardening = { curve = "Linear", yield_stress = 200.0, modulus = 500.0 }
+
+[tools.bed]
+shape = "Plane"
+translation = [0.0, 0.0, -0.4]
+
+[tools.lid]
+shape = "Plane"
+normal = [0.0, 0.0, -1.0]
+translation = [0.0, 0.0, 1.4]
+
+[contacts.die]
+tool = "bed"
+faces = "lower"
+penalty = 2e3
+
+[contacts.holder]
+tool = "lid"
+faces = "upper"
+penalty = 2e3
+
+[[supports]]
+kind = "rigid"
+name = "gauge"
+
+[[supports]]
+kind = "fix"
+nodes = "y0"
+directions = "y"
+
+[[supports]]
+kind = "symmetry"
+nodes = "x0"
+normal = "x"
+
+[controls.hold]
+kind = "press"
+contact = "holder"
+direction = "z"
+stops = [{ at = -5.0, stiffness = 1e4, below = true }]
+
+[controls.push]
+kind = "force"
+nodes = "x1"
+force = [1.0, 0.0, 0.0]
+
+[[steps]]
+kind = "close"
+control = "hold"
+force = -80.0
+
+[[steps]]
+kind = "move"
+to = { push = 2.0 }
+increments = 2
+follow = { hold = [[0.0, -80.0], [2.0, -100.0]] }
+
+[[steps]]
+kind = "free"
+contacts = ["die", "holder"]
+on = "gauge"
+increments = 3
+"""
+
+
+def built(text):
+    """The problem of a deck."""
+    return Deck.read(text).build()
+
+
+def test_a_deck_closes_holds_and_opens_tools():
+    problem = built(DRAWN)
+    result = problem.solve()
+    step = result["step"]
+    closed = np.flatnonzero(step == 1)[-1]
+    assert result["holder_fz"][closed] == pytest.approx(80.0, rel=1e-9)
+    np.testing.assert_allclose(result["hold"][step == 2], [-90.0, -100.0])
+    assert result["die_left"][-1] == 0.0
+    assert result["holder_fz"][-1] == 0.0
+    gauge = next(support for support in problem.model.supports if support.name == "gauge")
+    reactions = result.frames[-1].points["reaction"].ravel()[gauge.held]
+    assert len(gauge.held) == 1  # along z
+    assert np.abs(reactions).max() < 1e-6
+
+
+def test_all_that_holds_a_tool_can_be_said_in_a_deck():
+    controls = """
+[controls.slide]
+kind = "tool"
+contact = "die"
+direction = "x"
+followers = ["holder"]
+
+[controls.tilt]
+kind = "turn"
+contact = "die"
+axis = "y"
+about = [1.0, 0.0, 0.0]
+
+[controls.pad]
+kind = "spring"
+contact = "holder"
+direction = "y"
+stiffness = 10.0
+preload = 1.0
+
+[controls.twist]
+kind = "moment"
+contact = "holder"
+axis = "z"
+
+[controls.push]
+"""
+    model = built(DRAWN.replace("[controls.push]\n", controls)).model
+    die, holder = model.tools
+    assert [way.name for way in holder.ways] == ["hold_way", "slide", "pad_way", "twist_way"]
+    assert [way.name for way in die.ways] == ["slide", "tilt"]
+    assert [press.stiffness for press in holder.presses] == [0.0, 10.0, 0.0]
+    assert holder.presses[0].stops[0].at == -5.0
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('control = "hold"\nforce = -80.0', 'control = "hold"\nforce = 0.0', "finite force"),
+        ('control = "hold"\nforce = -80.0', 'control = "push"\nforce = -80.0', "pressed tool"),
+        ('contacts = ["die", "holder"]\n', "", "frees a support, or contacts"),
+        ('"die", "holder"]', '"die", "holde"]', "there is no contact of this name"),
+        ('on = "gauge"', 'on = "gage"', "there is no support of this name"),
+        ("hold = [[0.0", "hole = [[0.0", "there is no control of this name"),
+        ("[2.0, -100.0]", "[0.0, -100.0]", "function or a table"),
+        ("stiffness = 1e4", "stiffness = 0.0", "stiffness"),
+    ],
+)
+def test_mistakes_are_named(old, new, message):
+    assert old in DRAWN
+    with pytest.raises(UmformError, match=message):
+        built(DRAWN.replace(old, new))
+
+
+def test_a_deck_that_holds_tools_is_checked():
+    deck = Deck.read(DRAWN)
+    findings = list(check(deck, deck.build()))
+    assert not [finding for finding in findings if finding.level == "error"]
+    assert "supports" in [finding.about for finding in findings]
