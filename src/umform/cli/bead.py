@@ -119,7 +119,7 @@ def _show(drawn: Drawn, note: str) -> None:
     from rich.table import Table
 
     from umform.processes.draw_bead.equivalent import in_python
-    from umform.processes.draw_bead.files import summary
+    from umform.processes.draw_bead.words import summary
 
     table = Table("quantity", title="Draw bead", box=box.SIMPLE_HEAD)
     table.add_column("value", justify="right")

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from umform.elements import element
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.draw_bead.equivalent import in_deck, in_python
 from umform.processes.draw_bead.measures import QUANTITIES, Drawn
+from umform.processes.draw_bead.words import parameters
 from umform.report.versions import versions
 
 _DATA = ("curve.csv", "bead.json", "bead.vtkhdf", "equivalent.toml")
@@ -68,15 +68,3 @@ def record(drawn: Drawn) -> dict[str, Any]:
         "warnings": drawn.warnings,
         "versions": versions(),
     }
-
-
-def parameters(drawn: Drawn) -> dict[str, Any]:
-    """Parameters with what follows where they were left out; the material in words."""
-    case = drawn.case
-    found = {"groove": case.width, "gap": case.air, "draw": case.way}
-    return case.record() | found | {"element": element(case.element).name, "material": repr(case.material)}
-
-
-def summary(drawn: Drawn) -> list[list[str]]:
-    """Rows of all measures: label, value, unit."""
-    return [[label, f"{getattr(drawn, name):.{digits}f}", unit] for name, (label, unit, digits) in QUANTITIES.items()]

@@ -8,8 +8,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from umform.processes.draw_bead.equivalent import in_deck
-from umform.processes.draw_bead.files import parameters, summary
 from umform.processes.draw_bead.measures import Drawn
+from umform.processes.draw_bead.words import parameters, summary
 from umform.report import parts
 from umform.report.materials import material_text
 from umform.report.page import settings, time_spent
