@@ -14,7 +14,7 @@ from umform.mesh import strip
 from umform.model import Model
 from umform.run import solve
 from umform.solution.options import NewtonOptions
-from umform.steps import Move
+from umform.steps import Free, Move
 from umform.surfaces import Cylinder, Plane, Sphere, UserSurface
 
 ELASTIC = mt.NeoHooke(E=1000.0, nu=0.3)
@@ -262,6 +262,17 @@ def test_a_bead_goes_with_the_tool_that_is_removed():
     result = solve(model, Move(load, 0.0, steps=3))
     assert abs(result["pull_force"][-1]) < 1e-3
     assert "bead_work" not in result.columns()
+
+
+def test_a_tool_that_opens_takes_its_bead_along():
+    """The forces fade, and the work of the bead stays what it was."""
+    model, pull, _ = drawn_strip(uplift=20.0)
+    bed = model.contacts[0].tool
+    result = solve(model, [Move(pull, 0.5, steps=8), Free(bed, steps=3)])
+    assert abs(result["pull_force"][-1]) < 1e-6 < result["pull_force"][8]
+    np.testing.assert_array_equal(result["bead_restraint"][9:], 0.0)
+    np.testing.assert_allclose(result["bead_work"][9:], result["bead_work"][8], rtol=1e-12)
+    assert np.ptp(result.balance().drift[8:]) < 1e-6
 
 
 # Bad input ---------------------------------------------------------------------------------------------------

@@ -42,6 +42,11 @@ struct Bead {
         add_work(state, trial);
     }
 
+    /// What has happened since the converged state was the work of loads.
+    void forget_work(const double* state, double* trial) const {
+        trial[Work] = state[Work], trial[LiftWork] = state[LiftWork];
+    }
+
     void put_wanted(const double*, double*) const {}
     void augment(const Place&, const Vec3&, const double*, double*) const {}
     void settle(double*) const {}

@@ -278,8 +278,14 @@ class ContactBlockOf final : public ContactBlock {
 
     /// What the points of a facet remember that nothing holds: what the law does, and the rule.
     void leave_law(int e, double* trial) const {
-        for (int q = 0; law_->follows_places() && q < per_facet(); ++q)
-            law_->leave(locator_.in_tool(e, q), history_.state(e) + history_.size() * q, trial + history_.size() * q);
+        for (int q = 0; law_->follows_places() && q < per_facet(); ++q) {
+            const double* state = history_.state(e) + history_.size() * q;
+            double* of_point = trial + history_.size() * q;
+            if (open)
+                law_->let_go(locator_.in_tool(e, q), state, of_point);
+            else
+                law_->leave(locator_.in_tool(e, q), state, of_point);
+        }
     }
     void leave(int e, double* trial) const {
         leave_law(e, trial);

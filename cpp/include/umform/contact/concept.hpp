@@ -101,6 +101,8 @@ class ContactLaw {
                        const HistoryRows& rows, Reaction* reactions) const = 0;
     // Of one place, and of laws that follow places only; z is in the frame of the tool.
     virtual void leave(const Vec3& z, const double* state, double* trial) const = 0;
+    /// The same where the tool has been opened: loads do what it did, and take what it has stored.
+    virtual void let_go(const Vec3& z, const double* state, double* trial) const = 0;
     virtual Rubbing rubbing(const double* history) const = 0;
     virtual void augment(const Place& place, const Vec3& t, const double* state, double* trial) const = 0;
     virtual void put_wanted(const double* trial, double* read) const = 0;
@@ -146,6 +148,10 @@ class ContactLawOf final : public ContactLaw {
     }
     void leave(const Vec3& z, const double* state, double* trial) const override {
         if constexpr (Law::follows_places) law_.leave(z, state, trial);
+    }
+    void let_go(const Vec3& z, const double* state, double* trial) const override {
+        leave(z, state, trial);
+        if constexpr (requires { law_.forget_work(state, trial); }) law_.forget_work(state, trial);
     }
     Rubbing rubbing(const double* history) const override {
         if constexpr (Law::follows_places) return law_.rubbing(history);
