@@ -52,9 +52,14 @@ def one_of_the_demo(increments: int | None) -> Callable[[], object]:
     return run
 
 
-def contact_chapter() -> None:
-    """The chapter of the verification book about contact, on its short meshes."""
-    chapter = next(chapter for chapter in chapters() if chapter.title == "Contact")
+def in_the_book(title: str) -> Callable[[], None]:
+    """A chapter of the verification book, on its short meshes."""
+    return lambda: run_chapter(title)
+
+
+def run_chapter(title: str) -> None:
+    """Run all of its cases."""
+    chapter = next(chapter for chapter in chapters() if chapter.title == title)
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "images").mkdir()
         for case in chapter.cases:
@@ -72,7 +77,8 @@ WORKLOADS: dict[str, Callable[[], object]] = {
     "one run of the demo at a pace": one_of_the_demo(None),
     "one run of the demo, 20 increments": one_of_the_demo(20),
     "stroke for 90 degrees in air bending": lambda: find_stroke(AirBending(), 90.0, progress=False),
-    "chapter of contact in the book": contact_chapter,
+    "chapter of contact in the book": in_the_book("Contact"),
+    "chapter of friction in the book": in_the_book("Friction"),
 }
 
 

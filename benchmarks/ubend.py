@@ -34,7 +34,7 @@ E, NU, SWIFT = 206e3, 0.3, (565.32, 0.007117, 0.2589)
 FLAT, ARC = 2.0, 40
 
 
-def build(friction: float | None = MU, stroke: float = STROKE) -> tuple[Any, list[Any]]:
+def build(friction: float | None = MU, stroke: float = STROKE, rule: str = "points") -> tuple[Any, list[Any]]:
     """Model and steps in umform."""
     import umform as uf
 
@@ -47,25 +47,25 @@ def build(friction: float | None = MU, stroke: float = STROKE) -> tuple[Any, lis
     die = model.tool("die", uf.UDie(2 * DIE, 200.0, RADIUS, RADIUS))
     holder = model.tool("holder", uf.Plane((0, 0, THICKNESS), (0, 0, -1)))
     punch = model.tool("punch", uf.Box((0, 0, THICKNESS + 100), (2 * PUNCH, 100, 200), RADIUS))
-    rule = {"points": 3, "friction": friction}
-    model.contact("lower", die, name="on_die", penalty=PENALTY, **rule)
-    model.contact("upper", holder, name="under_holder", penalty=HOLDER_PENALTY, **rule)
-    model.contact("upper", punch, name="under_punch", penalty=PENALTY, **rule)
+    each = {rule: 3, "friction": friction}
+    model.contact("lower", die, name="on_die", penalty=PENALTY, **each)
+    model.contact("upper", holder, name="under_holder", penalty=HOLDER_PENALTY, **each)
+    model.contact("upper", punch, name="under_punch", penalty=PENALTY, **each)
     hold, ram = model.press(holder, "z", name="hold"), model.drive(punch, "z", name="stroke")
     return model, [uf.Move(hold, to=-HOLDING, steps=2), uf.Move(ram, to=-stroke)]
 
 
-def in_umform(friction: float | None, stroke: float) -> dict[str, Any]:
+def in_umform(friction: float | None, stroke: float, rule: str) -> dict[str, Any]:
     """Run it in this process."""
     import umform as uf
 
     uf.set_threads(1)
-    model, steps = build(friction, stroke)
+    model, steps = build(friction, stroke, rule)
     start = time.process_time()
     result = uf.solve(model, steps, progress=False, frames=0)
     iterations = result["iterations"][3:]
     return {
-        "what": "umform, BEND8" if friction else "umform, BEND8, without friction",
+        "what": f"umform, BEND8, 3 x 3 {rule}" + ("" if friction else ", without friction"),
         "stroke": -result["stroke"][-1],
         "force": result["punch_fz"][-1],
         "CPU s": time.process_time() - start,
@@ -219,12 +219,13 @@ def main() -> None:
     )
     parser.add_argument("--stroke", type=float, default=STROKE, help="of umform alone")
     given = parser.parse_args()
-    rows = [in_umform(friction, given.stroke) for friction in (MU, None)]
+    rows = [in_umform(friction, given.stroke, rule) for rule in ("points", "cells") for friction in (MU, None)]
     if given.calculix > 0 and (row := in_calculix(given.calculix)) is not None:
         rows.append(row)
     print(table(rows))
-    more = rows[0]["median"] / rows[1]["median"]
-    print(f"iterations an increment, median, with friction over without: {more:.2f}")
+    for with_friction, without in (rows[:2], rows[2:4]):
+        more = with_friction["median"] / without["median"]
+        print(f"{with_friction['what']}: iterations an increment, median, over those without friction: {more:.2f}")
     if given.page is not None:
         record.put(given.page, "ubend", table(rows))
     numbers = {f"{row['what']}: {key}": row[key] for row in rows for key in ("stroke", "CPU s", "iterations")}

@@ -7,6 +7,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "evaluate.hpp"
+#include "umform/contact/bead.hpp"
 #include "umform/contact/block.hpp"
 #include "umform/contact/cells.hpp"
 #include "umform/contact/coulomb.hpp"
@@ -175,6 +176,16 @@ void bind_law(nb::module_& m) {
         },
         nb::arg("penalty"), nb::arg("ratio"), nb::arg("friction"),
         "Contact with friction: a penalty and multipliers in both directions; ratio is the tangential over the normal stiffness.");
+    m.def(
+        "bead_law",
+        [](const std::vector<Vec3>& curve, bool closed, double half_width, double restraint, double uplift, double slip,
+           double off) -> std::shared_ptr<ContactLaw> {
+            auto line = std::make_shared<const BeadLine>(curve, closed, half_width);
+            return std::make_shared<ContactLawOf<Bead>>(Bead(line, half_width, restraint, uplift, slip, off));
+        },
+        nb::arg("curve"), nb::arg("closed"), nb::arg("half_width"), nb::arg("restraint"), nb::arg("uplift"),
+        nb::arg("slip"), nb::arg("off"),
+        "An equivalent draw bead along a polyline in the frame of the tool: forces per length across it and off the tool, within a band; slip is the elastic one, off the gap at which it ends.");
     m.def(
         "penalty_law",
         [](double penalty) -> std::shared_ptr<ContactLaw> {

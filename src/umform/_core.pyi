@@ -574,6 +574,11 @@ def coulomb_law(penalty: float, ratio: float, friction: FrictionLaw) -> ContactL
     Contact with friction: a penalty and multipliers in both directions; ratio is the tangential over the normal stiffness.
     """
 
+def bead_law(curve: Sequence[Sequence[float]], closed: bool, half_width: float, restraint: float, uplift: float, slip: float, off: float) -> ContactLaw:
+    """
+    An equivalent draw bead along a polyline in the frame of the tool: forces per length across it and off the tool, within a band; slip is the elastic one, off the gap at which it ends.
+    """
+
 def penalty_law(penalty: float) -> ContactLaw:
     """
     Frictionless contact: a pressure of penalty times penetration, and multipliers.

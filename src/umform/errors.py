@@ -78,6 +78,12 @@ class InvalidFriction(InvalidValue):
     id = "contact.friction"
 
 
+class InvalidBead(InvalidValue):
+    """A draw bead that makes no sense, or lies beside its tool."""
+
+    id = "contact.bead"
+
+
 class HardeningNotMonotone(InvalidValue):
     """A hardening table whose strain or stress does not increase."""
 

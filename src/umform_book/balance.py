@@ -49,7 +49,7 @@ class BalanceRow:
 def balance_row(case: str, run: str, result: Result) -> BalanceRow:
     """Balance of a result."""
     balance = result.balance()
-    energy = balance.elastic + balance.plastic + balance.contact
+    energy = balance.elastic + balance.plastic + balance.contact + balance.friction
     drift = balance.external_work - energy
     if abs(balance.force_imbalance[0]) > _AT_REST:  # a start inside of a tool is no equilibrium
         drift -= drift[min(1, len(drift) - 1)]

@@ -25,7 +25,17 @@ from umform_book.writing import Outcome, failed_text, page_text, summary_text, w
 BALANCED = 1e-6
 
 #: Folders of the chapters, in the order of the book.
-_FOLDERS = ("quality", "linear", "nonlinear", "plastic", "contact", "free_bending", "sharp_bends", "air_bending")
+_FOLDERS = (
+    "quality",
+    "linear",
+    "nonlinear",
+    "plastic",
+    "contact",
+    "friction",
+    "free_bending",
+    "sharp_bends",
+    "air_bending",
+)
 
 
 @cache

@@ -132,6 +132,20 @@ def rubbed():
     return model, [uf.Move(force, -16.0, steps=2), uf.Move(pull, 0.3, steps=4), uf.Move(pull, 0.1, steps=3)], None
 
 
+def beaded():
+    """A sheet on a bed under a lid that a force presses, drawn through a bead across and a closed one, and back."""
+    model = uf.Model(strip(30.0, 8.0, 1.0, (12, 4)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
+    model.symmetry("y0", "y")
+    pull = model.prescribe("x1", "x", "pull")
+    bed = model.contact("lower", uf.Plane((0, 0, -0.5)), penalty=1e3, name="bed")
+    lid = model.contact("upper", uf.Plane((0, 0, 0.5), (0, 0, -1)), penalty=1e3, name="lid")
+    model.bead("lower", bed, [(9, -9, -0.5), (10, 9, -0.5)], restraint=30.0, uplift=2.0, width=6.0, name="across")
+    square = [(18, -3, 0.5), (24, -3, 0.5), (24, 3, 0.5), (18, 3, 0.5)]
+    model.bead("upper", lid, square, restraint=8.0, width=3.0, closed=True, slip=0.05, name="ring")
+    force = model.press(lid, "z", "force")
+    return model, [uf.Move(force, -60.0, steps=2), uf.Move(pull, 1.0, steps=4), uf.Move(pull, 0.8, steps=3)], None
+
+
 def closed():
     """A holder that hovers, closes with friction, follows a table of forces and is released; the die follows it."""
     model = uf.Model(strip(20.0, 4.0, 0.8, (14, 2)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
@@ -245,7 +259,7 @@ def trouble_at(fraction):
 
 
 CASES = [free_bending, air_bending, hinged_strip, blown_strip, held_by_multipliers, cut]
-CASES += [pressed, closed, rubbed, foundation, two_bodies]
+CASES += [pressed, closed, rubbed, beaded, foundation, two_bodies]
 
 
 def rank():

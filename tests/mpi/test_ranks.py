@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 NAMES = ["free_bending", "air_bending", "hinged_strip", "blown_strip", "held_by_multipliers", "cut"]
-NAMES += ["pressed", "closed", "foundation", "two_bodies"]
+NAMES += ["pressed", "closed", "beaded", "foundation", "two_bodies"]
 #: The last states are released: what is left of pressures and balances there is round-off.
 RESIDUES = ("imbalance", "point contact_pressure", "pressure")
 

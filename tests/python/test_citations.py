@@ -24,13 +24,13 @@ CODE = {
 KEYS = Counter(re.findall(r"^@\w+\{(\w+),", (ROOT / "references.bib").read_text(encoding="utf-8"), flags=re.M))
 TAGS = Counter(tag for text in PAGES.values() for tag in re.findall(r"\\tag\{(\d\.\d+)\}", text))
 
-NUMBER = r"\(\d\.\d{1,2}\)"
+NUMBER = r"\(\d\.\d{1,3}\)"
 CITED = re.compile(rf"\b[Ee]qs?\.\s*({NUMBER}(?:\s*(?:,|and|to|-)\s*{NUMBER})*)")
 
 
 def expanded(text: str) -> list[str]:
     """Numbers of a citation such as "(3.5), (3.6)" or "(5.8)-(5.11)", those between the ends of a range too."""
-    found = list(re.finditer(r"\((\d)\.(\d{1,2})\)", text))
+    found = list(re.finditer(r"\((\d)\.(\d{1,3})\)", text))
     numbers = [match[0].strip("()") for match in found]
     for first, last in pairwise(found):
         if text[first.end() : last.start()].strip() in ("-", "to"):

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from umform.deck.beads import BeadPart
 from umform.deck.contacts import ContactPart
 from umform.deck.controls import ControlPart, Support
 from umform.deck.element import ElementPart
@@ -32,6 +33,8 @@ class Contents(Part):
     """Rigid tools by name."""
     contacts: dict[Name, ContactPart] = {}
     """Contacts by name; their names begin columns of the history."""
+    beads: dict[Name, BeadPart] = {}
+    """Equivalent draw beads by name; their names begin columns of the history."""
     supports: list[Support] = []
     """What is held."""
     controls: dict[Name, ControlPart] = {}

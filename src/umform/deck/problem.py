@@ -206,6 +206,10 @@ class _Builder:
                 continue  # it has failed, and said why
             with self._at("contacts", name):
                 contacts[name] = part.add_to(model, tools[part.tool], name)
+        for name, bead in self.contents.beads.items():
+            if bead.contact in contacts:
+                with self._at("beads", name):
+                    bead.add_to(model, contacts[bead.contact], name)
         return contacts
 
     def _supports(self, model: Model, *, rigid: bool) -> dict[str, Support]:

@@ -35,11 +35,12 @@ def references(data: dict[str, Any]) -> Iterator[tuple[str, str, Path]]:
     for name, contact in _table(data, "contacts").items():
         if isinstance(contact, dict) and isinstance(contact.get("tool"), str):
             yield "tools", contact["tool"], ("contacts", name, "tool")
-    for name, control in _table(data, "controls").items():
-        if isinstance(control, dict) and isinstance(control.get("contact"), str):
-            yield "contacts", control["contact"], ("controls", name, "contact")
-        if isinstance(control, dict):
-            yield from _listed(control, "followers", "contacts", ("controls", name))
+    for kind in ("beads", "controls"):
+        for name, part in _table(data, kind).items():
+            if isinstance(part, dict) and isinstance(part.get("contact"), str):
+                yield "contacts", part["contact"], (kind, name, "contact")
+            if isinstance(part, dict):
+                yield from _listed(part, "followers", "contacts", (kind, name))
     steps = data.get("steps")
     for number, step in enumerate(steps if isinstance(steps, list) else []):
         if not isinstance(step, dict):

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from umform.mesh import Mesh
 from umform.model.assembly import Assembly
+from umform.model.beaded import Beaded
 from umform.model.bodies import Embodied
 from umform.model.contact.encounter import sheet_thickness
 from umform.model.loads import Loaded
 from umform.model.supports import Supported
 from umform.model.term import Global, Term
 from umform.model.term_checks import check_term
-from umform.model.touched import Touched
 from umform.model.whole import Whole
 from umform.ranks import ONE, Ranks
 from umform.solvers import Pattern
@@ -27,7 +27,7 @@ from umform.timing import Timing
 Floats = NDArray[np.float64]
 
 
-class Assembled(Supported, Loaded, Touched, Embodied, Whole):
+class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
     """Supports, loads, tools and bodies together: terms and unknowns.
 
     Parameters
@@ -171,7 +171,7 @@ class Assembled(Supported, Loaded, Touched, Embodied, Whole):
     @property
     def smooth(self) -> bool:
         """Whether there is neither contact nor a law with a history."""
-        return self.elastic and not self.contacts
+        return self.elastic and not self.pairs_of_tools()
 
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry of the tangent."""

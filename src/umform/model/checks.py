@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
 from umform.mesh import Mesh
 from umform.model import forces
+from umform.model.contact import Contact, ContactFound
 from umform.model.evaluated import Evaluated
 from umform.model.evaluation import Evaluation
 from umform.model.term import At
@@ -134,8 +135,7 @@ def _in_touch(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
     """Positions and normals of the points that each tool holds at the present state."""
     for contact in model.contacts:
         if len(contact.facets) > 0:
-            at = contact.locate(model.u, contact.pose)
-            yield at.x[at.active], at.normal[at.active]
+            yield from _held_by(contact, contact.locate(model.u, contact.pose))
 
 
 def _sprung(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
@@ -177,8 +177,17 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
                 cause="the tool stands on the wrong side, a normal points into the sheet, or units differ",
                 remedy="move the tool so that it just touches the sheet, or turn its normal",
             )
-        touching = at.active
-        yield at.x[touching], at.normal[touching]
+        yield from _held_by(contact, at)
+
+
+def _held_by(contact: Contact, at: ContactFound) -> Iterator[tuple[Floats, Floats]]:
+    """Positions of the points that a tool holds, and the directions: the normals, with friction all."""
+    x = at.x[at.active]
+    if contact.friction is None:
+        yield x, at.normal[at.active]
+        return
+    for direction in np.eye(3):
+        yield x, np.broadcast_to(direction, x.shape)
 
 
 def _motion_along(x: Floats, n: Floats, centre: Floats, size: float) -> Floats:

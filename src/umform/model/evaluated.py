@@ -152,7 +152,7 @@ class Evaluated(Assembled):
                     column += part
                     if moves:
                         into.moved[term, unknown] = part
-        for pair in self.contacts:
+        for pair in self.pairs_of_tools():
             if pair.moves_with(at.rates):
                 into.moved[pair, None] = self._rate(pair, at, into, np.zeros(at.u.size), at.rates)
         return at, into

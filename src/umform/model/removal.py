@@ -137,7 +137,7 @@ def _same(one: NDArray[np.float64] | None, other: NDArray[np.float64] | None) ->
 
 
 def _remove_contact(model: Evaluated, contact: Contact) -> Load:
-    if contact not in model.contacts:
+    if contact not in model.pairs_of_tools():
         raise InvalidValue(
             "the model has no such contact",
             where="remove()",
@@ -145,9 +145,10 @@ def _remove_contact(model: Evaluated, contact: Contact) -> Load:
             cause="it has been removed already, or belongs to another model",
             remedy="take what contact() of this model returned",
         )
-    contacts, tools, controls, tool = model.contacts, model.tools, model.controls, contact.tool
+    contacts, others, tools, controls, tool = model.contacts, model.others, model.tools, model.controls, contact.tool
     load = Load(model.free_name(contact.name), vector=np.zeros_like(model.u))
     model.contacts = [other for other in contacts if other is not contact]
+    model.others = [other for other in others if other is not contact]
     tool.pairs.remove(contact)
     if not tool.pairs:
         gone = [*tool.ways, *(press.force for press in tool.presses)]
@@ -158,7 +159,7 @@ def _remove_contact(model: Evaluated, contact: Contact) -> Load:
         load.vector = unbalanced(model)
         load = model.add_load(load)
     except BaseException:
-        model.contacts, model.tools, model.controls = contacts, tools, controls
+        model.contacts, model.others, model.tools, model.controls = contacts, others, tools, controls
         tool.pairs.append(contact)
         model.forget_assembly()
         raise

@@ -32,13 +32,13 @@ class Standing(Evaluated):
 
     def stand(self, evaluation: Evaluation) -> None:
         """Let contacts know what was found at the converged state, where there was no commit."""
-        for contact in self.contacts:
+        for contact in self.pairs_of_tools():
             contact.stand(evaluation.found[contact])
 
     def begin(self, evaluation: Evaluation) -> None:
         """Stand at the evaluation that was just made: friction slides from there where it has no history yet."""
         self.stand(evaluation)
-        for contact in self.contacts:
+        for contact in self.pairs_of_tools():
             contact.begin()
 
     def repeat(self, before: Mapping[str, Floats]) -> Evaluation:

@@ -50,6 +50,12 @@ class ToolWay(Control):
         ]
         return np.sum(rows, axis=0) if rows else np.zeros(at.u.size)
 
+    def velocity(self, places: Floats, tool: Any, at: At) -> Floats:
+        """Velocity of places (n, 3) of one of its tools at the rate 1, shape (n, 3)."""
+        velocity, spin, centre = self._motion(tool, at)
+        moving: Floats = velocity + np.cross(spin, places - centre)
+        return moving
+
     @property
     def symmetric(self) -> bool:
         """Whether the tangent of all that touches its tools is: then the row is the column."""

@@ -228,8 +228,8 @@ def friction_at_nodes(model: Model, evaluation: Evaluation | None = None) -> tup
         Of points that are held.
     """
     traction, slip = np.zeros((len(model.mesh.points), 3)), np.zeros(len(model.mesh.points))
-    for contact in model.contacts:
-        if contact.friction is None:
+    for contact in model.pairs_of_tools():
+        if not contact.rubs:
             continue
         found = contact.found if evaluation is None else evaluation.found[contact]
         here, way = contact.friction_at_nodes(found, model.mesh, model.sum_at_nodes)

@@ -94,12 +94,13 @@ class History:
     def _term_columns(self, evaluation: Evaluation) -> dict[str, float]:
         """Columns of tools and of the pairs that touch them, then of all other terms."""
         model, row = self.model, dict[str, float]()
+        pairs = [pair for tool in model.tools for pair in tool.pairs]
         for tool in model.tools:
             row |= tool.resultant_columns(evaluation.found, model.ranks)
             for pair in tool.pairs:
                 row |= pair.columns(evaluation.found[pair], model.ranks)
         for term in model.terms:
-            if term not in model.contacts:
+            if term not in pairs:
                 row |= term.columns(evaluation.found[term], model.ranks)
         return row
 
@@ -193,7 +194,7 @@ class History:
         }
         if model.contacts:
             points["contact_pressure"], points["contact_gap"] = fields.contact_at_nodes(model, evaluation)
-        if any(contact.friction is not None for contact in model.contacts):
+        if any(pair.rubs for pair in model.pairs_of_tools()):
             points["friction_traction"], points["slip"] = fields.friction_at_nodes(model, evaluation)
         contacts = {contact.name: evaluation.found[contact].points() for contact in model.contacts}
         return Frame(len(self.rows) - 1, model.time, points, fields.cell_fields(model), contacts)

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from umform.model import Model
+from umform.model.changed_forces import changed_residual
 from umform.solution.newton import Newton
 from umform.solution.records import Converged
 
@@ -41,9 +42,10 @@ def augmented(model: Model, newton: Newton, converged: Converged) -> Converged:
         ]
         if not pairs or (number > 1 and not _anywhere(model, any(contact.loose(found[contact]) for contact in pairs))):
             break
-        change = np.zeros_like(converged.x)
-        for contact in pairs:
-            contact.augment(found[contact], change[: model.u.size])
+        parts = {contact: np.zeros(model.u.size) for contact in pairs}
+        for contact, part in parts.items():
+            contact.augment(found[contact], part)
+        change = changed_residual(model, converged.evaluation, parts)
         again = newton.go_on(converged, change)
         converged = replace(again, iterations=converged.iterations, passes=converged.passes + again.iterations)
         log.debug("    pass %d of the multipliers, %d iterations", number, len(again.iterations))

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.model import Model
+from umform.model.changed_forces import changed_residual
 from umform.model.contact import Contact
 from umform.solution.newton import Newton
 from umform.solution.options import Manner
@@ -78,9 +79,11 @@ def _stiffened(
             contact.penalty = 10.0**-powers * penalty
         converged = newton.solve(start, manner)
         for power in range(powers - 1, -1, -1):
-            change, found = np.zeros_like(converged.x), converged.evaluation.found
+            evaluation = converged.evaluation
+            parts = {contact: np.zeros(model.u.size) for contact in penalties}
             for contact, penalty in penalties.items():
-                contact.stiffen(found[contact], 10.0**-power * penalty, change[: model.u.size])
+                contact.stiffen(evaluation.found[contact], 10.0**-power * penalty, parts[contact])
+            change = changed_residual(model, evaluation, parts)
             again = newton.go_on(converged, change, manner)
             converged = replace(again, iterations=converged.iterations + again.iterations)
     log.debug("    by way of softer penalties, %d iterations", len(converged.iterations))

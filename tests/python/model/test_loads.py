@@ -368,6 +368,14 @@ def test_the_number_of_free_motions_is_told(model):
     model.check()
 
 
+def test_friction_holds_the_sheet_along_the_tool_while_it_touches(model):
+    contact = model.contact("lower", Plane((0, 0, -T / 2)), penalty=100.0, friction=0.1)
+    model.check()
+    model.set_motion(contact, lambda time: np.array([0.0, 0.0, -0.01]))
+    with pytest.raises(RigidBodyMotion, match="in 6 ways"):
+        model.check()
+
+
 def test_a_tool_in_touch_holds_the_sheet_and_one_at_a_distance_does_not(model):
     model.symmetry("x0", "x")
     model.symmetry("y0", "y")

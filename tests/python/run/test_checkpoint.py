@@ -114,6 +114,17 @@ def rubbed():
     return model, [Move(force, -8.0, steps=2), Move(pull, 0.3, steps=4), Move(pull, 0.1, steps=3)], {"frames": 3}
 
 
+def beaded():
+    """A strip on a bed under a lid, drawn through a bead and back."""
+    model = Model(strip(30.0, 2.0, 1.0, (12, 1)), material=mt.NeoHooke(E=1e4, nu=0.3))
+    model.symmetry("y0", "y")
+    pull = model.prescribe("x1", "x", "pull")
+    bed = model.contact("lower", Plane((0, 0, -0.5)), penalty=1e3, name="bed")
+    model.contact("upper", Plane((0, 0, 0.5), (0, 0, -1)), penalty=1e3, name="lid")
+    model.bead("lower", bed, [(9, -9, -0.5), (10, 9, -0.5)], restraint=30.0, uplift=5.0, width=6.0, name="bead")
+    return model, [Move(pull, 1.0, steps=4), Move(pull, 0.5, steps=4)], {"frames": 3}
+
+
 def celled():
     """A strip bent over a die with friction and a bare one, both over cells, and let go again."""
     material = mt.J2(kappa=175e3, mu=80.77e3, hardening=mt.Linear(160.0, 500.0))
@@ -187,7 +198,7 @@ def copies(monkeypatch, tmp_path):
 # The same bits ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("build", [bending, moves, cut, bar, block, arch, pressed, rubbed, celled])
+@pytest.mark.parametrize("build", [bending, moves, cut, bar, block, arch, pressed, rubbed, celled, beaded])
 def test_a_run_goes_on_from_any_place_to_the_same_bits(build, copies, tmp_path, assert_the_same):
     model, steps, options = build()
     expected = solve(model, steps, **options)

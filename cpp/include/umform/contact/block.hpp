@@ -164,6 +164,7 @@ class ContactBlockOf final : public ContactBlock {
             const Reaction& reaction = workspace.reactions[i];
             const Rubbing rubbing = law_->rubbing(history);
             found.friction_work += area_[q] * rubbing.work;
+            found.stored += area_[q] * rubbing.stored;
             found.contact_work += area_[q] * rule_.contact_work(history + of_law_);
             if (!reaction.held) return;
             round_off.add(e, weight_of_errors(q), values_at(e, q));
@@ -176,7 +177,6 @@ class ContactBlockOf final : public ContactBlock {
             found.share.push_back(rule_.share(workspace, i)), found.pressure.push_back(reaction.pressure);
             found.elastic_slip.push_back(locator_.pose().turn(rubbing.elastic_slip));
             found.slip.push_back(rubbing.slip);
-            found.stored += area_[q] * rubbing.stored;
             found.area.push_back(area_[q]);
             Vec3 force;  // (pressure area) n, in this order: that of the forces at nodes
             for (int k = 0; k < 3; ++k)
@@ -278,8 +278,14 @@ class ContactBlockOf final : public ContactBlock {
 
     /// What the points of a facet remember that nothing holds: what the law does, and the rule.
     void leave_law(int e, double* trial) const {
-        for (int q = 0; law_->follows_places() && q < per_facet(); ++q)
-            law_->leave(locator_.in_tool(e, q), history_.state(e) + history_.size() * q, trial + history_.size() * q);
+        for (int q = 0; law_->follows_places() && q < per_facet(); ++q) {
+            const double* state = history_.state(e) + history_.size() * q;
+            double* of_point = trial + history_.size() * q;
+            if (open)
+                law_->let_go(locator_.in_tool(e, q), state, of_point);
+            else
+                law_->leave(locator_.in_tool(e, q), state, of_point);
+        }
     }
     void leave(int e, double* trial) const {
         leave_law(e, trial);
@@ -289,7 +295,7 @@ class ContactBlockOf final : public ContactBlock {
         }
     }
 
-    /// Works of friction and pressure so far at the points of far facets.
+    /// Works of friction and pressure so far at the points of far facets, and what their law has stored.
     void add_works_of_far(ContactFound& found) const {
         if (!remembers()) return;
         std::vector<double> trial(history_.stride());
@@ -298,7 +304,8 @@ class ContactBlockOf final : public ContactBlock {
             leave(e, trial.data());
             for (int q = 0; q < per_facet(); ++q) {
                 const double *row = trial.data() + history_.size() * q, area = area_[e * per_facet() + q];
-                found.friction_work += area * law_->rubbing(row).work;
+                const Rubbing rubbing = law_->rubbing(row);
+                found.friction_work += area * rubbing.work, found.stored += area * rubbing.stored;
                 found.contact_work += area * rule_.contact_work(row + of_law_);
             }
         }

@@ -48,8 +48,8 @@ struct Rubbing {
 /// and times the weight. A law that is `symmetric` has a symmetric K; what is below its diagonal is not read. One that
 /// `follows_places` has more to say: what it remembers of a place that the tool does not hold, or no longer (`leave`), what friction
 /// does there (`rubbing`), how its tangential multipliers are set (`augment`), belong to what was read (`put_wanted`), and become
-/// those of the new history (`settle`). `press` is the response to a pressure that comes from elsewhere than the gap of the place,
-/// with a K that is not symmetric.
+/// those of the new history (`settle`). A law that may be asked over cells also has `press`, the response to a pressure that
+/// comes from elsewhere than the gap of the place, with a K that is not symmetric.
 template <class L>
 concept PlaceLaw =
     requires(const L& law, L& mutable_law, const Place& place, const double* state, double* trial, Reaction& reaction) {
@@ -60,7 +60,6 @@ concept PlaceLaw =
         { law.stiffness() } -> std::same_as<double>;
         { law.reach(trial) } -> std::same_as<double>;
         { law.respond(place, 1.0, state, trial, reaction) } -> std::same_as<bool>;
-        { law.press(place, 1.0, 1.0, state, trial, reaction) } -> std::same_as<void>;
     };
 
 /// Places of a facet, arrays [place].
@@ -102,6 +101,8 @@ class ContactLaw {
                        const HistoryRows& rows, Reaction* reactions) const = 0;
     // Of one place, and of laws that follow places only; z is in the frame of the tool.
     virtual void leave(const Vec3& z, const double* state, double* trial) const = 0;
+    /// The same where the tool has been opened: loads do what it did, and take what it has stored.
+    virtual void let_go(const Vec3& z, const double* state, double* trial) const = 0;
     virtual Rubbing rubbing(const double* history) const = 0;
     virtual void augment(const Place& place, const Vec3& t, const double* state, double* trial) const = 0;
     virtual void put_wanted(const double* trial, double* read) const = 0;
@@ -134,14 +135,23 @@ class ContactLawOf final : public ContactLaw {
         for (int q = 0; q < count; ++q) {
             const double* state = rows.state + q * rows.size;
             double* trial = rows.trial + q * rows.size;
-            if (reactions[q].held)
-                law_.press(places[q], pressures[q], weights == nullptr ? 1.0 : weights[q], state, trial, reactions[q]);
-            else
-                leave(places.pose->to_tool(places.x[q]), state, trial);
+            if constexpr (requires { law_.press(places[q], 1.0, 1.0, state, trial, reactions[q]); }) {
+                if (reactions[q].held) {
+                    const double weight = weights == nullptr ? 1.0 : weights[q];
+                    law_.press(places[q], pressures[q], weight, state, trial, reactions[q]);
+                    continue;
+                }
+            }
+            reactions[q].held = false;
+            leave(places.pose->to_tool(places.x[q]), state, trial);
         }
     }
     void leave(const Vec3& z, const double* state, double* trial) const override {
         if constexpr (Law::follows_places) law_.leave(z, state, trial);
+    }
+    void let_go(const Vec3& z, const double* state, double* trial) const override {
+        leave(z, state, trial);
+        if constexpr (requires { law_.forget_work(state, trial); }) law_.forget_work(state, trial);
     }
     Rubbing rubbing(const double* history) const override {
         if constexpr (Law::follows_places) return law_.rubbing(history);

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property, partial
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,7 @@ Floats = NDArray[np.float64]
 class PairPoints(Term):
     """Facets, their points in the kernel, and what is measured at them; see :class:`umform.model.contact.Contact`."""
 
-    fixed = ("tool", "name")
+    fixed: ClassVar[tuple[str, ...]] = ("tool", "name")
 
     before: Floats
 
@@ -102,7 +102,7 @@ class PairPoints(Term):
             raise self._not_here()
         block = self._new_block()
         block.name, block.open = f"contact {self.name}", self.tool.open
-        if self.friction is not None:
+        if self.rubs:
             block.set_pose(*self.pose)
             block.locate(np.zeros(block.dofs))
             block.begin()
@@ -127,6 +127,11 @@ class PairPoints(Term):
         return self._settings.friction
 
     @property
+    def rubs(self) -> bool:
+        """Whether it has a history of what slides along the tool."""
+        return self.friction is not None
+
+    @property
     def slip(self) -> float:
         """Elastic slip that is allowed; zero without friction."""
         return self._settings.slip
@@ -134,12 +139,12 @@ class PairPoints(Term):
     @property
     def symmetric(self) -> bool:  # type: ignore[override]
         """Whether the tangents of its law and its rule are."""
-        return self.friction is None and self.cells is None
+        return not self.rubs and self.cells is None
 
     @property
     def remembers(self) -> bool:
         """Whether an evaluation writes more history than multipliers."""
-        return self.friction is not None or self.cells is not None
+        return self.rubs or self.cells is not None
 
     @property
     def multipliers(self) -> Floats:
@@ -185,7 +190,7 @@ class PairPoints(Term):
             area=self._areas,
             multiplier=multiplier,
             penalty=self.penalty,
-            rubs=self.friction is not None,
+            rubs=self.rubs,
             has_potential=self.cells is None,
         )
 
@@ -227,7 +232,8 @@ class PairPoints(Term):
     def piece(self, cut: Cut) -> tuple[Ids, NDArray[np.int64], Tree | None]:
         """Faces of the rank, which rows of this contact they are, and their history if there is any yet."""
         faces, rows = cut.faces_of(self.faces)
-        history = {name: values[rows] for name, values in self.state().items()} if "block" in vars(self) else None
+        begun = "block" in vars(self) and self.block.begun
+        history = {name: values[rows] for name, values in self.state().items()} if begun else None
         return faces, rows, history
 
     def fill(self, piece: tuple[Ids, NDArray[np.int64], Tree | None], mesh: Any) -> None:

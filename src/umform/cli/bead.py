@@ -1,0 +1,134 @@
+"""``umform bead``: a sheet drawn through a draw bead of real geometry."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from umform.cli.metal import law_of
+from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.timing import Timed, show_timing
+from umform.cli.warnings import echo_warnings, print_warnings_once
+from umform.errors import UmformError
+
+if TYPE_CHECKING:
+    from umform.processes.draw_bead.measures import Drawn
+
+
+def _option(help_text: str, panel: str) -> Any:
+    return typer.Option(help=help_text, rich_help_panel=panel)
+
+
+_TOOLS, _SHEET, _SOLUTION = "Tools (mm)", "Sheet (mm, MPa)", "Solution"
+
+
+@app.command()
+def bead(
+    out: Annotated[
+        str | None,
+        typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/bead."),
+    ] = None,
+    radius: Annotated[float, _option("Radius of the tip of the bead.", _TOOLS)] = 5.5,
+    height: Annotated[float, _option("Height of the bead above its flat.", _TOOLS)] = 6.0,
+    groove_radius: Annotated[float, _option("Radius of the edges of the groove.", _TOOLS)] = 5.0,
+    groove: Annotated[float | None, _option("Width of the groove; default: bead, sheet and 10 % air.", _TOOLS)] = None,
+    gap: Annotated[float | None, _option("Air beside the sheet between the flats; default 5 %.", _TOOLS)] = None,
+    friction: Annotated[float, _option("Coefficient of friction.", _TOOLS)] = 0.1,
+    thickness: Annotated[float, _option("Thickness of the sheet.", _SHEET)] = 0.8,
+    material: Annotated[str | None, _option("Name in the library of sheet metals, DC04 for one.", _SHEET)] = None,
+    young: Annotated[float | None, _option("Young's modulus.", _SHEET)] = None,
+    poisson: Annotated[float | None, _option("Poisson's ratio.", _SHEET)] = None,
+    yield_stress: Annotated[float | None, _option("Yield stress, for linear hardening.", _SHEET)] = None,
+    hardening_modulus: Annotated[float | None, _option("Hardening modulus; default 0.", _SHEET)] = None,
+    swift: Annotated[str | None, _option("Swift hardening K,e0,n, as 520,0.004,0.22.", _SHEET)] = None,
+    flow_curve: Annotated[
+        Path | None, _option("Measured hardening: a CSV file of plastic strain and true stress.", _SHEET)
+    ] = None,
+    draw: Annotated[float | None, _option("Way of the strip; default 1.5 times the way through.", _SOLUTION)] = None,
+    element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "BEND8",
+    elements: Annotated[float, _option("Elements on a quarter turn of the sharper radius.", _SOLUTION)] = 20.0,
+    contact_points: Annotated[int, _option("Contact points per direction and facet.", _SOLUTION)] = 4,
+    overwrite: Overwrite = False,
+    timing: Timed = False,
+    verbose: Verbose = 0,
+    debug: Debug = False,
+) -> None:
+    """Draw a sheet through a draw bead: restraining force, uplift, thinning, and the equivalent bead.
+
+    Each number is defined in docs/draw-beads.md.
+    """
+    from umform.io.folders import folder_for
+    from umform.io.staging import staging
+    from umform.processes.draw_bead.case import drawn_through
+    from umform.processes.draw_bead.files import FILES, RESULTS, write_files
+    from umform.processes.draw_bead.parameters import DrawBead
+
+    print_warnings_once()
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    case = DrawBead(
+        thickness=thickness,
+        material=law,
+        radius=radius,
+        height=height,
+        groove_radius=groove_radius,
+        groove=groove,
+        gap=gap,
+        friction=friction,
+        draw=draw,
+        element=element,
+        elements=elements,
+        contact_points=contact_points,
+    )
+    say = partial(typer.echo, err=True)
+    place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    with staging(place, FILES):
+        with _what_was_reached(place):
+            drawn = drawn_through(case)
+        try:
+            with printing(f"the files of the bead are in {place}"):
+                _show(drawn, note)
+        finally:  # also if nobody reads the table
+            with drawn.result.timing.files:
+                files = write_files(place, drawn, note)
+    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    if timing:
+        show_timing(drawn.result.timing)
+
+
+@contextmanager
+def _what_was_reached(out: Path) -> Iterator[None]:
+    """Write the history of a run that is ended early."""
+    try:
+        yield
+    except (UmformError, KeyboardInterrupt) as stop:
+        reached = getattr(stop, "result", None)
+        if reached is not None and reached.frames:
+            files = [reached.write(out / name) for name in ("history.csv", "bead.vtkhdf")]
+            stop.add_note(f"  what was reached is in {out}: {', '.join(file.name for file in files)}")
+        raise
+
+
+def _show(drawn: Drawn, note: str) -> None:
+    """Print the measures and the equivalent bead."""
+    from rich import box
+    from rich.table import Table
+
+    from umform.processes.draw_bead.equivalent import in_python
+    from umform.processes.draw_bead.words import summary
+
+    table = Table("quantity", title="Draw bead", box=box.SIMPLE_HEAD)
+    table.add_column("value", justify="right")
+    table.add_column("unit")
+    for row in summary(drawn):
+        table.add_row(*row)
+    screen = console()
+    screen.print(table)
+    screen.print(f"equivalent: {in_python(drawn)}", soft_wrap=True, markup=False, highlight=False)
+    if note:
+        screen.print(note, soft_wrap=True)
+    echo_warnings(drawn.warnings)

@@ -1,0 +1,51 @@
+"""The draw beads of a deck: lines on the tools of contacts."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from umform.deck.parts import Name, NotNegative, Part, Positive, Vector
+from umform.deck.selection import Selection, faces_of
+from umform.model import Model
+from umform.model.contact import Contact
+from umform.model.contact.bead import Bead
+
+
+class BeadPart(Part):
+    """A line on the tool of a contact that holds the sheet back, in place of a draw bead of real geometry."""
+
+    contact: Name
+    """Contact whose tool the line lies on."""
+    curve: Annotated[list[Vector], Field(min_length=2)]
+    """Corners of the line, on the tool where it stands at first."""
+    restraint: NotNegative
+    """Force per length across the line."""
+    uplift: NotNegative = 0.0
+    """Force per length off the tool."""
+    width: Positive
+    """Width of the band that the forces are spread over."""
+    closed: bool = False
+    """Whether the last point is joined to the first."""
+    faces: Selection | None = None
+    """Faces that are drawn through; by default those of the contact."""
+    slip: Positive | None = None
+    """Elastic slip that is allowed; by default 1/200 of the thickness."""
+    points: Annotated[int, Field(ge=1, le=10)] | None = None
+    """Gauss points per direction of a face; by default as many as the band asks for."""
+
+    def add_to(self, model: Model, contact: Contact, name: str) -> Bead:
+        """Let the model have the bead."""
+        return model.bead(
+            contact.faces if self.faces is None else faces_of(model.mesh, self.faces),
+            contact,
+            self.curve,
+            restraint=self.restraint,
+            uplift=self.uplift,
+            width=self.width,
+            closed=self.closed,
+            slip=self.slip,
+            points=self.points,
+            name=name,
+        )

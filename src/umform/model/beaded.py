@@ -1,0 +1,117 @@
+"""Equivalent draw beads on the tools of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import chain, count
+
+from numpy.typing import ArrayLike
+
+from umform.errors import InvalidBead
+from umform.mesh import Selector
+from umform.model.contact.bead import Bead, bead_line
+from umform.model.contact.pair import Contact
+from umform.model.term import Term
+from umform.model.tool import Tool
+from umform.model.touched import Touched
+
+
+class Beaded(Touched):
+    """Tools with draw beads."""
+
+    others: list[Term]
+
+    def add(self, term: Term) -> Term:
+        """Let a term of another kind add to the residual."""
+        raise NotImplementedError
+
+    def pairs_of_tools(self) -> list[Contact]:
+        """All that touches tools: contacts, and beads."""
+        return [*self.contacts, *(term for term in self.others if isinstance(term, Bead))]
+
+    def bead(
+        self,
+        faces: Selector,
+        tool: Contact | Tool,
+        curve: ArrayLike | Sequence[ArrayLike],
+        *,
+        restraint: float,
+        uplift: float = 0.0,
+        width: float,
+        closed: bool = False,
+        slip: float | None = None,
+        points: int | None = None,
+        name: str = "",
+    ) -> Bead:
+        """Let a line on a tool hold the sheet back, in place of a draw bead of real geometry.
+
+        The tool must touch the sheet by a :meth:`contact` as well: a bead acts in full up to a gap of a quarter of
+        the thickness, and not at all from half of it on.
+
+        Parameters
+        ----------
+        faces : Selector
+            Faces that touch the tool; at least those that are drawn through the bead.
+        tool : Tool or Contact
+            The tool that the line lies on, or a pair that touches it.
+        curve : array_like, shape (k, 3)
+            Corners of the line, on the tool where it stood when the model was made.
+        restraint : float
+            Force per length that a sheet which is drawn across the line must overcome. `umform bead` finds it from
+            the section of a bead.
+        uplift : float
+            Force per length that pushes the sheet off the tool, as a bead does while it bends the sheet.
+        width : float
+            Width of the band that the forces are spread over, by a smooth hat.
+        closed : bool
+            Join the last point to the first.
+        slip : float, optional
+            Elastic slip that is allowed; default 1/200 of the thickness.
+        points : int, optional
+            Gauss points per direction and facet, 1 to 10; default as many as the band asks for. eq. (4.105)
+        name : str, optional
+            For the history: the columns ``<name>_restraint`` and ``_lift`` are the sums of these forces, ``_work`` is
+            the work of the restraint; ``_active`` and ``_slipping`` count points in the band.
+
+        Returns
+        -------
+        Bead
+            The bead; its forces are among those of the tool.
+
+        Raises
+        ------
+        InvalidBead
+            If a number is out of range, or the line is none or lies beside its tool.
+        InvalidValue
+            If the name is taken.
+        """
+        name = name or self._free_bead_name()
+        where = f"bead {name}"
+        tool = tool.tool if isinstance(tool, Contact) else tool
+        if not isinstance(tool, Tool) or tool not in self.tools:
+            raise InvalidBead(
+                "a bead lies on a tool of the model",
+                where=where,
+                value=type(tool).__name__,
+                cause="a surface, or a tool of another model",
+                remedy="what contact() or tool() of this model returned",
+            )
+        line = bead_line(
+            self.mesh,
+            tool,
+            curve,
+            restraint=restraint,
+            uplift=uplift,
+            width=width,
+            slip=slip,
+            closed=closed,
+            where=where,
+        )
+        bead = Bead(self.mesh, faces, tool, line, points, name)
+        self.add(bead)
+        tool.pairs.append(bead)
+        return bead
+
+    def _free_bead_name(self) -> str:
+        taken = {term.name for term in self.others} | {pair.name for pair in self.contacts}
+        return next(name for name in chain(["bead"], (f"bead{k}" for k in count(2))) if name not in taken)

@@ -1,0 +1,257 @@
+"""An equivalent draw bead: forces per length of a line on a tool, in place of a bead of real geometry."""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform import _core
+from umform.errors import InvalidBead
+from umform.mesh import Mesh, Selector
+from umform.model.contact.encounter import sheet_thickness
+from umform.model.contact.found import ContactFound
+from umform.model.contact.pair import Contact
+from umform.model.contact.settings import ContactSettings
+from umform.model.term import Energies, Found
+from umform.model.tool import Tool
+from umform.ranks import Ranks
+
+log = logging.getLogger("umform.contact")
+
+Floats = NDArray[np.float64]
+
+#: Elastic slip that is allowed by default, and the gap at which a bead ends, in thicknesses.
+_SLIP, _OFF = 1.0 / 200.0, 0.5
+#: Points within half a band for an error of the resultant below 1e-3, and below which it is some per cent or more.
+_WANTED, _FEWEST, _MOST = 4.5, 1.5, 10
+
+
+@dataclass(frozen=True)
+class BeadLine:
+    """What an equivalent draw bead is.
+
+    Attributes
+    ----------
+    curve : ndarray, shape (k, 3)
+        Corners of a polyline on the tool, in its frame: where it stood when the model was made.
+    restraint, uplift : float
+        Largest force across the line, and force off the tool, per length.
+    width : float
+        Of the band that they act in.
+    slip : float
+        Elastic slip.
+    off : float
+        Gap at which the bead does nothing any more.
+    closed : bool
+        Whether the last point is joined to the first.
+    """
+
+    curve: Floats
+    restraint: float
+    uplift: float
+    width: float
+    slip: float
+    off: float
+    closed: bool
+
+    def law(self) -> _core.ContactLaw:
+        """As the kernels take it."""
+        line = self.curve.tolist(), self.closed, 0.5 * self.width
+        return _core.bead_law(*line, self.restraint, self.uplift, self.slip, self.off)
+
+    @property
+    def length(self) -> float:
+        """Of the polyline."""
+        corners = np.concatenate([self.curve, self.curve[:1]]) if self.closed else self.curve
+        return float(np.linalg.norm(np.diff(corners, axis=0), axis=1).sum())
+
+
+class Bead(Contact):
+    """An equivalent draw bead on a tool; made by :meth:`umform.Model.bead`. eqs. (4.101) to (4.106)
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The sheet.
+    faces : Selector
+        Lower or upper faces.
+    tool : Tool
+        The tool that the line lies on.
+    line : BeadLine
+        Line, forces, band.
+    points : int, optional
+        Gauss points per direction and facet; by default as many as the band asks for.
+    name : str
+        For the history.
+    """
+
+    fixed = ("tool", "name", "line")
+    memory = ("elsewhere", "rows", "before", "block", "_areas", "_no_multipliers", "_last")
+
+    def __init__(self, mesh: Mesh, faces: Selector, tool: Tool, line: BeadLine, points: int | None, name: str) -> None:
+        self.line = line
+        points = _points(mesh, faces, 0.5 * line.width, points, f"bead {name}")
+        settings = ContactSettings(penalty=line.law().penalty, points=points, slip=line.slip)
+        super().__init__(mesh, faces, tool, settings, name)
+
+    @property
+    def rubs(self) -> bool:
+        """It holds the sheet along the tool."""
+        return True
+
+    def _law(self) -> _core.ContactLaw:
+        return self.line.law()
+
+    def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
+        """Sums of the forces that hold the sheet back and that lift it, points in the band, those that slip, work."""
+        assert isinstance(found, ContactFound)
+        area, pressure = found.held.area, found.held.pressure
+        across = found.held.traction - pressure[:, None] * found.held.normal
+        values = [
+            ranks.sum(float(area @ np.linalg.norm(across, axis=1))),
+            ranks.sum(float(area @ pressure)),
+            int(ranks.sum(float(found.active.sum()))),
+            int(ranks.sum(float(found.slipping.sum()))),
+            ranks.sum(found.friction_work),
+        ]
+        return dict(zip(self.column_names(), values, strict=True))
+
+    def column_names(self) -> Iterable[str]:
+        """Restraint, lift, active and slipping points, work."""
+        return [f"{self.name}_{what}" for what in ("restraint", "lift", "active", "slipping", "work")]
+
+    def energies(self, found: Found, u: Floats) -> Energies:
+        """Elastic slip and work against the lift, and the work of the restraint. eq. (4.106)"""
+        assert isinstance(found, ContactFound)
+        return Energies(0.0, 0.0, float(found.held.stored), found.friction_work)
+
+
+def bead_line(
+    mesh: Mesh,
+    tool: Tool,
+    curve: ArrayLike | Sequence[ArrayLike],
+    *,
+    restraint: float,
+    uplift: float,
+    width: float,
+    slip: float | None,
+    closed: bool,
+    where: str,
+) -> BeadLine:
+    """The bead from what is given, checked.
+
+    Raises
+    ------
+    InvalidBead
+        If a number is out of range, or the line is none or lies beside its tool.
+    """
+    for name, value in (("restraint", restraint), ("uplift", uplift)):
+        if not (_is_number(value) and value >= 0.0):
+            raise InvalidBead(
+                f"the {name} of a bead is a force per length, zero or more",
+                where=where,
+                value=value,
+                cause="a sign: restraint acts against the way of the sheet, uplift off the tool",
+                remedy="from a test, or from the section of the bead by `umform bead`",
+            )
+    thickness = sheet_thickness(mesh)
+    slip = _SLIP * thickness if slip is None else slip
+    for name, value in (("width", width), ("slip", slip)):
+        if not (_is_number(value) and value > 0.0):
+            raise InvalidBead(f"the {name} of a bead must be positive", where=where, value=value)
+    line = BeadLine(
+        _corners(curve, closed, where),
+        float(restraint),
+        float(uplift),
+        float(width),
+        float(slip),
+        _OFF * thickness,
+        bool(closed),
+    )
+    if not closed and line.length < width:
+        raise InvalidBead(
+            "the line of a bead is shorter than its band is wide",
+            where=where,
+            value=f"length {line.length:.4g}, width {width:.4g}",
+            cause="its ends fade within half the width",
+            remedy="a longer line or a narrower band",
+        )
+    _refuse_beside(line, tool, where)
+    return line
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float | np.number) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _corners(curve: ArrayLike | Sequence[ArrayLike], closed: bool, where: str) -> Floats:
+    try:
+        corners = np.array(curve, dtype=float)
+    except (TypeError, ValueError):
+        corners = np.empty(0)
+    least = 3 if closed else 2
+    if corners.ndim != 2 or corners.shape[1] != 3 or len(corners) < least or not np.isfinite(corners).all():
+        raise InvalidBead(
+            f"the line of a bead is at least {least} points (x, y, z)",
+            where=where,
+            value=f"shape {corners.shape}",
+            cause="coordinates that are missing or not finite",
+            remedy="bead(..., curve=[(40, -100, 0), (40, 100, 0)])",
+        )
+    steps = np.linalg.norm(np.diff(np.concatenate([corners, corners[:1]]) if closed else corners, axis=0), axis=1)
+    if (steps == 0.0).any():
+        raise InvalidBead(
+            "two neighbouring points of the line of a bead are the same",
+            where=where,
+            value=corners[int(np.argmin(steps))].tolist(),
+            cause="a closed line that ends with its first point",
+            remedy="take one of them out",
+        )
+    return corners
+
+
+def _refuse_beside(line: BeadLine, tool: Tool, where: str) -> None:
+    """Refuse a line that is farther from its tool than the band is wide to one side, at corners or between them."""
+    following = np.roll(line.curve, -1, axis=0)
+    middles = 0.5 * (line.curve + following)
+    places = np.concatenate([line.curve, middles if line.closed else middles[:-1]])
+    gap = np.abs(tool.kernel.gap(np.ascontiguousarray(places))[0])
+    farthest = int(np.argmax(np.where(np.isfinite(gap), gap, np.inf)))
+    if not gap[farthest] <= 0.5 * line.width:
+        raise InvalidBead(
+            "a bead lies beside its tool",
+            where=f"{where}, ({', '.join(f'{x:.4g}' for x in places[farthest])})",
+            value=f"gap {gap[farthest]:.4g}, half the width {0.5 * line.width:.4g}",
+            cause="points of another tool, other units, or long straight lines on a round tool",
+            remedy="points on the surface of the tool, close enough to each other",
+        )
+
+
+def _points(mesh: Mesh, faces: Selector, half_width: float, points: int | None, where: str) -> int:
+    """Points per direction of a facet, so that the band holds enough of them. eq. (4.105)"""
+    corners = mesh.points[mesh.facets(faces)[:, :4]]
+    size = float(np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=-1).max())
+    if points is None:
+        points = min(max(math.ceil(_WANTED * size / half_width), 2), _MOST)
+        least = math.ceil(_FEWEST * size / half_width)
+        if least > _MOST:
+            raise InvalidBead(
+                "the band of a bead is narrower than the facets can see",
+                where=where,
+                value=f"width {2 * half_width:.4g}, longest side of a facet {size:.4g}",
+                cause=f"{_MOST} points per direction leave fewer than three within the band",
+                remedy=f"a finer mesh where the bead is, or width = {2 * _FEWEST * size / _MOST:.3g} at least",
+            )
+    elif points not in range(1, _MOST + 1) or isinstance(points, bool):
+        raise InvalidBead("points of a bead per direction must be 1 to 10", where=where, value=points)
+    if points * half_width < 0.5 * _WANTED * size:
+        log.warning(
+            "%s: %d points per side of a facet of %.4g in a band of %.4g: its force may be wrong by some per cent",
+            where, points, size, 2 * half_width,
+        )  # fmt: skip
+    return int(points)

@@ -1,0 +1,56 @@
+"""One draw bead: closed, and drawn through."""
+
+from __future__ import annotations
+
+from umform.model import Model
+from umform.processes.draw_bead.measures import Drawn
+from umform.processes.draw_bead.parameters import DrawBead
+from umform.run import solve
+from umform.steps import Move, Step
+
+#: States that each step keeps for pictures.
+FRAMES = 12
+
+
+def build(case: DrawBead) -> tuple[Model, list[Step]]:
+    """Model of a case, and its steps: the upper tool goes down while the right end is held, then this end is drawn.
+
+    The sheet flows in from the left only, where its end is free.
+    """
+    model = Model(case.sheet(), case.element, material=case.material)
+    model.fix(lambda x, y, z: y > -1.0, "y")
+    pull = model.prescribe("x1", "x", "way")
+    given = {"points": case.contact_points, "friction": case.friction}
+    lower, upper = model.tool("lower_tool", case.lower_tool), model.tool("upper_tool", case.upper_tool)
+    down = model.drive(upper, "-z", name="closing")
+    model.contact("lower", lower, name="below", **given)  # type: ignore[arg-type]
+    model.contact("upper", upper, name="above", **given)  # type: ignore[arg-type]
+    return model, [Move(down, to=case.closing), Move(pull, to=case.way)]
+
+
+def drawn_through(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", progress: bool | None = None) -> Drawn:
+    """Close a strip between bead and groove, and draw it through.
+
+    Parameters
+    ----------
+    case : DrawBead
+        The parameters.
+    frames : int
+        States that each step keeps for pictures.
+    solver : str
+        Sparse solver.
+    progress : bool, optional
+        Show a progress bar; default: only on a terminal.
+
+    Returns
+    -------
+    Drawn
+        Restraint, uplift, thinning, and the result with its history and frames.
+
+    Raises
+    ------
+    NoConvergence
+        If it cannot be continued; the attribute ``result`` holds what was reached.
+    """
+    model, steps = build(case)
+    return Drawn.of(case, solve(model, steps, frames=frames, solver=solver, progress=progress))

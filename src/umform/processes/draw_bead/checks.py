@@ -1,0 +1,132 @@
+"""What the parameters of a draw bead may be; what does not fit is refused with its likely cause and remedy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from umform.errors import InvalidValue
+from umform.materials import J2
+from umform.processes.rules import Rule, check_rules, length, number, positive, whole
+
+#: Sharper radii, in thicknesses, crush the sheet; rounder ones are no bead.
+_SHARPEST, _ROUNDEST = 1.0, 200.0
+
+RULES: dict[str, Rule] = {
+    "thickness": length("the thickness of the sheet", "in mm, such as 0.8"),
+    "material": Rule(
+        lambda value: isinstance(value, J2),
+        "a draw bead needs a plastic material",
+        "an elastic law, or the name of a metal",
+        "a J2; umform.sheet_metals.get('DC04').law for one",
+    ),
+    "radius": length("the radius of the bead", "in mm, such as 5.5"),
+    "height": length("the height of the bead", "in mm, such as 6"),
+    "groove_radius": length("the radius of the edges of the groove", "in mm, such as 5"),
+    "groove": length("the width of the groove", "in mm; leave it out for bead, sheet and 10 % of air").optional(),
+    "gap": Rule(
+        lambda value: number(value) and value >= 0.0,
+        "the gap beside the sheet between the flats must be zero or more",
+        "a sign, or the distance of the flats in place of the air beside the sheet",
+        "in mm, such as 0.04; leave it out for 5 % of the thickness",
+    ).optional(),
+    "friction": Rule(
+        lambda value: number(value) and 0.0 <= value <= 2.0,
+        "a coefficient of friction lies between 0 and 2",
+        "a sign, or a percentage",
+        "0.05 to 0.2 for lubricated steel",
+    ),
+    "draw": length("the way that the strip is drawn", "in mm; leave it out for 1.5 times the way through").optional(),
+    "elements": Rule(
+        lambda value: positive(value) and 2.0 <= value <= 100.0,
+        "the number of elements on a quarter turn of the sharper radius lies between 2 and 100",
+        "the number of all elements in place of those on an arc",
+        "20 is usual, 10 with 18 nodes",
+    ),
+    "contact_points": Rule(
+        lambda value: whole(value, 1, 10),
+        "contact points per direction must be a whole number from 1 to 10",
+        "zero, or more than there are rules for",
+        "such as 4",
+    ),
+}
+
+
+class Geometry(Protocol):
+    """What is looked at of :class:`umform.processes.draw_bead.DrawBead`."""
+
+    @property
+    def thickness(self) -> float:
+        """Thickness of the sheet."""
+
+    @property
+    def radius(self) -> float:
+        """Radius of the bead."""
+
+    @property
+    def groove_radius(self) -> float:
+        """Radius of the edges of the groove."""
+
+    @property
+    def draw(self) -> float | None:
+        """Way of the strip."""
+
+    @property
+    def half_bead(self) -> float:
+        """Half of the width of the bead."""
+
+    @property
+    def width(self) -> float:
+        """Width of the groove."""
+
+    @property
+    def through(self) -> float:
+        """Way of the strip through the bead."""
+
+
+def check_parameters(values: Mapping[str, Any]) -> None:
+    """Refuse parameters that do not fit, each by itself.
+
+    Raises
+    ------
+    NotFinite, InvalidValue
+        ``where`` is the name of the parameter.
+    """
+    check_rules(values, RULES)
+
+
+def check_geometry(case: Geometry) -> None:
+    """Refuse tools between which the sheet finds no room, and a way that ends before the force is steady.
+
+    Raises
+    ------
+    InvalidValue
+        ``where`` is the name of the parameter that is the likeliest to be wrong.
+    """
+    for name in ("radius", "groove_radius"):
+        ratio = getattr(case, name) / case.thickness
+        if not _SHARPEST <= ratio <= _ROUNDEST:
+            raise InvalidValue(
+                "a radius of the bead does not go with the thickness of the sheet",
+                where=name,
+                value=getattr(case, name),
+                cause=f"it is {ratio:.3g} thicknesses; another unit, or the two exchanged",
+                remedy=f"{_SHARPEST:g} to {_ROUNDEST:g} thicknesses; 4 to 10 are usual",
+            )
+    least = 2.0 * (case.half_bead + case.thickness)
+    if case.width <= least:
+        raise InvalidValue(
+            "the groove has no room for the bead and the sheet on both sides of it",
+            where="groove",
+            value=case.width,
+            cause=f"bead and two thicknesses take {least:.4g}",
+            remedy="a wider groove, or leave it out",
+        )
+    if case.draw is not None and case.draw < 1.2 * case.through:
+        raise InvalidValue(
+            "the strip is not drawn far enough for a steady force",
+            where="draw",
+            value=case.draw,
+            cause=f"the way through the bead is {case.through:.4g}",
+            remedy=f"{1.2 * case.through:.4g} at least, or leave it out",
+        )

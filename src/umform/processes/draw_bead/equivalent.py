@@ -1,0 +1,23 @@
+"""The equivalent bead that stands for a real one, as lines for Python and for a deck."""
+
+from __future__ import annotations
+
+from umform.processes.draw_bead.measures import Drawn
+
+
+def in_python(drawn: Drawn) -> str:
+    """Call of :meth:`umform.Model.bead`."""
+    forces = f"restraint={drawn.restraint:.4g}, uplift={drawn.uplift:.4g}, width={width(drawn):.4g}"
+    return f"model.bead(faces, tool, curve=[...], {forces})"
+
+
+def in_deck(drawn: Drawn) -> str:
+    """Table of a deck."""
+    keys = {"restraint": drawn.restraint, "uplift": drawn.uplift, "width": width(drawn)}
+    lines = ["[beads.NAME]", 'contact = "..."', "curve = [[0, 0, 0], [100, 0, 0]]"]
+    return "\n".join([*lines, *(f"{key} = {value:.4g}" for key, value in keys.items())]) + "\n"
+
+
+def width(drawn: Drawn) -> float:
+    """Width of the band: what the bead takes of the flat, edges of the groove included."""
+    return 2.0 * drawn.case.reach

@@ -1,0 +1,70 @@
+"""The files of a draw bead: curve, measures, pictures, fields, report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from umform.io.staging import staging
+from umform.io.tables import write_csv, write_json
+from umform.processes.draw_bead.equivalent import in_deck, in_python
+from umform.processes.draw_bead.measures import QUANTITIES, Drawn
+from umform.processes.draw_bead.words import parameters
+from umform.report.versions import versions
+
+_DATA = ("curve.csv", "bead.json", "bead.vtkhdf", "equivalent.toml")
+_PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "report.html")
+#: Files of a bead; and what marks a folder as that of one, with what is written of a run that was ended early.
+FILES = (*_DATA, *_PAGE)
+RESULTS = (*FILES, "history.csv")
+
+
+def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
+    """Write all that is known of a bead.
+
+    Parameters
+    ----------
+    out : str or Path
+        Folder for curve.csv, bead.json, bead.vtkhdf, equivalent.toml, curve and shape as .png and .svg, report.html.
+    drawn : Drawn
+        The bead.
+    note : str, optional
+        Where the material comes from, for the report.
+
+    Returns
+    -------
+    list of Path
+        The files.
+    """
+    from umform.plotting import save
+    from umform.processes.draw_bead.page import write_page
+    from umform.processes.draw_bead.pictures import curve, shape
+
+    with staging(out, FILES) as stage:
+        here = stage.waiting
+        columns = {"way": drawn.way, "restraint": drawn.restraint_curve, "uplift": drawn.uplift_curve}
+        write_csv(here / "curve.csv", columns)
+        write_json(here / "bead.json", record(drawn))
+        drawn.result.write(here / "bead.vtkhdf")
+        (here / "equivalent.toml").write_text(in_deck(drawn), encoding="utf-8")
+        files = stage.commit(_DATA)  # a picture that fails does not take the numbers along
+        figures = {"curve": curve(drawn), "shape": shape(drawn)}
+        for name, figure in figures.items():
+            for ending in (".png", ".svg"):
+                save(figure, here / (name + ending))
+        write_page(here / "report.html", drawn, figures, note)
+        return [*files, *stage.commit(_PAGE)]
+
+
+def record(drawn: Drawn) -> dict[str, Any]:
+    """Parameters and measures in a form that JSON can hold."""
+    return {
+        "parameters": parameters(drawn),
+        "measures": {name: getattr(drawn, name) for name in QUANTITIES},
+        "equivalent": in_python(drawn),
+        "increments": len(drawn.result) - 1,
+        "iterations": int(drawn.result["iterations"].sum()),
+        "seconds": drawn.result.seconds,
+        "warnings": drawn.warnings,
+        "versions": versions(),
+    }

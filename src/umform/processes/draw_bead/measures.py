@@ -1,0 +1,118 @@
+"""What is measured of a sheet that was drawn through a bead."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.processes.draw_bead.parameters import DrawBead
+from umform.results import fields
+from umform.run import Result
+
+Floats = NDArray[np.float64]
+
+#: The measures with their labels, units and decimals, in the order of tables.
+QUANTITIES = {
+    "restraint": ("restraining force", "N/mm", 1),
+    "restraint_spread": ("its spread, half of largest less smallest", "N/mm", 1),
+    "uplift": ("uplift force", "N/mm", 1),
+    "uplift_spread": ("its spread", "N/mm", 1),
+    "closing_force": ("largest force to close", "N/mm", 1),
+    "thinning": ("thinning out", "%", 2),
+    "friction_share": ("share of friction in the work", "%", 1),
+    "balance": ("work less energies, over the work", "%", 2),
+}
+#: What the work of the drawing force goes into.
+_ENERGIES = ("elastic_energy", "plastic_work", "contact_energy", "friction_work")
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A strip that was drawn through a bead; forces are those on each mm of the bead's length.
+
+    Attributes
+    ----------
+    case : DrawBead
+        The parameters.
+    way, restraint_curve, uplift_curve : ndarray, shape (n,)
+        Way of the strip in mm, force that draws it, and force that pushes the tools apart, increment by increment.
+    restraint, uplift : float
+        Means over the steady part of the way: from where the sheet that comes out has passed the whole bead.
+    restraint_spread, uplift_spread : float
+        Half of the largest less the smallest force there: what the mesh makes of a force that is steady.
+    closing_force : float
+        Largest force to close the tools.
+    thinning : float
+        Loss of thickness of the sheet that has passed the whole bead, in per cent.
+    friction_share : float
+        Work of friction over that of the force, on the steady part, in per cent.
+    balance : float
+        Work of the force less what plastic flow, friction and elastic strains took of it, over the work, in per cent.
+    result : Result
+        History, frames and iterations.
+    """
+
+    case: DrawBead
+    way: Floats
+    restraint_curve: Floats
+    uplift_curve: Floats
+    restraint: float
+    restraint_spread: float
+    uplift: float
+    uplift_spread: float
+    closing_force: float
+    thinning: float
+    friction_share: float
+    balance: float
+    result: Result
+
+    @classmethod
+    def of(cls, case: DrawBead, result: Result) -> Self:
+        """Measure the result of a case."""
+        drawing = result["step"] == result["step"].max()
+        way, force, uplift = (result[name][drawing] for name in ("way", "way_force", "upper_tool_fz"))
+        steady = way >= case.through
+        work = float(np.trapezoid(force[steady], way[steady]))
+        grown = {name: _growth(result[name][drawing][steady]) for name in _ENERGIES}
+        return cls(
+            case=case,
+            way=way,
+            restraint_curve=force,
+            uplift_curve=uplift,
+            restraint=_mean(way[steady], force[steady]),
+            restraint_spread=0.5 * float(np.ptp(force[steady])),
+            uplift=_mean(way[steady], uplift[steady]),
+            uplift_spread=0.5 * float(np.ptp(uplift[steady])),
+            closing_force=float(result["upper_tool_fz"][~drawing].max()),
+            thinning=-100.0 * _change_of_thickness(case, result),
+            friction_share=100.0 * grown["friction_work"] / work,
+            balance=100.0 * (1.0 - sum(grown.values()) / work),
+            result=result,
+        )
+
+    @property
+    def warnings(self) -> list[str]:
+        """What to look at."""
+        return self.result.warnings
+
+
+def _growth(values: Floats) -> float:
+    """Last less first value."""
+    return float(values[-1] - values[0])
+
+
+def _mean(way: Floats, values: Floats) -> float:
+    """Mean over the way."""
+    return float(np.trapezoid(values, way) / (way[-1] - way[0]))
+
+
+def _change_of_thickness(case: DrawBead, result: Result) -> float:
+    """Relative change where the sheet has gone from before the one edge to behind the other, at the end."""
+    model = result.model
+    before = model.mesh.points[:, 0]
+    now = before + model.u.reshape(-1, 3)[:, 0]
+    passed = (before < -case.reach) & (now > case.reach)
+    return float(fields.thickness_change(model)[passed].mean())

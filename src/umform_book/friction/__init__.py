@@ -1,0 +1,19 @@
+"""Friction: stick, slip and reversal, bands over cylinders, tools that turn, partial slip, drawing and bending."""
+
+from umform_book.case import Chapter
+from umform_book.friction import bending_work, block, capstan, free_bending, history, partial_slip, turning, u_bend
+
+CHAPTER = Chapter(
+    "Friction",
+    "Stick, slip and reversal, bands over cylinders, tools that turn, partial slip, drawing and bending.",
+    (
+        block.CASE,
+        capstan.CASE,
+        history.CASE,
+        turning.CASE,
+        partial_slip.CASE,
+        bending_work.CASE,
+        free_bending.CASE,
+        u_bend.CASE,
+    ),
+)

@@ -1,0 +1,132 @@
+"""The paper's example with friction, and what friction costs: iterations and evaluations that were thrown away."""
+
+from __future__ import annotations
+
+from statistics import median
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.processes import FreeBending
+from umform.processes.bending.case import build
+from umform.run import Result
+from umform.steps import Move
+from umform_book.case import Case
+from umform_book.contact.figures import Curve, plot
+from umform_book.contact.hertz_line import EIGHT
+from umform_book.contact.rolling_edge import SHARP, WIDE
+from umform_book.friction import bending_work, drawn
+from umform_book.page import Page
+
+COEFFICIENTS, MESHES, STEPS = (0.0, 0.1, 0.3), ((24, 1), (48, 1), (96, 1)), 100
+#: Force over that without friction, at the marks of the paper, against that on the finest mesh.
+EXPECTED = {24: 0.02, 48: 0.01}
+#: What friction may cost, over the same without it; and the share of evaluations that may be thrown away.
+ITERATIONS, THROWN = 1.5, 0.15
+
+
+def bend(page: Page, mesh: tuple[int, int], mu: float) -> Result:
+    """The paper's example up to its stroke, with friction on the cylinder."""
+    case = FreeBending(mesh=mesh, contact=5, steps=STEPS, unload=False)
+    model, punch = build(case)
+    if mu > 0:
+        without = model.contacts[0]
+        model.remove(without)  # nothing is held yet: it leaves no force
+        model.contact(
+            "lower", without.tool.surface, penalty=case.penalty, points=5, friction=mu, slip=0.005, name="rough"
+        )
+    return page.solve(f"{mesh[0]} elements, mu = {mu:g}", model, Move(punch, -case.stroke, steps=STEPS))
+
+
+def forces(result: Result) -> NDArray[np.float64]:
+    """Force of the punch at the marks."""
+    case = FreeBending()
+    return np.interp(case.marks, -result["punch"], np.abs(result["punch_force"]))
+
+
+def per_increment(result: Result) -> float:
+    """Iterations of an increment."""
+    return float(result["iterations"].sum()) / (len(result["time"]) - 1)
+
+
+def by_mesh(page: Page) -> dict[tuple[int, float], Result]:
+    """Meshes and coefficients."""
+    meshes = page.pick(MESHES, MESHES[:1])
+    found = {(mesh[0], mu): bend(page, mesh, mu) for mu in COEFFICIENTS for mesh in page.each(meshes, str)}
+    rows, finest = [], meshes[-1][0]
+    for (count, mu), result in found.items():
+        taken = float(result["friction_work"][-1] / result["external_work"][-1])
+        rows.append((f"mu = {mu:g}", count, *forces(result).tolist(), 100 * taken))
+        if count != finest and mu > 0:
+            ratios = [forces(found[mesh, mu]) / forces(found[mesh, 0.0]) for mesh in (count, finest)]
+            off = float(np.abs(ratios[0] / ratios[1] - 1.0).max())
+            what = f"mu = {mu:g}, {count} elements: force over that without friction, against {finest} elements"
+            page.at_most(what, off, EXPECTED[count])
+        if mu > 0:
+            drift = float(np.abs(result.balance().drift).max())
+            page.at_most(f"mu = {mu:g}, {count} elements: drift of the balance", drift, 5e-3)
+    marks = [f"F at {mark:g} mm" for mark in FreeBending().marks]
+    page.table("Force of the punch and work of friction", ("", "elements", *marks, "friction, % of the work"), rows)
+    curves = [
+        Curve(f"mu = {mu:g}", -found[finest, mu]["punch"], np.abs(found[finest, mu]["punch_force"]))
+        for mu in COEFFICIENTS
+    ]
+    page.figure("force", plot(curves, "displacement, mm", "force, N"), f"Force of the punch, {finest} elements")
+    return found
+
+
+def cost(page: Page, bent: dict[tuple[int, float], Result]) -> None:
+    """Iterations with friction over those without, and what was thrown away."""
+    count = max(mesh for mesh, _ in bent)
+    pairs = {f"free bending, mu = {mu:g}": (bent[count, mu], bent[count, 0.0]) for mu in COEFFICIENTS[1:]}
+    if not page.short:
+        for edge in (WIDE, SHARP):
+            runs = [drawn.draw(page, edge, EIGHT, 120, 2, mu) for mu in (drawn.MU, 0.0)]
+            pairs[f"elastic strip over R = {edge.radius:g}"] = (runs[0], runs[1])
+        runs = [bending_work.draw(page, mu, 54, 100) for mu in (0.1, 0.0)]
+        pairs["plastic strip over R = 8"] = (runs[0], runs[1])
+    rows: list[tuple[str | float | None, ...]] = []
+    ratios, evaluations, thrown = [], [0, 0], [0, 0]
+    for label, pair in pairs.items():
+        ratios.append(per_increment(pair[0]) / per_increment(pair[1]))
+        attempts = [result.timing.attempts for result in pair]
+        for k, attempt in enumerate(attempts):
+            evaluations[k], thrown[k] = evaluations[k] + attempt.evaluations, thrown[k] + attempt.thrown
+        shares = [100 * attempt.share for attempt in attempts]
+        rows.append((label, per_increment(pair[0]), per_increment(pair[1]), ratios[-1], *shares))
+    share = [100 * thrown[k] / evaluations[k] for k in (0, 1)]
+    rows.append(("all", None, None, float(median(ratios)), *share))
+    columns = ("", "iterations an increment", "without friction", "ratio", "thrown away %", "without friction %")
+    page.table("What friction costs; the last row: median, sums", columns, rows)
+    page.at_most("iterations of an increment with friction over without, median", float(median(ratios)), ITERATIONS)
+    cause = "limp strips that lie loosely at first lose and find contact while the weight is hung to them"
+    page.at_most("share of evaluations thrown away, with friction", share[0] / 100, THROWN, known=0.4, cause=cause)
+
+
+def run(page: Page) -> None:
+    """Fill the page."""
+    bent = by_mesh(page)
+    page.heading("What friction costs")
+    cost(page, bent)
+
+
+CASE = Case(
+    name="friction-free-bending",
+    title="The paper's example with friction, and what friction costs",
+    problem=f"""
+The paper's example of free bending (see [its reproduction](bending-reproduction.md)) with friction on the cylinder,
+mu = 0, 0.1 and 0.3, 24, 48 and 96 elements ANS3DEAS along the strip, 5 x 5 contact points, elastic slip allowed
+0.005, {STEPS} increments to the stroke. Then iterations of an increment with friction and without, and the share of
+evaluations in attempts that were given up, for this example and for the strips of the [capstan](friction-capstan.md)
+and of [bending and unbending](friction-bending-work.md).
+""",
+    reference="""
+No reference of others: what friction adds to the force, over the force without it on the same mesh, is compared with
+that on the finest mesh, within 2 % and 1 %; what the mesh does without friction stands on [another
+page](bending-reproduction.md). And the balance of work, with that of friction. Friction may cost half as many
+iterations more, in the median, and 15 % of the evaluations may be thrown away.
+""",
+    run=run,
+    cost=60.0,
+    own="what friction adds on the finest mesh",
+)

@@ -1,0 +1,120 @@
+"""A strip drawn through a bead of real geometry: forces, energies, thinning, files, bad input."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import umform as uf
+from umform.cli import app
+from umform.errors import InvalidValue
+from umform.processes.draw_bead import DrawBead, drawn_through
+from umform.processes.draw_bead.equivalent import in_deck, in_python
+from umform.processes.draw_bead.files import FILES, write_files
+
+MILD = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(520.0, 0.004, 0.22))
+SMALL = {"thickness": 1.0, "radius": 4.0, "height": 3.0, "groove_radius": 3.0, "elements": 5.0}
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    case = DrawBead(material=MILD, **SMALL)
+    return drawn_through(DrawBead(material=MILD, draw=1.25 * case.through, **SMALL), frames=2, progress=False)
+
+
+def test_the_work_of_the_force_goes_into_plastic_flow_and_friction(drawn):
+    """Force times way against the energies of material and contact, where the force is steady."""
+    assert abs(drawn.balance) < 4.0
+    assert 15.0 < drawn.friction_share < 60.0
+    steady = drawn.way >= drawn.case.through
+    work = np.trapezoid(drawn.restraint_curve[steady], drawn.way[steady])
+    assert work == pytest.approx(drawn.restraint * np.ptp(drawn.way[steady]), rel=1e-9)
+    assert drawn.restraint_spread < 0.15 * drawn.restraint
+
+
+def test_forces_balance_and_the_bead_lifts(drawn):
+    """The tools carry what draws the strip; what pushes the one up pushes the other down."""
+    result = drawn.result
+    along = result["lower_tool_fx"] + result["upper_tool_fx"]
+    np.testing.assert_allclose(along, result["way_force"], atol=1e-3 * drawn.restraint)
+    across = result["lower_tool_fz"] + result["upper_tool_fz"]
+    np.testing.assert_allclose(across, 0.0, atol=1e-3 * drawn.uplift)
+    assert drawn.uplift > 0.5 * drawn.restraint and drawn.closing_force > 0.0
+
+
+def test_what_comes_out_is_stretched_and_what_has_not_gone_in_is_not(drawn):
+    model, case = drawn.result.model, drawn.case
+    change = uf.fields.thickness_change(model)
+    now = model.mesh.points[:, 0] + model.u.reshape(-1, 3)[:, 0]
+    assert 0.5 < drawn.thinning < 15.0
+    assert np.abs(change[now < -case.reach - 3.0]).max() < 2e-3
+    length = np.ptp(now[model.mesh.points[:, 0] > -1e9]) / np.ptp(model.mesh.points[:, 0])
+    assert length < 1.1  # drawn through, and not torn out
+
+
+def test_the_equivalent_bead_has_its_forces(drawn):
+    """In a model of flat tools the strip takes the same force."""
+    line = tomllib.loads(in_deck(drawn))["beads"]["NAME"]
+    forces = {key: line[key] for key in ("restraint", "uplift", "width")}
+    assert forces["restraint"] == pytest.approx(drawn.restraint, rel=1e-3)
+    model = uf.Model(drawn.case.sheet(), material=MILD)
+    model.fix(lambda x, y, z: y > -1.0, "y")
+    pull = model.prescribe("x1", "x", "pull")
+    bed = model.contact("lower", uf.Plane(), name="bed")
+    model.contact("upper", uf.Plane((0, 0, 1), (0, 0, -1)), name="lid")
+    assert in_python(drawn).startswith("model.bead(faces, tool, curve=[...], restraint=")
+    model.bead("lower", bed, [(0, -9, 0), (0, 9, 0)], **forces)
+    result = uf.solve(model, uf.Move(pull, 2.0, steps=8))
+    assert result["pull_force"][-1] == pytest.approx(drawn.restraint, rel=5e-3)
+    assert result["lid_fz"][-1] >= 0.99 * forces["uplift"]
+
+
+def test_files(drawn, tmp_path):
+    files = write_files(tmp_path, drawn, "a note")
+    assert sorted(file.name for file in files) == sorted(FILES)
+    record = json.loads((tmp_path / "bead.json").read_text())
+    assert record["measures"]["restraint"] == drawn.restraint
+    assert record["parameters"]["groove"] == drawn.case.width
+    assert "a note" in (tmp_path / "report.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"thickness": -1.0}, "thickness"),
+        ({"radius": 0.3}, "does not go with the thickness"),
+        ({"groove_radius": 900.0}, "does not go with the thickness"),
+        ({"height": 0.0}, "height"),
+        ({"groove": 8.0}, "no room"),
+        ({"gap": -0.1}, "gap"),
+        ({"friction": 12.0}, "friction"),
+        ({"draw": 5.0}, "steady"),
+        ({"elements": 1.0}, "quarter turn"),
+        ({"contact_points": 0}, "contact points"),
+        ({"material": uf.SVK(E=2e5, nu=0.3)}, "plastic"),
+    ],
+)
+def test_parameters_that_make_no_sense_are_refused(wrong, said):
+    with pytest.raises(InvalidValue, match=said):
+        DrawBead(**{"material": MILD} | SMALL | wrong)
+
+
+def test_a_shallow_bead_has_no_walls_and_a_high_one_has():
+    shallow, high = DrawBead(material=MILD, **SMALL), DrawBead(material=MILD, **SMALL | {"height": 6.0})
+    assert len(shallow.profile.segments) == 3 and len(high.profile.segments) == 5
+    for case in (shallow, high):
+        gap = case.upper_tool.kernel().gap(np.array([[0.0, 0.0, 1.0], [20.0, 0.0, 1.0]]))[0]
+        np.testing.assert_allclose(gap, [0.0, case.height], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "typed", [["--friction", "-1"], ["--draw", "5"], ["--radius", "nan"], ["--material", "cheese"]]
+)
+def test_the_command_refuses_before_anything_runs(typed, tmp_path):
+    done = CliRunner().invoke(app, ["bead", *typed, "--out", str(tmp_path / "out")])
+    assert done.exit_code == 1 and not (tmp_path / "out").exists()
+    assert typed[1] in done.stderr and "remedy:" in done.stderr
