@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import fields, is_dataclass
+
 from umform.materials import Elastic, LinearVoce, Metal, Plastic, Swift, Table, UserLaw
 
 
@@ -28,8 +30,20 @@ def material_text(material: object) -> str:
     text += f", {hardening_text(material.hardening)}"
     if isinstance(material, Metal):
         parts = (material.yield_function, material.back_stress, material.modulus)
-        text += "".join(f", {part}" for part in parts if part is not None)
+        text += "".join(f", {_part_text(part)}" for part in parts if part is not None)
     return text
+
+
+def _part_text(part: object) -> str:
+    """A part of a metal with its constants."""
+    if isinstance(part, float):
+        return f"{part:.6g}"
+    if isinstance(part, tuple):
+        return f"({', '.join(map(_part_text, part))})"
+    if not is_dataclass(part):
+        return str(part)
+    constants = ", ".join(f"{field.name} = {_part_text(getattr(part, field.name))}" for field in fields(part))
+    return f"{type(part).__name__}({constants})" if constants else type(part).__name__
 
 
 def hardening_text(curve: object) -> str:

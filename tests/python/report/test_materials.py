@@ -28,6 +28,16 @@ STEEL = {"E": 210e3, "nu": 0.3}
             uf.J2(**STEEL, hardening=uf.Table((0.0, 0.1, 0.2), (200.0, 300.0, 1000.0 / 3))),
             "J2: E = 210000, nu = 0.3, yield stress 200, table of 3 points up to 333.333 at a plastic strain of 0.2",
         ),
+        (
+            uf.Metal(
+                **STEEL,
+                hardening=uf.Perfect(160.0),
+                back_stress=uf.Chaboche([(3000.0, 100.0 / 3)]),
+                modulus=uf.FallingModulus(180e3, 30.0),
+            ),
+            "Metal: E = 210000, nu = 0.3, yield stress 160, perfectly plastic, Mises, "
+            "Chaboche(parts = ((3000, 33.3333)), first = 1, rate = 0), FallingModulus(saturated = 180000, rate = 30)",
+        ),
         (uf.UserLaw(lambda E, state: (E, E, state), name="stiffening"), "user law: stiffening"),
     ],
 )
