@@ -7,12 +7,13 @@
 #include "umform/materials/logarithmic_space.hpp"
 #include "umform/materials/metal.hpp"
 #include "umform/materials/yield/yld2004.hpp"
+#include "umform/materials/yield/yld2004_roots.hpp"
 
 using namespace umform;
 
 namespace {
 
-using YieldFunction = std::variant<QuadraticYield, Yld2004<6>, Yld2004<8>, Yld2004<0>>;
+using YieldFunction = std::variant<QuadraticYield, Yld2004<6>, Yld2004<8>, Yld2004<0>, Yld2004Roots>;
 
 std::shared_ptr<Material> metal(double kappa, double mu, const Hardening& hardening, const YieldFunction& yield,
                                 const std::vector<std::pair<double, double>>& back_stress, double first, double growth,
@@ -65,16 +66,18 @@ void bind_metals(nb::module_& m) {
         nb::arg("F"), nb::arg("G"), nb::arg("H"), nb::arg("L"), nb::arg("M"), nb::arg("N"));
     m.def(
         "yld2004",
-        [](int exponent, const std::vector<double>& first, const std::vector<double>& second) {
+        [](double exponent, const std::vector<double>& first, const std::vector<double>& second) {
             std::array<double, 9> a, b;
-            if (exponent < 2 || exponent % 2 != 0 || exponent > TransformedStress<double>::most)
-                throw std::invalid_argument("the exponent must be even, from 2 to 20");
+            if (!(exponent >= 2.0 && exponent <= TransformedStress<double>::most))
+                throw std::invalid_argument("the exponent must be from 2 to 20");
             if (first.size() != 9 || second.size() != 9) throw std::invalid_argument("nine coefficients each");
             std::copy_n(first.begin(), 9, a.begin());
             std::copy_n(second.begin(), 9, b.begin());
-            if (exponent == 6) return YieldFunction(Yld2004<6>(exponent, a, b));
-            if (exponent == 8) return YieldFunction(Yld2004<8>(exponent, a, b));
-            return YieldFunction(Yld2004<0>(exponent, a, b));
+            const int whole = static_cast<int>(exponent);
+            if (whole != exponent || whole % 2 != 0) return YieldFunction(Yld2004Roots(exponent, a, b));
+            if (whole == 6) return YieldFunction(Yld2004<6>(whole, a, b));
+            if (whole == 8) return YieldFunction(Yld2004<8>(whole, a, b));
+            return YieldFunction(Yld2004<0>(whole, a, b));
         },
         nb::arg("exponent"), nb::arg("first"), nb::arg("second"),
         "c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.");

@@ -100,7 +100,7 @@ class YieldFunction:
 
 def hill48(F: float, G: float, H: float, L: float, M: float, N: float) -> YieldFunction: ...
 
-def yld2004(exponent: int, first: Sequence[float], second: Sequence[float]) -> YieldFunction:
+def yld2004(exponent: float, first: Sequence[float], second: Sequence[float]) -> YieldFunction:
     """
     c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.
     """

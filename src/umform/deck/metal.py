@@ -73,7 +73,7 @@ class Hill48(Part):
         return materials.Hill48(**given) if "r0" in given else materials.Hill48.from_stresses(**given)
 
 
-Exponent = Annotated[int, Field(ge=2, le=20, multiple_of=2)]
+Exponent = Annotated[float, Field(ge=2, le=20)]
 
 
 class Hosford(Part):
@@ -82,7 +82,7 @@ class Hosford(Part):
     function: Literal["Hosford"]
     """The word Hosford."""
     exponent: Exponent = 8
-    """Even: 6 for bcc metals, 8 for fcc metals."""
+    """From 2 to 20: 6 for bcc metals, 8 for fcc metals."""
 
     def build(self) -> YieldFunction:
         """The yield function."""
@@ -107,7 +107,7 @@ class Yld91(Part):
     h: float = 1.0
     """Factor of the shear 12."""
     exponent: Exponent = 8
-    """Even: 6 for bcc metals, 8 for fcc metals."""
+    """From 2 to 20: 6 for bcc metals, 8 for fcc metals."""
 
     def build(self) -> YieldFunction:
         """The yield function."""
@@ -147,7 +147,7 @@ class Yld2004(Part):
     second: Transformation
     """S''."""
     exponent: Exponent = 8
-    """Even: 6 for bcc metals, 8 for fcc metals."""
+    """From 2 to 20: 6 for bcc metals, 8 for fcc metals."""
 
     def build(self) -> YieldFunction:
         """The yield function."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, fields
 from typing import Protocol, Self
 
@@ -156,13 +155,13 @@ class Yld2004:
     ----------
     first, second : Transformation
         S' and S''.
-    exponent : int
-        Even, from 2 to 20: 6 for bcc metals, 8 for fcc metals.
+    exponent : float
+        From 2 to 20: 6 for bcc metals, 8 for fcc metals. Even ones need no principal values and are faster.
     """
 
     first: Transformation
     second: Transformation
-    exponent: int = 8
+    exponent: float = 8
 
     def __post_init__(self) -> None:
         _check_exponent(type(self).__name__, self.exponent)
@@ -187,13 +186,13 @@ class Yld2004:
         return _core.yld2004(self.exponent, self.first.coefficients, self.second.coefficients)
 
 
-def Hosford(exponent: int = 8) -> Yld2004:
+def Hosford(exponent: float = 8) -> Yld2004:
     """Hosford (1972): |s1 - s2|^a + |s2 - s3|^a + |s3 - s1|^a = 2 phi^a of principal stresses, isotropic."""
     return Yld2004(Transformation(), Transformation(), exponent)
 
 
 def Yld91(
-    a: float, b: float, c: float, f: float = 1.0, g: float = 1.0, h: float = 1.0, *, exponent: int = 8
+    a: float, b: float, c: float, f: float = 1.0, g: float = 1.0, h: float = 1.0, *, exponent: float = 8
 ) -> Yld2004:
     """Barlat's Yld91: Hosford's function of one transformed stress.
 
@@ -203,8 +202,8 @@ def Yld91(
         Factors of s22 - s33, s33 - s11 and s11 - s22; 1 for an isotropic metal.
     f, g, h : float
         Factors of the shears 23, 13 and 12.
-    exponent : int
-        Even, from 2 to 20.
+    exponent : float
+        From 2 to 20.
     """
     check_finite("Yld91", a=a, b=b, c=c, f=f, g=g, h=h)
     c12, c13, c21, c23 = (b + 2 * c) / 3, (2 * b + c) / 3, (a + 2 * c) / 3, (2 * a + c) / 3
@@ -213,11 +212,11 @@ def Yld91(
 
 
 def _check_exponent(where: str, exponent: float) -> None:
-    if not math.isfinite(exponent) or exponent != int(exponent) or exponent % 2 or not 2 <= exponent <= 20:
+    if not 2 <= exponent <= 20:
         raise InvalidValue(
-            "the exponent must be even, from 2 to 20",
+            "the exponent must be from 2 to 20",
             where=where,
             value=exponent,
-            cause="an exponent from a fit, or an odd one",
+            cause="a sign, or another number in its place",
             remedy="6 for bcc metals such as steel, 8 for fcc metals such as aluminium",
         )

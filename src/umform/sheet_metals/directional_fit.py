@@ -80,15 +80,15 @@ def fit_hill48(measured: Directions) -> Fit[Hill48]:
     return fit(build, lambda function: _residuals(function, measured), start, positive=True)
 
 
-def fit_yld2004(measured: Directions, exponent: int = 8) -> Fit[Yld2004]:
+def fit_yld2004(measured: Directions, exponent: float = 8) -> Fit[Yld2004]:
     """Yld2004-18p by least squares, the best of twelve starts; the shears 23 and 13, which no sheet shows, stay 1.
 
     Parameters
     ----------
     measured : Directions
         Seven angles with stress and r, and the biaxial point, determine the function well.
-    exponent : int
-        Even: 6 for bcc metals, 8 for fcc metals.
+    exponent : float
+        6 for bcc metals, 8 for fcc metals.
     """
 
     def build(constants: Mapping[str, float]) -> Yld2004:

@@ -69,7 +69,7 @@ def test_two_surfaces():
             'rolling = "x"\nyield_function = { function = "Hill48", s0 = 1.0, s45 = 2.5, s90 = 1.0, biaxial = 1.0 }',
             "not convex",
         ),
-        ('yield_function = { function = "Hosford", exponent = 7 }', "multiple of 2"),
+        ('yield_function = { function = "Hosford", exponent = 1.5 }', "greater than or equal to 2"),
         ("back_stress = { parts = [[-3000.0, 30.0]] }", "C must be positive"),
         ("back_stress = { parts = [] }", "at least 1"),
         ("two_surfaces = { C = 500.0, B = 68.0, growth = 190.0, b = 9.0, m = 12.0, h = 0.5 }", "larger than the yield"),

@@ -28,6 +28,12 @@ AA6111 = mt.Yld2004(
     mt.Transformation(1.241024, 1.078271, 1.216463, 1.223867, 1.093105, 0.889161, 1.349094, 0.501909, 0.557173),
     mt.Transformation(0.775366, 0.922743, 0.765487, 0.793356, 0.918689, 1.027625, 0.589787, 1.115833, 1.112273),
 )
+#: A fitted exponent; UMMDp, example 4, whose shears are 12, 23, 13.
+AA5182 = mt.Yld2004(
+    mt.Transformation(0.567726, 1.011906, 0.918738, 0.949253, 0.804483, 0.541426, 0.641800, 1.0, 1.0),
+    mt.Transformation(0.881539, 1.281299, 1.468511, 1.694334, 0.874666, 0.562107, 1.275310, 1.0, 1.0),
+    exponent=6.565182435,
+)
 FUNCTIONS = {
     "mises": mt.Mises(),
     "hill48": mt.Hill48(1.8, 1.5, 2.2),
@@ -37,6 +43,8 @@ FUNCTIONS = {
     "yld91": mt.Yld91(1.05, 0.97, 1.1, 1.0, 0.9, 1.08),
     "aa2090": AA2090,
     "aa6111": AA6111,
+    "aa5182": AA5182,
+    "hosford-3": mt.Hosford(3),
 }
 CURVES = {
     "perfect": mt.Perfect(160.0),
@@ -232,7 +240,7 @@ def by_eigenvalues(function, stress):
     return (np.sum(differences**function.exponent) / 4) ** (1 / function.exponent)
 
 
-@pytest.mark.parametrize("name", ["hosford", "hosford-20", "yld91", "aa2090", "aa6111"])
+@pytest.mark.parametrize("name", ["hosford", "hosford-20", "yld91", "aa2090", "aa6111", "aa5182", "hosford-3"])
 def test_polynomial_is_the_sum_over_eigenvalues(name):
     function = FUNCTIONS[name].function()
     for stress in np.random.default_rng(5).normal(size=(300, 6)):
@@ -560,8 +568,8 @@ def test_rotation_of_the_sheet_changes_nothing():
         (lambda: mt.Hill48(r0=-0.5, r45=1, r90=1), "r0 must be positive"),
         (lambda: mt.Hill48.from_stresses(1, 1, 1.9, 2.4), "not convex"),
         (lambda: mt.Hill48.from_stresses(1, 2.5, 1, 1), "not convex"),
-        (lambda: mt.Hosford(7), "even"),
-        (lambda: mt.Hosford(6.57), "even"),
+        (lambda: mt.Hosford(1.5), "from 2 to 20"),
+        (lambda: mt.Hosford(math.nan), "from 2 to 20"),
         (lambda: mt.Chaboche([(-3000.0, 30.0)]), "C must be positive"),
         (lambda: mt.Chaboche([]), "one to four"),
         (lambda: mt.Chaboche([(1.0, 1.0)] * 5), "one to four"),
