@@ -1,0 +1,98 @@
+"""Return maps of metals: tangents, increments of any size, yield surface, neighbours in the lanes, work."""
+
+from __future__ import annotations
+
+import importlib.util
+import itertools
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+_SPEC = importlib.util.spec_from_file_location("cards", Path(__file__).with_name("cards.py"))
+cards = importlib.util.module_from_spec(_SPEC)
+_SPEC.loader.exec_module(cards)
+
+
+@pytest.mark.parametrize("card", cards.CARDS)
+def test_tangent_against_differences_and_its_symmetry(card):
+    law = cards.CARDS[card].law()
+    state = np.tile(law.initial(), (6, 1))
+    E = np.zeros((6, 6))
+    for step in range(3):  # paths that turn
+        E = E + cards.increments(6, 0.03, seed=step)
+        _, CC, after = law.respond(E, state)
+        assert (after[:, 6] > state[:, 6]).all()
+        assert np.abs(cards.differences(law, E, state, 1e-6) - CC).max() < 3e-8 * np.abs(CC).max(), step
+        if law.symmetric:
+            assert np.array_equal(CC, CC.transpose(0, 2, 1))
+        state = after
+
+
+def test_who_is_symmetric():
+    """Where no back stress is recalled and the modulus stays."""
+    symmetric = {name for name, card in cards.CARDS.items() if card.law().symmetric}
+    assert symmetric == {
+        name
+        for name, card in cards.CARDS.items()
+        if card.modulus is None and not {"two", "four"} & set(name.replace(",", "").split())
+    }
+
+
+@pytest.mark.parametrize("card", cards.CARDS)
+def test_no_increment_up_to_ten_per_cent_fails(card):
+    law = cards.CARDS[card].law()
+    count, state = 4000, np.tile(law.initial(), (4000, 1))
+    E = np.zeros((count, 6))
+    sizes = np.exp(np.random.default_rng(1).uniform(math.log(1e-4), math.log(0.1), size=(2, count)))
+    for step, size in enumerate(sizes):
+        E = E + size[:, None] * cards.increments(count, 1.0, seed=step)
+        _, _, state = law.respond(E, state)  # raises where a point has no answer
+        assert np.isfinite(state).all()
+    E = E + cards.increments(count, 0.1, seed=9)
+    law.respond(E, state)
+
+
+@pytest.mark.parametrize("card", cards.CARDS)
+def test_stress_lies_on_the_yield_surface(card):
+    metal = cards.CARDS[card]
+    law, function, curve = metal.small_strain_law(), metal.yield_function.function(), metal.hardening.curve()
+    h = cards.increments(20, 0.05, seed=4)
+    T, _, state = law.respond(h, np.tile(law.initial(), (20, 1)))
+    for stress, row in zip(T, state, strict=True):
+        ends = np.cumsum([0, *law.state.values()])
+        parts = zip(law.state, ends, ends[1:], strict=False)
+        back = sum((row[a:b] for name, a, b in parts if "back_stress" in name), np.zeros(6))
+        assert function(stress - back)[0] == pytest.approx(curve(row[6])[0], rel=1e-11)
+        assert row[:3].sum() == pytest.approx(0.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("card", cards.CARDS)
+def test_answers_do_not_depend_on_the_neighbours(card):
+    law = cards.CARDS[card].law()
+    E = np.concatenate(
+        [cards.increments(6, 1e-4, seed=1), cards.increments(7, 0.08, seed=2), cards.increments(5, 0.004, seed=3)]
+    )
+    E = E[np.random.default_rng(0).permutation(len(E))]
+    together = law.respond(E, np.tile(law.initial(), (len(E), 1)))
+    for k, strain in enumerate(E):
+        for one, all_ in zip(law.respond(strain[None], law.initial()[None]), together, strict=True):
+            assert np.array_equal(one[0], all_[k])
+
+
+@pytest.mark.parametrize("card", cards.CARDS)
+def test_work_is_what_the_energies_say(card):
+    """Trapezoidal work along a path that turns against elastic energy and plastic work: second order in the step."""
+    law = cards.CARDS[card].small_strain_law()
+    corners = np.concatenate([np.zeros((1, 6)), np.cumsum(cards.increments(3, 0.02, seed=6), axis=0)])
+    drift = []
+    for steps in (100, 200):
+        path = np.concatenate([np.linspace(a, b, steps + 1)[1:] for a, b in itertools.pairwise(corners)])
+        state, before, T_before, work = law.initial(), np.zeros(6), np.zeros(6), 0.0
+        for h in path:
+            T, _, new = law.respond(h[None], state[None])
+            work += 0.5 * (T[0] + T_before) @ (h - before)
+            state, before, T_before = new[0], h, T[0]
+        drift.append(abs(float(sum(law.energy(h[None], state[None]))[0]) / work - 1))
+    assert drift[1] < 2e-3 and drift[1] < 0.7 * drift[0]
