@@ -11,6 +11,7 @@ NB_MODULE(_core, m) {
     m.doc() = "Kernels of umform: elements, materials, surfaces, contact, sparse patterns.";
     bind_quadrature(m);
     bind_materials(m);
+    bind_metals(m);
     bind_surfaces(m);
     bind_sparse(m);
     bind_multifrontal(m);

@@ -88,6 +88,33 @@ def material_from_function(function: Callable[[NDArray[float64], NDArray[float64
     A law from a function (E (n, 6), state (n, size), cell, (axes (n, 3, 3), size, step) or None) -> (S (n, 6), CC (n, 6, 6), new state (n, size)); its energy (E, state, cell) -> (elastic (n,), plastic (n,)).
     """
 
+class YieldFunction:
+    """
+    Equivalent stress as a function of the stress in the axes of the sheet.
+    """
+
+    def __call__(self, stress: NDArray[float64]) -> tuple[float, NDArray[float64]]:
+        """
+        Equivalent stress, and its gradient as a strain with engineering shears (6,).
+        """
+
+def hill48(F: float, G: float, H: float, L: float, M: float, N: float) -> YieldFunction: ...
+
+def yld2004(exponent: int, first: Sequence[float], second: Sequence[float]) -> YieldFunction:
+    """
+    c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.
+    """
+
+def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float, surfaces: Sequence[float] = []) -> Material:
+    """
+    A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.
+    """
+
+def logarithmic_space(law: Material) -> Material:
+    """
+    A small-strain law as one of finite strain: asked with logarithmic strains.
+    """
+
 class Surface:
     """
     A rigid tool: signed distance, normal and Hessian as functions of position.

@@ -12,7 +12,7 @@ from umform.deck.contents import Contents
 from umform.deck.controls import Rigid
 from umform.deck.errors import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey
 from umform.deck.lines import Path
-from umform.deck.material import J2
+from umform.deck.metal import J2, Metal
 from umform.deck.source import Source
 from umform.deck.steps import Named
 from umform.deck.tools import Profiled
@@ -27,7 +27,7 @@ from umform.run import Result, resume, solve
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 from umform.steps import Step
-from umform.surfaces import Tool
+from umform.surfaces import Tool, unit_vector
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -172,8 +172,16 @@ class _Builder:
                 material=material,
                 thickness_points=part.thickness_points,
                 thickness_rule=part.thickness_rule,
+                rolling=self._rolling(),
             )
         return None
+
+    def _rolling(self) -> tuple[float, ...] | None:
+        """The rolling direction of a metal that has one."""
+        part = self.contents.material
+        if not isinstance(part, Metal) or part.rolling is None:
+            return None
+        return tuple(float(component) for component in unit_vector(part.rolling, "rolling"))
 
     def _element(self) -> Element | None:
         with self._at("element"):
@@ -182,7 +190,7 @@ class _Builder:
 
     def _material(self) -> Material | None:
         part, before = self.contents.material, len(self.errors)
-        if isinstance(part, J2):
+        if isinstance(part, J2 | Metal):
             with self._at("material", "hardening"):
                 part.hardening.build()
         if len(self.errors) > before:

@@ -22,7 +22,7 @@ from umform.deck.steps import Move
 from umform.deck.tools import ToolPart, along, smallest_radius
 from umform.deck.units import first_yield
 from umform.elements.technology import Element
-from umform.materials import J2, Table
+from umform.materials import Plastic, Table
 from umform.model import Model
 from umform.model.contact import Contact
 from umform.model.contact.encounter import sheet_thickness
@@ -60,7 +60,7 @@ def bends(deck: Deck, problem: Problem) -> Iterator[Finding]:
         yield element_size(problem.contacts[name], problem.model, tool, radius)
         if radius > 0 and (sharpest is None or radius < sharpest[0]):
             sharpest = (radius, part.tool)
-    if sharpest is not None and isinstance(problem.model.material, J2):
+    if sharpest is not None and isinstance(problem.model.material, Plastic):
         yield from through_thickness(problem.model, problem.model.material, h, *sharpest)
 
 
@@ -93,7 +93,7 @@ def _size_near(contact: Contact, model: Model, axis: np.ndarray[tuple[int, ...],
     return float(lateral.max(axis=1).min())
 
 
-def through_thickness(model: Model, material: J2, h: float, radius: float, tool: str) -> Iterator[Finding]:
+def through_thickness(model: Model, material: Plastic, h: float, radius: float, tool: str) -> Iterator[Finding]:
     """Thickness points and thickness order against the strain that the smallest radius asks for."""
     strain, layers = h / (2.0 * radius + h), layers_of(model, h)
     order, stiffness = max(model.element.thickness_order, 1), material.kappa / first_yield(material)

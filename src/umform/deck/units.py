@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from umform.deck.findings import Finding, error, ok, warning
-from umform.materials import J2, SVK, Elastic, Table
+from umform.materials import SVK, Elastic, Plastic, Table
 from umform.model import Model
 from umform.model.contact.encounter import sheet_thickness
 
@@ -45,7 +45,7 @@ def units(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
     if not isinstance(material, Elastic):
         return
     yield elastic_constants(model, material, millimetres=millimetres)
-    if isinstance(material, J2):
+    if isinstance(material, Plastic):
         yield from plastic_constants(material)
     thickness = sheet_thickness(model.mesh)
     for contact in model.contacts:
@@ -79,7 +79,7 @@ def elastic_constants(model: Model, material: Elastic, *, millimetres: bool) -> 
         return error("units", f"{text}: lengths are in mm here", "a sheet of 1 mm has the thickness 1.0")
     if E > 1e9 and length > 1.0:
         return warning("units", f"{text}: Pa with mm?", "with mm and N stresses are in MPa: E of steel is 210e3")
-    if _METALS_IN_GPA[0] <= E <= _METALS_IN_GPA[1] and isinstance(material, J2 | SVK) and length > 1.0:
+    if _METALS_IN_GPA[0] <= E <= _METALS_IN_GPA[1] and isinstance(material, Plastic | SVK) and length > 1.0:
         remedy = "with mm and N stresses are in MPa: E of steel is 210e3; with GPa forces are in kN"
         return warning("units", f"{text}: GPa with mm?", remedy)
     if 1e3 < E < 1e7 and length < 0.05 and not millimetres:
@@ -87,7 +87,7 @@ def elastic_constants(model: Model, material: Elastic, *, millimetres: bool) -> 
     return ok("units", text)
 
 
-def plastic_constants(material: J2) -> Iterator[Finding]:
+def plastic_constants(material: Plastic) -> Iterator[Finding]:
     """Yield stress against Young's modulus, and the strains of a hardening table."""
     first = first_yield(material)
     strain = first / material.E
@@ -104,6 +104,6 @@ def plastic_constants(material: J2) -> Iterator[Finding]:
         yield (error if curve.eqps[-1] > _POSSIBLE_END else warning)("material", text, remedy)
 
 
-def first_yield(material: J2) -> float:
+def first_yield(material: Plastic) -> float:
     """Yield stress of the virgin material."""
     return material.hardening.curve()(0.0)[0]

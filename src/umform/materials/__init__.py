@@ -1,31 +1,51 @@
 """Material laws and hardening curves: frozen descriptions that make the laws of the kernels."""
 
+from umform.materials.back_stress import Chaboche, YoshidaUemori
 from umform.materials.elastic import SVK, Elastic, NeoHooke, NeoHookePower
 from umform.materials.hardening import Hardening, Linear, LinearVoce, Perfect, Swift, Table, Voce
-from umform.materials.j2 import J2
+from umform.materials.j2 import J2, Plastic
 from umform.materials.material import Material
+from umform.materials.metal import FallingModulus, LogarithmicSpace, Metal
+from umform.materials.point_path import PointPath, point_path, tension
 from umform.materials.tangent_check import TangentCheck, check_law
 from umform.materials.user_law import EnergyFunction, Floats, LawFunction, Points, UserLaw
+from umform.materials.yield_functions import Hill48, Hosford, Mises, Transformation, YieldFunction, Yld91, Yld2004
 
 __all__ = [
     "J2",
     "SVK",
+    "Chaboche",
     "Elastic",
     "EnergyFunction",
+    "FallingModulus",
     "Floats",
     "Hardening",
+    "Hill48",
+    "Hosford",
     "LawFunction",
     "Linear",
     "LinearVoce",
+    "LogarithmicSpace",
     "Material",
+    "Metal",
+    "Mises",
     "NeoHooke",
     "NeoHookePower",
     "Perfect",
+    "Plastic",
+    "PointPath",
     "Points",
     "Swift",
     "Table",
     "TangentCheck",
+    "Transformation",
     "UserLaw",
     "Voce",
+    "YieldFunction",
+    "Yld91",
+    "Yld2004",
+    "YoshidaUemori",
     "check_law",
+    "point_path",
+    "tension",
 ]

@@ -1,4 +1,4 @@
-"""Finite-strain J2 plasticity."""
+"""Metals that flow: elastic constants with a hardening curve, and finite-strain J2 plasticity."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from umform.materials.hardening import Hardening
 
 
 @dataclass(frozen=True, init=False)
-class J2(Elastic):
-    """Finite-strain J2 plasticity in logarithmic elastic strains, multiplicative split (docs/theory, chapter 3).
+class Plastic(Elastic):
+    """Elastic constants and a hardening curve: what all metals have.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ class J2(Elastic):
         if not callable(getattr(hardening, "curve", None)) or isinstance(hardening, type):
             raise InvalidValue(
                 "hardening must be a hardening curve",
-                where="J2",
+                where=type(self).__name__,
                 value=hardening,
                 cause="a number, or the name of a curve in place of a curve",
                 remedy="Perfect(160.0) or another of Linear, Voce, LinearVoce, Swift, Table",
@@ -45,6 +45,10 @@ class J2(Elastic):
         object.__setattr__(self, "hardening", hardening)
 
     thickness_points = 5
+
+
+class J2(Plastic):
+    """Finite-strain J2 plasticity in logarithmic elastic strains, multiplicative split (docs/theory, chapter 3)."""
 
     def law(self) -> _core.Material:
         """The law as the kernels take it."""

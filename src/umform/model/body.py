@@ -99,9 +99,17 @@ class Body(Term):
             raise InvalidValue(
                 "material must be a material law",
                 value=type(material).__name__,
-                remedy="SVK, NeoHooke, NeoHookePower or J2",
+                remedy="SVK, NeoHooke, NeoHookePower, J2 or Metal",
             )
         self.material = material
+        if getattr(material, "directional", False) and rolling is None:
+            raise InvalidValue(
+                "a law with directions needs the rolling direction of the sheet",
+                where=name,
+                value=type(material).__name__,
+                cause="its yield function differs along and across the rolling direction",
+                remedy="rolling=(1, 0, 0), or one vector for each cell",
+            )
         self.thickness_points, self.thickness_rule = self._through_thickness(thickness_points, thickness_rule)
         least = self.element.thickness_order + 1
         if self.thickness_points < least:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from umform.materials import J2, Elastic, LinearVoce, Swift, Table, UserLaw
+from umform.materials import Elastic, LinearVoce, Metal, Plastic, Swift, Table, UserLaw
 
 
 def material_text(material: object) -> str:
@@ -23,7 +23,13 @@ def material_text(material: object) -> str:
     if not isinstance(material, Elastic):
         return str(material)
     text = f"{type(material).__name__}: E = {material.E:.6g}, nu = {material.nu:.6g}"
-    return f"{text}, {hardening_text(material.hardening)}" if isinstance(material, J2) else text
+    if not isinstance(material, Plastic):
+        return text
+    text += f", {hardening_text(material.hardening)}"
+    if isinstance(material, Metal):
+        parts = (material.yield_function, material.back_stress, material.modulus)
+        text += "".join(f", {part}" for part in parts if part is not None)
+    return text
 
 
 def hardening_text(curve: object) -> str:

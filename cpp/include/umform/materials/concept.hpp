@@ -29,7 +29,7 @@ concept MaterialLaw =
     requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
              Lanes* trial, const Voigt& strain, double* history, const Point<Lanes>& point) {
         { L::state_size } -> std::convertible_to<int>;
-        { L::state_names() } -> std::same_as<std::vector<Quantity>>;
+        { law.state_names() } -> std::same_as<std::vector<Quantity>>;
         requires requires {
             { law.respond(E, state, S, CC, trial) } -> std::same_as<LaneMask>;
         } || requires {
@@ -45,13 +45,22 @@ concept SeesPoint =
     requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
              Lanes* trial, const Point<Lanes>& point) { law.respond(E, state, S, CC, trial, point); };
 
-/// A law whose tangent is not symmetric says so: `static constexpr bool symmetric = false`.
+/// A law whose tangent is not symmetric says so by a member function `symmetric`.
 template <class L>
-constexpr bool has_symmetric_tangent() {
-    if constexpr (requires { L::symmetric; })
-        return L::symmetric;
+bool has_symmetric_tangent(const L& law) {
+    if constexpr (requires { law.symmetric(); })
+        return law.symmetric();
     else
         return true;
+}
+
+/// Numbers that the history of a point may have at most: a law whose size depends on its parts says so by `state_limit`.
+template <class L>
+constexpr int state_limit() {
+    if constexpr (requires { L::state_limit; })
+        return L::state_limit;
+    else
+        return L::state_size;
 }
 
 /// Where the histories of the elements in the lanes begin, [lane][n][state_size].
@@ -88,18 +97,18 @@ template <MaterialLaw Law>
 class MaterialOf final : public Material {
   public:
     explicit MaterialOf(Law law) : law_(std::move(law)) {}
-    std::vector<Quantity> state_names() const override { return Law::state_names(); }
-    int state_size() const override { return Law::state_size; }
+    std::vector<Quantity> state_names() const override { return law_.state_names(); }
+    int state_size() const override { return law_.state_size; }
     void initial(double* state) const override { law_.initial(state); }
-    bool symmetric() const override { return has_symmetric_tangent<Law>(); }
+    bool symmetric() const override { return has_symmetric_tangent(law_); }
     bool sees_points() const override { return SeesPoint<Law>; }
 
     LaneMask respond(int n, LaneMask wanted, const Vec<Lanes, 6>* E, const LaneStates& state, Vec<Lanes, 6>* S,
                      Mat<Lanes, 6, 6>* CC, const LaneTrials& trial, const LanePoints& points) const override {
-        std::array<Lanes, Law::state_size> before, after;
+        std::array<Lanes, state_limit<Law>()> before, after;
+        const int size = law_.state_size;
         for (int q = 0; q < n; ++q) {
-            for (int k = 0; k < Law::state_size; ++k)
-                before[k] = by_lane([&](int lane) { return state[lane][q * Law::state_size + k]; });
+            for (int k = 0; k < size; ++k) before[k] = by_lane([&](int lane) { return state[lane][q * size + k]; });
             if constexpr (SeesPoint<Law>)
                 wanted = wanted
                          & law_.respond(E[q], before.data(), S[q], CC[q], after.data(),
@@ -107,7 +116,7 @@ class MaterialOf final : public Material {
             else
                 wanted = wanted & law_.respond(E[q], before.data(), S[q], CC[q], after.data());
             for (int lane = 0; lane < lane_count; ++lane)
-                for (int k = 0; k < Law::state_size; ++k) trial[lane][q * Law::state_size + k] = after[k][lane];
+                for (int k = 0; k < size; ++k) trial[lane][q * size + k] = after[k][lane];
         }
         return wanted;
     }
@@ -126,8 +135,8 @@ class MaterialOf final : public Material {
             LaneTrials after;
             for (int p = 0; p < 6; ++p) strain[p] = by_lane([&](int lane) { return E[point(lane)][p]; });
             for (int lane = 0; lane < lane_count; ++lane) {
-                before[lane] = state + point(lane) * Law::state_size;
-                after[lane] = trial + point(lane) * Law::state_size;
+                before[lane] = state + point(lane) * law_.state_size;
+                after[lane] = trial + point(lane) * law_.state_size;
             }
             const LaneMask answered = respond(1, true, &strain, before, &stress, &tangent, after, points);
             for (int q = first; q < std::min(first + lane_count, n); ++q) {
@@ -140,7 +149,7 @@ class MaterialOf final : public Material {
     }
 
     void energy(int n, const Voigt* E, const double* state, Energy* energies, std::int32_t) const override {
-        for (int q = 0; q < n; ++q) energies[q] = law_.energy(E[q], state + q * Law::state_size);
+        for (int q = 0; q < n; ++q) energies[q] = law_.energy(E[q], state + q * law_.state_size);
     }
 
   private:

@@ -38,6 +38,19 @@ Real log1p_ratio(Real x) {
     return select(small, series, each(x, [](double value) { return std::log1p(value) / value; }));
 }
 
+/// (artanh(s)/s - 1) / s^2 of the square of s, which is 1/3 at 0: a ratio of logarithms without a difference. eq. (3.63)
+template <class Real>
+Real artanh_tail(Real square) {
+    Real sum = 1.0 / 37.0;
+    for (int k = 35; k >= 3; k -= 2) sum = 1.0 / k + square * sum;
+    const Mask<Real> near = square <= 1.0 / 9.0;
+    if (all(near)) return sum;
+    return select(near, sum, each(square, [](double q) {
+                      const double s = std::sqrt(q);
+                      return (std::atanh(s) / s - 1.0) / q;
+                  }));
+}
+
 using std::exp;
 using std::expm1;
 /// exp(x) - 1 of every lane: for |x| < 1/16 by its series, whose remainder is below 1e-18, else by the library.

@@ -1,0 +1,92 @@
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "arrays.hpp"
+#include "umform/materials/logarithmic_space.hpp"
+#include "umform/materials/metal.hpp"
+#include "umform/materials/yield/yld2004.hpp"
+
+using namespace umform;
+
+namespace {
+
+using YieldFunction = std::variant<QuadraticYield, Yld2004<6>, Yld2004<8>, Yld2004<0>>;
+
+std::shared_ptr<Material> metal(double kappa, double mu, const Hardening& hardening, const YieldFunction& yield,
+                                const std::vector<std::pair<double, double>>& back_stress, double first, double growth,
+                                double fall, double rate, const std::vector<double>& surfaces) {
+    if (back_stress.size() > Chaboche::largest) throw std::invalid_argument("no more than four back stresses");
+    MetalParts parts{kappa, mu, hardening, {{}, first, growth}, {fall, rate}};
+    for (const auto& [modulus, recall] : back_stress) parts.back_stress.parts.push_back({modulus, recall});
+    if (surfaces.size() == 6) {
+        parts.two_surfaces = {surfaces[1], surfaces[2], surfaces[3], surfaces[4], surfaces[5], surfaces[0]};
+    } else if (!surfaces.empty()) {
+        throw std::invalid_argument("two surfaces have the numbers Y, C, B, Rsat, m, h");
+    }
+    return std::visit(
+        [&](const auto& function) -> std::shared_ptr<Material> {
+            using Law = Metal<std::decay_t<decltype(function)>>;
+            return std::make_shared<MaterialOf<Law>>(Law(parts, function));
+        },
+        yield);
+}
+
+/// phi, its gradient (6,) by the components of the stress.
+nb::object evaluate(const YieldFunction& yield, const Input& stress) {
+    if (stress.size() != 6) throw std::invalid_argument("a stress has six components");
+    Voigt T;
+    std::copy_n(stress.data(), 6, T.begin());
+    return std::visit(
+        [&](const auto& function) -> nb::object {
+            double phi;
+            Deviator<double> n;
+            function.gradient(function.basis.components(T, 1.0), phi, n);
+            const Voigt gradient = function.basis.tensor(n, 0.5);
+            return nb::make_tuple(phi, to_numpy(std::vector<double>(gradient.begin(), gradient.end()), {6}));
+        },
+        yield);
+}
+
+}  // namespace
+
+void bind_metals(nb::module_& m) {
+    nb::class_<YieldFunction>(m, "YieldFunction",
+                              "Equivalent stress as a function of the stress in the axes of the sheet.")
+        .def("__call__", &evaluate, nb::arg("stress"),
+             nb::sig("def __call__(self, stress: NDArray[float64]) -> tuple[float, NDArray[float64]]"),
+             "Equivalent stress, and its gradient as a strain with engineering shears (6,).");
+    m.def(
+        "hill48",
+        [](double F, double G, double H, double L, double M, double N) {
+            return YieldFunction(QuadraticYield::hill(F, G, H, L, M, N));
+        },
+        nb::arg("F"), nb::arg("G"), nb::arg("H"), nb::arg("L"), nb::arg("M"), nb::arg("N"));
+    m.def(
+        "yld2004",
+        [](int exponent, const std::vector<double>& first, const std::vector<double>& second) {
+            std::array<double, 9> a, b;
+            if (exponent < 2 || exponent % 2 != 0 || exponent > TransformedStress<double>::most)
+                throw std::invalid_argument("the exponent must be even, from 2 to 20");
+            if (first.size() != 9 || second.size() != 9) throw std::invalid_argument("nine coefficients each");
+            std::copy_n(first.begin(), 9, a.begin());
+            std::copy_n(second.begin(), 9, b.begin());
+            if (exponent == 6) return YieldFunction(Yld2004<6>(exponent, a, b));
+            if (exponent == 8) return YieldFunction(Yld2004<8>(exponent, a, b));
+            return YieldFunction(Yld2004<0>(exponent, a, b));
+        },
+        nb::arg("exponent"), nb::arg("first"), nb::arg("second"),
+        "c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.");
+    m.def(
+        "metal", &metal, nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"), nb::arg("yield_function"),
+        nb::arg("back_stress"), nb::arg("first"), nb::arg("growth"), nb::arg("fall"), nb::arg("rate"),
+        nb::arg("surfaces") = std::vector<double>{},
+        "A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.");
+    m.def(
+        "logarithmic_space",
+        [](std::shared_ptr<Material> law) -> std::shared_ptr<Material> {
+            return std::make_shared<LogarithmicSpace>(std::move(law));
+        },
+        nb::arg("law"), "A small-strain law as one of finite strain: asked with logarithmic strains.");
+}

@@ -1,0 +1,239 @@
+"""The metals of a deck: J2, and those that are put together from parts."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from umform import materials
+from umform.deck.elastic import Elastic
+from umform.deck.hardening import Curve
+from umform.deck.parts import NotNegative, Pair, Part, Positive, Way
+from umform.materials import Material, YieldFunction
+
+
+class J2(Elastic):
+    """J2 plasticity at finite strains."""
+
+    law: Literal["J2"]
+    """The word J2."""
+    hardening: Curve
+    """Yield stress over the plastic strain."""
+
+    def build(self) -> Material:
+        """The law."""
+        return materials.J2(**self.constants(), hardening=self.hardening.build())
+
+
+class Mises(Part):
+    """Von Mises: isotropic."""
+
+    function: Literal["Mises"]
+    """The word Mises."""
+
+    def build(self) -> YieldFunction:
+        """The yield function."""
+        return materials.Mises()
+
+
+class Hill48(Part):
+    """Hill (1948) from three r-values, or from four yield stresses over that of the hardening curve."""
+
+    function: Literal["Hill48"]
+    """The word Hill48."""
+    r0: Positive | None = None
+    """Strain over the width by strain over the thickness, tension along the rolling direction."""
+    r45: Positive | None = None
+    """At 45 degrees to it."""
+    r90: Positive | None = None
+    """Across it."""
+    s0: Positive | None = None
+    """Yield stress along the rolling direction, over that of the curve."""
+    s45: Positive | None = None
+    """At 45 degrees to it."""
+    s90: Positive | None = None
+    """Across it."""
+    biaxial: Positive | None = None
+    """Of equal tension in both directions."""
+
+    @model_validator(mode="after")
+    def _is_one_set(self) -> Hill48:
+        if set(self._given()) not in ({"r0", "r45", "r90"}, {"s0", "s45", "s90", "biaxial"}):
+            raise PydanticCustomError("constants", "give r0, r45 and r90, or s0, s45, s90 and biaxial, and no others")
+        return self
+
+    def _given(self) -> dict[str, float]:
+        return self.model_dump(exclude={"function"}, exclude_none=True)
+
+    def build(self) -> YieldFunction:
+        """The yield function."""
+        given = self._given()
+        return materials.Hill48(**given) if "r0" in given else materials.Hill48.from_stresses(**given)
+
+
+Exponent = Annotated[int, Field(ge=2, le=20, multiple_of=2)]
+
+
+class Hosford(Part):
+    """Hosford (1972): isotropic, with flatter sides than von Mises."""
+
+    function: Literal["Hosford"]
+    """The word Hosford."""
+    exponent: Exponent = 8
+    """Even: 6 for bcc metals, 8 for fcc metals."""
+
+    def build(self) -> YieldFunction:
+        """The yield function."""
+        return materials.Hosford(self.exponent)
+
+
+class Yld91(Part):
+    """Barlat's Yld91."""
+
+    function: Literal["Yld91"]
+    """The word Yld91."""
+    a: float
+    """Factor of s22 - s33."""
+    b: float
+    """Factor of s33 - s11."""
+    c: float
+    """Factor of s11 - s22."""
+    f: float = 1.0
+    """Factor of the shear 23."""
+    g: float = 1.0
+    """Factor of the shear 13."""
+    h: float = 1.0
+    """Factor of the shear 12."""
+    exponent: Exponent = 8
+    """Even: 6 for bcc metals, 8 for fcc metals."""
+
+    def build(self) -> YieldFunction:
+        """The yield function."""
+        return materials.Yld91(**self.model_dump(exclude={"function"}))
+
+
+class Transformation(Part):
+    """Linear map of the stress deviator: 1 is the rolling direction, 3 the normal of the sheet."""
+
+    c12: float = 1.0
+    """S_11 = -c12 s_22 - c13 s_33."""
+    c13: float = 1.0
+    """See c12."""
+    c21: float = 1.0
+    """S_22 = -c21 s_11 - c23 s_33."""
+    c23: float = 1.0
+    """See c21."""
+    c31: float = 1.0
+    """S_33 = -c31 s_11 - c32 s_22."""
+    c32: float = 1.0
+    """See c31."""
+    shear12: float = 1.0
+    """Factor of the shear 12, c66 of printed tables."""
+    shear23: float = 1.0
+    """Factor of the shear 23, c44 of printed tables."""
+    shear13: float = 1.0
+    """Factor of the shear 13, c55 of printed tables."""
+
+
+class Yld2004(Part):
+    """Yld2004-18p of Barlat et al. (2005)."""
+
+    function: Literal["Yld2004"]
+    """The word Yld2004."""
+    first: Transformation
+    """S'."""
+    second: Transformation
+    """S''."""
+    exponent: Exponent = 8
+    """Even: 6 for bcc metals, 8 for fcc metals."""
+
+    def build(self) -> YieldFunction:
+        """The yield function."""
+        first, second = (materials.Transformation(**part.model_dump()) for part in (self.first, self.second))
+        return materials.Yld2004(first, second, self.exponent)
+
+
+class BackStress(Part):
+    """Back stresses of Chaboche."""
+
+    parts: Annotated[list[Pair], Field(min_length=1, max_length=4)]
+    """Modulus and recall of each: [C, gamma]."""
+    first: Positive = 1.0
+    """Share of the moduli at the start."""
+    rate: NotNegative = 0.0
+    """How fast the moduli change with the plastic strain."""
+
+    def build(self) -> materials.Chaboche:
+        """The back stresses."""
+        return materials.Chaboche(tuple(self.parts), self.first, self.rate)
+
+
+class TwoSurfaces(Part):
+    """Yoshida and Uemori (2002); the hardening curve is Perfect."""
+
+    C: Positive
+    """How fast the yield surface moves within the bounding surface."""
+    B: Positive
+    """First size of the bounding surface."""
+    growth: NotNegative
+    """R_sat: by how much it grows."""
+    b: Positive
+    """How far it moves."""
+    m: Positive
+    """How fast it grows and moves."""
+    h: Annotated[float, Field(ge=0, le=1)]
+    """How fast the surface of stagnation grows with it."""
+
+    def build(self) -> materials.YoshidaUemori:
+        """The back stress."""
+        return materials.YoshidaUemori(**self.model_dump())
+
+
+class Modulus(Part):
+    """Young's modulus that falls with the plastic strain."""
+
+    saturated: Positive
+    """What it falls to."""
+    rate: Positive
+    """How fast."""
+
+
+class Metal(Elastic):
+    """Plasticity with a yield function, back stresses and a modulus that falls."""
+
+    law: Literal["Metal"]
+    """The word Metal."""
+    hardening: Curve
+    """Size of the yield surface over the plastic strain."""
+    yield_function: Annotated[
+        Mises | Hill48 | Hosford | Yld91 | Yld2004, Field(discriminator="function", default=Mises(function="Mises"))
+    ]
+    """Shape of the yield surface."""
+    rolling: Way | None = None
+    """Rolling direction."""
+    back_stress: BackStress | None = None
+    """Motion of the yield surface."""
+    two_surfaces: TwoSurfaces | None = None
+    """The same by Yoshida and Uemori."""
+    modulus: Modulus | None = None
+    """Fall of Young's modulus."""
+
+    @model_validator(mode="after")
+    def _knows_its_directions(self) -> Metal:
+        if self.rolling is None and not isinstance(self.yield_function, Mises | Hosford):
+            raise PydanticCustomError("rolling", 'a yield function with directions needs rolling: rolling = "x"')
+        if self.back_stress is not None and self.two_surfaces is not None:
+            raise PydanticCustomError("motion", "give back_stress or two_surfaces")
+        return self
+
+    def build(self) -> Material:
+        """The law."""
+        parts: dict[str, Any] = {"hardening": self.hardening.build(), "yield_function": self.yield_function.build()}
+        motion = self.back_stress or self.two_surfaces
+        if motion is not None:
+            parts["back_stress"] = motion.build()
+        if self.modulus is not None:
+            parts["modulus"] = materials.FallingModulus(**self.modulus.model_dump())
+        return materials.Metal(**self.constants(), **parts)

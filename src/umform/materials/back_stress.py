@@ -1,0 +1,101 @@
+"""Back stresses: the motion of the yield surface, which makes the Bauschinger effect (docs/theory, 3.12 and 3.13)."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+from umform.errors import InvalidValue
+from umform.materials.checks import check_finite
+
+_MOST = 4  # back stresses of the kernels
+
+
+@dataclass(frozen=True)
+class Chaboche:
+    """Back stresses, each d alpha = C f xi/phi dp - gamma alpha dp (docs/theory, 3.12).
+
+    Parameters
+    ----------
+    parts : tuple of pairs of float
+        One to four pairs (C, gamma): modulus and recall. Without recall the back stress grows for ever (Prager), with
+        it up to C / gamma.
+    first, rate : float
+        All moduli change with the plastic strain by f = 1 + (first - 1) exp(-rate p), from the share ``first`` of C
+        to C; with 1 and 0 they stay.
+    """
+
+    parts: tuple[tuple[float, float], ...]
+    first: float = 1.0
+    rate: float = 0.0
+
+    def __post_init__(self) -> None:
+        parts = tuple(tuple(float(number) for number in part) for part in self.parts)
+        object.__setattr__(self, "parts", parts)
+        if not 1 <= len(parts) <= _MOST or any(len(part) != 2 for part in parts):
+            raise InvalidValue(
+                "back stresses are one to four pairs (C, gamma)",
+                where="Chaboche",
+                value=self.parts,
+                cause="a single pair that is not in a list, or one number too many",
+                remedy="Chaboche([(3000.0, 30.0)])",
+            )
+        check_finite("Chaboche", first=self.first, rate=self.rate)
+        if not self.first > 0 or self.rate < 0:
+            raise InvalidValue(
+                "first must be positive and rate not negative",
+                where="Chaboche",
+                value=(self.first, self.rate),
+                cause="a sign",
+                remedy="first=1 and rate=0 for moduli that stay",
+            )
+        for number, (modulus, recall) in enumerate(parts, start=1):
+            check_finite(f"Chaboche, back stress {number}", C=modulus, gamma=recall)
+            if not modulus > 0 or recall < 0:
+                raise InvalidValue(
+                    "C must be positive and gamma not negative",
+                    where=f"Chaboche, back stress {number}",
+                    value=(modulus, recall),
+                    cause="a sign, or the two exchanged",
+                    remedy="C in units of stress, gamma without: saturation at C / gamma",
+                )
+
+
+@dataclass(frozen=True)
+class YoshidaUemori:
+    """Yoshida and Uemori (2002): a yield surface of constant size in one that moves, grows and stagnates.
+
+    The yield stress Y is that of the hardening curve, which must be constant: ``Perfect(Y)``.
+
+    Parameters
+    ----------
+    C : float
+        How fast the yield surface moves within the bounding surface.
+    B : float
+        First size of the bounding surface, above Y.
+    growth : float
+        R_sat: by how much it grows.
+    b : float
+        How far it moves.
+    m : float
+        How fast it grows and moves.
+    h : float
+        How fast the surface of stagnation grows with it, 0 to 1.
+    """
+
+    C: float
+    B: float
+    growth: float
+    b: float
+    m: float
+    h: float
+
+    def __post_init__(self) -> None:
+        check_finite("YoshidaUemori", **asdict(self))
+        if not min(self.C, self.B, self.b, self.m) > 0 or self.growth < 0 or not 0 <= self.h <= 1:
+            raise InvalidValue(
+                "C, B, b and m must be positive, growth not negative, h between 0 and 1",
+                where="YoshidaUemori",
+                value=self,
+                cause="a sign, or numbers in another order",
+                remedy="mild steel: YoshidaUemori(C=500.0, B=168.0, growth=190.0, b=9.0, m=12.0, h=0.5)",
+            )

@@ -1,0 +1,168 @@
+"""A material point that is led along strains and stresses: tension at an angle, cyclic shear, paths that turn."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from umform import _core
+from umform.errors import InvalidValue, NoConvergence
+from umform.materials.user_law import Floats
+
+_MOST_ITERATIONS = 60
+_MOST_CUTS = 12
+
+
+class SmallStrainLaw(Protocol):
+    """What has a law of small strains."""
+
+    def small_strain_law(self) -> _core.Material:
+        """The law that is asked with logarithmic strains."""
+
+
+@dataclass(frozen=True)
+class PointPath:
+    """States of a point along its path, one row for each of the points that were asked for.
+
+    Attributes
+    ----------
+    strain, stress : ndarray, shape (n, 6)
+        Logarithmic strain (engineering shears) and its conjugate stress in the axes of the test.
+    state : ndarray, shape (n, size)
+        History of the law.
+    """
+
+    strain: Floats
+    stress: Floats
+    state: Floats
+
+
+def point_path(material: SmallStrainLaw, strain: ArrayLike, stress: ArrayLike, angle: float = 0.0) -> PointPath:
+    """Lead a point along a path: each component has its strain prescribed, or its stress.
+
+    Parameters
+    ----------
+    material : Metal
+        A metal.
+    strain : array_like, shape (n, 6)
+        Logarithmic strains 11, 22, 33, 12, 23, 13 with engineering shears; NaN where the stress is prescribed.
+    stress : array_like, shape (n, 6)
+        Stresses of the other components.
+    angle : float
+        Degrees from the rolling direction to axis 1 of the test, about the normal of the sheet.
+
+    Returns
+    -------
+    PointPath
+        The states behind each row; the first row is reached from the virgin state at rest.
+
+    Raises
+    ------
+    NoConvergence
+        If a stress cannot be reached.
+    """
+    wanted, given = np.array(strain, dtype=float), np.array(stress, dtype=float)
+    if wanted.ndim != 2 or wanted.shape[1] != 6 or wanted.shape != given.shape:
+        raise InvalidValue(
+            "a path has six strains and six stresses in each row",
+            where="point_path",
+            value=f"strain {wanted.shape}, stress {given.shape}",
+            cause="components that were left out",
+            remedy="NaN in strain where the stress is prescribed",
+        )
+    law = material.small_strain_law()
+    turn = _turned(math.radians(angle))
+    state, h, T = law.initial(), np.zeros(6), np.zeros(6)
+    rows: list[tuple[Floats, Floats, Floats]] = []
+    for number, (target, force) in enumerate(zip(wanted, given, strict=True)):
+        h, T, state = _reach(law, turn, (h, T, state), target, force, f"row {number}")
+        rows.append((h, T, state))
+    strains, stresses, states = (np.array(part) for part in zip(*rows, strict=True))
+    return PointPath(strains, stresses, states)
+
+
+def tension(
+    material: SmallStrainLaw, strains: ArrayLike, angle: float = 0.0, *, component: int = 0
+) -> tuple[Floats, Floats, Floats]:
+    """Strain, stress and plastic strains (n, 6) of a bar that is pulled and pushed along the logarithmic strains given.
+
+    Parameters
+    ----------
+    material : Metal
+        A metal.
+    strains : array_like, shape (n,)
+        Logarithmic strains, one after the other.
+    angle : float
+        Degrees from the rolling direction to the bar.
+    component : int
+        0 to 2 for tension along axis 1 to 3; 3 for simple shear in the plane of the sheet.
+    """
+    along = np.asarray(strains, dtype=float)
+    path = np.full((len(along), 6), np.nan)
+    path[:, component] = along
+    found = point_path(material, path, np.zeros_like(path), angle)
+    plastic = found.state[:, :6] @ _turned(-math.radians(angle)).T
+    return found.strain[:, component], found.stress[:, component], plastic
+
+
+def _turned(angle: float) -> Floats:
+    """Strain in the axes of the sheet from that in axes that are turned about its normal, engineering shears."""
+    c, s = math.cos(angle), math.sin(angle)
+    turn = np.eye(6)
+    turn[np.ix_([0, 1, 3], [0, 1, 3])] = [
+        [c * c, s * s, -c * s],
+        [s * s, c * c, c * s],
+        [2 * c * s, -2 * c * s, c * c - s * s],
+    ]
+    turn[np.ix_([4, 5], [4, 5])] = [[c, s], [-s, c]]
+    return turn
+
+
+State = tuple[Floats, Floats, Floats]
+
+
+def _reach(
+    law: _core.Material, turn: Floats, start: State, target: Floats, force: Floats, where: str, cuts: int = 0
+) -> State:
+    """The state at a row, in halves where Newton's method does not get there at once."""
+    found = _newton(law, turn, start, target, force)
+    if found is not None:
+        return found
+    if cuts == _MOST_CUTS:
+        raise NoConvergence(
+            "a state of the path cannot be reached",
+            where=where,
+            value=np.where(np.isnan(target), force, target).tolist(),
+            cause="a stress beyond what the metal can carry",
+            remedy="prescribe the strain along the load",
+        )
+    h, T, _ = start
+    half = _reach(law, turn, start, 0.5 * (h + target), 0.5 * (T + force), where, cuts + 1)
+    return _reach(law, turn, half, target, force, where, cuts + 1)
+
+
+def _newton(law: _core.Material, turn: Floats, start: State, target: Floats, force: Floats) -> State | None:
+    before, _, state = start
+    free = np.isnan(target)
+    h = np.where(free, before, target)
+    smallest = math.inf
+    for _ in range(_MOST_ITERATIONS):
+        try:
+            T, C, after = law.respond((turn @ h)[None], state[None])
+        except ValueError:
+            return None
+        stress, tangent = turn.T @ T[0], turn.T @ C[0] @ turn
+        residual = np.where(free, stress - force, 0.0)
+        size = float(np.abs(residual).max())
+        if size <= 1e-11 * max(float(np.abs(stress).max()), 1e-6):
+            return h, stress, after[0]
+        if not math.isfinite(size) or size > 1e3 * smallest:
+            return None
+        smallest = min(smallest, size)
+        h = h.copy()
+        h[free] -= np.linalg.solve(tangent[np.ix_(free, free)], residual[free])
+    return None

@@ -1,0 +1,115 @@
+"""Constants from measurements by least squares, and how well each of them is determined."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from umform.errors import InvalidValue, UmformError
+
+Floats = NDArray[np.float64]
+Law = TypeVar("Law")
+
+#: Residual of constants of which no law can be made.
+_REFUSED = 1e3
+
+
+@dataclass(frozen=True)
+class Fit(Generic[Law]):
+    """A law whose constants were fitted.
+
+    Attributes
+    ----------
+    law : object
+        The law.
+    constants : mapping of str to float
+        What was fitted.
+    deviations : mapping of str to float
+        Standard deviation of each, as far as the scatter of the measurements tells; infinite where they do not
+        determine it.
+    misfit : float
+        Root of the mean square of the residuals.
+    """
+
+    law: Law
+    constants: Mapping[str, float]
+    deviations: Mapping[str, float]
+    misfit: float
+
+    def __str__(self) -> str:
+        lines = [f"{self.law}", f"misfit {self.misfit:.3g}"]
+        lines += [f"{name} = {value:.6g} +- {self.deviations[name]:.2g}" for name, value in self.constants.items()]
+        return "\n".join(lines)
+
+
+def fit(
+    build: Callable[[Mapping[str, float]], Law],
+    residuals: Callable[[Law], Floats],
+    start: Mapping[str, float],
+    *,
+    positive: bool,
+) -> Fit[Law]:
+    """Find the constants whose law has the least sum of squares.
+
+    Parameters
+    ----------
+    build : callable
+        Makes the law of constants.
+    residuals : callable
+        Differences of a law to the measurements, each over its uncertainty or scale.
+    start : mapping of str to float
+        First guess, by name.
+    positive : bool
+        Constants are positive and may be wrong by factors: their logarithms are varied.
+
+    Raises
+    ------
+    InvalidValue
+        If no law can be made of the first guess, or of what is found.
+    """
+    names, guess = list(start), np.array(list(start.values()), dtype=float)
+    if positive and not (guess > 0).all():
+        raise InvalidValue(
+            "the first guess of a positive constant must be positive",
+            where="fit",
+            value=dict(start),
+            cause="a zero",
+            remedy="a small number in place of zero",
+        )
+    build(start)  # let it say what is wrong with it
+
+    def constants(x: Floats) -> dict[str, float]:
+        return dict(zip(names, (guess * np.exp(x) if positive else guess + x).tolist(), strict=True))
+
+    sample = residuals(build(start))
+
+    def differences(x: Floats) -> Floats:
+        try:
+            return residuals(build(constants(x)))
+        except UmformError:  # a law that cannot be, or a state that it cannot reach
+            return np.full_like(sample, _REFUSED)
+
+    found = least_squares(differences, np.zeros(len(names)), x_scale=0.1, method="trf", diff_step=1e-6)
+    values = constants(found.x)
+    spread = _deviations(np.asarray(found.jac), np.asarray(found.fun))
+    if positive:
+        spread = spread * np.array(list(values.values()))
+    misfit = float(np.sqrt(np.mean(found.fun**2)))
+    return Fit(build(values), values, dict(zip(names, spread.tolist(), strict=True)), misfit)
+
+
+def _deviations(jacobian: Floats, residual: Floats) -> Floats:
+    """Standard deviations by the covariance at the solution; infinite along directions that nothing determines."""
+    _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)
+    free = max(len(residual) - jacobian.shape[1], 1)
+    variance = float(residual @ residual) / free
+    blind = sizes < 1e-6 * sizes.max(initial=1e-300)
+    inverse = np.where(blind, 0.0, 1.0 / np.where(blind, 1.0, sizes))
+    spread = np.sqrt(variance * ((directions * inverse[:, None]) ** 2).sum(axis=0))
+    hidden = (np.abs(directions[blind]) > 1e-3).any(axis=0)
+    return np.where(hidden, np.inf, spread)
