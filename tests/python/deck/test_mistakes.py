@@ -40,6 +40,8 @@ def small(deck):
     mesh = deck.contents.mesh
     cells = getattr(mesh, "cells", (1, 1))
     lines = [len(getattr(mesh, axis, ())) for axis in "xyz"]
+    if getattr(mesh, "generator", "") in ("disc", "ring"):  # cells of a side of the core, or of a quarter of the circle
+        cells = 4 * (cells[0] + 2 * cells[1]), cells[0]
     return cells[0] * cells[1] * getattr(mesh, "layers", 1) <= _SMALL and sum(lines) <= _SMALL
 
 
