@@ -8,7 +8,6 @@ from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
 
 from umform.errors import InvalidValue, UmformError
 
@@ -93,6 +92,8 @@ def fit(
             return residuals(build(constants(x)))
         except UmformError:  # a law that cannot be, or a state that it cannot reach
             return np.full_like(sample, _REFUSED)
+
+    from scipy.optimize import least_squares  # slow to import
 
     found = least_squares(differences, np.zeros(len(names)), x_scale=0.1, method="trf", diff_step=1e-6)
     values = constants(found.x)
