@@ -90,6 +90,32 @@ void check_states() {
     CHECK(gone[1] == 0.0 && gone[8] == 0.0 && gone[17] == after[17] && gone[18] == after[18]);
 }
 
+/// A sheet and a tool that are turned together, after a slide, feel the same traction, turned: all is kept in the frame of the tool.
+void check_frame() {
+    const Coulomb rubbing = law();
+    const double c = std::cos(0.7), s = std::sin(0.7);
+    Pose turned;
+    turned.Q = Mat3{{c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c}};
+    turned.c = {0.3, -0.2, 0.1};
+    double plain[numbers]{}, moved[numbers]{}, after[numbers]{};
+    rubbing.leave({0.0, 0.0, 1.95}, plain, plain);
+    std::copy_n(plain, numbers, moved);
+    for (const Vec3& x : {Vec3{0.02, 0.01, 1.93}, Vec3{0.30, 0.10, 1.88}, Vec3{0.33, 0.20, 1.87}}) {
+        const Ball ball(x);
+        const Vec3 y = turned.to_space(x), n = turned.turn(ball.n);
+        const Mat3 H = turned.turn(ball.H);
+        const Reaction here = at(rubbing, x, plain, after);
+        std::copy_n(after, numbers, plain);
+        Reaction there{};
+        there.held = rubbing.respond({ball.gap, y, n, H, turned}, 1.0, moved, after, there);
+        std::copy_n(after, numbers, moved);
+        const Vec3 expected = turned.turn(here.tangential);
+        CHECK(there.held && there.slipping == here.slipping);
+        for (int k = 0; k < 3; ++k) CHECK_NEAR(there.tangential[k], expected[k], 1e-13);
+    }
+    for (int k = 0; k < numbers; ++k) CHECK_NEAR(moved[k], plain[k], 1e-13);
+}
+
 /// A full circle about an axis brings a vector along the tool back to where it was, turned by the holonomy of the cap.
 void check_transport() {
     const double colatitude = 0.5;
@@ -127,6 +153,7 @@ void check_laws() {
 
 int main() {
     check_states();
+    check_frame();
     check_transport();
     check_laws();
     return report("contact friction");
