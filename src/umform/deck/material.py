@@ -10,6 +10,7 @@ from umform import materials, sheet_metals
 from umform.deck.elastic import Elastic
 from umform.deck.metal import J2, Metal
 from umform.deck.parts import Part, tagged_by
+from umform.deck.rolling import RollingPart
 from umform.materials import Material
 
 
@@ -51,6 +52,8 @@ class FromLibrary(Part):
 
     library: Annotated[str, Field(min_length=1)]
     """Its name."""
+    rolling: RollingPart | None = None
+    """Rolling direction, which an anisotropic one needs: a way, an angle to the bend line, or a file."""
 
     def build(self) -> Material:
         """The law of the sheet metal."""

@@ -4,13 +4,15 @@ from umform.sheet_metals.cyclic_fit import fit_cycles, fit_hardening, fit_swift,
 from umform.sheet_metals.directional_fit import Directions, balanced, fit_hill48, fit_yld2004, uniaxial
 from umform.sheet_metals.flow_curve import read_flow_curve
 from umform.sheet_metals.least_squares import Fit
-from umform.sheet_metals.library import SheetMetal, get, names
+from umform.sheet_metals.library import cards, get, names
+from umform.sheet_metals.sheet_metal import SheetMetal
 from umform.sheet_metals.tensile_test import (
     TensileTest,
     swift_from_tensile_test,
     tensile_test,
     voce_from_tensile_test,
 )
+from umform.sheet_metals.tension_test import tension_test
 
 __all__ = [
     "Directions",
@@ -18,6 +20,7 @@ __all__ = [
     "SheetMetal",
     "TensileTest",
     "balanced",
+    "cards",
     "fit_cycles",
     "fit_hardening",
     "fit_hill48",
@@ -29,6 +32,7 @@ __all__ = [
     "read_flow_curve",
     "swift_from_tensile_test",
     "tensile_test",
+    "tension_test",
     "uniaxial",
     "voce_from_tensile_test",
 ]
