@@ -28,11 +28,11 @@ def deck_text(title: str, remarks: Iterable[str], entries: Iterable[Entry]) -> s
     wrapped = (textwrap.wrap(text, _WIDTH, initial_indent="# ", subsequent_indent="# ") for text in remarks)
     lines = [*(line for paragraph in wrapped for line in paragraph), "", f"title = {_toml(title)}"]
     for header, keys in entries:
-        lines += ["", header, *(_line(key, value) for key, value in keys.items() if value is not None)]
+        lines += ["", header, *(toml_line(key, value) for key, value in keys.items() if value is not None)]
     return "\n".join(lines) + "\n"
 
 
-def _line(key: str, value: Any) -> str:
+def toml_line(key: str, value: Any) -> str:
     """A key with its value; a long array goes on over several lines."""
     line = f"{key} = {_toml(value)}"
     if len(line) > _WIDTH and isinstance(value, tuple | list):

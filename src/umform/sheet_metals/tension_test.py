@@ -11,7 +11,7 @@ from umform.materials import J2, Metal, tension
 from umform.sheet_metals.tensile_test import OFFSET, TensileTest, tensile_test
 
 #: Logarithmic strains at which a bar is looked at: fine where it yields, coarse up to the largest force.
-_STRAINS = np.concatenate([np.linspace(2.5e-4, 0.02, 80), np.geomspace(0.021, 1.2, 90)])
+_STRAINS = np.concatenate([np.linspace(2.5e-4, 0.02, 80), np.arange(0.022, 0.3, 0.002), np.geomspace(0.3, 1.2, 40)])
 
 
 def tension_test(law: J2 | Metal, angle: float = 0.0) -> TensileTest:
@@ -27,7 +27,7 @@ def tension_test(law: J2 | Metal, angle: float = 0.0) -> TensileTest:
     Returns
     -------
     TensileTest
-        Stresses are forces over the first area; interpolated between the strains of a path, to about 1e-3.
+        Stresses are forces over the first area; interpolated between the strains of a path, to about 2e-3.
 
     Raises
     ------
