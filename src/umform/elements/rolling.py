@@ -42,8 +42,8 @@ def rolling_at(angle: float, line: ArrayLike = (0.0, 1.0, 0.0), normal: ArrayLik
     (0.0, 1.0, 0.0)
     """
     along, up = np.array(line, dtype=float), np.array(normal, dtype=float)
-    across = np.cross(along, up)
-    if not (np.isfinite(angle) and along.shape == up.shape == (3,) and np.linalg.norm(across) > 0.0):
+    across = np.cross(along, up) if along.shape == up.shape == (3,) else np.zeros(3)
+    if not (np.isfinite(angle) and np.linalg.norm(across) > 0.0):
         raise InvalidValue(
             "a rolling direction needs a finite angle, and a bend line that is not along the normal of the sheet",
             where="rolling",

@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 from umform.errors import InvalidValue
 from umform.materials import J2, Metal
-from umform.processes.rules import ROLLING, Rule, check_rules, length, number, positive, whole
+from umform.processes.rules import ROLLING, Rule, check_rolling, check_rules, length, number, positive, whole
 
 #: Sharper radii, in thicknesses, crush the sheet; rounder ones are no bead.
 _SHARPEST, _ROUNDEST = 1.0, 200.0
@@ -94,6 +94,7 @@ def check_parameters(values: Mapping[str, Any]) -> None:
         ``where`` is the name of the parameter.
     """
     check_rules(values, RULES)
+    check_rolling(values["material"], values["rolling"])
 
 
 def check_geometry(case: Geometry) -> None:
