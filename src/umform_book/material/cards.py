@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -115,7 +116,7 @@ def run(page: Page) -> None:
         _shear_and_cycle(page, card, law, kinds)
 
 
-def _over_the_angle(page: Page, card: SheetMetal, law: Metal, kinds: tuple[str, ...]) -> None:
+def _over_the_angle(page: Page, card: SheetMetal, law: Metal, kinds: Sequence[str]) -> None:
     """Stress and r over the angle: measured, the yield function in closed form, one element of each kind."""
     angles = page.pick(ANGLES, (0, 45, 90))
     exact = {angle: uniaxial(law.yield_function, angle) for angle in angles}
@@ -145,7 +146,7 @@ def _over_the_angle(page: Page, card: SheetMetal, law: Metal, kinds: tuple[str, 
         page.figure(_key(card.name), _figure(card, law, found[kinds[0]]), f"{card.name}: over the angle, {kinds[0]}")
 
 
-def _shear_and_cycle(page: Page, card: SheetMetal, law: Metal, kinds: tuple[str, ...]) -> None:
+def _shear_and_cycle(page: Page, card: SheetMetal, law: Metal, kinds: Sequence[str]) -> None:
     shear = {kind: sheared(kind, law) for kind in kinds}
     cycle = {kind: cycled(page, kind, card.name, law) for kind in kinds}
     strain, stress, _ = cycle[kinds[0]]
@@ -190,9 +191,9 @@ CASE = Case(
     name="material-cards",
     title="Each card of the library in one element",
     problem=f"""
-One element of {LENGTH:g} x {WIDTH:g} x {THICKNESS:g} mm of each card of `umform metal list` that has a yield function or
-a back stress: pulled by {PULL:g} of its length at angles to the rolling direction, sheared by {SHEAR:g}, and cycled along
-the rolling direction between elongations of 0.02 and -0.02. Each state is homogeneous.
+One element of {LENGTH:g} x {WIDTH:g} x {THICKNESS:g} mm of each card of `umform metal list` that has a yield
+function or a back stress: pulled by {PULL:g} of its length at angles to the rolling direction, sheared by {SHEAR:g},
+and cycled along the rolling direction between elongations of 0.02 and -0.02. Each state is homogeneous.
 """,
     reference="""
 The yield function of the card in closed form (stress, and r from its gradient); what the source of the card measured;

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import runpy
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -78,6 +80,13 @@ def test_what_is_refused():
 def test_a_bead_takes_the_direction_too():
     model, _ = build(DrawBead(thickness=1.0, material=ALUMINIUM, rolling=90.0))
     assert model.body.rolling == pytest.approx([-1.0, 0.0, 0.0])
+
+
+def test_the_example_writes_its_table():
+    example = runpy.run_path(str(Path(__file__).parents[3] / "examples" / "rolling_angle.py"))
+    found = {"AA6016-T4": example["bends"]("AA6016-T4", (45,))}
+    assert "| AA6016-T4, springback | 3.99 |" in example["table"](found)  # the number in docs/materials.md
+    assert len(example["draw"](found).axes) == 1
 
 
 def test_the_command(tmp_path):
