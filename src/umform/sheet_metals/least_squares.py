@@ -135,7 +135,7 @@ def fit(
 
 
 def _uncertainty(jacobian: Floats, residual: Floats) -> tuple[Floats, Floats]:
-    """Standard deviations, infinite along directions that nothing determines, and correlations of the others."""
+    """Standard deviations, infinite along directions that nothing determines, and correlations, eq. (3.141)."""
     _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)
     free = max(len(residual) - jacobian.shape[1], 1)
     variance = float(residual @ residual) / free
