@@ -15,6 +15,8 @@ Floats = NDArray[np.float64]
 #: Strains and stresses of a bar, one test.
 Test = tuple[ArrayLike, ArrayLike]
 
+#: Flat valleys, of constants that stand for each other, are not followed farther.
+_TOLERANCE = 1e-6
 #: Recalls of the back stresses of a first guess.
 _RECALLS = ((60.0,), (200.0, 15.0), (500.0, 60.0, 6.0), (1000.0, 150.0, 25.0, 4.0))
 
@@ -56,7 +58,7 @@ def fit_tests(
         found = [(tension(metal, path)[1][ends] - stresses) / scale for path, ends, stresses, scale in prepared]
         return np.concatenate(found)
 
-    return fit(build, residuals, start, positive=True, bounds=bounds)
+    return fit(build, residuals, start, positive=True, bounds=bounds, tolerance=_TOLERANCE)
 
 
 def fit_chaboche(

@@ -75,6 +75,7 @@ def fit(
     *,
     positive: bool,
     bounds: Mapping[str, tuple[float, float]] | None = None,
+    tolerance: float = 1e-8,
 ) -> Fit[Law]:
     """Find the constants whose law has the least sum of squares.
 
@@ -90,6 +91,8 @@ def fit(
         Constants are positive and may be wrong by factors: their logarithms are varied.
     bounds : mapping of str to pairs of float, optional
         Lower and upper bounds of some of them; one that ends there is not determined.
+    tolerance : float
+        Relative change of the sum of squares, and of the constants, at which the search ends.
 
     Raises
     ------
@@ -124,7 +127,16 @@ def fit(
     low, high = np.array([(bounds or {}).get(name, free) for name in names]).T
     with np.errstate(divide="ignore"):
         ends = (np.log(low / guess), np.log(high / guess)) if positive else (low - guess, high - guess)
-    found = least_squares(differences, np.zeros(len(names)), bounds=ends, x_scale=0.1, method="trf", diff_step=1e-6)
+    found = least_squares(
+        differences,
+        np.zeros(len(names)),
+        bounds=ends,
+        x_scale=0.1,
+        method="trf",
+        diff_step=1e-6,
+        ftol=tolerance,
+        xtol=tolerance,
+    )
     values = constants(found.x)
     spread, correlation = _uncertainty(np.asarray(found.jac), np.asarray(found.fun))
     spread = np.where(found.active_mask != 0, np.inf, spread)
