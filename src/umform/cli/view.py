@@ -16,7 +16,7 @@ from umform.cli.root import Debug, app
 _FAVOURITES = ("plastic_strain_max", "thickness_change", "displacement")
 
 #: Field of the rolling direction; its lines are drawn on faces that it lies in, of this length over that of a face.
-_ROLLING = "rolling_direction"
+_ROLLING = "rolling"
 _LYING, _LINE = 0.9, 0.3
 
 _BAR = {

@@ -199,9 +199,9 @@ def _fields(frames: list[Frame], shifts: Floats, nodes: Ids, cells: Ids) -> Iter
 
 def _rolling(frames: list[Frame], cells: Ids) -> Floats | None:
     """Rolling directions (frames, cells, 3) of the cells that are seen; None if no body has one."""
-    if not frames or "rolling_direction" not in frames[0].cells:
+    if not frames or "rolling" not in frames[0].cells:
         return None
-    return np.stack([frame.cells["rolling_direction"][cells] for frame in frames])
+    return np.stack([frame.cells["rolling"][cells] for frame in frames])
 
 
 def _scale(values: Floats) -> dict[str, object]:

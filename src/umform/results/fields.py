@@ -111,7 +111,7 @@ def cell_fields(model: Model) -> dict[str, Floats]:
         at = body_fields(body, model.u)
         found = _cell_fields(at)
         if body.rolling is not None:
-            found["rolling_direction"] = _rolling(at)
+            found["rolling"] = _rolling(at)
         for name, values in found.items():
             whole = fields.setdefault(name, np.zeros((len(model.mesh.connectivity), *values.shape[1:])))
             whole[body.cells] = values

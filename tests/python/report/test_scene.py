@@ -203,5 +203,5 @@ def test_rolling_direction_of_the_cells():
     shown = arrays["rolling"].reshape(len(result.frames), -1, 3)
     assert scene.rolling
     assert head["rolling"]
-    assert shown[-1] == pytest.approx(result.frames[-1].cells["rolling_direction"], abs=1e-3)
+    assert shown[-1] == pytest.approx(result.frames[-1].cells["rolling"], abs=1e-3)
     assert not scene_of(bent()).rolling

@@ -16,7 +16,7 @@ def field(gradient, rolling=(1.0, 1.0, 0.0)):
     """Field of a flat sheet whose displacement has a constant gradient."""
     model = uf.Model(FLAT, "ANS3DEAS", material=uf.SVK(E=1000.0, nu=0.3), rolling=rolling)
     model.u[:] = (FLAT.points @ np.array(gradient).T).ravel()
-    return uf.fields.cell_fields(model)["rolling_direction"]
+    return uf.fields.cell_fields(model)["rolling"]
 
 
 def test_it_is_that_of_the_sheet_at_rest():
@@ -51,9 +51,9 @@ def test_bodies_without_one_have_none():
     law = uf.SVK(E=1000.0, nu=0.3)
     one = Body(material=law, cells=[0], name="one", rolling=(0, 1, 0))
     other = Body(material=law, cells=[1], name="other")
-    found = uf.fields.cell_fields(uf.Model(FLAT, bodies=[one, other]))["rolling_direction"]
+    found = uf.fields.cell_fields(uf.Model(FLAT, bodies=[one, other]))["rolling"]
     assert found.tolist() == [[0.0, 1.0, 0.0], [0.0, 0.0, 0.0]]
-    assert "rolling_direction" not in uf.fields.cell_fields(uf.Model(FLAT, material=law))
+    assert "rolling" not in uf.fields.cell_fields(uf.Model(FLAT, material=law))
 
 
 @pytest.mark.parametrize("wrong", [(np.nan, (0, 1, 0), (0, 0, 1)), (45, (0, 0, 1), (0, 0, 1)), (45, (0, 1), (0, 0, 1))])
