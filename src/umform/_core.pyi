@@ -98,6 +98,16 @@ class YieldFunction:
         Equivalent stress, and its gradient as a strain with engineering shears (6,).
         """
 
+class RateFactor:
+    """Factor of the yield stress over the rate of the plastic strain."""
+
+    def __call__(self, rate: float) -> float:
+        """The factor at a plastic strain rate."""
+
+def cowper_symonds(reference: float, exponent: float) -> RateFactor: ...
+
+def johnson_cook(reference: float, strength: float) -> RateFactor: ...
+
 def hill48(F: float, G: float, H: float, L: float, M: float, N: float) -> YieldFunction: ...
 
 def yld2004(exponent: float, first: Sequence[float], second: Sequence[float]) -> YieldFunction:
@@ -105,7 +115,7 @@ def yld2004(exponent: float, first: Sequence[float], second: Sequence[float]) ->
     c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.
     """
 
-def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float, surfaces: Sequence[float] = []) -> Material:
+def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float, surfaces: Sequence[float] = [], rate_factor: RateFactor = ...) -> Material:
     """
     A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.
     """

@@ -11,7 +11,7 @@ from umform import materials
 from umform.deck.elastic import Elastic
 from umform.deck.hardening import Curve
 from umform.deck.parts import NotNegative, Pair, Part, Positive, Way
-from umform.materials import Material, YieldFunction
+from umform.materials import Material, RateFactor, YieldFunction
 
 
 class J2(Elastic):
@@ -200,8 +200,38 @@ class Modulus(Part):
     """How fast."""
 
 
+class CowperSymonds(Part):
+    """Cowper and Symonds: 1 + (rate / reference)^(1 / exponent)."""
+
+    factor: Literal["CowperSymonds"]
+    """The word CowperSymonds."""
+    reference: Positive
+    """Plastic strain rate at which the yield stress is twice the static one."""
+    exponent: Annotated[float, Field(ge=1, le=20)]
+    """From 1 to 20."""
+
+    def build(self) -> RateFactor:
+        """The factor."""
+        return materials.CowperSymonds(self.reference, self.exponent)
+
+
+class JohnsonCook(Part):
+    """Johnson and Cook: 1 + strength ln(rate / reference), 1 below the reference rate."""
+
+    factor: Literal["JohnsonCook"]
+    """The word JohnsonCook."""
+    reference: Positive
+    """Plastic strain rate of the hardening curve."""
+    strength: Annotated[float, Field(ge=1e-3, le=1)]
+    """C."""
+
+    def build(self) -> RateFactor:
+        """The factor."""
+        return materials.JohnsonCook(self.reference, self.strength)
+
+
 class Metal(Elastic):
-    """Plasticity with a yield function, back stresses and a modulus that falls."""
+    """Plasticity with a yield function, back stresses, a modulus that falls and a rate."""
 
     law: Literal["Metal"]
     """The word Metal."""
@@ -219,6 +249,8 @@ class Metal(Elastic):
     """The same by Yoshida and Uemori."""
     modulus: Modulus | None = None
     """Fall of Young's modulus."""
+    rate: Annotated[CowperSymonds | JohnsonCook, Field(discriminator="factor")] | None = None
+    """Factor of the yield stress over the rate of the plastic strain, in the time of the steps."""
 
     @model_validator(mode="after")
     def _knows_its_directions(self) -> Metal:
@@ -236,4 +268,6 @@ class Metal(Elastic):
             parts["back_stress"] = motion.build()
         if self.modulus is not None:
             parts["modulus"] = materials.FallingModulus(**self.modulus.model_dump())
+        if self.rate is not None:
+            parts["rate"] = self.rate.build()
         return materials.Metal(**self.constants(), **parts)

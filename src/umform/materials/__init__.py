@@ -7,6 +7,7 @@ from umform.materials.j2 import J2, Plastic
 from umform.materials.material import Material
 from umform.materials.metal import FallingModulus, LogarithmicSpace, Metal
 from umform.materials.point_path import PointPath, point_path, tension
+from umform.materials.rate_factor import CowperSymonds, JohnsonCook, RateFactor
 from umform.materials.tangent_check import TangentCheck, check_law
 from umform.materials.user_law import EnergyFunction, Floats, LawFunction, Points, UserLaw
 from umform.materials.yield_functions import Hill48, Hosford, Mises, Transformation, YieldFunction, Yld91, Yld2004
@@ -15,6 +16,7 @@ __all__ = [
     "J2",
     "SVK",
     "Chaboche",
+    "CowperSymonds",
     "Elastic",
     "EnergyFunction",
     "FallingModulus",
@@ -22,6 +24,7 @@ __all__ = [
     "Hardening",
     "Hill48",
     "Hosford",
+    "JohnsonCook",
     "LawFunction",
     "Linear",
     "LinearVoce",
@@ -35,6 +38,7 @@ __all__ = [
     "Plastic",
     "PointPath",
     "Points",
+    "RateFactor",
     "Swift",
     "Table",
     "TangentCheck",

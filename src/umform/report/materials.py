@@ -29,7 +29,7 @@ def material_text(material: object) -> str:
         return text
     text += f", {hardening_text(material.hardening)}"
     if isinstance(material, Metal):
-        parts = (material.yield_function, material.back_stress, material.modulus)
+        parts = (material.yield_function, material.back_stress, material.modulus, material.rate)
         text += "".join(f", {_part_text(part)}" for part in parts if part is not None)
     return text
 

@@ -179,10 +179,11 @@ class ShellBlockOf final : public ShellBlock {
         return trial;
     }
 
-    /// Asks the material at the points of the `wanted` elements; `trial` takes the new history.
-    LaneMask respond(const Batch& batch, LaneMask wanted, const LaneTrials& trial, Workspace& w) const {
+    /// Asks the material at the points of the `wanted` elements after an increment of time; `trial` takes the new history.
+    LaneMask respond(const Batch& batch, LaneMask wanted, const LaneTrials& trial, double time, Workspace& w) const {
         LaneStates state;
         LanePoints points;
+        points.step = time;
         for (int lane = 0; lane < lane_count; ++lane) {
             state[lane] = history_.state(batch.element[lane]);
             points.cell[lane] = number_of(batch.element[lane]);
@@ -191,7 +192,6 @@ class ShellBlockOf final : public ShellBlock {
             element_.axes(rolling(w), w.shell, w.axes);
             points.axes = w.axes.data();
             points.size = element_.length(w.shell);
-            points.step = step;
         }
         const auto ask = [&](LaneMask mask, const Vec<Lanes, 6>* E) {
             return material_->respond(element_.points(), mask, E, state, w.shell.S.data(), w.shell.CC.data(), trial,
@@ -241,7 +241,7 @@ class ShellBlockOf final : public ShellBlock {
         Failures failures{};
         LaneMask good = strains(batch, u, alpha_, w);
         mark(good, Failure::Inverted, failures);
-        good = respond(batch, good, trial, w);
+        good = respond(batch, good, trial, step, w);
         mark(good | !batch.filled(), Failure::Law, failures);
         if (!any(good)) return failures;
         const bool corrected = tangent && !correction.empty();  // only the geometric stiffness knows the correction

@@ -35,7 +35,7 @@ void ShellBlockOf<Nodes>::fields(const double* u, const PointFields& out) {
         w.scratch.resize(lane_count * history_.stride());  // the trial history stays as it is
         LaneTrials scratch;
         for (int lane = 0; lane < lane_count; ++lane) scratch[lane] = w.scratch.data() + lane * history_.stride();
-        good = respond(batch, good, scratch, w);
+        good = respond(batch, good, scratch, 0.0, w);  // no time passes at a converged state
         mark(good | !batch.filled(), Failure::Law, failures);
         for (int lane = 0; lane < batch.count; ++lane) {
             failed_[batch.element[lane]] = failures[lane];
