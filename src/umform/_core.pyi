@@ -125,6 +125,14 @@ def logarithmic_space(law: Material) -> Material:
     A small-strain law as one of finite strain: asked with logarithmic strains.
     """
 
+def compiled_law(function: int, energy: int, name: str, properties: Sequence[float], state: Sequence[tuple[str, int]], initial: Sequence[float], symmetric: bool, parallel: bool, sees_points: bool) -> Material:
+    """A law from the address of a C function, and that of its energy or 0."""
+
+def umat_law(function: int, energies: bool, name: str, properties: Sequence[float], state: Sequence[tuple[str, int]], initial: Sequence[float], symmetric: bool, parallel: bool) -> Material:
+    """
+    A small-strain law from the address of a UMAT; with `energies` it fills SSE, SPD and SCD.
+    """
+
 class Surface:
     """
     A rigid tool: signed distance, normal and Hessian as functions of position.
@@ -383,6 +391,11 @@ class ShellBlock:
     @property
     def symmetric(self) -> bool:
         """Whether the tangent is symmetric."""
+
+    def failing_point(self, e: int, u: NDArray[float64]) -> tuple[int, NDArray[float64]]:
+        """
+        First point of an element at which its law has no answer, or -1, and its Green-Lagrange strain (6,).
+        """
 
     @property
     def step(self) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 from umform.deck.contents import Contents
 from umform.deck.controls import Rigid
 from umform.deck.errors import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey
+from umform.deck.foreign import Foreign
 from umform.deck.lines import Path
 from umform.deck.metal import J2, Metal
 from umform.deck.source import Source
@@ -177,9 +178,9 @@ class _Builder:
         return None
 
     def _rolling(self) -> tuple[float, ...] | None:
-        """The rolling direction of a metal that has one."""
+        """The rolling direction of a material that has one."""
         part = self.contents.material
-        if not isinstance(part, Metal) or part.rolling is None:
+        if not isinstance(part, Metal | Foreign) or part.rolling is None:
             return None
         return tuple(float(component) for component in unit_vector(part.rolling, "rolling"))
 
@@ -196,7 +197,7 @@ class _Builder:
         if len(self.errors) > before:
             return None
         with self._at("material"):
-            return part.build()
+            return part.build(self.source.folder) if isinstance(part, Foreign) else part.build()
         return None
 
     def _contacts(self, model: Model, tools: dict[str, Tool]) -> dict[str, Contact]:

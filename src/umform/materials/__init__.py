@@ -1,6 +1,7 @@
 """Material laws and hardening curves: frozen descriptions that make the laws of the kernels."""
 
 from umform.materials.back_stress import Chaboche, YoshidaUemori
+from umform.materials.compiled import CompiledLaw
 from umform.materials.elastic import SVK, Elastic, NeoHooke, NeoHookePower
 from umform.materials.hardening import Hardening, Linear, LinearVoce, Perfect, Swift, Table, Voce
 from umform.materials.j2 import J2, Plastic
@@ -9,6 +10,7 @@ from umform.materials.metal import FallingModulus, LogarithmicSpace, Metal
 from umform.materials.point_path import PointPath, point_path, tension
 from umform.materials.rate_factor import CowperSymonds, JohnsonCook, RateFactor
 from umform.materials.tangent_check import TangentCheck, check_law
+from umform.materials.umat import Umat
 from umform.materials.user_law import EnergyFunction, Floats, LawFunction, Points, UserLaw
 from umform.materials.yield_functions import Hill48, Hosford, Mises, Transformation, YieldFunction, Yld91, Yld2004
 
@@ -16,6 +18,7 @@ __all__ = [
     "J2",
     "SVK",
     "Chaboche",
+    "CompiledLaw",
     "CowperSymonds",
     "Elastic",
     "EnergyFunction",
@@ -43,6 +46,7 @@ __all__ = [
     "Table",
     "TangentCheck",
     "Transformation",
+    "Umat",
     "UserLaw",
     "Voce",
     "YieldFunction",

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+
+import numpy as np
 
 from umform import _core
 from umform.errors import InvalidValue
@@ -12,6 +15,7 @@ from umform.materials.hardening import Hardening
 from umform.materials.j2 import Plastic
 from umform.materials.material import Material
 from umform.materials.rate_factor import RateFactor
+from umform.materials.user_law import Floats
 from umform.materials.yield_functions import Mises, YieldFunction
 
 #: Largest yield stress over E.
@@ -134,6 +138,26 @@ class Metal(Plastic):
         factor = [] if self.rate is None else [self.rate.factor()]
         return _core.metal(self.kappa, self.mu, curve, function, pairs, first, growth, fall, rate, surfaces, *factor)
 
+    def shown(self, history: Mapping[str, Floats]) -> dict[str, Floats]:
+        """What fields show of the history: the sum of the back stresses, the surface of stagnation, the modulus.
+
+        Parameters
+        ----------
+        history : mapping of str to ndarray, shape (cells, points, size)
+            Parts of the history by their names.
+        """
+        shown: dict[str, Floats] = {}
+        moving = [values for name, values in history.items() if "back_stress" in name]
+        if moving:
+            back = shown["back_stress"] = np.sum(moving, axis=0)
+            weights = np.array([1.5, 1.5, 1.5, 3.0, 3.0, 3.0])
+            shown["back_stress_von_mises"] = np.sqrt((weights * back**2).sum(axis=-1))
+        shown |= {name: history[name] for name in ("stagnation_radius", "bounding_growth") if name in history}
+        if self.modulus is not None:
+            saturated, p = self.modulus.saturated, history["eqps"][..., 0]
+            shown["modulus"] = self.E - (self.E - saturated) * (1.0 - np.exp(-self.modulus.rate * p))
+        return shown
+
 
 def _check_rate(rate: object, back_stress: object) -> None:
     """Refuse what is no rate factor, and one with two surfaces."""
@@ -212,3 +236,7 @@ class LogarithmicSpace:
     def law(self) -> _core.Material:
         """The law as the kernels take it."""
         return _core.logarithmic_space(self.small.law())
+
+    def shown(self, history: Mapping[str, Floats]) -> Mapping[str, Floats]:
+        """What fields show of the history: what the small-strain law does."""
+        return getattr(self.small, "shown", lambda history: {})(history)
