@@ -43,6 +43,13 @@ struct PlasticStart {
     double step = 0.0;  // of time
 };
 
+/// Yield stress with the factor of its rate. eq. (3.122) Not inlined: laws without a rate are faster so.
+template <class Real>
+[[gnu::noinline]] YieldStress<Real> rated(const RateFactor& rate, const YieldStress<Real>& y, Real dp, double step) {
+    const YieldStress<Real> factor = rate(dp, step);
+    return {y.value * factor.value, y.slope * factor.value + y.value * factor.slope};
+}
+
 /// Of the increment dp, but for two surfaces: k xi + 2 mu dp n(xi) = b with its derivatives by dp. eq. (3.77)
 template <class Real>
 struct PlasticIncrement {
@@ -56,10 +63,7 @@ struct PlasticIncrement {
         : dp(increment), y(yield_stress(metal.hardening, start.eqps + increment)),
           ratio(metal.modulus(start.eqps + increment)),
           back(metal.back_stress, start.back_stress, start.eqps, increment) {
-        if (metal.rate.active()) {  // eq. (3.122)
-            const YieldStress<Real> factor = metal.rate(dp, start.step);
-            y = {y.value * factor.value, y.slope * factor.value + y.value * factor.slope};
-        }
+        if (metal.rate.active()) y = rated(metal.rate, y, dp, start.step);
         const Real inverse = 1.0 / y.value;
         k = 1.0 + back.a * inverse;
         dk = (back.da - back.a * y.slope * inverse) * inverse;

@@ -39,7 +39,7 @@ struct RateFactor {
 
 /// Newton's step along the logarithm of a positive number where it falls, so that it stays positive. eq. (3.124)
 template <class Real>
-Real step_positive(Real value, Real change) {
+[[gnu::noinline]] Real step_positive(Real value, Real change) {
     return select(change < 0.0, value * exp(select(change < 0.0, change / value, 0.0)), value + change);
 }
 
