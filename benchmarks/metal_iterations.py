@@ -2,8 +2,9 @@
 
     PYTHONPATH=src python benchmarks/metal_iterations.py    # half a minute
 
-A strip that is bent and bent back, one that is pulled at 30 degrees to the rolling direction, one that is bent over a cylinder and
-released: ratios of all iterations to those of J2 with the same curve and increments, and the largest drift over all runs.
+A strip that is bent and bent back, one that is pulled at 30 degrees to the rolling direction, one that is bent over a
+cylinder and released: ratios of all iterations to those of J2 with the same curve and increments, and the largest
+drift over all runs.
 """
 
 from __future__ import annotations
@@ -12,9 +13,9 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from metals import ELASTIC, FALLING, HILL, SPCC, SWIFT, TWO, VOCE, YLD2004
 
 import umform as uf
+from metals import ELASTIC, FALLING, HILL, SPCC, SWIFT, TWO, VOCE, YLD2004
 
 RATE = uf.CowperSymonds(reference=6500.0, exponent=4.0)
 LAWS = {

@@ -197,6 +197,46 @@ def test_fields_energies_and_balance_as_for_own_laws(kinematic):
     assert not any(name.startswith("umat_") for name in cells)
 
 
+#: What ends a run in its middle.
+STOPPED: list[bool] = []
+
+
+def there_and_back(fraction):
+    """Way of a tip; a run is stopped on it."""
+    if STOPPED and fraction > 0.7:
+        raise KeyboardInterrupt
+    return 0.6 * np.sin(4.0 * fraction)
+
+
+@needs_compiler
+def test_a_run_goes_on_to_the_same_bits(kinematic, build_library, tmp_path):
+    def made(library=kinematic):
+        strip = uf.mesh.strip(length=6.0, width=2.0, thickness=1.0, cells=(3, 1))
+        umat = uf.Umat(library, state=STATE, properties=PROPERTIES, energies=True, directional=False)
+        model = uf.Model(strip, "ANS3DEAS", material=umat)
+        model.fix("x0")
+        tip = model.prescribe("x1", "z", "tip")
+        return model, uf.Move(tip, to=there_and_back, steps=5, time=3.0)
+
+    path, (model, step) = tmp_path / "run.h5", made()
+    whole = uf.solve(model, step, progress=False)
+    STOPPED.append(True)
+    stopped, step = made()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            uf.solve(stopped, step, progress=False, checkpoint=path, every=0.0)
+    finally:
+        STOPPED.clear()
+    again, step = made()
+    result = uf.resume(path, again, step, progress=False)
+    assert np.array_equal(again.u, model.u)
+    assert np.array_equal(again.block.state, model.block.state)
+    assert np.array_equal(result["tip_force"], whole["tip_force"])
+    other, step = made(build_library("other", (EXAMPLES / "kinematic.c").read_text() + "\nint more = 1;\n"))
+    with pytest.raises(FileProblem, match="material"):
+        uf.resume(path, other, step, progress=False)
+
+
 @needs_compiler
 def test_a_umat_sees_what_its_interface_says(build_library):
     """Order of the shears, strain, time, NOEL, NPT, KINC, CMNAME with its length, CELENT."""
