@@ -1,3 +1,5 @@
+#include <bit>
+
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
@@ -61,7 +63,7 @@ void bind_foreign(nb::module_& m) {
         [](std::uintptr_t function, std::uintptr_t energy, std::string name, std::vector<double> properties,
            const Names& state, const std::vector<double>& initial, bool symmetric, bool parallel, bool sees_points) {
             return compiled_law(
-                reinterpret_cast<CompiledFunction*>(function), reinterpret_cast<CompiledEnergy*>(energy),
+                std::bit_cast<CompiledFunction*>(function), std::bit_cast<CompiledEnergy*>(energy),
                 traits(std::move(name), std::move(properties), state, initial, symmetric, parallel, sees_points));
         },
         nb::arg("function"), nb::arg("energy"), nb::arg("name"), nb::arg("properties"), nb::arg("state"),
@@ -76,7 +78,7 @@ void bind_foreign(nb::module_& m) {
             all.insert(all.end(), state.begin(), state.end());
             std::vector<double> begin(UmatState::variables, 0.0);
             begin.insert(begin.end(), initial.begin(), initial.end());
-            return umat_law(reinterpret_cast<UmatFunction*>(function), energies,
+            return umat_law(std::bit_cast<UmatFunction*>(function), energies,
                             traits(std::move(name), std::move(properties), all, begin, symmetric, parallel, true));
         },
         nb::arg("function"), nb::arg("energies"), nb::arg("name"), nb::arg("properties"), nb::arg("state"),
