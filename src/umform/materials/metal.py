@@ -66,7 +66,8 @@ class Metal(Plastic):
     modulus : FallingModulus, optional
         Young's modulus over the plastic strain.
     rate : CowperSymonds or JohnsonCook, optional
-        Factor of the yield stress over the rate of the plastic strain, in the time of the steps.
+        Factor of the yield stress over the rate of the plastic strain, in the time of the steps. In no time nothing
+        flows: a model that is evaluated without a step, at the time where it stands, answers elastically.
     """
 
     yield_function: YieldFunction = field(default_factory=Mises)
