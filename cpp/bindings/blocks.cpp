@@ -108,6 +108,16 @@ void bind_blocks(nb::module_& m) {
             "state_names", [](const ShellBlock& b) { return to_dict(b.state_names()); },
             nb::sig("def state_names(self) -> dict[str, int]"), "Parts of the history of a point, in their order.")
         .def_prop_ro("symmetric", &ShellBlock::symmetric, "Whether the tangent is symmetric.")
+        .def(
+            "failing_point",
+            [](ShellBlock& b, int e, const Input& u) {
+                require(e >= 0 && e < b.connectivity().size(), "there is no such element");
+                const auto [q, E] = b.failing_point(e, nodal(b, u));
+                return nb::make_tuple(q, to_numpy(std::vector<double>(E.begin(), E.end()), {6}));
+            },
+            nb::arg("e"), nb::arg("u"),
+            nb::sig("def failing_point(self, e: int, u: NDArray[float64]) -> tuple[int, NDArray[float64]]"),
+            "First point of an element at which its law has no answer, or -1, and its Green-Lagrange strain (6,).")
         .def_rw("step", &ShellBlock::step, "Increment of time, for laws that ask for it.")
         .def(
             "set_numbers",

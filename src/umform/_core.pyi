@@ -98,6 +98,16 @@ class YieldFunction:
         Equivalent stress, and its gradient as a strain with engineering shears (6,).
         """
 
+class RateFactor:
+    """Factor of the yield stress over the rate of the plastic strain."""
+
+    def __call__(self, rate: float) -> float:
+        """The factor at a plastic strain rate."""
+
+def cowper_symonds(reference: float, exponent: float) -> RateFactor: ...
+
+def johnson_cook(reference: float, strength: float) -> RateFactor: ...
+
 def hill48(F: float, G: float, H: float, L: float, M: float, N: float) -> YieldFunction: ...
 
 def yld2004(exponent: float, first: Sequence[float], second: Sequence[float]) -> YieldFunction:
@@ -105,7 +115,7 @@ def yld2004(exponent: float, first: Sequence[float], second: Sequence[float]) ->
     c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.
     """
 
-def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float, surfaces: Sequence[float] = []) -> Material:
+def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float, surfaces: Sequence[float] = [], rate_factor: RateFactor = ...) -> Material:
     """
     A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.
     """
@@ -113,6 +123,14 @@ def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFu
 def logarithmic_space(law: Material) -> Material:
     """
     A small-strain law as one of finite strain: asked with logarithmic strains.
+    """
+
+def compiled_law(function: int, energy: int, name: str, properties: Sequence[float], state: Sequence[tuple[str, int]], initial: Sequence[float], symmetric: bool, parallel: bool, sees_points: bool) -> Material:
+    """A law from the address of a C function, and that of its energy or 0."""
+
+def umat_law(function: int, energies: bool, name: str, properties: Sequence[float], state: Sequence[tuple[str, int]], initial: Sequence[float], symmetric: bool, parallel: bool) -> Material:
+    """
+    A small-strain law from the address of a UMAT; with `energies` it fills SSE, SPD and SCD.
     """
 
 class Surface:
@@ -373,6 +391,11 @@ class ShellBlock:
     @property
     def symmetric(self) -> bool:
         """Whether the tangent is symmetric."""
+
+    def failing_point(self, e: int, u: NDArray[float64]) -> tuple[int, NDArray[float64]]:
+        """
+        First point of an element at which its law has no answer, or -1, and its Green-Lagrange strain (6,).
+        """
 
     @property
     def step(self) -> float:

@@ -222,6 +222,29 @@ def two_bodies():
     return model, [uf.Move(tip, downwards, steps=4), uf.Move(tip, -3.0, steps=2)], NewtonOptions(max_iterations=12)
 
 
+def metals():
+    """Metals from parts with rolling directions: back stresses, a modulus that falls, a rate; and two surfaces."""
+    hill, surfaces = uf.Hill48(1.8, 1.5, 2.2), uf.YoshidaUemori(C=500.0, B=168.0, growth=190.0, b=9.0, m=12.0, h=0.5)
+    dull = uf.Metal(
+        206e3,
+        0.3,
+        hardening=uf.Voce(180.0, 330.0, 14.0),
+        yield_function=hill,
+        back_stress=uf.Chaboche([(4000.0, 80.0), (600.0, 6.0)]),
+        modulus=uf.FallingModulus(saturated=160e3, rate=30.0),
+        rate=uf.CowperSymonds(reference=40.0, exponent=5.0),
+    )
+    bounded = uf.Metal(206e3, 0.3, hardening=uf.Perfect(124.0), yield_function=hill, back_stress=surfaces)
+    bodies = [
+        Body(material=dull, cells=lambda x, y, z: x < 7.0, name="dull", rolling=(1.0, 0.5, 0.0)),
+        Body(material=bounded, cells=lambda x, y, z: x > 7.0, name="bounded", rolling=(0.0, 1.0, 0.0)),
+    ]
+    model = uf.Model(strip(12.0, 4.0, 1.0, (12, 2)), bodies=bodies)
+    model.fix("x0")
+    tip = model.prescribe("x1", "z", "tip")
+    return model, [uf.Move(tip, downwards, steps=5, time=0.01), uf.Move(tip, -1.0, steps=3)], None
+
+
 class Stop(Exception):
     """The end of a run in its middle."""
 
@@ -259,7 +282,7 @@ def trouble_at(fraction):
 
 
 CASES = [free_bending, air_bending, hinged_strip, blown_strip, held_by_multipliers, cut]
-CASES += [pressed, closed, rubbed, beaded, foundation, two_bodies]
+CASES += [pressed, closed, rubbed, beaded, foundation, two_bodies, metals]
 
 
 def rank():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 NAMES = ["free_bending", "air_bending", "hinged_strip", "blown_strip", "held_by_multipliers", "cut"]
-NAMES += ["pressed", "closed", "beaded", "foundation", "two_bodies"]
+NAMES += ["pressed", "closed", "beaded", "foundation", "two_bodies", "metals"]
 #: The last states are released: what is left of pressures and balances there is round-off.
 RESIDUES = ("imbalance", "point contact_pressure", "pressure")
 
@@ -45,12 +45,14 @@ def test_the_cases_are_not_easy(found):
     assert found(0, "closed")["history holder_fz"].max() > 150.0
     assert found(0, "foundation")["history foam_crush"][-1] > 0.1
     assert found(0, "two_bodies")["cell plastic_strain_max"].max() > 0.01
+    assert found(0, "metals")["cell stagnation_radius"].max() > 1.0
+    assert 0.0 < found(0, "metals")["cell modulus"].max() < 206e3
     for case in NAMES:
         assert found(0, case)["imbalance"][1:].max() < 1e-9
         assert found(3, case)["imbalance"][1:].max() < 1e-9
 
 
-@pytest.mark.parametrize("case", ["cut", "held_by_multipliers", "pressed", "closed", "foundation", "two_bodies"])
+@pytest.mark.parametrize("case", ["cut", "held_by_multipliers", "pressed", "closed", "foundation", "metals"])
 @pytest.mark.parametrize(("first", "second"), [(2, 3), (2, 0), (0, 2)])
 def test_a_run_stopped_on_some_ranks_goes_on_on_others(case, first, second, found, tmp_path, mpi):
     solver = {True: "petsc", False: "superlu"}

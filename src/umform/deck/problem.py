@@ -11,6 +11,7 @@ import numpy as np
 from umform.deck.contents import Contents
 from umform.deck.controls import Rigid
 from umform.deck.errors import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey
+from umform.deck.foreign import Foreign
 from umform.deck.lines import Path
 from umform.deck.metal import J2, Metal
 from umform.deck.rolling import direction
@@ -200,7 +201,7 @@ class _Builder:
         if len(self.errors) > before:
             return None
         with self._at("material"):
-            return part.build()
+            return part.build(self.source.folder) if isinstance(part, Foreign) else part.build()
         return None
 
     def _contacts(self, model: Model, tools: dict[str, Tool]) -> dict[str, Contact]:

@@ -218,8 +218,21 @@ class Body(Term):
         product = None if at.du is None else into.predictor
         scatter, self.block.step = into.scatters[self][0], at.step
         failed, scale, failure = self.block.evaluate(at.u, scatter, into.residual, into.values, at.du, product)
-        failed = failed if failed < 0 else int(self.cells[failed])
+        if failed >= 0:
+            failed, failure = int(self.cells[failed]), failure + self._at_point(failed, at.u)
         return BodyFound(scale, failed=failed, failure=failure, flows=self.block.flowing)
+
+    def _at_point(self, cell: int, u: Floats) -> str:
+        """Where in a cell its law has no answer, in words; nothing if it has failed for another reason."""
+        point, E = self.block.failing_point(cell, u)
+        if point < 0:
+            return ""
+        names = list(self.block.state_names)
+        text = f" at its point {point} with the strain ({', '.join(f'{value:.4g}' for value in E)})"
+        if "eqps" not in names:
+            return text
+        place = sum(size for name, size in self.block.state_names.items() if names.index(name) < names.index("eqps"))
+        return f"{text}, plastic strain {self.block.state[cell, point, place]:.4g}"
 
     def recover(self, du: Floats, mixed: bool) -> None:
         """Update the enhanced parameters. eq. (2.19)"""

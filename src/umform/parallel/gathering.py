@@ -144,7 +144,7 @@ class Gathering:
 
     def _outline(self, tree: dict[str, Any]) -> dict[str, Any]:
         """The tree without what each rank has a part of, and the names of what it has."""
-        model = {key: tree["model"][key] for key in ("controls", "unknowns", "time")}
+        model = {key: tree["model"][key] for key in ("controls", "unknowns", "time", "began")}
         terms = tree["model"]["terms"]
         model["terms"] = {key: state for key, state in terms.items() if key not in self.rows}
         model["rows"] = {key: list(state) for key, state in terms.items() if key in self.rows}

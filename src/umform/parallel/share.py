@@ -72,6 +72,7 @@ class Share(Model):
         self.ties = [Tie(dofs, control) for dofs, control in zip(parcel.ties, outline.tied, strict=True)]
         self._number(parcel)
         self.u = parcel.u
+        self._began = self._converged_time = self.time
 
     def _embody(self, bodies: Sequence[Body]) -> None:
         """Take the bodies as they are: they stand on the cells of this rank."""

@@ -108,17 +108,13 @@ def cell_fields(model: Model) -> dict[str, Floats]:
     """Fields of the cells of the converged state, arrays (cells, ...); zero in bodies whose law does not have one."""
     fields: dict[str, Floats] = {}
     for body in model.bodies:
-        at = body_fields(body, model.u)
-        found = _cell_fields(at)
-        if body.rolling is not None:
-            found["rolling"] = _rolling(at)
-        for name, values in found.items():
+        for name, values in _cell_fields(body, body_fields(body, model.u)).items():
             whole = fields.setdefault(name, np.zeros((len(model.mesh.connectivity), *values.shape[1:])))
             whole[body.cells] = values
     return fields
 
 
-def _cell_fields(at: PointFields) -> dict[str, Floats]:
+def _cell_fields(body: Body, at: PointFields) -> dict[str, Floats]:
     local = at.stress("cauchy", "local")
     cells = {
         "stress_cauchy": at.cell_average(at.stress("cauchy", "global")),
@@ -129,6 +125,9 @@ def _cell_fields(at: PointFields) -> dict[str, Floats]:
     }
     if at.eqps is not None:
         cells |= {"plastic_strain_mean": at.cell_average(at.eqps), "plastic_strain_max": at.eqps.max(axis=1)}
+    cells |= {name: at.cell_average(values) for name, values in _of_law(body, at).items() if name not in cells}
+    if body.rolling is not None:
+        cells["rolling"] = _rolling(at)
     return cells
 
 
@@ -142,6 +141,12 @@ def _rolling(at: PointFields) -> Floats:
     turned = np.einsum("cij,cj->ci", left @ right, axis)
     direction: Floats = turned / np.linalg.norm(turned, axis=1, keepdims=True)
     return direction
+
+
+def _of_law(body: Body, at: PointFields) -> dict[str, Floats]:
+    """What a law says of its history, arrays (cells, points) or (cells, points, size)."""
+    shown: Mapping[str, Floats] = getattr(body.material, "shown", lambda history: {})(at.history)
+    return {name: values[..., 0] if values.shape[2:] == (1,) else values for name, values in shown.items()}
 
 
 def von_mises(stress: Floats) -> Floats:

@@ -15,6 +15,7 @@ from umform.model.tool_controls import ToolForce, ToolTurn
 from umform.solution.records import Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
+from umform.steps.move import check_time
 from umform.steps.saved import Saved, tightened
 
 #: Part of the force that the residual of the last increment may reach.
@@ -43,13 +44,17 @@ class Close:
         The force (or moment) on the tool that it is closed with, in the sense of the control.
     way : float, optional
         Largest way (or angle) that it may go. Default: its distance from the sheet and the largest extent of the sheet.
+    time : float
+        What the step takes.
     """
 
     control: ToolForce
     force: float
     way: float | None = None
+    time: float = 1.0
 
     def __post_init__(self) -> None:
+        check_time("Close", self.time)
         if not isinstance(self.control, ToolForce):
             raise InvalidValue(
                 "a step Close takes the control of a pressed tool",
@@ -170,9 +175,8 @@ class Closing:
         travelled = abs(value + way - self.start_way) / self.limit
         press.held = True
         try:
-            converged = take_increment(
-                run, [value + way], [press.way], self.start_time + 0.99 * travelled, extrapolation
-            )
+            time = self.start_time + 0.99 * step.time * travelled
+            converged = take_increment(run, [value + way], [press.way], time, extrapolation)
         except Failed as failure:
             self._shorten(run, step, 0.25, touched, failure)
             return
@@ -199,7 +203,8 @@ class Closing:
         step.control.value = _takes(run, press)
         try:
             with tightened(run, _EXACT * abs(step.force)):
-                converged = take_increment(run, [step.force], [step.control], self.start_time + 1.0, None)
+                end = self.start_time + step.time
+                converged = take_increment(run, [step.force], [step.control], end, None)
         except Failed as failure:
             self._shorten(run, step, 0.25, _touches(run, press), failure)
             return

@@ -38,6 +38,8 @@ class Free:
         As for :class:`umform.Move`.
     on : Support, optional
         What ``hold_rigid`` of the model returned: it holds its nodes where they are when the step begins, from then on.
+    time : float
+        What the step takes.
     """
 
     support: Support | Tool | Contact | Sequence[Support | Tool | Contact]
@@ -45,6 +47,7 @@ class Free:
     cuts: int = 10
     grow: float = 1.0
     on: Support | None = None
+    time: float = 1.0
 
     def __post_init__(self) -> None:
         for thing in self.things:
@@ -65,7 +68,7 @@ class Free:
                 cause="a support that acts already, or something else",
                 remedy="what hold_rigid() of the model returned",
             )
-        Move([], [], self.steps, self.cuts, self.grow)  # refuses numbers that make no sense
+        Move([], [], self.steps, self.cuts, self.grow, time=self.time)  # refuses numbers that make no sense
 
     @property
     def things(self) -> list[Support | Tool]:
@@ -88,7 +91,7 @@ class Free:
     def move(self) -> Move:
         """The step as a move of the loads."""
         loads = self.moved()
-        return Move(loads, [0.0] * len(loads), self.steps, self.cuts, self.grow)
+        return Move(loads, [0.0] * len(loads), self.steps, self.cuts, self.grow, time=self.time)
 
 
 class Freeing(Marching):

@@ -107,6 +107,7 @@ class ShellBlockOf final : public ShellBlock {
     void forget_blocks() override { from_kept_ = keeps_ = false; }
 
     void element(int e, const double* u, double* K, double* f) override;
+    std::pair<int, Voigt> failing_point(int e, const double* u) override;
     void fields(const double* u, const PointFields& out) override;
     Energy energy(const double* u) override;
 
@@ -179,20 +180,24 @@ class ShellBlockOf final : public ShellBlock {
         return trial;
     }
 
-    /// Asks the material at the points of the `wanted` elements; `trial` takes the new history.
-    LaneMask respond(const Batch& batch, LaneMask wanted, const LaneTrials& trial, Workspace& w) const {
-        LaneStates state;
+    /// What the material sees of the points of the elements in the lanes.
+    LanePoints seen(const Batch& batch, double time, Workspace& w) const {
         LanePoints points;
-        for (int lane = 0; lane < lane_count; ++lane) {
-            state[lane] = history_.state(batch.element[lane]);
-            points.cell[lane] = number_of(batch.element[lane]);
-        }
+        points.step = time;
+        for (int lane = 0; lane < lane_count; ++lane) points.cell[lane] = number_of(batch.element[lane]);
         if (material_->sees_points()) {
             element_.axes(rolling(w), w.shell, w.axes);
             points.axes = w.axes.data();
             points.size = element_.length(w.shell);
-            points.step = step;
         }
+        return points;
+    }
+
+    /// Asks the material at the points of the `wanted` elements after an increment of time; `trial` takes the new history.
+    LaneMask respond(const Batch& batch, LaneMask wanted, const LaneTrials& trial, double time, Workspace& w) const {
+        LaneStates state;
+        for (int lane = 0; lane < lane_count; ++lane) state[lane] = history_.state(batch.element[lane]);
+        const LanePoints points = seen(batch, time, w);
         const auto ask = [&](LaneMask mask, const Vec<Lanes, 6>* E) {
             return material_->respond(element_.points(), mask, E, state, w.shell.S.data(), w.shell.CC.data(), trial,
                                       points);
@@ -241,7 +246,7 @@ class ShellBlockOf final : public ShellBlock {
         Failures failures{};
         LaneMask good = strains(batch, u, alpha_, w);
         mark(good, Failure::Inverted, failures);
-        good = respond(batch, good, trial, w);
+        good = respond(batch, good, trial, step, w);
         mark(good | !batch.filled(), Failure::Law, failures);
         if (!any(good)) return failures;
         const bool corrected = tangent && !correction.empty();  // only the geometric stiffness knows the correction

@@ -1,6 +1,8 @@
 // What a block of elements gives beside residual and tangent: one element, fields, energies. For the files that instantiate it.
 #pragma once
 
+#include <utility>
+
 #include "umform/elements/block.hpp"
 
 namespace umform {
@@ -26,6 +28,30 @@ void ShellBlockOf<Nodes>::element(int e, const double* u, double* K, double* f) 
 }
 
 template <int Nodes>
+std::pair<int, Voigt> ShellBlockOf<Nodes>::failing_point(int e, const double* u) {
+    prepare_workspaces(1);
+    Workspace& w = workspaces_[0];
+    const Batch batch = alone(e);
+    std::vector<double> scratch(history_.stride());
+    const LaneTrials trial = filled(scratch.data());
+    if (!strains(batch, u, alpha_, w)[0]) return {-1, {}};
+    LanePoints here = seen(batch, step, w);
+    LaneMask first = false;
+    first.set(0, true);
+    for (int q = 0; q < points(); ++q) {
+        LaneStates state;
+        state.fill(history_.state(e) + static_cast<std::ptrdiff_t>(q) * state_size());
+        if (!material_->respond(1, first, &w.shell.E[q], state, &w.shell.S[q], &w.shell.CC[q], trial, here)[0]) {
+            Voigt E;
+            for (int p = 0; p < 6; ++p) E[p] = w.shell.E[q][p][0];
+            return {q, E};
+        }
+        if (here.axes != nullptr) ++here.axes;
+    }
+    return {-1, {}};
+}
+
+template <int Nodes>
 void ShellBlockOf<Nodes>::fields(const double* u, const PointFields& out) {
     for_each_batch([&](int b, Workspace& w) {
         const Batch& batch = batches_.all[b];
@@ -35,7 +61,7 @@ void ShellBlockOf<Nodes>::fields(const double* u, const PointFields& out) {
         w.scratch.resize(lane_count * history_.stride());  // the trial history stays as it is
         LaneTrials scratch;
         for (int lane = 0; lane < lane_count; ++lane) scratch[lane] = w.scratch.data() + lane * history_.stride();
-        good = respond(batch, good, scratch, w);
+        good = respond(batch, good, scratch, 0.0, w);  // no time passes at a converged state
         mark(good | !batch.filled(), Failure::Law, failures);
         for (int lane = 0; lane < batch.count; ++lane) {
             failed_[batch.element[lane]] = failures[lane];

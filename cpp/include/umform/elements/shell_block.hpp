@@ -35,6 +35,8 @@ class ShellBlock {
     virtual Energy energy(const double* u) = 0;
     /// K, f of one element before its scatter, condensed; for tests and eigenvalues.
     virtual void element(int e, const double* u, double* K, double* f) = 0;
+    /// The first point of an element at which its law has no answer, and the strain there; -1 if it has one everywhere.
+    virtual std::pair<int, Voigt> failing_point(int e, const double* u) = 0;
 
     /// alpha -= Kaa^-1 (ra + Kad du) with the blocks of the last `evaluate` with a tangent, or with those of the converged state
     /// if there was none since `commit` or `revert`. eq. (2.19) If `mixed`, the evaluations that follow take the geometric stiffness from the stress that the

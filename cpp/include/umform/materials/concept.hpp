@@ -34,6 +34,8 @@ concept MaterialLaw =
             { law.respond(E, state, S, CC, trial) } -> std::same_as<LaneMask>;
         } || requires {
             { law.respond(E, state, S, CC, trial, point) } -> std::same_as<LaneMask>;
+        } || requires {
+            { law.respond(E, state, S, CC, trial, point.step) } -> std::same_as<LaneMask>;
         };
         { law.initial(history) } -> std::same_as<void>;
         { law.energy(strain, history) } -> std::same_as<Energy>;
@@ -44,6 +46,12 @@ template <class L>
 concept SeesPoint =
     requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
              Lanes* trial, const Point<Lanes>& point) { law.respond(E, state, S, CC, trial, point); };
+
+/// A law that takes the increment of time as a last argument.
+template <class L>
+concept SeesStep =
+    requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
+             Lanes* trial, double step) { law.respond(E, state, S, CC, trial, step); };
 
 /// A law whose tangent is not symmetric says so by a member function `symmetric`.
 template <class L>
@@ -113,6 +121,8 @@ class MaterialOf final : public Material {
                 wanted = wanted
                          & law_.respond(E[q], before.data(), S[q], CC[q], after.data(),
                                         Point<Lanes>{points.axes[q], points.size, points.step});
+            else if constexpr (SeesStep<Law>)
+                wanted = wanted & law_.respond(E[q], before.data(), S[q], CC[q], after.data(), points.step);
             else
                 wanted = wanted & law_.respond(E[q], before.data(), S[q], CC[q], after.data());
             for (int lane = 0; lane < lane_count; ++lane)
