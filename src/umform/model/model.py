@@ -40,10 +40,10 @@ class Model(Standing):
     bodies : sequence of Body, optional
         Several bodies instead of element and material: each cell belongs to one.
     thickness_points : int, optional
-        Points through the thickness, 2 to 15, at least thickness_order + 1. Default: 2 with an elastic law; 5 with a
-        plastic one, but 12 with BEND8 and BEND18.
-    thickness_rule : {"gauss", "lobatto", "split"}, optional
-        Where they lie; default gauss, but split where the default of the points is 12.
+        Points through the thickness, 2 to 15, at least thickness_order + 1. Default: 2 with an elastic law, 12 with a
+        plastic one; the elements without an enhanced thickness strain have 5.
+    thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
+        Where they lie; default gauss, but graded where the 12 points are the default.
     rolling : array_like, shape (3,) or (cells, 3), optional
         Rolling direction of the sheet: e_1 of the local axes is its projection onto the layer, eq. (1.26). By default
         e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic law does not see.

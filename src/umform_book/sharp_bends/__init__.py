@@ -9,6 +9,7 @@ from umform_book.sharp_bends import (
     moment,
     over_cylinder,
     small_cylinders,
+    springback,
     stability,
     thickness_strains,
 )
@@ -20,6 +21,7 @@ CHAPTER = Chapter(
         moment.CASE,
         thickness_strains.CASE,
         hinge_points.CASE,
+        springback.CASE,
         hinge.CASE,
         over_cylinder.CASE,
         small_cylinders.CASE,

@@ -103,5 +103,5 @@ def stack(name: str, layers: int, order: int, points: int = 4) -> Candidate:
     return Candidate(label, Variant(name, {"thickness_order": order, "tie_E33": True}), points, "gauss", layers)
 
 
-BEND8 = Candidate("BEND8", Variant("BEND8"))
-BEND18 = Candidate("BEND18", Variant("BEND18"))
+BEND8 = Candidate("BEND8", Variant("BEND8"), rule="graded")
+BEND18 = Candidate("BEND18", Variant("BEND18"), rule="graded")
