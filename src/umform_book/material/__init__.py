@@ -1,10 +1,17 @@
 """Sheet metal: yield functions, hardening, and what they do to bending and springback."""
 
 from umform_book.case import Chapter
-from umform_book.material import bending, u_bend
+from umform_book.material import bending, elements, finite_strain, paths, u_bend, yield_functions
 
 CHAPTER = Chapter(
     "Material",
     "Laws of sheet metal at a point and in an element, and what they do to bending and springback.",
-    (bending.CASE, u_bend.CASE),
+    (
+        yield_functions.CASE,
+        paths.CASE,
+        finite_strain.CASE,
+        elements.CASE,
+        bending.CASE,
+        u_bend.CASE,
+    ),
 )
