@@ -230,8 +230,8 @@ def element(
     thickness_modes : {1, 4, 9}, optional
         Number of enhanced modes of E_33 linear in t; default 4 (8 nodes) or 9 (18 nodes, there only).
     thickness_order : int, optional
-        Order of the thickness strain in t, 1 to 14; 1 is the literature. Default: with a plastic law the complete order,
-        the number of thickness points less one; else 1, but 4 with BEND8 and BEND18.
+        Order of the thickness strain in t, 1 to 14; 1 is the literature. Default: with a plastic law the complete
+        order, the number of thickness points less one; else 1, but 4 with BEND8 and BEND18.
     order_modes : {1, 4, 9}, optional
         Number of polynomials in the surface that go with each order above 1; default 1 (8 nodes) or 9 (18 nodes).
     membrane_modes : {4, 5, 7}, optional

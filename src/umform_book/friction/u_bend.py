@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
-from umform.materials import J2, Plastic, Swift
+from umform.materials import J2, Material, Swift
 from umform.model import Model
 from umform.run import Result
 from umform.steps import Move
@@ -50,7 +50,7 @@ class Setup:
         Allowed elastic slip, in thicknesses.
     increments : int
         Of the stroke; 0 for the pace that umform chooses.
-    material : Plastic
+    material : Material
         Law of the blank.
     """
 
@@ -60,7 +60,7 @@ class Setup:
     penalty: float = 1000.0
     slip: float = 0.005
     increments: int = 0
-    material: Plastic = STEEL
+    material: Material = STEEL
 
 
 @dataclass(frozen=True)

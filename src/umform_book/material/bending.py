@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from umform.materials import Metal
 from umform.steps import Move
 from umform_book.case import Case
+from umform_book.material.fibres import Fibres, path_of
+from umform_book.material.metals import HARDENING
 from umform_book.page import Page
 from umform_book.plastic.bent_sheet import LENGTH, THICKNESS, WIDTH, end_section, model_of
 from umform_book.plastic.curves import lines_figure
 from umform_book.plastic.plane_strain import zero_moment
-from umform_book.material.fibres import Fibres, path_of
-from umform_book.material.metals import HARDENING
 from umform_book.variants import Variant
 
 Floats = NDArray[np.float64]

@@ -1,7 +1,7 @@
-"""An independent reference: rate equations of cyclic plasticity in plane strain at sigma_33 = 0, fibre by fibre in numpy.
+"""An independent reference: rate equations of cyclic plasticity in plane strain at sigma_33 = 0, fibre by fibre.
 
-The fibres of a wide sheet are stretched along 1, held along 2 and free along 3. The rates are integrated by the explicit
-midpoint rule in many steps; no return map is solved, but for a last correction onto the yield surface.
+The fibres of a wide sheet are stretched along 1, held along 2 and free along 3. The rates are integrated by the
+explicit midpoint rule in many steps; no return map is solved, but for a last correction onto the yield surface.
 """
 
 from __future__ import annotations
@@ -135,7 +135,9 @@ def _stagnated(metal: Metal, before: State, after: State) -> State:
     radius = np.where(outside, before.radius + law.h * (eta - before.radius), before.radius)
     share = np.where(outside, (eta - before.radius) / np.maximum(eta - was, 1e-300), 0.0)
     share = np.clip(share, 0.0, 1.0)
-    centre = np.where(outside[:, None], after.back[0] - (radius / np.maximum(eta, 1e-300))[:, None] * away, before.centre)
+    centre = np.where(
+        outside[:, None], after.back[0] - (radius / np.maximum(eta, 1e-300))[:, None] * away, before.centre
+    )
     growth = before.growth + law.m * (law.growth - before.growth) * share * (after.eqps - before.eqps)
     return replace(after, radius=radius, centre=centre, growth=growth)
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import umform as uf
-from umform.materials import J2, Metal, Perfect, Swift
+from umform.materials import J2, Hardening, Metal, Perfect, Swift
 from umform.materials.material import Material
 from umform_book.case import Case
 from umform_book.material.metals import CARDS, STEEL
@@ -42,7 +42,7 @@ def rotation(axis: Floats, angle: float) -> Floats:
     return np.asarray(np.eye(3) + np.sin(angle) * W + (1.0 - np.cos(angle)) * W @ W)
 
 
-def both(hardening: Swift | Perfect) -> tuple[Material, Material]:
+def both(hardening: Hardening) -> tuple[Material, Material]:
     """The multiplicative J2, and von Mises in logarithmic space."""
     return J2(**STEEL, hardening=hardening), Metal(**STEEL, hardening=hardening)
 
@@ -78,14 +78,19 @@ def _simple_shear(page: Page) -> None:
         curves.append(np.array([0.0, *(t[0, 1] for t in tau)]))
         lines[name] = shear, curves[-1]
     page.figure("shear", lines_figure("shear", {"Kirchhoff shear stress, MPa": lines}), "Simple shear, no hardening")
-    far = [abs(float(np.interp(g, shear, curves[1] / np.where(curves[0] == 0, 1, curves[0]))) - 1.0) for g in (0.1, 1.0, 2.0)]
+    far = [
+        abs(float(np.interp(g, shear, curves[1] / np.where(curves[0] == 0, 1, curves[0]))) - 1.0)
+        for g in (0.1, 1.0, 2.0)
+    ]
     page.table(
         "Shear stress in logarithmic space less that of J2, %",
         ("shear 0.1", "1", "2"),
         [tuple(f"{100 * value:.2f}" for value in far)],
     )
     page.at_most("shear of 0.1: difference of the two", far[0], 2e-3)
-    page.check("shear of 2: J2 stays at y / sqrt 3", float(np.interp(2.0, shear, curves[0])), 160.0 / np.sqrt(3.0), 0.01)
+    page.check(
+        "shear of 2: J2 stays at y / sqrt 3", float(np.interp(2.0, shear, curves[0])), 160.0 / np.sqrt(3.0), 0.01
+    )
     page.text(
         "Where the axes of strain turn against the sheet, the plastic strain of logarithmic space does not turn with "
         "them as that of J2 does: the two depart, little below a shear of one. Sheet metal is not sheared so far."
@@ -137,7 +142,9 @@ def _turned_sheet(page: Page) -> None:
             forces.append(model.evaluate((x - X).ravel()).residual.reshape(-1, 3) @ space_turn @ mesh_turn)
         size = np.abs(forces[0]).max()
         what = f"{kind}: forces of a plastic sheet"
-        page.at_most(f"{what}, mesh and rolling direction turned", float(np.abs(forces[1] - forces[0]).max() / size), 1e-9)
+        page.at_most(
+            f"{what}, mesh and rolling direction turned", float(np.abs(forces[1] - forces[0]).max() / size), 1e-9
+        )
         page.at_most(f"{what}, turned while it is stretched", float(np.abs(forces[2] - forces[0]).max() / size), 1e-9)
 
 

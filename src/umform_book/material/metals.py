@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from umform.materials import (
     Chaboche,
     FallingModulus,
@@ -44,30 +46,31 @@ YIELD_FUNCTIONS: dict[str, YieldFunction] = {
 SPCC = YoshidaUemori(C=500.0, B=168.0, growth=190.0, b=9.0, m=12.0, h=0.5)
 SPCC_YIELD = Perfect(124.0)
 SPCC_MODULUS = FallingModulus(saturated=152e3, rate=30.8)
-STEEL = {"E": 206e3, "nu": 0.3}
+STEEL: dict[str, Any] = {"E": 206e3, "nu": 0.3}
 
 #: The same steel with each kind of hardening: isotropic as its tension curve of Yoshida-Uemori to 12 %, Chaboche as a
 #: cycle of it between -3 and 3 % and on to 6 %, both by least squares.
 HARDENING = {
     "isotropic": Metal(**STEEL, hardening=LinearVoce(141.6, 764.0, 229.2, 35.6)),
     "Chaboche": Metal(
-        **STEEL, hardening=Voce(98.0, 228.0, 10.3), back_stress=Chaboche([(24200.0, 314.0), (172.5, 6.55)])
+        **STEEL, hardening=Voce(98.0, 228.0, 10.3), back_stress=Chaboche(((24200.0, 314.0), (172.5, 6.55)))
     ),
     "Yoshida-Uemori": Metal(**STEEL, hardening=SPCC_YIELD, back_stress=SPCC),
-    "Yoshida-Uemori, falling modulus": Metal(
-        **STEEL, hardening=SPCC_YIELD, back_stress=SPCC, modulus=SPCC_MODULUS
-    ),
+    "Yoshida-Uemori, falling modulus": Metal(**STEEL, hardening=SPCC_YIELD, back_stress=SPCC, modulus=SPCC_MODULUS),
 }
 #: Laws that are tried in elements: each yield function and each kind of hardening once.
 CARDS = {
-    **{name: Metal(**STEEL, hardening=Swift(500.0, 0.004, 0.21), yield_function=f) for name, f in YIELD_FUNCTIONS.items()},
+    **{
+        name: Metal(**STEEL, hardening=Swift(500.0, 0.004, 0.21), yield_function=f)
+        for name, f in YIELD_FUNCTIONS.items()
+    },
     **HARDENING,
     "AA2090-T3 with Chaboche": Metal(
         E=70e3,
         nu=0.33,
         hardening=Voce(279.0, 400.0, 12.0),
         yield_function=AA2090,
-        back_stress=Chaboche([(9000.0, 120.0), (800.0, 8.0)]),
+        back_stress=Chaboche(((9000.0, 120.0), (800.0, 8.0))),
     ),
     "Hill48 with Yoshida-Uemori, falling modulus": Metal(
         **STEEL, hardening=SPCC_YIELD, yield_function=MILD, back_stress=SPCC, modulus=SPCC_MODULUS

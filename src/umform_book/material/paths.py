@@ -55,16 +55,17 @@ def _tension_and_shear(page: Page) -> None:
         page.check(f"isotropic, proportional: {name}", found, reference, 1e-9)
     for name, found, reference in zip(names, second, known[1], strict=True):
         page.check(f"isotropic, second part: {name}", found, reference, 2.5e-5)
-    prager = Metal(E=195e3, nu=0.3, hardening=Perfect(181.0), back_stress=Chaboche([(SLOPE, 0.0)]))
+    prager = Metal(E=195e3, nu=0.3, hardening=Perfect(181.0), back_stress=Chaboche(((SLOPE, 0.0),)))
     rows = corners_of(prager, [*path, (259.3, 0.0)], 30)
-    for part, reference, within in ((1, (0.0406612, 0.01978), 5e-5), (2, (0.044151, 0.0190853), 1e-3)):
-        for name, found, value in zip(names, rows[part], reference, strict=False):
+    printed = ((1, (0.0406612, 0.01978), 5e-5), (2, (0.044151, 0.0190853), 1e-3))
+    for part, values, within in printed:
+        for name, found, value in zip(names, rows[part], values, strict=False):
             page.check(f"Prager, part {part + 1}, 30 steps: {name}", found, value, within)
     two = Metal(
         E=145200.0,
         nu=0.3,
         hardening=Voce(87.0, 151.0, 2.3),
-        back_stress=Chaboche([(187 * 341.0, 341.0), (29 * 17184.0, 17184.0)], first=0.43, rate=6.09),
+        back_stress=Chaboche(((187 * 341.0, 341.0), (29 * 17184.0, 17184.0)), first=0.43, rate=6.09),
     )
     end = limit_of(two, [(143.5, 143.5)], 1000)[0]
     for name, found, value in zip(names, end, (0.09698266, 0.14527633, 0.19198873), strict=True):
@@ -100,7 +101,9 @@ def _cycles(page: Page) -> None:
     limit = (4.0 * once[1] - once[0]) / 3.0
     allowed = 2e-6 * np.abs(slopes[-1])
     beyond = np.maximum(np.abs(limit - stresses) - allowed, 0.0)
-    page.at_most("Yoshida-Uemori, SPCC: largest error of the stress in the limit of steps, MPa", float(beyond.max()), 0.05)
+    page.at_most(
+        "Yoshida-Uemori, SPCC: largest error of the stress in the limit of steps, MPa", float(beyond.max()), 0.05
+    )
     page.at_most("the same in steps of 1e-4, MPa", float(np.abs(found[0] - stresses).max()), 4.0)
     lines = {name: cycle(law, np.array([0.05, -0.05, 0.05]), 1e-3)[:2] for name, law in HARDENING.items()}
     figure = lines_figure(

@@ -33,7 +33,8 @@ def run(page: Page) -> None:
     constant, falling = radius["Yoshida-Uemori"], radius["Yoshida-Uemori, falling modulus"]
     page.at_most("radius of the wall with a falling modulus over that with a constant one", falling / constant, 1.0)
     page.text(
-        f"The laws describe one steel: their forces differ by {100 * (max(forces) / min(forces) - 1):.0f} %. Over the die radius the wall is bent and straightened again: "
+        f"The laws describe one steel: their forces differ by {100 * (max(forces) / min(forces) - 1):.0f} %. Over the "
+        "die radius the wall is bent and straightened again: "
         f"the radius to which it curls is {radius['isotropic']:.0f} mm with isotropic hardening, "
         f"{radius['Chaboche']:.0f} mm with Chaboche, {constant:.0f} mm with Yoshida-Uemori, and {falling:.0f} mm if "
         "the modulus falls. What the law does is many times what the mesh does "

@@ -82,7 +82,9 @@ def _convexity(page: Page) -> None:
             (value, gradient), (other, _) = function(a), function(b)
             middle = function(0.5 * (a + b))[0]
             above = max(above, middle / (0.5 * (value + other)) - 1.0, float(gradient @ b) / other - 1.0)
-        page.at_most(f"{name}: how far a middle, or a tangent plane, lies outside of the surface", max(above, 0.0), 1e-12)
+        page.at_most(
+            f"{name}: how far a middle, or a tangent plane, lies outside of the surface", max(above, 0.0), 1e-12
+        )
 
 
 def pulled(page: Page, kind: str, function: YieldFunction, angle: float) -> tuple[float, float]:
@@ -118,7 +120,9 @@ def _elements(page: Page) -> None:
         for k, what in enumerate(lines):
             lines[what][name] = np.array(ANGLES, dtype=float), found[:, k]
     page.table("From one element", ("yield function, element", "angle", "stress", "r"), rows)
-    page.figure("angle", lines_figure("angle to the rolling direction", lines), "Yield stress and r-value from one element")
+    page.figure(
+        "angle", lines_figure("angle to the rolling direction", lines), "Yield stress and r-value from one element"
+    )
 
 
 CASE = Case(

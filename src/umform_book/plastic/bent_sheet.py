@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
-from umform.materials import J2, Plastic
+from umform.materials import J2, Material
 from umform.model import Model
 from umform.model.control import Prescribed
 from umform.run import Result
@@ -62,7 +62,7 @@ def end_section(curvature: float, chords: int, length: float = LENGTH) -> tuple[
 
 
 def model_of(
-    variant: Variant, cells: int, material: Plastic, points: int, rule: str
+    variant: Variant, cells: int, material: Material, points: int, rule: str
 ) -> tuple[Model, tuple[Prescribed, Prescribed]]:
     """The sheet in plane strain, and the controls of the lower and of the upper edge of its end section."""
     sheet = mesh.strip(LENGTH, WIDTH, THICKNESS, (cells, 1), cell=variant.cell)

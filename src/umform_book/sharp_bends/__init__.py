@@ -12,6 +12,7 @@ from umform_book.sharp_bends import (
     springback,
     stability,
     thickness_strains,
+    wide_strip,
 )
 
 CHAPTER = Chapter(
@@ -25,6 +26,7 @@ CHAPTER = Chapter(
         hinge.CASE,
         over_cylinder.CASE,
         small_cylinders.CASE,
+        wide_strip.CASE,
         meshes.CASE,
         elastic_accuracy.CASE,
         stability.CASE,

@@ -81,7 +81,8 @@ def _percent(found: Floats, reference: Floats) -> Floats:
 def _orders(page: Page, exact: Floats) -> None:
     page.heading("Orders of the thickness strain")
     rules = page.pick((("gauss", 5), ("split", 12), ("graded", 12)), (("split", 12),))
-    rows, last = [], {}
+    rows: list[tuple[str | float, ...]] = []
+    last: dict[tuple[str, int, int], Floats] = {}
     for rule, n in page.each(rules, lambda r: f"orders, {r[1]} {r[0]}"):
         for order in range(1, n):
             errors = _percent(_section_sets(thickness_rule(n, rule), order, LEVELS), exact)
@@ -139,7 +140,7 @@ def _elements(page: Page, exact: Floats) -> None:
         ("ANS3DEAS, complete, 12 split", "ANS3DEAS", twelve),
         *((f"{name}, default", name, {}) for name in DEFAULTS),
     ]
-    rows = []
+    rows: list[tuple[str | float | int, ...]] = []
     for label, name, options in page.each(page.pick(runs, runs[4:5]), lambda r: r[0]):
         errors = _percent(cantilever_sets(page, label, name, LEVELS, **options), exact)
         rows.append((label, *map(float, errors), page.balances[-1].iterations))
