@@ -46,6 +46,8 @@ def run(page: Page) -> None:
         rows.append((name, *counts.values()))
     page.table("Newton's iterations of the run", ("law", *kinds), rows)
     page.at_most("iterations over those of J2, median", median(ratios), _MORE)
+    if page.short:
+        return
     orders = [row.newton.order for row in page.balances if row.newton.order is not None]
     page.at_most("order of Newton's method, median over the runs: two less it", max(0.0, 2.0 - median(orders)), 0.2)
     drift = max(row.drift for row in page.balances)

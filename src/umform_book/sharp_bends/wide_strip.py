@@ -82,7 +82,7 @@ def run(page: Page) -> None:
         (MESHES[3], 0.015),
         (MESHES[5], 0.01),
         (MESHES[7], 0.01),
-        (MESHES[9], 0.01),
+        (MESHES[9], 0.012),
     ):
         for u, value, reference in zip(MARKS, found[mesh], fine, strict=True):
             page.check(f"{mesh.label}: F({u:g})", value, reference, within)
@@ -106,8 +106,7 @@ x = 0, whose section stays upright, is pushed down by {STROKE:g} mm. Its edges a
 points, 40 increments. One layer has the default points and order and E_33 tied.
 """,
     reference="""
-Four layers of EAS3DEAS of order 2 with E_33 tied on 96 x 8 elements; on 48 x 4 they differ by 0.7 %, eight layers there
-from four by 0.2 %.
+Four layers of EAS3DEAS of order 2 with E_33 tied on 96 x 8 elements; on 48 x 4 they differ by 0.7 to 1.1 %.
 """,
     own="four layers of umform",
     run=run,
