@@ -271,7 +271,7 @@ def element(
 def at_order(made: Element, order: int) -> Element:
     """An element of the catalogue at another thickness order; one with modes of its own stays as it is."""
     known: dict[str, Any] = dict(made.options)
-    if element(made.name, **known).modes != made.modes:
+    if made.name not in CATALOGUE or element(made.name, **known).modes != made.modes:
         return made
     return element(made.name, **(known | {"thickness_order": order}))
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
-from umform.elements.technology import Element, Term
 from umform.materials import J2, Linear, Perfect
 from umform.model import Model
 from umform_book.variants import Variant
@@ -70,23 +69,6 @@ class Candidate:
             material=steel(hardening),
             thickness_points=self.points,
             thickness_rule=self.rule,
-        )
-
-
-@dataclass(frozen=True)
-class HigherOrder(Variant):
-    """An element of the catalogue with E_33 of an order that the catalogue does not offer, by modes of its own."""
-
-    order: int = 5
-    __hash__ = Variant.__hash__
-
-    @property
-    def element(self) -> Element:
-        """The element."""
-        known = super().element
-        modes = tuple((Term("33", c=p),) for p in range(known.thickness_order + 1, self.order + 1))
-        return replace(
-            known, name=f"{self.name}, order {self.order}", modes=known.modes + modes, thickness_order=self.order
         )
 
 

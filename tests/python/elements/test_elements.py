@@ -306,8 +306,9 @@ def test_a_plastic_law_gets_the_complete_order(name, given, order):
     assert model.element.thickness_order == order
 
 
-def test_modes_of_ones_own_are_not_completed():
-    mine = replace(element("ANS3DEAS"), modes=elements.thickness_modes(1, 1))
+@pytest.mark.parametrize("name", ["ANS3DEAS", "MINE"])
+def test_modes_of_ones_own_are_not_completed(name):
+    mine = replace(element("ANS3DEAS"), name=name, modes=elements.thickness_modes(1, 1))
     steel = uf.J2(kappa=175e3, mu=80e3, hardening=uf.Perfect(160.0))
     assert uf.Model(uf.mesh.strip(2, 1, 1, (2, 1)), mine, material=steel).element == mine
 
