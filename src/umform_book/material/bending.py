@@ -161,7 +161,7 @@ CASE = Case(
 A wide sheet, h = {THICKNESS:g} mm, of the steel SPCC, bent in plane strain to the curvature {CURVATURE:g}/mm (3 % of
 strain in the outer fibres): once; bent, straightened and bent again; and stretched by 1 % first and bent with that
 length of its mid-line, as over a tool under tension. Then the curvature goes back until the moment is zero. The laws:
-isotropic hardening (Voce), Chaboche with two back stresses, Yoshida-Uemori, and the same with a modulus that falls
+isotropic hardening, Chaboche with two back stresses, Yoshida-Uemori, and the same with a modulus that falls
 from 206 to 152 GPa. A piece of 2 mm between two sections, with the default points and orders.
 """,
     reference="""

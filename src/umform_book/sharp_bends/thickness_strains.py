@@ -13,7 +13,7 @@ from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
 from umform_book.page import Page
 from umform_book.sharp_bends.arc_bending import ArcBending
-from umform_book.sharp_bends.candidates import Candidate, of_order, stack
+from umform_book.sharp_bends.candidates import of_order, stack
 from umform_book.sharp_bends.section import BentSection, ThicknessStrain
 from umform_book.sharp_bends.states import STATES, Patch, lowest_eigenvalues, stress_free
 from umform_book.sharp_bends.strips import Strip, bend
