@@ -12,7 +12,7 @@ from umform.elements.catalogue import (
     membrane_modes,
     thickness_modes,
 )
-from umform.elements.rolling import rolling_directions
+from umform.elements.rolling import Rolling, rolling_at, rolling_directions
 from umform.elements.technology import COMPONENTS, Element, Mode, Term, Tying
 from umform.elements.through_thickness import thickness_rule
 
@@ -26,11 +26,13 @@ __all__ = [
     "MITC9_SHEAR",
     "Element",
     "Mode",
+    "Rolling",
     "Term",
     "Tying",
     "at_order",
     "element",
     "membrane_modes",
+    "rolling_at",
     "rolling_directions",
     "thickness_modes",
     "thickness_rule",

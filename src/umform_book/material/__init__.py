@@ -1,7 +1,7 @@
 """Sheet metal: yield functions, hardening, and what they do to bending and springback."""
 
 from umform_book.case import Chapter
-from umform_book.material import bending, elements, finite_strain, paths, u_bend, yield_functions
+from umform_book.material import bending, cards, elements, finite_strain, paths, u_bend, yield_functions
 
 CHAPTER = Chapter(
     "Material",
@@ -11,6 +11,7 @@ CHAPTER = Chapter(
         paths.CASE,
         finite_strain.CASE,
         elements.CASE,
+        cards.CASE,
         bending.CASE,
         u_bend.CASE,
     ),
