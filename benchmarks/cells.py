@@ -81,7 +81,7 @@ class Strip:
         """Push its lower edge at x = 0 down."""
         law = mt.J2(kappa=175000.0, mu=80770.0, hardening=mt.Perfect(160.0))
         mesh = self.mesh()
-        model = uf.Model(mesh, self.element, material=law)
+        model = uf.Model(mesh, self.element, material=law, thickness_order=1, thickness_points=5)
         model.symmetry("x0", normal="x")
         punch = model.prescribe("x0_lower", "z", name="punch")
         model.fix(np.intersect1d(mesh.nodes("x0_lower"), mesh.nodes("y0_lower")), "y")

@@ -46,7 +46,7 @@ def flowing(law: uf.Metal | uf.J2, cells: int, strain: float) -> tuple[uf.Model,
     mesh = uf.mesh.strip(length=10.0, width=10.0, thickness=1.0, cells=(cells, cells), cell="hex8")
     x, y, z = mesh.points.T
     u = np.stack([strain * x * (1 + 0.1 * z), -0.4 * strain * y + 0.2 * strain * x, -0.6 * strain * z], axis=1)
-    model = uf.Model(mesh, "ANS3DEAS", material=law, rolling=(1, 0, 0))
+    model = uf.Model(mesh, "ANS3DEAS", material=law, rolling=(1, 0, 0), thickness_order=1, thickness_points=5)
     model.fix("x0")
     model.time = 0.01  # for the law with a rate
     return model, u.ravel()

@@ -76,6 +76,8 @@ class Element:
         Where it comes from (a key of references.bib).
     plastic_points : tuple (int, str), optional
         Points through the thickness and their rule that a model takes with a plastic law if nothing is said.
+    complete : bool
+        Whether a plastic law raises the thickness order to the number of points less one, see :func:`at_order`.
     """
 
     name: str
@@ -86,6 +88,7 @@ class Element:
     thickness_order: int = 0
     citation: str = ""
     plastic_points: tuple[int, str] = (5, "gauss")
+    complete: bool = False
     options: dict[str, object] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:

@@ -39,10 +39,10 @@ class Model(Standing):
     bodies : sequence of Body, optional
         Several bodies instead of element and material: each cell belongs to one.
     thickness_points : int, optional
-        Points through the thickness, 2 to 15, at least thickness_order + 1. Default: 2 with an elastic law; 5 with a
-        plastic one, but 12 with BEND8 and BEND18.
-    thickness_rule : {"gauss", "lobatto", "split"}, optional
-        Where they lie; default gauss, but split where the default of the points is 12.
+        Points through the thickness, 2 to 15, at least thickness_order + 1. Default: 2 with an elastic law, 12 with a
+        plastic one; the elements without an enhanced thickness strain have 5.
+    thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
+        Where they lie; default gauss, but graded where the 12 points are the default.
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional
         Rolling direction of the sheet, or that of each cell, or a function of the coordinates x, y, z of the centres of
         the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of the local axes is its projection onto

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
-from umform.materials import J2, Swift
+from umform.materials import J2, Material, Swift
 from umform.model import Model
 from umform.run import Result
 from umform.steps import Move
@@ -50,6 +50,8 @@ class Setup:
         Allowed elastic slip, in thicknesses.
     increments : int
         Of the stroke; 0 for the pace that umform chooses.
+    material : Material
+        Law of the blank.
     """
 
     variant: Variant = Variant("BEND8")
@@ -58,6 +60,7 @@ class Setup:
     penalty: float = 1000.0
     slip: float = 0.005
     increments: int = 0
+    material: Material = STEEL
 
 
 @dataclass(frozen=True)
@@ -88,7 +91,7 @@ def model_of(setup: Setup) -> tuple[Model, list[Move]]:
     cell = setup.variant.cell
     body = mesh.strip(LENGTH, 1.0, THICKNESS, (setup.variant.cells(setup.intervals), 1), cell=cell)
     body = body.transformed(lambda X: X + np.array([0.0, 0.0, 0.5 * THICKNESS]))
-    model = Model(body, setup.variant.element, material=STEEL)
+    model = Model(body, setup.variant.element, material=setup.material)
     model.symmetry("x0", "x")
     model.fix(np.arange(len(body.points)), "y")
     die = model.tool("die", UDie(OPENING, 200.0, CORNER, CORNER))
