@@ -1,5 +1,6 @@
 """Meshes of solid-shells: the mesh itself, structured generators, files, and meshes of other programs."""
 
+from umform.mesh.bending_sizes import Bent, Sizes, bending_sizes
 from umform.mesh.blanks import disc, ring
 from umform.mesh.files import read, read_shell
 from umform.mesh.generators import graded, grid, plate, strip
@@ -10,10 +11,13 @@ from umform.mesh.thicken import thicken
 __all__ = [
     "FACES",
     "FACE_NODES",
+    "Bent",
     "Floats",
     "Ids",
     "Mesh",
     "Selector",
+    "Sizes",
+    "bending_sizes",
     "disc",
     "graded",
     "grid",

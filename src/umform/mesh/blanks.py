@@ -27,6 +27,8 @@ def disc(
     cell: str = "hex8",
     layers: int = 1,
     grading: float = 1.0,
+    core: float = _CORE,
+    radii: Sequence[float] | None = None,
 ) -> Mesh:
     """Flat disc about the z-axis, mid-surface at z = 0: a square core in the middle, rings of elements around it.
 
@@ -45,6 +47,10 @@ def disc(
         Elements stacked through the thickness.
     grading : float
         Size of the last element over that of the first one, from the core to the rim.
+    core : float
+        Half of the side of the core, over the radius.
+    radii : sequence of float, optional
+        Radii of the rings in place of the second number of cells and the grading: from ``core * radius`` to ``radius``.
 
     Returns
     -------
@@ -58,14 +64,16 @@ def disc(
         If a number is out of range.
     """
     _check(part, cells, layers, radius=radius, thickness=thickness)
-    core, rings = cells
+    if not 0.05 <= core <= 0.75:
+        raise InvalidValue("the core of a disc takes 0.05 to 0.75 of its radius", value=core, remedy="0.5 is usual")
+    sides, rings = cells
     order = _order(cell)
-    square = np.linspace(0.0, 1.0, core * order + 1)
+    square = np.linspace(0.0, 1.0, sides * order + 1)
     u, v = np.meshgrid(square, square, indexing="ij")
     round_ = np.stack([u * np.sqrt(1.0 - 0.5 * v * v), v * np.sqrt(1.0 - 0.5 * u * u)], axis=-1)
     straight = np.stack([u, v], axis=-1) / math.sqrt(2.0) * 1.15
-    middle = _CORE * radius * (_BULGE * round_ + (1.0 - _BULGE) * straight)
-    out = _along(1.0, rings, grading, order)
+    middle = core * radius * (_BULGE * round_ + (1.0 - _BULGE) * straight)
+    out = _along(1.0, rings, grading, order) if radii is None else _parts_of(radii, core * radius, radius, order)
     patches = [middle]
     for edge, angles in ((middle[-1], 0.25 * math.pi * square), (middle[::-1, -1], 0.25 * math.pi * (1.0 + square))):
         arc = radius * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
@@ -126,6 +134,22 @@ def _along(length: float, cells: int, grading: float, order: int) -> Floats:
     """Nodes on a graded line from 0 on; middle nodes of 18-node cells lie half-way."""
     ends = graded(length, cells, grading)
     return ends if order == 1 else np.sort(np.concatenate([ends, 0.5 * (ends[1:] + ends[:-1])]))
+
+
+def _parts_of(radii: Sequence[float], first: float, last: float, order: int) -> Floats:
+    """Radii of rings as parts of the way from the core to the rim, with middle nodes half-way."""
+    given = np.asarray(radii, dtype=float)
+    ends = np.ptp(given) if given.ndim == 1 and len(given) > 1 else 0.0
+    if not ends > 0 or (np.diff(given) <= 0).any() or np.abs(given[[0, -1]] - (first, last)).max() > 1e-6 * last:
+        raise InvalidValue(
+            "radii of rings ascend from the core to the rim",
+            where="disc, radii",
+            value=radii,
+            cause="another core, or radii that are not sorted",
+            remedy=f"from {first:g} to {last:g}",
+        )
+    parts = (given - given[0]) / ends
+    return parts if order == 1 else np.sort(np.concatenate([parts, 0.5 * (parts[1:] + parts[:-1])]))
 
 
 def _joined(patches: Sequence[Floats], part: str, order: int, tolerance: float) -> tuple[Floats, Whole]:
