@@ -32,6 +32,7 @@ _FOLDERS = (
     "plastic",
     "contact",
     "friction",
+    "drawing",
     "free_bending",
     "sharp_bends",
     "air_bending",

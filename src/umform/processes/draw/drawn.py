@@ -100,7 +100,7 @@ class Drawn:
     @cached_property
     def angles(self) -> UBendAngles | None:
         """Angles and radius of a U-bend; None where its wall is too short."""
-        if not isinstance(self.case, UBend):
+        if not isinstance(self.case, UBend) or self.case.heights is None:
             return None
         line = self.sections["released"].middle[:, [0, 2]]
         try:

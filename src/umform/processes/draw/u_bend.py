@@ -114,11 +114,13 @@ class UBend:
         return 0.2 * self.length if self.stroke is None else self.stroke
 
     @property
-    def heights(self) -> tuple[float, float, float]:
-        """Heights of the wall at which it is measured: those of NUMISHEET 93, where the wall is long enough."""
+    def heights(self) -> tuple[float, float, float] | None:
+        """Heights at which the wall is measured: those of NUMISHEET 93 where it is long enough; None without a wall."""
         low, high = self.punch_edge + self.thickness, self.way - self.die_edge - self.thickness
         if low < HEIGHTS[0] and HEIGHTS[2] < high:
             return HEIGHTS
+        if high - low < 5.0 * self.thickness:
+            return None
         return (low + 0.15 * (high - low), 0.5 * (low + high), high - 0.15 * (high - low))
 
     @cached_property

@@ -1,0 +1,79 @@
+"""Cups of this chapter: drawn, released, and their ears."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.materials.j2 import Plastic
+from umform.processes.draw import Cup
+from umform.processes.draw.metals import aa6016
+from umform.results.forming import EarProfile, ear_profile, forming_fields
+from umform_book.page import Page
+
+Floats = NDArray[np.float64]
+
+
+def esaform(material: Plastic | None = None, **changes: object) -> Cup:
+    """The cup of the ESAFORM benchmark 2021."""
+    given: dict[str, object] = {
+        "thickness": 1.0,
+        "blank_radius": 53.75,
+        "punch_radius": 30.0,
+        "punch_edge": 5.0,
+        "die_radius": 31.2,
+        "die_edge": 10.0,
+        "holder_force": 40e3,
+    }
+    return Cup(material=aa6016() if material is None else material, **(given | changes))  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
+class Made:
+    """A cup out of its tools.
+
+    Attributes
+    ----------
+    ears : EarProfile
+        Its rim.
+    force : float
+        Largest force of the punch on the whole cup, kN.
+    thinning : float
+        Largest thinning in per cent.
+    elements : int
+        Of the quarter.
+    """
+
+    ears: EarProfile
+    force: float
+    thinning: float
+    elements: int
+
+    def row(self) -> tuple[int, float, float, float, float, float, float]:
+        """What tables show of it."""
+        low, high = float(self.ears.height.min()), float(self.ears.height.max())
+        return self.elements, self.ears.mean, low, high, fourth(self.ears)[0], self.force, self.thinning
+
+
+#: Columns of such a table.
+COLUMNS = ("", "elements", "mean height", "lowest", "highest", "fourth harmonic", "punch force, kN", "thinning, %")
+
+
+def make(page: Page, label: str, case: Cup) -> Made:
+    """Hold, draw, open."""
+    model, press = case.build()
+    drawn = page.solve(label, model, press.closing())
+    force = 4e-3 * float(np.abs(drawn["punch_fz"]).max())
+    page.solve(f"{label}: released", model, press.opening(model))
+    thinning = float(forming_fields(model.mesh, model.u)["thinning"].max())
+    return Made(ear_profile(model.mesh, model.u), force, thinning, len(model.mesh.connectivity))
+
+
+def fourth(ears: EarProfile) -> tuple[float, float]:
+    """Size of the fourth harmonic of the height, and the angle in degrees at which it is highest, from -45 to 45."""
+    angle = np.arange(0.0, 360.0, 0.5)
+    height = ears.at(angle)
+    both = 2.0 * np.mean((height - height.mean()) * np.exp(4j * np.radians(angle)))
+    return float(abs(both)), float(np.degrees(np.angle(both)) / 4.0)
