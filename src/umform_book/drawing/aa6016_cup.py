@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from umform.processes.draw import Cup
 from umform.processes.draw.metals import aa6016
@@ -12,6 +13,8 @@ from umform_book.contact.figures import Curve, plot
 from umform_book.drawing.cups import COLUMNS, Made, esaform, fourth, make
 from umform_book.page import Page
 from umform_book.references import table
+
+Floats = NDArray[np.float64]
 
 #: Mean height of the measured cup, how far from it is good, and how far is known.
 MEASURED, WITHIN, KNOWN = 34.15, 0.5, 1.3
@@ -59,7 +62,7 @@ def run(page: Page) -> None:
     for label in ("Yld2004, NTNU", "Yld2004, Postech"):
         height = found[label].ears.mean
         page.check(f"{label}: mean height, mm", height, MEASURED, WITHIN, relative=False, known=KNOWN, cause=_CAUSE)
-    means = [np.trapezoid(teams[name], teams["angle"]) / 360.0 for name in names]
+    means = [float(np.trapezoid(teams[name], teams["angle"])) / 360.0 for name in names]
     page.check(
         "Yld2004, NTNU: mean height within the band of the teams",
         base.ears.mean,
@@ -95,7 +98,7 @@ def _short(page: Page) -> None:
     )
 
 
-def _profile(angle: np.ndarray, height: np.ndarray) -> tuple[float, float, float, float]:  # type: ignore[type-arg]
+def _profile(angle: Floats, height: Floats) -> tuple[float, float, float, float]:
     ears = EarProfile(angle[:-1], height[:-1])
     return ears.mean, float(height.min()), float(height.max()), fourth(ears)[0]
 
@@ -135,9 +138,9 @@ size of cos 4 theta in the height.
 """,
     reference="""
 Habraken et al. 2022, Int. J. Mater. Form. 15, 61: measured profile (25 digitised points) and profiles of teams,
-digitised by S. C. Soare (PolyN). The profiles of the teams have means of 30.6 to 34.5 mm. Tools, distance of the holder
-and friction are those of the input files in PolyN. The force of the holder is not there: 40 kN is an assumption, and the
-table shows what it does.
+digitised by S. C. Soare (PolyN). The profiles of the teams have means of 30.6 to 34.5 mm. Tools and distance of the
+holder are those of the input files in PolyN, friction and hardening those of NTNU. The force of the holder is not
+there: 40 kN is an assumption, and the table shows what it does.
 """,
     run=run,
     cost=230.0,

@@ -17,7 +17,7 @@ _SYMMETRIC = 1e-5
 
 
 def hill_of(metal: Metal) -> Metal:
-    """The function of Hill that a quadratic Yld2004 is: the same yield stresses in the plane; its shears across are 1."""
+    """The function of Hill that a quadratic Yld2004 is whose shears across the sheet are 1: the same yield stresses."""
     given = metal.yield_function
     s0, s45, s90 = (uniaxial(given, angle)[0] for angle in (0.0, 45.0, 90.0))
     function = Hill48.from_stresses(s0, s45, s90, balanced(given)[0])
