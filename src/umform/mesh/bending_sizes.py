@@ -62,7 +62,7 @@ class Sizes:
 def bending_sizes(
     start: float, end: float, bent: Sequence[Bent], *, turn: float, largest: float, growth: float = 1.5
 ) -> Sizes:
-    """Ends of elements between two places, so that none turns more than an angle over a radius that it goes over.
+    """Ends of elements between two places; none turns more than an angle over a radius that it goes over. eq. (5.69)
 
     Parameters
     ----------

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.errors import NoConvergence
 from umform.materials.j2 import Plastic
 from umform.processes.draw import Cup
 from umform.processes.draw.metals import aa6016
@@ -61,10 +62,14 @@ class Made:
 COLUMNS = ("", "elements", "mean height", "lowest", "highest", "fourth harmonic", "punch force, kN", "thinning, %")
 
 
-def make(page: Page, label: str, case: Cup) -> Made:
-    """Hold, draw, open."""
+def make(page: Page, label: str, case: Cup) -> Made | None:
+    """Hold, draw, open; None for a run that ends before, which the page says."""
     model, press = case.build()
-    drawn = page.solve(label, model, press.closing())
+    try:
+        drawn = page.solve(label, model, press.closing())
+    except NoConvergence as error:
+        page.text(f"{label}: the run ends before the end of the stroke. {error.where}; {error.cause}.")
+        return None
     force = 4e-3 * float(np.abs(drawn["punch_fz"]).max())
     page.solve(f"{label}: released", model, press.opening(model))
     thinning = float(forming_fields(model.mesh, model.u)["thinning"].max())

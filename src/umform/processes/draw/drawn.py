@@ -19,6 +19,7 @@ from umform.results.forming import (
     Outline,
     Section,
     UBendAngles,
+    distance_from,
     draw_in,
     ear_profile,
     forming_fields,
@@ -107,6 +108,17 @@ class Drawn:
             return u_bend_angles(line, self.case.heights, flange=max(len(line) // 12, 2))
         except InvalidValue:
             return None
+
+    @cached_property
+    def punch_distance(self) -> Floats:
+        """Distance of the upper face of the part from the punch at the end of its stroke, at the nodes; shape (n,)."""
+        model = self.result.model
+        punch = next(tool for tool in model.tools if tool.name == "punch")
+        distance = distance_from(punch, model.mesh.points + self.u_free.reshape(-1, 3))
+        cells = model.mesh.connectivity
+        half = cells.shape[1] // 2
+        distance[cells[:, :half]] = distance[cells[:, half:]]
+        return distance
 
     @cached_property
     def springback(self) -> Laid:

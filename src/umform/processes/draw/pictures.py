@@ -21,6 +21,7 @@ FIELDS: Mapping[str, str] = {
     "major_middle": "major strain, logarithmic",
     "limit_margin": "margin to the forming limit",
     "wrinkling": "thickening, logarithmic",
+    "punch_distance": "distance of the upper face from the punch in mm",
 }
 
 
@@ -52,7 +53,8 @@ def part(drawn: Drawn) -> Shape:
 
     mesh = drawn.result.model.mesh
     quads, owners = outer_quads(mesh.connectivity.astype(np.int64))
-    values = {name: drawn.fields[name][owners] for name in FIELDS}
+    values = {name: drawn.fields[name][owners] for name in FIELDS if name in drawn.fields}
+    values["punch_distance"] = drawn.punch_distance[quads].mean(axis=1)
     shape = Shape(mesh.points + drawn.u_free.reshape(-1, 3), quads, values)
     if not isinstance(drawn.case, Cup):
         stretched = shape.points * np.array([1.0, 0.5 * drawn.case.width, 1.0])
