@@ -35,7 +35,7 @@ def setups() -> dict[str, Cup]:
         "Hill48": esaform(aa6016("Hill48")),
         "coarser: 20 degrees": esaform(turn=20.0, around=8),
         "coarser: 30 degrees": esaform(turn=30.0, around=8),
-        "7 points through the thickness": esaform(thickness_points=7),
+        "two layers of 3 points": esaform(layers=2, thickness_points=3),
         "penalty 1e4": esaform(penalty=1e4),
         "friction 0.1": esaform(friction=0.1),
         "holder 50 kN": esaform(holder_force=50e3),

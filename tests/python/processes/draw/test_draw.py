@@ -105,6 +105,19 @@ def test_a_sheet_beyond_its_limit_is_named():
     assert "beyond the forming limit" in drawn.warnings[0]
 
 
+def test_a_holder_that_is_too_strong_tears_the_sheet():
+    drawn = draw(replace(CUP, holder_force=500e3, stroke=25.0, friction=0.2), frames=0, progress=False)
+    assert drawn.ending is not None and drawn.ending.early and drawn.ending.kind in ("torn", "held")
+    assert 5.0 < drawn.result["stroke"][-1] < 25.0 and drawn.released is None
+    assert drawn.fields["limit_margin"].min() < 0.0
+
+
+def test_a_loose_holder_lets_the_flange_wrinkle():
+    drawn = draw(replace(CUP, holder_force=3e3, holder_gap=3.0, stroke=12.0), frames=0, progress=False)
+    assert drawn.ending is not None and drawn.ending.kind == "wrinkled" and not drawn.ending.early
+    assert "stands off both tools" in drawn.warnings[0]
+
+
 def test_no_element_turns_more_than_asked():
     for case in (CUP, replace(CUP, turn=10.0), U):
         for part in case.sizes.bent:
