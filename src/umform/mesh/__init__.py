@@ -6,6 +6,7 @@ from umform.mesh.files import read, read_shell
 from umform.mesh.generators import graded, grid, plate, strip
 from umform.mesh.mesh import FACE_NODES, FACES, Floats, Ids, Mesh, Selector
 from umform.mesh.orient import orient
+from umform.mesh.outlined import blank
 from umform.mesh.thicken import thicken
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "Selector",
     "Sizes",
     "bending_sizes",
+    "blank",
     "disc",
     "graded",
     "grid",

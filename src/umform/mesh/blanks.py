@@ -67,7 +67,7 @@ def disc(
     if not 0.05 <= core <= 0.75:
         raise InvalidValue("the core of a disc takes 0.05 to 0.75 of its radius", value=core, remedy="0.5 is usual")
     sides, rings = cells
-    order = _order(cell)
+    order = order_of(cell)
     square = np.linspace(0.0, 1.0, sides * order + 1)
     u, v = np.meshgrid(square, square, indexing="ij")
     round_ = np.stack([u * np.sqrt(1.0 - 0.5 * v * v), v * np.sqrt(1.0 - 0.5 * u * u)], axis=-1)
@@ -81,7 +81,7 @@ def disc(
     points, quads = _joined(patches, part, order, 1e-9 * radius)
     far = np.hypot(*points.T)
     sets = {"rim": far > radius * (1 - 1e-9), "centre": far < radius * 1e-9}
-    return _stacked(points, quads, thickness, layers, sets | _symmetry(points, part, 1e-9 * radius), cell)
+    return stacked(points, quads, thickness, layers, sets | _symmetry(points, part, 1e-9 * radius), cell)
 
 
 def ring(
@@ -120,14 +120,14 @@ def ring(
     if not inner < outer:
         raise InvalidValue("the outer radius of a ring is larger than the inner one", value=f"{inner:g}, {outer:g}")
     around, rings = cells
-    order = _order(cell)
+    order = order_of(cell)
     angles = np.linspace(0.0, 0.5 * math.pi, around * order + 1)
     radii = inner + _along(outer - inner, rings, grading, order)
     arcs = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     points, quads = _joined([radii[:, None, None] * arcs[None]], part, order, 1e-9 * outer)
     far = np.hypot(*points.T)
     sets = {"rim": far > outer * (1 - 1e-9), "hole": far < inner * (1 + 1e-9)}
-    return _stacked(points, quads, thickness, layers, sets | _symmetry(points, part, 1e-9 * outer), cell)
+    return stacked(points, quads, thickness, layers, sets | _symmetry(points, part, 1e-9 * outer), cell)
 
 
 def _along(length: float, cells: int, grading: float, order: int) -> Floats:
@@ -180,7 +180,7 @@ def _symmetry(points: Floats, part: str, tolerance: float) -> dict[str, NDArray[
     return {} if part == "whole" else {"x0": on["x0"]} if part == "half" else on
 
 
-def _stacked(
+def stacked(
     points: Floats, quads: Whole, thickness: float, layers: int, sets: Mapping[str, NDArray[np.bool_]], cell: str
 ) -> Mesh:
     """Layers of cells above each other."""
@@ -196,7 +196,8 @@ def _stacked(
     return Mesh(nodes, {cell: cells}, named, outer_faces(cells))
 
 
-def _order(cell: str) -> int:
+def order_of(cell: str) -> int:
+    """Order of the sides of a cell type."""
     if cell not in ("hex8", "hex18"):
         raise WrongCellType("unknown cell type", value=cell, remedy="hex8 or hex18")
     return 1 if cell == "hex8" else 2
