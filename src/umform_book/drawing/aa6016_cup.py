@@ -10,7 +10,7 @@ from umform.processes.draw.metals import aa6016
 from umform.results.forming import EarProfile
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
-from umform_book.drawing.cups import COLUMNS, Made, esaform, fourth, make
+from umform_book.drawing.cups import COLUMNS, FLANGE, Made, esaform, fourth, make
 from umform_book.page import Page
 from umform_book.references import table
 
@@ -19,10 +19,9 @@ Floats = NDArray[np.float64]
 #: Mean height of the measured cup, how far from it is good, and how far is known.
 MEASURED, WITHIN, KNOWN = 34.15, 0.5, 1.3
 _CAUSE = (
-    "the force of the holder is not among the data of the reference, and 10 kN of it are 0.5 mm of the height; "
-    "8-node elements of this size are 0.3 mm lower than 18-node ones"
+    "the force of the holder is not among the data of the reference, and 10 kN more are 0.4 mm (see the table); "
+    "friction and the stiffness of the tools do as much"
 )
-
 _CARDS = ("Yld2004, NTNU", "Yld2004, Postech", "Hill48")
 
 
@@ -73,16 +72,31 @@ def run(page: Page) -> None:
         0.5 * (max(means) - min(means)),
         relative=False,
     )
-    for label in _CARDS:
-        if label not in found:
-            continue
-        page.check(
-            f"{label}: angle at which the fourth harmonic is highest, degrees",
-            fourth(found[label].ears)[1],
-            fourth(EarProfile(measured["angle"][:-1], measured["height"][:-1]))[1],
-            15.0,
-            relative=False,
-        )
+    wanted = fourth(EarProfile(measured["angle"][:-1], measured["height"][:-1]))
+    for label in filter(found.__contains__, _CARDS):
+        angle = fourth(found[label].flange)[1]
+        what = f"{label}: angle of the ears on the flange, at a stroke of {FLANGE:g} mm, degrees"
+        page.check(what, angle, wanted[1], 5.0, relative=False)
+    sizes = [fourth(EarProfile(teams["angle"][:-1], teams[name][:-1]))[0] for name in names]
+    page.check(
+        "Yld2004, NTNU: fourth harmonic of the height within that of the teams, mm",
+        fourth(base.ears)[0],
+        0.5 * (min(sizes) + max(sizes)),
+        0.5 * (max(sizes) - min(sizes)),
+        relative=False,
+    )
+    page.check(
+        "Yld2004, NTNU: fourth harmonic of the height, mm",
+        fourth(base.ears)[0],
+        wanted[0],
+        0.2,
+        relative=False,
+        known=0.7,
+        cause="stiff tools iron the ears off in the gap of 1.2 mm, as in the results of NTNU and Postech in the table",
+    )
+    text = "On the flange the fourth harmonic of the radius of the rim, at a stroke of {:g} mm, is: {}."
+    there = "; ".join(f"{label} {fourth(cup.flange)[0]:.2f} mm" for label, cup in found.items())
+    page.text(text.format(FLANGE, there))
 
 
 def _short(page: Page) -> None:
@@ -148,5 +162,5 @@ holder are those of the input files in PolyN, friction and hardening those of NT
 there: 40 kN is an assumption, and the table shows what it does.
 """,
     run=run,
-    cost=230.0,
+    cost=210.0,
 )

@@ -12,6 +12,7 @@ from umform.materials.j2 import Plastic
 from umform.processes.draw import Cup
 from umform.processes.draw.metals import aa6016
 from umform.results.forming import EarProfile, ear_profile, forming_fields
+from umform.run import Result
 from umform_book.page import Page
 
 Floats = NDArray[np.float64]
@@ -39,6 +40,8 @@ class Made:
     ----------
     ears : EarProfile
         Its rim.
+    flange : EarProfile
+        Radius of the rim over the angle at the stroke FLANGE or before, while it is on the flange.
     force : float
         Largest force of the punch on the whole cup, kN.
     thinning : float
@@ -48,6 +51,7 @@ class Made:
     """
 
     ears: EarProfile
+    flange: EarProfile
     force: float
     thinning: float
     elements: int
@@ -58,6 +62,8 @@ class Made:
         return self.elements, self.ears.mean, low, high, fourth(self.ears)[0], self.force, self.thinning
 
 
+#: Stroke in mm at which the rim is still on the flat of the die.
+FLANGE = 20.0
 #: Columns of such a table.
 COLUMNS = ("", "elements", "mean height", "lowest", "highest", "fourth harmonic", "punch force, kN", "thinning, %")
 
@@ -66,14 +72,25 @@ def make(page: Page, label: str, case: Cup) -> Made | None:
     """Hold, draw, open; None for a run that ends before, which the page says."""
     model, press = case.build()
     try:
-        drawn = page.solve(label, model, press.closing())
+        drawn = page.solve(label, model, press.closing(), frames=50)
     except NoConvergence as error:
         page.text(f"{label}: the run ends before the end of the stroke. {error.where}; {error.cause}.")
         return None
     force = 4e-3 * float(np.abs(drawn["punch_fz"]).max())
     page.solve(f"{label}: released", model, press.opening(model))
     thinning = float(forming_fields(model.mesh, model.u)["thinning"].max())
-    return Made(ear_profile(model.mesh, model.u), force, thinning, len(model.mesh.connectivity))
+    return Made(ear_profile(model.mesh, model.u), _flange(drawn), force, thinning, len(model.mesh.connectivity))
+
+
+def _flange(drawn: Result) -> EarProfile:
+    """Radius of the rim over the angle while it is on the flange."""
+    stroke = np.array([drawn.rows[frame.number]["stroke"] for frame in drawn.frames])
+    frame = drawn.frames[int(np.flatnonzero(stroke <= FLANGE)[-1])]
+    mesh = drawn.model.mesh
+    ids = mesh.nodes("rim_lower")
+    x, y = (mesh.points + frame.points["displacement"])[ids, :2].T
+    order = np.argsort(np.arctan2(y, x))
+    return EarProfile(np.degrees(np.arctan2(y, x))[order], np.hypot(x, y)[order])
 
 
 def fourth(ears: EarProfile) -> tuple[float, float]:
