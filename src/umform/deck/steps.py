@@ -286,3 +286,15 @@ class Output(Part):
     """A page, report.html."""
     pictures: bool = True
     """Force over displacement as curve.png, the last shape as shape.png."""
+    forming: bool = False
+    """Strains of both skins and of the middle, thinning and wrinkling among the fields."""
+    forming_limit: list[Pair] | None = None
+    """Forming limit: logarithmic minor and major strains, the minor ones ascending; its margin is a field then."""
+
+    @model_validator(mode="after")
+    def _ascending(self) -> Output:
+        minor = [pair[0] for pair in self.forming_limit or ()]
+        if self.forming_limit is not None and (len(minor) < 2 or sorted(set(minor)) != minor):
+            text = "a forming limit has two points or more, pairs of minor and major strain, the minor ones ascending"
+            raise PydanticCustomError("forming_limit", text)
+        return self

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from umform import mesh
 from umform.materials import J2, Material, Swift
 from umform.model import Model
+from umform.results.forming import u_bend_angles
 from umform.run import Result
 from umform.steps import Move
 from umform.surfaces import Box, Plane, UDie
@@ -137,27 +138,6 @@ def shape(model: Model) -> Floats:
     return np.array([x[section[np.abs(X[section, 0] - s) < 1e-6]].mean(axis=0)[[0, 2]] for s in places])
 
 
-def crossing(line: Floats, height: float) -> Floats:
-    """Where the wall is at a height above the bottom."""
-    z = line[:, 1] - line[0, 1]
-    k = int(np.argmax(z > height))
-    part = (height - z[k - 1]) / (z[k] - z[k - 1])
-    point: Floats = line[k - 1] + part * (line[k] - line[k - 1])
-    return point
-
-
-def angle_between(a: Floats, b: Floats) -> float:
-    """Degrees."""
-    return float(np.degrees(np.arccos(a @ b / (np.linalg.norm(a) * np.linalg.norm(b)))))
-
-
-def circle(a: Floats, b: Floats, c: Floats) -> float:
-    """Radius of the circle through three points."""
-    sides = [np.linalg.norm(q - p) for p, q in ((a, b), (b, c), (c, a))]
-    area = 0.5 * abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
-    return float(np.prod(sides) / (4.0 * max(area, 1e-12)))
-
-
 def u_bend(page: Page, setup: Setup, label: str) -> tuple[Measured, Floats, Result]:
     """Draw and release; the measures, the line of the part and the history of the stroke."""
     model, drawn = draw(page, setup, label)
@@ -168,16 +148,13 @@ def u_bend(page: Page, setup: Setup, label: str) -> tuple[Measured, Floats, Resu
 
 def measure(setup: Setup, drawn: Result, model: Model, draw_in: float) -> Measured:
     """Angles and radius of the released part; force and draw-in at the end of the stroke."""
-    line = shape(model)
-    low, middle, high = (crossing(line, height) for height in (15.0, 35.0, 55.0))
-    bottom = line[np.searchsorted(line[:, 0], 15.0)] - line[0]
-    flange = line[-1] - line[-1 - max(setup.intervals // 12, 2)]
+    found = u_bend_angles(shape(model), flange=max(setup.intervals // 12, 2))
     return Measured(
         force=abs(2.0 * float(drawn["punch_fz"][-1])),
         draw_in=draw_in,
-        theta1=angle_between(-bottom, middle - low),
-        theta2=angle_between(flange, low - middle),
-        radius=circle(low, middle, high),
+        theta1=found.theta1,
+        theta2=found.theta2,
+        radius=found.radius,
     )
 
 
