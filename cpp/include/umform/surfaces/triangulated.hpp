@@ -1,0 +1,176 @@
+// Smooth surface through the corners of triangles: signed distance to quartic patches with common tangent planes.
+#pragma once
+
+#include "umform/surfaces/box_tree.hpp"
+#include "umform/surfaces/concept.hpp"
+#include "umform/surfaces/patch_foot.hpp"
+
+namespace umform {
+
+/// What the surface does across the edge of a triangle: goes on with one tangent plane, has an edge, or ends.
+enum class Across : std::uint8_t { Smooth, Sharp, Rim };
+
+/// A third of a triangle: the edge a b lies on that of the triangle, c inside of it.
+struct Third {
+    QuarticPatch patch;
+    Across across;
+    int neighbour;           // the third on the other side of a b, -1 at a rim
+    std::array<int, 2> ends;  // corners a and b of the triangulation
+};
+
+/// A corner of the triangulation: the sum of the normals around it, and the sharpest that meets there.
+struct Corner {
+    Vec3 normal;
+    Across across;
+};
+
+class Triangulated final : public Surface {
+  public:
+    Triangulated(const std::vector<Third>& thirds, std::vector<Corner> corners)
+        : tree_(boxes(thirds)), corners_(std::move(corners)) {
+        const std::vector<int>& order = tree_.order();
+        std::vector<int> place(order.size());
+        for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<int>(i);
+        for (const int i : order) {
+            thirds_.push_back(thirds[i]);
+            bulge_.push_back(bulge(thirds[i].patch));
+            int& neighbour = thirds_.back().neighbour;
+            if (neighbour >= 0) neighbour = place[neighbour];
+        }
+    }
+
+    bool is_distance() const override { return true; }
+    bool is_concurrent() const override { return true; }
+
+    /// The foot of the point before bounds the distance of the next one; it changes the way of the search only.
+    void gap(int count, const double* x, double* g, double* n, double* H) const override {
+        Vec3 last = thirds_.front().patch.control[0];
+        for (int q = 0; q < count; ++q) {
+            const Found found = nearest({x[3 * q], x[3 * q + 1], x[3 * q + 2]}, last);
+            const Gap at = gap_at({x[3 * q], x[3 * q + 1], x[3 * q + 2]}, found);
+            last = found.foot.at.S;
+            g[q] = at.g;
+            std::copy(at.n.begin(), at.n.end(), n + 3 * q);
+            std::copy(at.H.a.begin(), at.H.a.end(), H + 9 * q);
+        }
+    }
+
+  private:
+    struct Found {
+        int third;
+        PatchFoot foot;
+    };
+
+    /// Of equally near thirds the first one counts, so that the answer does not depend on where the search began. eq. (4.170)
+    Found nearest(const Vec3& x, const Vec3& last) const {
+        const Vec3 d = difference(x, last);
+        double bound = dot(d, d) * (1.0 + 1e-9);
+        Found best{-1, {}};
+        best.foot.square = std::numeric_limits<double>::infinity();
+        tree_.near_first(x, bound, [&](int i) {
+            const QuarticPatch& patch = thirds_[i].patch;
+            const FlatFoot flat = foot_on_triangle(x, patch.control[QuarticPatch::a], patch.control[QuarticPatch::b],
+                                                   patch.control[QuarticPatch::c]);
+            const double least = std::sqrt(flat.square) * (1.0 - 1e-12) - bulge_[i];
+            if (least > 0.0 && least * least > bound) return bound;
+            const PatchFoot foot = FootSearch(patch, x).from(flat.p);
+            if (foot.square < best.foot.square || (foot.square == best.foot.square && i < best.third)) best = {i, foot};
+            bound = std::min(bound, best.foot.square * (1.0 + 1e-12));
+            return bound;
+        });
+        return best;
+    }
+
+    Gap gap_at(const Vec3& x, const Found& found) const {
+        const Third& third = thirds_[found.third];
+        const auto& [u, v] = found.foot.p;
+        const Vec3 r = difference(x, found.foot.at.S);
+        if (v == 0.0 && (u == 0.0 || u == 1.0)) {
+            const Corner& corner = corners_[third.ends[u == 1.0 ? 1 : 0]];
+            if (corner.across != Across::Smooth) return from_corner(r, corner.normal, corner.across);
+        } else if (v == 0.0 && third.across != Across::Smooth) {
+            return from_edge(r, found);
+        }
+        return from_face(r, found.foot.at);
+    }
+
+    /// g = (x - y) . n, H = - a_d a^dc b_ca M^ab a_b with M = a - g b. eq. (4.167)
+    static Gap from_face(const Vec3& r, const PatchPoint& at) {
+        const Vec3 n = normalised(cross(at.Su, at.Sv));
+        Gap gap{dot(r, n), n, {}};
+        const double auu = dot(at.Su, at.Su), auv = dot(at.Su, at.Sv), avv = dot(at.Sv, at.Sv);
+        const double buu = dot(n, at.Suu), buv = dot(n, at.Suv), bvv = dot(n, at.Svv);
+        const double a = auu * avv - auv * auv;
+        // a^-1 b
+        const double c11 = (avv * buu - auv * buv) / a, c12 = (avv * buv - auv * bvv) / a;
+        const double c21 = (auu * buv - auv * buu) / a, c22 = (auu * bvv - auv * buv) / a;
+        const double muu = auu - gap.g * buu, muv = auv - gap.g * buv, mvv = avv - gap.g * bvv;
+        const double m = muu * mvv - muv * muv;
+        // -a^-1 b M^-1, symmetric
+        const double h11 = -(c11 * mvv - c12 * muv) / m, h22 = -(c22 * muu - c21 * muv) / m;
+        const double h12 = -0.5 * (c12 * muu - c11 * muv + c21 * mvv - c22 * muv) / m;
+        for (int i = 0; i < 3; ++i)
+            for (int k = i; k < 3; ++k)
+                gap.H(i, k) = gap.H(k, i) = h11 * at.Su[i] * at.Su[k] + h22 * at.Sv[i] * at.Sv[k]
+                                            + h12 * (at.Su[i] * at.Sv[k] + at.Sv[i] * at.Su[k]);
+        return gap;
+    }
+
+    /// The nearest point goes along the edge as x does. eq. (4.168)
+    Gap from_edge(const Vec3& r, const Found& found) const {
+        const Vec3 &t = found.foot.at.Su, &k = found.foot.at.Suu;
+        Gap gap = from_corner(r, normal_across(found), thirds_[found.third].across);
+        if (gap.g == 0.0) return gap;
+        const double stretch = dot(t, t) - dot(r, k);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) gap.H(i, j) -= t[i] * t[j] / (stretch * gap.g);
+        return gap;
+    }
+
+    /// Sum of the normals on both sides of an edge.
+    Vec3 normal_across(const Found& found) const {
+        const Third& third = thirds_[found.third];
+        Vec3 sum = normalised(cross(found.foot.at.Su, found.foot.at.Sv));
+        if (third.neighbour < 0) return sum;
+        const PatchPoint other = thirds_[third.neighbour].patch.at({1.0 - found.foot.p.u, 0.0});
+        const Vec3 n = normalised(cross(other.Su, other.Sv));
+        for (int k = 0; k < 3; ++k) sum[k] += n[k];
+        return sum;
+    }
+
+    /// Distance to a point, negative where the normals there look away; beside a rim all is outside. eq. (4.169)
+    static Gap from_corner(const Vec3& r, const Vec3& normal, Across across) {
+        const double rho = std::sqrt(dot(r, r));
+        const double side = across == Across::Sharp && dot(r, normal) < 0.0 ? -1.0 : 1.0;
+        if (rho == 0.0) return {0.0, normalised(normal), {}};
+        Gap gap{side * rho, {side * r[0] / rho, side * r[1] / rho, side * r[2] / rho}, {}};
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) gap.H(i, k) = ((i == k ? 1.0 : 0.0) - gap.n[i] * gap.n[k]) / gap.g;
+        return gap;
+    }
+
+    /// A patch lies in the hull of its points, and so does its box.
+    static std::vector<Box> boxes(const std::vector<Third>& thirds) {
+        std::vector<Box> boxes(thirds.size(), Box::empty());
+        for (std::size_t i = 0; i < thirds.size(); ++i)
+            for (const Vec3& x : thirds[i].patch.control) boxes[i].take_in(x);
+        return boxes;
+    }
+
+    /// No point of a patch is farther from the flat triangle of its corners: the distance to a convex set is convex.
+    static double bulge(const QuarticPatch& patch) {
+        double square = 0.0;
+        for (const Vec3& x : patch.control)
+            square = std::max(square, foot_on_triangle(x, patch.control[QuarticPatch::a], patch.control[QuarticPatch::b],
+                                                       patch.control[QuarticPatch::c])
+                                          .square);
+        return std::sqrt(square) * (1.0 + 1e-12);
+    }
+
+    BoxTree tree_;
+    std::vector<Third> thirds_;  // in the order of the tree
+    std::vector<double> bulge_;
+    std::vector<Corner> corners_;
+};
+
+}  // namespace umform
