@@ -9,8 +9,9 @@ from umform.surfaces.segments import Arc, Line
 from umform.surfaces.simple import Cylinder, Plane, Sphere
 from umform.surfaces.solids import Box, Torus
 from umform.surfaces.swept import Extruded, Revolved
-from umform.surfaces.tool import Placed, Surface, Tool
+from umform.surfaces.tool import Offset, Placed, Surface, Tool
 from umform.surfaces.triangles import Triangles
+from umform.surfaces.triangulated import Triangulated
 from umform.surfaces.user import GapFunction, UserSurface
 
 __all__ = [
@@ -21,6 +22,7 @@ __all__ = [
     "Extruded",
     "GapFunction",
     "Line",
+    "Offset",
     "Placed",
     "Plane",
     "Profile",
@@ -32,6 +34,7 @@ __all__ = [
     "Tool",
     "Torus",
     "Triangles",
+    "Triangulated",
     "UDie",
     "UserSurface",
     "VDie",
