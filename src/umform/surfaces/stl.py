@@ -7,6 +7,7 @@ import io
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
@@ -55,8 +56,8 @@ def read_stl(path: str | Path, weld: float = 0.0, scale: float = 1.0) -> Triangl
         )
     size = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
     near = not_negative(weld, "from_stl", "weld distance") or _WELD * size
-    welded = _welded(points, triangles, near)
-    if not len(welded.triangles):
+    surface, _ = welded(points, triangles, near)
+    if not len(surface.triangles):
         raise UnfitTriangles(
             "there is no triangle",
             where=str(path),
@@ -64,7 +65,7 @@ def read_stl(path: str | Path, weld: float = 0.0, scale: float = 1.0) -> Triangl
             cause="an empty file, or a weld distance above the size of the triangles",
             remedy="export the surface again, or a smaller weld distance",
         )
-    return welded
+    return surface
 
 
 def _read(path: Path) -> tuple[Floats, Ids]:
@@ -87,15 +88,23 @@ def _read(path: Path) -> tuple[Floats, Ids]:
     return np.asarray(made.points, dtype=float), ids
 
 
-def _welded(points: Floats, triangles: Ids, near: float) -> Triangles:
-    """Points nearer to each other than a distance made one: their mean; triangles with two corners in one left out."""
+def welded(points: Floats, triangles: Ids, near: float) -> tuple[Triangles, NDArray[np.bool_]]:
+    """Points nearer to each other than a distance made one.
+
+    Returns
+    -------
+    surface : Triangles
+        The means of such points, and the triangles that have three corners still.
+    kept : ndarray of bool, shape (m,)
+        Which ones these are.
+    """
     pairs = cKDTree(points).query_pairs(near, output_type="ndarray")
     graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
     count, label = connected_components(graph, directed=False)
     times = np.bincount(label, minlength=count)
-    welded = np.stack([np.bincount(label, points[:, k], count) / times for k in range(3)], axis=1)
+    means = np.stack([np.bincount(label, points[:, k], count) / times for k in range(3)], axis=1)
     ids = label[triangles].astype(np.int64)
     a, b, c = ids.T
-    ids = ids[(a != b) & (b != c) & (c != a)]
-    used, ids = np.unique(ids, return_inverse=True)
-    return Triangles(welded[used], ids.reshape(-1, 3).astype(np.int64))
+    kept = (a != b) & (b != c) & (c != a)
+    used, ids = np.unique(ids[kept], return_inverse=True)
+    return Triangles(means[used], ids.reshape(-1, 3).astype(np.int64)), kept

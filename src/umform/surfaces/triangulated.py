@@ -12,7 +12,8 @@ import numpy as np
 from umform import _core
 from umform.errors import InvalidValue, TurnedNormals
 from umform.surfaces.directions import positive
-from umform.surfaces.smooth import Patches, connected, from_drawing, from_facets, patches
+from umform.surfaces.smooth import Patches, connected, from_drawing, from_facets
+from umform.surfaces.smooth import patches as smooth_patches
 from umform.surfaces.stl import read_stl
 from umform.surfaces.tool import Tool
 from umform.surfaces.triangles import Floats, Triangles
@@ -39,6 +40,11 @@ class Triangulated(Tool):
     name : str
         For messages.
 
+    Attributes
+    ----------
+    patches : Patches
+        The curved patches.
+
     Raises
     ------
     UnfitTriangles, TurnedNormals, HoleInSurface
@@ -50,7 +56,7 @@ class Triangulated(Tool):
     sharp: float = 30.0
     open: bool = False
     name: str = "Triangulated"
-    _made: Patches = field(init=False, repr=False)
+    patches: Patches = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         if not 0.0 < self.sharp < 90.0:
@@ -74,7 +80,7 @@ class Triangulated(Tool):
             normals = from_facets(self.surface, edges, self.sharp, self.name)
         else:
             normals = from_drawing(self.surface, edges, self.normals, self.sharp, self.name)
-        object.__setattr__(self, "_made", patches(self.surface, edges, normals))
+        object.__setattr__(self, "patches", smooth_patches(self.surface, edges, normals))
 
     @classmethod
     def from_stl(
@@ -117,9 +123,9 @@ class Triangulated(Tool):
     @cached_property
     def arrow(self) -> float:
         """Largest distance of the smooth surface from the triangles: what the tessellation has cut off, about."""
-        flat = np.einsum("kw,pwi->pki", _SAMPLES, self._made.control[:, [0, 4, 14]])
-        height = np.linalg.norm(self._made.at(_SAMPLES) - flat, axis=2)
-        middle = self._made.control[:, 14] - np.repeat(self.surface.corners.mean(axis=1), 3, axis=0)
+        flat = np.einsum("kw,pwi->pki", _SAMPLES, self.patches.control[:, [0, 4, 14]])
+        height = np.linalg.norm(self.patches.at(_SAMPLES) - flat, axis=2)
+        middle = self.patches.control[:, 14] - np.repeat(self.surface.corners.mean(axis=1), 3, axis=0)
         return float(height.max() + np.linalg.norm(middle, axis=1).max())
 
     def reversed(self) -> Triangulated:
@@ -134,10 +140,10 @@ class Triangulated(Tool):
 
     @cached_property
     def _kernel(self) -> _core.Surface:
-        return self._made.kernel()
+        return self.patches.kernel()
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Flat triangles of the patches, as small as the chord error asks for."""
         del centre, reach
-        parts = math.ceil(math.sqrt(float(self._made.bulge().max()) / chord)) if chord > 0.0 else 1
-        return self._made.facets(min(max(parts, 1), 16))
+        parts = math.ceil(math.sqrt(float(self.patches.bulge().max()) / chord)) if chord > 0.0 else 1
+        return self.patches.facets(min(max(parts, 1), 16))

@@ -16,6 +16,13 @@ struct Third {
     Across across;
     int neighbour;           // the third on the other side of a b, -1 at a rim
     std::array<int, 2> ends;  // corners a and b of the triangulation
+    int face;                 // the exact surface that the patch stands for, -1 for none
+};
+
+/// Surfaces that patches stand for. They count where their distance differs from that to the patch by no more than `trust`.
+struct ExactFaces {
+    std::vector<std::shared_ptr<const Surface>> surfaces;
+    double trust = 0.0;
 };
 
 /// A corner of the triangulation: the sum of the normals around it, and the sharpest that meets there.
@@ -26,8 +33,8 @@ struct Corner {
 
 class Triangulated final : public Surface {
   public:
-    Triangulated(const std::vector<Third>& thirds, std::vector<Corner> corners)
-        : tree_(boxes(thirds)), corners_(std::move(corners)) {
+    Triangulated(const std::vector<Third>& thirds, std::vector<Corner> corners, ExactFaces exact)
+        : tree_(boxes(thirds)), corners_(std::move(corners)), exact_(std::move(exact)) {
         const std::vector<int>& order = tree_.order();
         std::vector<int> place(order.size());
         for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<int>(i);
@@ -91,7 +98,15 @@ class Triangulated final : public Surface {
         } else if (v == 0.0 && third.across != Across::Smooth) {
             return from_edge(r, found);
         }
-        return from_face(r, found.foot.at);
+        const Gap smooth = from_face(r, found.foot.at);
+        return third.face < 0 ? smooth : exact(x, *exact_.surfaces[third.face], smooth);
+    }
+
+    /// The exact surface goes on beyond its face: it is taken where the patch says the same. eq. (4.175)
+    Gap exact(const Vec3& x, const Surface& surface, const Gap& smooth) const {
+        Gap gap;
+        surface.gap(1, x.data(), &gap.g, gap.n.data(), gap.H.a.data());
+        return std::abs(gap.g - smooth.g) <= exact_.trust && dot(gap.n, smooth.n) > 0.9 ? gap : smooth;
     }
 
     /// g = (x - y) . n, H = - a_d a^dc b_ca M^ab a_b with M = a - g b. eq. (4.167)
@@ -171,6 +186,7 @@ class Triangulated final : public Surface {
     std::vector<Third> thirds_;  // in the order of the tree
     std::vector<double> bulge_;
     std::vector<Corner> corners_;
+    ExactFaces exact_;
 };
 
 }  // namespace umform

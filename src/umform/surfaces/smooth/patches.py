@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,15 +47,38 @@ class Patches:
     normals: Floats
     corner: Ids
 
-    def kernel(self) -> _core.Surface:
-        """The surface as the kernels take it."""
-        integers = (np.ascontiguousarray(ids, dtype=np.int32) for ids in (self.across, self.neighbour, self.ends))
-        return _core.triangulated(self.control, *integers, self.normals, self.corner.astype(np.int32))
+    def kernel(self, faces: Sequence[_core.Surface] = (), face: Ids | None = None, trust: float = 0.0) -> _core.Surface:
+        """The surface as the kernels take it.
+
+        Parameters
+        ----------
+        faces : sequence of Surface, optional
+            Exact surfaces.
+        face : ndarray of int, shape (3 m,), optional
+            That of each third, -1 for none.
+        trust : float
+            Largest difference between the distances to a third and to its exact surface; the latter counts.
+        """
+        face = np.full(len(self.across), -1) if face is None else face
+        integers = (
+            np.ascontiguousarray(ids, dtype=np.int32) for ids in (self.across, self.neighbour, self.ends, face)
+        )
+        return _core.triangulated(
+            self.control, *integers, self.normals, self.corner.astype(np.int32), list(faces), trust
+        )
 
     def at(self, weights: Floats) -> Floats:
         """Points of all patches, shape (3 m, k, 3), at some weights of their corners, shape (k, 3)."""
         basis = (_COEFFICIENTS * (weights[:, None, :] ** _POWERS).prod(axis=2)) @ np.eye(15)
         return np.asarray(np.einsum("kc,pci->pki", basis, self.control))
+
+    def at_triangles(self, weights: Floats) -> Floats:
+        """Points on all triangles, shape (m, k, 3), at some weights of their corners, shape (k, 3)."""
+        edge = (weights.argmin(axis=1) + 1) % 3  # the third without the corner of the least weight
+        least = weights.min(axis=1)
+        a, b = (np.take_along_axis(weights, ((edge + k) % 3)[:, None], axis=1)[:, 0] - least for k in (0, 1))
+        points = self.at(np.stack([a, b, 3.0 * least], axis=1)).reshape(-1, 3, len(weights), 3)
+        return points[:, edge, np.arange(len(weights))]
 
     def bulge(self) -> Floats:
         """Bound of the distances of the patches to the flat triangles of their corners, shape (3 m,)."""
