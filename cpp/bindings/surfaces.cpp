@@ -121,13 +121,14 @@ void bind_shapes(nb::module_& m) {
         nb::arg("centre"), nb::arg("axes"), nb::arg("core"), nb::arg("radius"),
         nb::sig("def rounded_box(centre: Sequence[float], axes: NDArray[float64], core: Sequence[float], "
                 "radius: float) -> Surface"));
-    m.def("triangulated", &triangulated, nb::arg("control"), nb::arg("across"), nb::arg("neighbour"), nb::arg("ends"),
-          nb::arg("face"), nb::arg("normals"), nb::arg("corner"), nb::arg("faces"), nb::arg("trust"),
-          nb::sig("def triangulated(control: NDArray[float64], across: NDArray[int32], neighbour: NDArray[int32], "
-                  "ends: NDArray[int32], face: NDArray[int32], normals: NDArray[float64], corner: NDArray[int32], "
-                  "faces: Sequence[Surface], trust: float) -> Surface"),
-          "Thirds of triangles: points (n, 15, 3) of quartic patches; across their edge 0 smooth, 1 sharp, 2 a rim; the "
-          "third on its other side or -1; its two corners (n, 2); its exact face or -1. Of the corners: the sum of normals (m, 3), and 0, 1, 2.");
+    m.def(
+        "triangulated", &triangulated, nb::arg("control"), nb::arg("across"), nb::arg("neighbour"), nb::arg("ends"),
+        nb::arg("face"), nb::arg("normals"), nb::arg("corner"), nb::arg("faces"), nb::arg("trust"),
+        nb::sig("def triangulated(control: NDArray[float64], across: NDArray[int32], neighbour: NDArray[int32], "
+                "ends: NDArray[int32], face: NDArray[int32], normals: NDArray[float64], corner: NDArray[int32], "
+                "faces: Sequence[Surface], trust: float) -> Surface"),
+        "Thirds of triangles: points (n, 15, 3) of quartic patches; across their edge 0 smooth, 1 sharp, 2 a rim; the "
+        "third on its other side or -1; its two corners (n, 2); its exact face or -1. Of the corners: the sum of normals (m, 3), and 0, 1, 2.");
     m.def(
         "offset",
         [](std::shared_ptr<Surface> tool, double distance, int side) -> std::shared_ptr<Surface> {

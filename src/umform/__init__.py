@@ -62,6 +62,7 @@ if TYPE_CHECKING:
         VDie,
         WipingDie,
         check_surface,
+        read_tool,
         write_tool,
     )
 
@@ -120,6 +121,7 @@ _HOME = {
         "VDie",
         "WipingDie",
         "check_surface",
+        "read_tool",
         "write_tool",
     ),
 }
@@ -176,8 +178,8 @@ __all__ = [
     "Table",
     "Term",
     "Torus",
-    "Triangulated",
     "Transformation",
+    "Triangulated",
     "Tying",
     "UDie",
     "UmformError",
@@ -197,6 +199,7 @@ __all__ = [
     "fields",
     "mesh",
     "processes",
+    "read_tool",
     "resume",
     "set_threads",
     "sheet_metals",

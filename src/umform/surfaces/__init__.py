@@ -1,7 +1,9 @@
 """Rigid tools as functions of position: signed distance, unit normal and Hessian of the distance."""
 
+from umform.surfaces.cad import CadTool
 from umform.surfaces.check import SurfaceCheck, check_surface
 from umform.surfaces.directions import Direction, unit_vector
+from umform.surfaces.drawing import read_tool
 from umform.surfaces.files import write_tool
 from umform.surfaces.press_brake import Punch, UDie, VDie, WipingDie
 from umform.surfaces.profile import Profile
@@ -17,6 +19,7 @@ from umform.surfaces.user import GapFunction, UserSurface
 __all__ = [
     "Arc",
     "Box",
+    "CadTool",
     "Cylinder",
     "Direction",
     "Extruded",
@@ -40,6 +43,7 @@ __all__ = [
     "VDie",
     "WipingDie",
     "check_surface",
+    "read_tool",
     "unit_vector",
     "write_tool",
 ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 
@@ -29,7 +30,7 @@ def as_arcs(curve: Curve, parameters: list[float], tolerance: float) -> list[Seg
         Largest distance, looked for at seven places of each pair.
     """
     segments: list[Segment] = []
-    for a, b in zip(parameters[:-1], parameters[1:], strict=True):
+    for a, b in pairwise(parameters):
         segments += _fitted(curve, a, b, tolerance, 0)
     return segments
 

@@ -106,9 +106,7 @@ def _between(segment: Segment, start: Floats, end: Floats, *, closed: bool) -> S
     return Arc(p, q, (float(centre[0]), float(centre[1])), segment.clockwise)
 
 
-def _refuse_many(
-    segments: Sequence[Segment], points: Floats, label: Ids, degree: Ids, ends: Ids, where: str
-) -> None:
+def _refuse_many(segments: Sequence[Segment], points: Floats, label: Ids, degree: Ids, ends: Ids, where: str) -> None:
     """Gaps if some curve is open, else several loops."""
     free = points[degree == 1]
     if len(free):
@@ -125,7 +123,9 @@ def _refuse_many(
     loops = []
     for k in range(int(label.max()) + 1):
         own = points[label == k]
-        radius = max((s.radius for i, s in enumerate(segments) if label[ends[i, 0]] == k and isinstance(s, Arc)), default=0.0)
+        radius = max(
+            (s.radius for i, s in enumerate(segments) if label[ends[i, 0]] == k and isinstance(s, Arc)), default=0.0
+        )
         circle = f", radius {radius:.6g}" if len(own) == 1 else ""
         loops.append(f"one from {_point(own.min(axis=0))} to {_point(own.max(axis=0))}{circle}")
     raise OpenSection(

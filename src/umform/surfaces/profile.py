@@ -87,7 +87,7 @@ class Profile:
         path: str | Path,
         layer: str | None = None,
         *,
-        solid: str = "inside",
+        solid: str | None = None,
         origin: Point2 = (0.0, 0.0),
         unit: str = "mm",
         tolerance: float = 1e-3,
@@ -102,9 +102,9 @@ class Profile:
             The drawing, in its xy-plane.
         layer : str, optional
             The layer with the section; by default all of the drawing is the section.
-        solid : str
-            Where the solid is: inside or outside of a closed curve; below, above, left or right of an open one, that
-            is of the line from its one end to the other.
+        solid : str, optional
+            Where the solid is: inside (by default) or outside of a closed curve; below (by default), above, left or
+            right of an open one, that is of the line from its one end to the other.
         origin : (x, y)
             The place of the drawing, in the unit of the model, that is the origin of the profile.
         unit : str
@@ -165,10 +165,11 @@ class Profile:
         """The same curve with solid and void exchanged."""
         return Profile([segment.reversed() for segment in reversed(self.segments)], self.closed)
 
-    def _has_solid(self, solid: str, where: str) -> bool:
+    def _has_solid(self, solid: str | None, where: str) -> bool:
         """Whether the solid is on the side that is named."""
         sides = {"below": (0, -1), "above": (0, 1), "left": (-1, 0), "right": (1, 0)}
         words = ("inside", "outside") if self.closed else tuple(sides)
+        solid = solid or ("inside" if self.closed else "below")
         if solid not in words:
             raise InvalidValue(
                 f"the solid of {'a closed' if self.closed else 'an open'} section is one of {', '.join(words)}",
@@ -187,7 +188,9 @@ class Profile:
                 where=where,
                 value=f"{solid} of the line from {self.segments[0].start} to {self.segments[-1].end}",
                 cause="its ends lie above each other or beside each other",
-                remedy=", ".join(word for word, (x, y) in sides.items() if abs(-d[1] * x + d[0] * y) > 1e-9 * self.size),
+                remedy=", ".join(
+                    word for word, (x, y) in sides.items() if abs(-d[1] * x + d[0] * y) > 1e-9 * self.size
+                ),
             )
         return toward > 0.0
 

@@ -16,7 +16,7 @@ from umform.surfaces.smooth import Patches, connected, from_drawing, from_facets
 from umform.surfaces.smooth import patches as smooth_patches
 from umform.surfaces.stl import read_stl
 from umform.surfaces.tool import Tool
-from umform.surfaces.triangles import Floats, Triangles
+from umform.surfaces.triangles import Floats, Ids, Triangles
 
 #: Weights of the corners of a third at which its distance from the flat triangle is measured.
 _SAMPLES = np.array([(4 - j - i, i, j) for j in range(5) for i in range(5 - j)]) / 4.0
@@ -128,6 +128,25 @@ class Triangulated(Tool):
         middle = self.patches.control[:, 14] - np.repeat(self.surface.corners.mean(axis=1), 3, axis=0)
         return float(height.max() + np.linalg.norm(middle, axis=1).max())
 
+    @cached_property
+    def largest_curvature(self) -> float:
+        """Largest convex curvature in the middles of the thirds of all triangles; infinite with a sharp edge.
+
+        A sheet is bent around one over it. Concave edges do not count.
+        """
+        if self._has_convex_edge():
+            return math.inf
+        H = self.kernel().gap(self.patches.at(np.full((1, 3), 1.0 / 3.0))[:, 0])[2]
+        return float(np.linalg.eigvalsh(H).max())
+
+    def _has_convex_edge(self) -> bool:
+        """Whether the surface falls away beyond a sharp edge."""
+        sharp = np.flatnonzero(self.patches.across == 1)
+        beyond = self.surface.triangles.ravel()[_opposite(self.patches.neighbour[sharp])]
+        n = self.surface.area_vectors[sharp // 3]
+        rise = np.einsum("ei,ei->e", n, self.surface.points[beyond] - self.surface.points[self.patches.ends[sharp, 0]])
+        return bool((rise < 0.0).any())
+
     def reversed(self) -> Triangulated:
         """The same surface with solid and void exchanged."""
         turned = Triangles(self.surface.points, self.surface.triangles[:, ::-1])
@@ -142,8 +161,18 @@ class Triangulated(Tool):
     def _kernel(self) -> _core.Surface:
         return self.patches.kernel()
 
+    def __getstate__(self) -> dict[str, object]:
+        return {
+            name: value for name, value in self.__dict__.items() if name != "_kernel"
+        }  # made again where it is needed
+
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Flat triangles of the patches, as small as the chord error asks for."""
         del centre, reach
         parts = math.ceil(math.sqrt(float(self.patches.bulge().max()) / chord)) if chord > 0.0 else 1
         return self.patches.facets(min(max(parts, 1), 16))
+
+
+def _opposite(edge: Ids) -> Ids:
+    """The corner of a triangle that does not lie on one of its edges: edge e lies between corners e and e + 1."""
+    return edge - edge % 3 + (edge % 3 + 2) % 3

@@ -55,8 +55,7 @@ struct QuarticPatch {
         for (int row = 0; row < Degree; ++row) {
             const int width = Degree + 1 - row;
             for (int i = 0; i < width - 1; ++i, ++to)
-                for (int k = 0; k < 3; ++k)
-                    (*to)[k] = r * from[i][k] + p.u * from[i + 1][k] + p.v * from[width + i][k];
+                for (int k = 0; k < 3; ++k) (*to)[k] = r * from[i][k] + p.u * from[i + 1][k] + p.v * from[width + i][k];
             from += width;
         }
     }

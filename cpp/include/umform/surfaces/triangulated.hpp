@@ -14,7 +14,7 @@ enum class Across : std::uint8_t { Smooth, Sharp, Rim };
 struct Third {
     QuarticPatch patch;
     Across across;
-    int neighbour;           // the third on the other side of a b, -1 at a rim
+    int neighbour;            // the third on the other side of a b, -1 at a rim
     std::array<int, 2> ends;  // corners a and b of the triangulation
     int face;                 // the exact surface that the patch stands for, -1 for none
 };
@@ -176,8 +176,8 @@ class Triangulated final : public Surface {
     static double bulge(const QuarticPatch& patch) {
         double square = 0.0;
         for (const Vec3& x : patch.control)
-            square = std::max(square, foot_on_triangle(x, patch.control[QuarticPatch::a], patch.control[QuarticPatch::b],
-                                                       patch.control[QuarticPatch::c])
+            square = std::max(square, foot_on_triangle(x, patch.control[QuarticPatch::a],
+                                                       patch.control[QuarticPatch::b], patch.control[QuarticPatch::c])
                                           .square);
         return std::sqrt(square) * (1.0 + 1e-12);
     }

@@ -107,7 +107,7 @@ class Shape:
             self._shape = _sewn(self._shape, _SEWN * self.size)
 
     def faces(self, arrow: float, angle: float) -> list[Face]:
-        """Its faces with triangles that turn no more than an angle in radians and leave the faces by no more than an arrow.
+        """Its faces with triangles that turn by no more than an angle and leave the faces by no more than an arrow.
 
         Raises
         ------

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -111,11 +112,25 @@ class CadTool(Tool):
         """Points and triangles on the faces."""
         return self.smooth.surface
 
+    @property
+    def largest_curvature(self) -> float:
+        """Largest convex curvature; infinite with a sharp edge."""
+        return self.smooth.largest_curvature
+
     def kernel(self) -> _core.Surface:
         """The surface as the kernels take it."""
+        return self._kernel
+
+    @cached_property
+    def _kernel(self) -> _core.Surface:
         faces = [tool.kernel() for tool in self.exact]
         trust = 2.0 * self.deviation + 1e-9 * float(np.abs(self.surface.points).max())
         return self.smooth.patches.kernel(faces, np.repeat(self.face, 3), trust)
+
+    def __getstate__(self) -> dict[str, object]:
+        return {
+            name: value for name, value in self.__dict__.items() if name != "_kernel"
+        }  # made again where it is needed
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Flat triangles of the patches."""

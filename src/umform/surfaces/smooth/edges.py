@@ -111,8 +111,8 @@ def _refuse_holes(points: Floats, start: Ids, end: Ids, where: str) -> None:
     graph = coo_matrix((np.ones(len(one)), (one, other)), shape=(len(used), len(used)))
     rims, label = connected_components(graph, directed=False)
     length = np.bincount(label[one], np.linalg.norm(points[end] - points[start], axis=1), rims)
-    middle = np.stack([np.bincount(label, points[used, k], rims) for k in range(3)], axis=1)
-    middle /= np.bincount(label, minlength=rims)[:, None]
+    sums = np.stack([np.bincount(label, points[used, k], rims) for k in range(3)], axis=1)
+    middle = sums / np.bincount(label, minlength=rims)[:, None]
     longest = np.argsort(-length, kind="stable")
     named = [f"rim of length {length[i]:.6g} around {_point(middle[i])}" for i in longest[:_PLACES]]
     more = f" and {rims - _PLACES} more" if rims > _PLACES else ""

@@ -79,7 +79,7 @@ def _tangent(chord: Floats, n: Floats, other: Floats, sharp: np.ndarray) -> Floa
 
 
 def _second_row(P: Floats, inner: Floats, hodograph: tuple[Floats, Floats, Floats], n: Floats) -> Floats:
-    """Points beside the edge, which give it the tangent planes that its ends and they alone know. eqs. (4.162), (4.163)"""
+    """Points beside the edge, which give it tangent planes that follow from its ends alone. eqs. (4.162), (4.163)"""
     q0, q1, q2 = hodograph
     inner_j, n_j = _after(inner), _after(n)
     A0, A1 = (np.cross(m, q / np.linalg.norm(q, axis=2, keepdims=True)) for m, q in ((n, q0), (n_j, q2)))
@@ -103,4 +103,4 @@ def _of_cubic(V: Floats, b1: Floats, b2: Floats) -> Floats:
     centre = 1.5 * E - 0.5 * M
     toward_i = (V + b2 + _before(b1) + 2.0 * b1 + 2.0 * _before(b2) + 2.0 * centre) / 9.0  # at corner, middle, middle
     both = (b1 + b2 + centre) / 3.0
-    return (toward_i + _after(toward_i) + 2.0 * both) / 4.0
+    return np.asarray((toward_i + _after(toward_i) + 2.0 * both) / 4.0)

@@ -60,7 +60,7 @@ def from_facets(surface: Triangles, edges: Edges, sharp: float, where: str) -> N
 
 
 def from_drawing(surface: Triangles, edges: Edges, corner: Floats, sharp: float, where: str) -> Normals:
-    """Normals of the true surface at each corner of each triangle; those that differ by less than ``sharp`` made one."""
+    """Normals of the true surface at the corners of triangles; those that differ by less than ``sharp`` made one."""
     n = corner.reshape(-1, 3)
     number = np.arange(len(n))
     end = np.where(number % 3 == 2, number - 2, number + 1)
@@ -81,7 +81,7 @@ def _averaged(surface: Triangles, edges: Edges, weighted: Floats, joined: np.nda
     graph = coo_matrix((np.ones(len(one)), (one, other)), shape=(len(number), len(number)))
     count, label = connected_components(graph, directed=False)
     sums = np.stack([np.bincount(label, weighted[:, k], count) for k in range(3)], axis=1)
-    corner = _unit(sums)[label].reshape(-1, 3, 3)
+    corner = _unit(sums.astype(float))[label].reshape(-1, 3, 3)
     _refuse_folds(surface, corner, where)
     return Normals(corner, _same(label, edges, end))
 

@@ -60,11 +60,12 @@ class Patches:
             Largest difference between the distances to a third and to its exact surface; the latter counts.
         """
         face = np.full(len(self.across), -1) if face is None else face
-        integers = (
-            np.ascontiguousarray(ids, dtype=np.int32) for ids in (self.across, self.neighbour, self.ends, face)
+        across, neighbour, ends, of, corner = (
+            np.ascontiguousarray(ids, dtype=np.int32)
+            for ids in (self.across, self.neighbour, self.ends, face, self.corner)
         )
         return _core.triangulated(
-            self.control, *integers, self.normals, self.corner.astype(np.int32), list(faces), trust
+            self.control, across, neighbour, ends, of, self.normals, corner, list(faces), float(trust)
         )
 
     def at(self, weights: Floats) -> Floats:
