@@ -71,12 +71,12 @@ def read_stl(path: str | Path, weld: float = 0.0, scale: float = 1.0) -> Triangl
 def _read(path: Path) -> tuple[Floats, Ids]:
     import meshio  # slow to import
 
+    if not path.exists():
+        raise FileProblem("there is no such file", where=str(path), remedy="give the path of an STL file")
     try:
-        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # it prints warnings
+        with np.errstate(over="ignore"), contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # it prints warnings
             made = meshio.read(path, file_format="stl")
         triangles = [block.data for block in made.cells if block.type == "triangle"]
-    except FileNotFoundError as error:
-        raise FileProblem("there is no such file", where=str(path), remedy="give the path of an STL file") from error
     except (Exception, SystemExit) as error:  # meshio raises what it comes across, and may exit
         raise FileProblem(
             "this is no STL file that can be read",

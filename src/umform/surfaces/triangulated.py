@@ -18,7 +18,7 @@ from umform.surfaces.stl import read_stl
 from umform.surfaces.tool import Tool
 from umform.surfaces.triangles import Floats, Ids, Triangles
 
-#: Weights of the corners of a third at which its distance from the flat triangle is measured.
+#: Weights of the corners of a third at which its height over the triangle is measured.
 _SAMPLES = np.array([(4 - j - i, i, j) for j in range(5) for i in range(5 - j)]) / 4.0
 
 
@@ -67,6 +67,7 @@ class Triangulated(Tool):
                 cause="an angle in radians, or that inside of the solid",
                 remedy="the angle between the normals of two triangles, 30 for instance",
             )
+        _refuse_shape(self.normals, self.surface, self.name)
         edges = connected(self.surface, self.name, rims=self.open)
         if not (edges.mate < 0).any() and self.volume < 0.0:
             raise TurnedNormals(
@@ -123,10 +124,10 @@ class Triangulated(Tool):
     @cached_property
     def arrow(self) -> float:
         """Largest distance of the smooth surface from the triangles: what the tessellation has cut off, about."""
-        flat = np.einsum("kw,pwi->pki", _SAMPLES, self.patches.control[:, [0, 4, 14]])
-        height = np.linalg.norm(self.patches.at(_SAMPLES) - flat, axis=2)
-        middle = self.patches.control[:, 14] - np.repeat(self.surface.corners.mean(axis=1), 3, axis=0)
-        return float(height.max() + np.linalg.norm(middle, axis=1).max())
+        n = self.surface.area_vectors
+        n = np.repeat(n / np.linalg.norm(n, axis=1, keepdims=True), 3, axis=0)
+        beside = self.patches.at(_SAMPLES) - self.patches.control[:, None, 0]
+        return float(np.abs(np.einsum("pki,pi->pk", beside, n)).max())
 
     @cached_property
     def largest_curvature(self) -> float:
@@ -171,6 +172,18 @@ class Triangulated(Tool):
         del centre, reach
         parts = math.ceil(math.sqrt(float(self.patches.bulge().max()) / chord)) if chord > 0.0 else 1
         return self.patches.facets(min(max(parts, 1), 16))
+
+
+def _refuse_shape(normals: Floats | None, surface: Triangles, where: str) -> None:
+    """Refuse normals that are not three for each triangle."""
+    if normals is not None and normals.shape != surface.corners.shape:
+        raise InvalidValue(
+            "there must be one normal for each corner of each triangle",
+            where=f"{where}.normals",
+            value=f"shape {normals.shape}, {len(surface.triangles)} triangles",
+            cause="normals of points",
+            remedy="normals[surface.triangles], of the shape (m, 3, 3)",
+        )
 
 
 def _opposite(edge: Ids) -> Ids:
