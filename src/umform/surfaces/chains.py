@@ -122,12 +122,11 @@ def _refuse_many(segments: Sequence[Segment], points: Floats, label: Ids, degree
         )
     loops = []
     for k in range(int(label.max()) + 1):
-        own = points[label == k]
-        radius = max(
-            (s.radius for i, s in enumerate(segments) if label[ends[i, 0]] == k and isinstance(s, Arc)), default=0.0
-        )
-        circle = f", radius {radius:.6g}" if len(own) == 1 else ""
-        loops.append(f"one from {_point(own.min(axis=0))} to {_point(own.max(axis=0))}{circle}")
+        own, first = points[label == k], segments[int(np.flatnonzero(label[ends[:, 0]] == k)[0])]
+        if isinstance(first, Arc) and first.start == first.end:
+            loops.append(f"a circle around {_point(first.centre)}, radius {first.radius:.6g}")
+        else:
+            loops.append(f"one from {_point(own.min(axis=0))} to {_point(own.max(axis=0))}")
     raise OpenSection(
         f"there are {len(loops)} closed curves",
         where=where,

@@ -56,7 +56,7 @@ def read_stl(path: str | Path, weld: float = 0.0, scale: float = 1.0) -> Triangl
         )
     size = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
     near = not_negative(weld, "from_stl", "weld distance") or _WELD * size
-    surface, _ = welded(points, triangles, near)
+    surface = welded(points, triangles, near)[0] if len(triangles) else Triangles(points, triangles)
     if not len(surface.triangles):
         raise UnfitTriangles(
             "there is no triangle",
@@ -74,7 +74,7 @@ def _read(path: Path) -> tuple[Floats, Ids]:
     if not path.exists():
         raise FileProblem("there is no such file", where=str(path), remedy="give the path of an STL file")
     try:
-        with np.errstate(over="ignore"), contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):  # it prints warnings
+        with np.errstate(over="ignore"), contextlib.redirect_stdout(io.StringIO()):  # it prints warnings
             made = meshio.read(path, file_format="stl")
         triangles = [block.data for block in made.cells if block.type == "triangle"]
     except (Exception, SystemExit) as error:  # meshio raises what it comes across, and may exit

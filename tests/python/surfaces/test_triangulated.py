@@ -66,7 +66,7 @@ def tube(parts):
     ring = np.c_[np.cos(angle), np.sin(angle), np.zeros(parts)]
     a, b = np.arange(parts), (np.arange(parts) + 1) % parts
     faces = np.vstack([np.c_[a, b, b + parts], np.c_[a, b + parts, a + parts]])
-    return Triangles(np.vstack([ring - (0, 0, 20), ring + (0, 0, 20)]), faces)
+    return Triangles(np.vstack([ring - np.array([0, 0, 20]), ring + np.array([0, 0, 20])]), faces)
 
 
 def smooth(surface, tool=None):

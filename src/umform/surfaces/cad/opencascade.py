@@ -18,7 +18,7 @@ from umform.surfaces.triangles import Floats, Ids
 #: Part of the size of a shape within which the faces of an IGES file are sewn together.
 _SEWN = 1e-5
 #: Part of the way to the middle of a triangle at which the normal of a pole is taken.
-_BESIDE = 1e-6
+_BESIDE = 1e-3
 STEP, IGES = (".step", ".stp"), (".iges", ".igs")
 
 
@@ -69,11 +69,11 @@ class Face:
         n, regular = self._crosses(self.uv)
         if not regular.all():
             ids = self.triangles.ravel()
-            inside = np.repeat(self.uv[self.triangles].mean(axis=1), 3, axis=0)
-            beside = self.uv.copy()
-            beside[ids] += _BESIDE * (inside - self.uv[ids])  # of several triangles at a point the last one counts
-            n[~regular] = self._crosses(beside[~regular])[0]
-        return np.asarray(n / np.linalg.norm(n, axis=1, keepdims=True))
+            way = np.zeros_like(self.uv)
+            way[ids] = np.repeat(self.uv[self.triangles].mean(axis=1), 3, axis=0) - self.uv[ids]  # the last one counts
+            near, far = (_unit(self._crosses((self.uv + k * _BESIDE * way)[~regular])[0]) for k in (1, 2))
+            n[~regular] = 2.0 * near - far
+        return _unit(n)
 
     def _crosses(self, uv: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         """Cross products of the derivatives, and where these are not about zero."""
@@ -81,6 +81,10 @@ class Face:
         n = np.cross(dv, du) if self.reversed else np.cross(du, dv)
         largest = np.linalg.norm(du, axis=1).max() * np.linalg.norm(dv, axis=1).max()
         return n, np.linalg.norm(n, axis=1) > 1e-7 * largest
+
+
+def _unit(n: Floats) -> Floats:
+    return np.asarray(n / np.linalg.norm(n, axis=1, keepdims=True))
 
 
 class Shape:
@@ -163,7 +167,7 @@ class Shape:
 
 
 def _static(module: str, name: str, function: str) -> Any:
-    """A static function, whose name ends in _s in older versions of the wheel."""
+    """A static function; where the wheel has others of its name, or in older wheels, it ends in _s."""
     of = getattr(importlib.import_module(f"OCP.{module}"), name)
     return getattr(of, f"{function}_s", None) or getattr(of, function)
 

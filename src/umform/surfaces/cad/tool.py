@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from umform import _core
-from umform.errors import DrawingError
+from umform.errors import DrawingError, TurnedNormals
 from umform.surfaces.cad.deviation import distances
 from umform.surfaces.cad.elementary import elementary
 from umform.surfaces.cad.opencascade import Face, Shape
@@ -20,8 +20,10 @@ from umform.surfaces.tool import Tool
 from umform.surfaces.triangles import Floats, Ids, Triangles
 from umform.surfaces.triangulated import Triangulated
 
-#: Angle in radians by which triangles turn at first, what it is taken by as long as they are too coarse, how often.
-_ANGLE, _FINER, _ROUNDS = 0.35, 0.6, 8
+#: Angle in radians by which triangles turn at first, the least part of it that the next attempt takes, how often.
+_ANGLE, _LEAST_SHARE, _ROUNDS = 0.35, 0.5, 8
+#: More triangles are not tried.
+_MOST = 100_000
 #: Part of the size of a shape by which triangles leave its faces at first, and within which points are one.
 _ARROW, _WELD = 5e-3, 1e-7
 #: Weights of the corners of a triangle at which the distance from a free form is measured.
@@ -93,18 +95,30 @@ class CadTool(Tool):
         """
         positive(tolerance, "CadTool.read", "tolerance")
         shape = Shape(path, positive(scale, "CadTool.read", "scale"))
-        angle, arrow, found = _ANGLE, _ARROW * shape.size, np.inf
+        angle, arrow, found = _ANGLE, _ARROW * shape.size, "folds"
         for _ in range(_ROUNDS):
-            made = _tool(shape, arrow, angle, sharp, open)
-            if made.deviation <= tolerance:
-                return made
-            angle, arrow, found = _FINER * angle, _FINER**2 * arrow, made.deviation
+            share = _LEAST_SHARE
+            try:
+                made = _tool(shape, arrow, angle, sharp, open)
+            except TurnedNormals as error:  # triangles may be too coarse for the radii
+                refusal: DrawingError | None = error
+            else:
+                if made.deviation <= tolerance:
+                    return made
+                refusal, found = None, f"{made.deviation:.3g} with {len(made.face)} triangles"
+                wanted = (tolerance / made.deviation) ** (1.0 / 3.0)  # third order
+                if len(made.face) > _MOST * wanted**2:
+                    break
+                share = min(max(wanted, share), 0.9)
+            angle, arrow = share * angle, share**2 * arrow
+        if refusal is not None:
+            raise refusal
         raise DrawingError(
             "the triangles of the faces do not come near enough to them",
             where=str(path),
-            value=f"{found:.3g} with {len(made.face)} triangles, {tolerance:.3g} is allowed",
-            cause="a tolerance below that of the drawing, or faces with kinks",
-            remedy=f"tolerance={2.0 * found:.1g}, or repair the faces",
+            value=f"{found}, {tolerance:.3g} is allowed",
+            cause="a tolerance far below the size of the radii, or faces with kinks",
+            remedy="a larger tolerance, or faces without kinks",
         )
 
     @property
