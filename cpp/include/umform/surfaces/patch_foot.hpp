@@ -35,8 +35,8 @@ class FootSearch {
   private:
     using Step = PatchParameter;
     static constexpr int most_iterations = 40;
-    /// Quadratic convergence: what is left after a step of this size is round-off.
-    static constexpr double last_step = 1e-8;
+    /// Quadratic convergence: what is left after a step of this size is round-off, patches being nearly flat.
+    static constexpr double last_step = 1e-6;
 
     void move_to(const PatchParameter& p) {
         foot_.p = p;

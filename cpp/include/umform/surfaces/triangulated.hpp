@@ -41,6 +41,7 @@ class Triangulated final : public Surface {
         for (const int i : order) {
             thirds_.push_back(thirds[i]);
             bulge_.push_back(bulge(thirds[i].patch));
+            lift_.push_back(lift(thirds[i].patch));
             int& neighbour = thirds_.back().neighbour;
             if (neighbour >= 0) neighbour = place[neighbour];
         }
@@ -68,24 +69,52 @@ class Triangulated final : public Surface {
         PatchFoot foot;
     };
 
-    /// Of equally near thirds the first one counts, so that the answer does not depend on where the search began. eq. (4.170)
+    /// What the flat triangle of a third says: the least distance that its patch may have, and where to look for its foot.
+    struct Candidate {
+        int third;
+        double least;
+        PatchParameter start;
+    };
+
+    /// First the flat triangles, whose distances bound those of their patches from both sides, then the few patches that may
+    /// be nearest. Of equally near ones the first counts, so that the answer does not depend on where the search began.
+    /// eq. (4.170)
     Found nearest(const Vec3& x, const Vec3& last) const {
         const Vec3 d = difference(x, last);
-        double bound = dot(d, d) * (1.0 + 1e-9);
+        double bound = std::sqrt(dot(d, d)) * (1.0 + 1e-9);
         Found best{-1, {}};
         best.foot.square = std::numeric_limits<double>::infinity();
-        tree_.near_first(x, bound, [&](int i) {
-            const QuarticPatch& patch = thirds_[i].patch;
-            const FlatFoot flat = foot_on_triangle(x, patch.control[QuarticPatch::a], patch.control[QuarticPatch::b],
-                                                   patch.control[QuarticPatch::c]);
-            const double least = std::sqrt(flat.square) * (1.0 - 1e-12) - bulge_[i];
-            if (least > 0.0 && least * least > bound) return bound;
-            const PatchFoot foot = FootSearch(patch, x).from(flat.p);
-            if (foot.square < best.foot.square || (foot.square == best.foot.square && i < best.third)) best = {i, foot};
-            bound = std::min(bound, best.foot.square * (1.0 + 1e-12));
-            return bound;
+        std::array<Candidate, 64> candidates;
+        std::size_t count = 0;
+        tree_.near_first(x, bound * bound, [&](int i) {
+            const FlatFoot flat = foot_on_flat(thirds_[i].patch, x);
+            const double distance = std::sqrt(flat.square), least = distance * (1.0 - 1e-12) - bulge_[i];
+            if (least <= bound) {
+                if (count == candidates.size()) settle(x, candidates, count, bound, best);
+                candidates[count++] = {i, least, flat.p};
+                bound = std::min(bound, (distance + lift_[i]) * (1.0 + 1e-9));
+            }
+            return bound * bound;
         });
+        settle(x, candidates, count, bound, best);
         return best;
+    }
+
+    /// Feet on the candidates, those that may lie nearest first.
+    void settle(const Vec3& x, std::array<Candidate, 64>& candidates, std::size_t& count, double& bound,
+                Found& best) const {
+        while (count > 0) {
+            const auto end = candidates.begin() + count;
+            const auto next = std::min_element(
+                candidates.begin(), end, [](const Candidate& a, const Candidate& b) { return a.least < b.least; });
+            const Candidate candidate = *next;
+            *next = candidates[--count];
+            if (candidate.least > bound) continue;
+            const PatchFoot foot = FootSearch(thirds_[candidate.third].patch, x).from(candidate.start);
+            if (foot.square < best.foot.square || (foot.square == best.foot.square && candidate.third < best.third))
+                best = {candidate.third, foot};
+            bound = std::min(bound, std::sqrt(best.foot.square) * (1.0 + 1e-12));
+        }
     }
 
     Gap gap_at(const Vec3& x, const Found& found) const {
@@ -172,19 +201,36 @@ class Triangulated final : public Surface {
         return boxes;
     }
 
+    static FlatFoot foot_on_flat(const QuarticPatch& patch, const Vec3& x) {
+        return foot_on_triangle(x, patch.control[QuarticPatch::a], patch.control[QuarticPatch::b],
+                                patch.control[QuarticPatch::c]);
+    }
+
     /// No point of a patch is farther from the flat triangle of its corners: the distance to a convex set is convex.
     static double bulge(const QuarticPatch& patch) {
         double square = 0.0;
-        for (const Vec3& x : patch.control)
-            square = std::max(square, foot_on_triangle(x, patch.control[QuarticPatch::a],
-                                                       patch.control[QuarticPatch::b], patch.control[QuarticPatch::c])
-                                          .square);
+        for (const Vec3& x : patch.control) square = std::max(square, foot_on_flat(patch, x).square);
+        return std::sqrt(square) * (1.0 + 1e-12);
+    }
+
+    /// No point of a patch is farther from the point of the flat triangle with the same parameters.
+    static double lift(const QuarticPatch& patch) {
+        const Vec3 &a = patch.control[QuarticPatch::a], &b = patch.control[QuarticPatch::b];
+        const Vec3& c = patch.control[QuarticPatch::c];
+        double square = 0.0;
+        for (int row = 0, k = 0; row < 5; ++row)
+            for (int i = 0; i < 5 - row; ++i, ++k) {
+                Vec3 d;
+                for (int j = 0; j < 3; ++j)
+                    d[j] = patch.control[k][j] - 0.25 * ((4 - row - i) * a[j] + i * b[j] + row * c[j]);
+                square = std::max(square, dot(d, d));
+            }
         return std::sqrt(square) * (1.0 + 1e-12);
     }
 
     BoxTree tree_;
     std::vector<Third> thirds_;  // in the order of the tree
-    std::vector<double> bulge_;
+    std::vector<double> bulge_, lift_;
     std::vector<Corner> corners_;
     ExactFaces exact_;
 };
