@@ -131,7 +131,7 @@ class Triangulated final : public Surface {
         return third.face < 0 ? smooth : exact(x, *exact_.surfaces[third.face], smooth);
     }
 
-    /// The exact surface goes on beyond its face: it is taken where the patch says the same. eq. (4.175)
+    /// The exact surface goes on beyond its face: it is taken where the patch says the same. eq. (4.173)
     Gap exact(const Vec3& x, const Surface& surface, const Gap& smooth) const {
         Gap gap;
         surface.gap(1, x.data(), &gap.g, gap.n.data(), gap.H.a.data());

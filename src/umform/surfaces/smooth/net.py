@@ -18,7 +18,7 @@ _MEET = 1e-4
 
 
 def control_points(surface: Triangles, edges: Edges, normals: Normals) -> Floats:
-    """Points of the three patches of each triangle.
+    """Points of the three patches of each triangle. eq. (4.164)
 
     Returns
     -------
