@@ -2,7 +2,7 @@
 
     python benchmarks/triangulated.py
 
-prints the CPU time of the elements, and of contact with an exact cylinder, a die of triangles and its faces as ratios to it.
+prints the CPU time of the elements, and that of contact with a plane and with a die of triangles as ratios to it.
 """
 
 from __future__ import annotations

@@ -148,6 +148,13 @@ class Triangulated(Tool):
         rise = np.einsum("ei,ei->e", n, self.surface.points[beyond] - self.surface.points[self.patches.ends[sharp, 0]])
         return bool((rise < 0.0).any())
 
+    def __str__(self) -> str:
+        """What the triangles have been made into."""
+        across = self.patches.across
+        parts = [f"{len(self.surface.triangles)} triangles", f"{int((across == 1).sum()) // 2} sharp edges"]
+        parts += [f"{int((across == 2).sum())} edges of rims"] if (across == 2).any() else []
+        return f"{self.name}: {', '.join(parts)}; smooth surface up to {self.arrow:.2g} from them"
+
     def reversed(self) -> Triangulated:
         """The same surface with solid and void exchanged."""
         turned = Triangles(self.surface.points, self.surface.triangles[:, ::-1])

@@ -38,6 +38,8 @@ def test_a_check_sees_the_radius_of_a_drawing(strip, ball):
     contact = '[contacts.it]\ntool = "it"\nfaces = "lower"\npenalty = 100.0\n'
     deck = read(strip, ball, f'file = "ball.stl"\n{contact}')
     found = [row for row in check(deck, deck.build()) if row.about == "contact it"]
+    said = [row.text for row in check(deck, deck.build()) if row.about == "tool it"]
+    assert any("ball.stl" in text and "0 sharp edges" in text for text in said)
     assert any("of the radius 2." in row.text or "of the radius 3" in row.text for row in found)
 
 

@@ -24,6 +24,7 @@ from umform.surfaces import (
     Torus,
     Triangles,
     Triangulated,
+    UDie,
     check_surface,
     write_tool,
 )
@@ -126,6 +127,20 @@ def test_needles_along_a_bar(given):
         errors.append(np.abs(tool.gap(x)[0] - 0.2).max())
     assert errors[1] < 2e-4
     assert errors[0] > 12 * errors[1]
+
+
+def test_flanges_stay_flat_beside_their_fillets():
+    """The normal where they meet is that of the flange, as in the drawing; a mean would let it bulge by millimetres."""
+    die = UDie(opening=44, depth=20, shoulder_radius=5, bottom_radius=5)
+    section = die.profile.points(0.05, beyond=30.0)
+    points = np.concatenate([np.c_[section[:, 0], np.full(len(section), y), section[:, 1]] for y in (0.0, 40.0)])
+    a = np.arange(len(section) - 1)
+    b, c, d = a + 1, a + 1 + len(section), a + len(section)
+    tool = Triangulated(Triangles(points, np.vstack([np.c_[a, c, b], np.c_[a, d, c]])), open=True)
+    x, y, z = (v.ravel() for v in np.meshgrid(np.linspace(-50, 50, 101), [3.0, 21.0], [-17.0, -10.0, -1.0, 0.5]))
+    inside = np.abs(x) < 20.0
+    at = np.c_[x, y, np.where(inside, z, np.abs(z))]
+    assert np.abs(tool.gap(at)[0] - die.gap(at)[0]).max() < 0.05 / 20
 
 
 # Derivatives -------------------------------------------------------------------------------------------------

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
@@ -12,8 +13,13 @@ from umform.errors import TurnedNormals
 from umform.surfaces.smooth.edges import Edges
 from umform.surfaces.triangles import Floats, Ids, Triangles
 
+#: Triangles whose unit normals differ by less belong to one face; a face below this part of another one is small.
+_LEVEL, _SMALL = 1e-3, 0.25
 #: Least cosine between a triangle and a normal at its corners: beyond 72 degrees a patch folds.
 _LEAST_COSINE = 0.3
+
+
+Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -29,7 +35,7 @@ class Normals:
     """
 
     corner: Floats
-    same: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    same: Bools
 
 
 def from_facets(surface: Triangles, edges: Edges, sharp: float, where: str) -> Normals:
@@ -53,10 +59,28 @@ def from_facets(surface: Triangles, edges: Edges, sharp: float, where: str) -> N
     n = _unit(surface.area_vectors)
     joined = edges.mate >= 0
     triangle = np.arange(len(edges.mate)) // 3
-    joined[joined] = np.einsum("ei,ei->e", n[triangle[joined]], n[triangle[edges.mate[joined]]]) > np.cos(
-        np.radians(sharp)
-    )
-    return _averaged(surface, edges, weighted.reshape(-1, 3), joined, where)
+    one, other = n[triangle[joined]], n[triangle[edges.mate[joined]]]
+    level = joined.copy()
+    level[joined] = np.linalg.norm(one - other, axis=1) < _LEVEL
+    joined[joined] = np.einsum("ei,ei->e", one, other) > np.cos(np.radians(sharp))
+    label = _groups(edges, joined)
+    weighted[_small(surface, edges, level, label)] = 0.0
+    return _averaged(surface, edges, weighted.reshape(-1, 3), label, where)
+
+
+def _small(surface: Triangles, edges: Edges, level: Bools, label: Ids) -> Bools:
+    """Corners, shape (m, 3), of faces that are small beside another one at the same point.
+
+    Where a flange goes over into a fillet, or a long cylinder into a small torus, the normal is that of the larger
+    face: a tessellation makes triangles of one size where the curvature goes on.
+    """
+    triangle = np.flatnonzero(level) // 3
+    graph = coo_matrix((np.ones(len(triangle)), (triangle, edges.mate[level] // 3)), shape=(len(label) // 3,) * 2)
+    count, face = connected_components(graph, directed=False)
+    area = np.bincount(face, np.linalg.norm(surface.area_vectors, axis=1), count)[face].repeat(3)
+    largest = np.zeros(int(label.max()) + 1)
+    np.maximum.at(largest, label, area)
+    return np.asarray(area < _SMALL * largest[label]).reshape(-1, 3)
 
 
 def from_drawing(surface: Triangles, edges: Edges, corner: Floats, sharp: float, where: str) -> Normals:
@@ -69,24 +93,31 @@ def from_drawing(surface: Triangles, edges: Edges, corner: Floats, sharp: float,
     joined = mate >= 0
     j, m = number[joined], mate[joined]
     joined[joined] = (np.einsum("ei,ei->e", n[j], n[end[m]]) > least) & (np.einsum("ei,ei->e", n[end[j]], n[m]) > least)
-    return _averaged(surface, edges, n, joined, where)
+    return _averaged(surface, edges, n, _groups(edges, joined), where)
 
 
-def _averaged(surface: Triangles, edges: Edges, weighted: Floats, joined: np.ndarray, where: str) -> Normals:
-    """One normal for all corners around a point that joined edges connect."""
+def _groups(edges: Edges, joined: Bools) -> Ids:
+    """Numbers of the groups of corners around a point that joined edges connect, shape (3 m,)."""
     number = np.arange(len(edges.mate))
     end = np.where(number % 3 == 2, number - 2, number + 1)
     j, mate = number[joined], edges.mate[joined]
     one, other = np.concatenate([j, end[j]]), np.concatenate([end[mate], mate])
     graph = coo_matrix((np.ones(len(one)), (one, other)), shape=(len(number), len(number)))
-    count, label = connected_components(graph, directed=False)
+    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
+
+
+def _averaged(surface: Triangles, edges: Edges, weighted: Floats, label: Ids, where: str) -> Normals:
+    """One normal for all corners of a group."""
+    number = np.arange(len(edges.mate))
+    end = np.where(number % 3 == 2, number - 2, number + 1)
+    count = int(label.max()) + 1
     sums = np.stack([np.bincount(label, weighted[:, k], count) for k in range(3)], axis=1)
     corner = _unit(sums.astype(float))[label].reshape(-1, 3, 3)
     _refuse_folds(surface, corner, where)
     return Normals(corner, _same(label, edges, end))
 
 
-def _same(label: Ids, edges: Edges, end: Ids) -> np.ndarray:
+def _same(label: Ids, edges: Edges, end: Ids) -> Bools:
     """Whether the corners at both ends of an edge are connected around the point."""
     inner = edges.mate >= 0
     same = np.ones((len(label), 2), dtype=bool)
