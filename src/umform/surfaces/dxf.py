@@ -62,7 +62,7 @@ def read_dxf(path: str | Path, layer: str | None, unit: str, curve_error: float)
         raise FileProblem(
             "there is no such file" if missing else "this is no DXF drawing that can be read",
             where=str(path),
-            cause="" if missing else " ".join(str(error).split()),
+            cause="another name or folder" if missing else " ".join(str(error).split()),
             remedy="give the path of a DXF file" if missing else "save it as DXF (text or binary) again, not as DWG",
         ) from error
     factor = ezdxf.units.conversion_factor(drawing.units, _UNITS[unit]) if drawing.units else 1.0

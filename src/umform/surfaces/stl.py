@@ -72,7 +72,12 @@ def _read(path: Path) -> tuple[Floats, Ids]:
     import meshio  # slow to import
 
     if not path.exists():
-        raise FileProblem("there is no such file", where=str(path), remedy="give the path of an STL file")
+        raise FileProblem(
+            "there is no such file",
+            where=str(path),
+            cause="another name or folder; in a deck the path begins at its folder",
+            remedy="give the path of an STL file",
+        )
     try:
         with np.errstate(over="ignore"), contextlib.redirect_stdout(io.StringIO()):  # it prints warnings
             made = meshio.read(path, file_format="stl")

@@ -183,7 +183,12 @@ def _read(path: Path) -> Any:
             remedy="export as .step, or an STL file with Triangulated.from_stl",
         )
     if not path.exists():
-        raise FileProblem("there is no such file", where=str(path), remedy="give the path of a STEP or IGES file")
+        raise FileProblem(
+            "there is no such file",
+            where=str(path),
+            cause="another name or folder; in a deck the path begins at its folder",
+            remedy="give the path of a STEP or IGES file",
+        )
     try:
         if suffix in STEP:
             reader = importlib.import_module("OCP.STEPControl").STEPControl_Reader()
