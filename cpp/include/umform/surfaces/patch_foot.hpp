@@ -84,7 +84,8 @@ class FootSearch {
     bool descend(const Step& step, bool last) {
         const PatchFoot before = foot_;
         const Vec3 d_before = d_;
-        for (double part = 1.0; part > 1e-3; part *= 0.5) {
+        double part = 1.0;
+        for (int halving = 0; halving < 10; ++halving, part *= 0.5) {
             move_to(inside(before.p, {part * step.u, part * step.v}));
             if (last || foot_.square <= before.square * (1.0 + 1e-9)) return true;
         }

@@ -21,7 +21,7 @@ def elementary(face: Face) -> Tool | None:
     """The endless surface of a face with its solid on the side of the face's; None of a free form."""
     if face.kind not in _MAKERS:
         return None
-    tool = _MAKERS[face.kind](getattr(face.surface, face.kind)(), face)
+    tool = _MAKERS[face.kind](getattr(face.formula, face.kind)(), face)
     if tool is None:
         return None
     same = float(np.einsum("ni,ni->", face.normals(), tool.gap(face.points)[1]))

@@ -17,6 +17,8 @@ from umform.surfaces.triangles import Floats, Ids
 
 #: Part of the size of a shape within which the faces of an IGES file are sewn together.
 _SEWN = 1e-5
+#: Part of the size of a shape within which a spline is taken for a plane, a cylinder, ...
+_RECOGNISED = 1e-7
 #: Part of the way to the middle of a triangle at which the normal of a pole is taken.
 _BESIDE = 1e-3
 STEP, IGES = (".step", ".stp"), (".iges", ".igs")
@@ -40,6 +42,8 @@ class Face:
         The outward normal is the opposite of that of the parameters.
     surface : object
         The surface with its derivatives, of OpenCASCADE.
+    formula : object
+        The same as a plane, a cylinder, ... if it is one, also where the file has it as a spline or a turned curve.
     """
 
     number: int
@@ -48,11 +52,12 @@ class Face:
     triangles: Ids
     reversed: bool
     surface: Any
+    formula: Any
 
     @cached_property
     def kind(self) -> str:
         """Plane, Cylinder, Cone, Sphere, Torus, or another word for a free form."""
-        return str(self.surface.GetType()).rpartition("_")[2]
+        return _kind(self.formula)
 
     def derivatives(self, uv: Floats) -> tuple[Floats, Floats, Floats]:
         """Points and their derivatives by both parameters, each of shape (n, 3)."""
@@ -148,7 +153,7 @@ class Shape:
             raise DrawingError(
                 "a face cannot be triangulated",
                 where=str(self.path),
-                value=f"face {number}, a {str(surface.GetType()).rpartition('_')[2]}",
+                value=f"face {number}, a {_kind(surface)}",
                 cause="its boundary crosses itself, or leaves the surface",
                 remedy="repair the face in the program that wrote the file",
             )
@@ -158,12 +163,27 @@ class Shape:
         uv = np.array([(p.X(), p.Y()) for p in (made.UVNode(i) for i in nodes)])
         triangles = np.array([made.Triangle(i).Get() for i in range(1, made.NbTriangles() + 1)], dtype=np.int64) - 1
         reverse = str(face.Orientation()).endswith("REVERSED")
-        return Face(number, points, uv, triangles[:, :: -1 if reverse else 1], reverse, surface)
+        return Face(
+            number, points, uv, triangles[:, :: -1 if reverse else 1], reverse, surface, self._formula(face, surface)
+        )
+
+    def _formula(self, face: Any, surface: Any) -> Any:
+        """The surface as OpenCASCADE recognises it."""
+        if _kind(surface) in ("Plane", "Cylinder", "Cone", "Sphere", "Torus"):
+            return surface
+        convert = importlib.import_module("OCP.GeomConvert").GeomConvert_SurfToAnaSurf
+        found = convert(_static("BRep", "BRep_Tool", "Surface")(face)).ConvertToAnalytical(_RECOGNISED * self.size)
+        return surface if found is None else importlib.import_module("OCP.GeomAdaptor").GeomAdaptor_Surface(found)
 
     def _size(self) -> float:
         bounds = importlib.import_module("OCP.Bnd").Bnd_Box()
         _static("BRepBndLib", "BRepBndLib", "Add")(self._shape, bounds)
         return math.sqrt(bounds.SquareExtent()) if not bounds.IsVoid() else 1.0
+
+
+def _kind(surface: Any) -> str:
+    """The word of OpenCASCADE for a kind of surface."""
+    return str(surface.GetType()).rpartition("_")[2]
 
 
 def _static(module: str, name: str, function: str) -> Any:
