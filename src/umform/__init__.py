@@ -70,7 +70,7 @@ __version__ = "0.1.0"
 
 _HOME = {
     "umform._core": ("set_threads", "threads"),
-    "umform.elements": ("Element", "Term", "Tying"),
+    "umform.elements": ("Element", "Term", "Tying", "rolling_at"),
     "umform.errors": ("UmformError",),
     "umform.materials": (
         "Chaboche",
@@ -201,6 +201,7 @@ __all__ = [
     "processes",
     "read_tool",
     "resume",
+    "rolling_at",
     "set_threads",
     "sheet_metals",
     "solve",
