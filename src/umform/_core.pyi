@@ -179,6 +179,16 @@ def revolved(segments: NDArray[float64], start: ProfileEnd, end: ProfileEnd, ori
 
 def rounded_box(centre: Sequence[float], axes: NDArray[float64], core: Sequence[float], radius: float) -> Surface: ...
 
+def triangulated(control: NDArray[float64], across: NDArray[int32], neighbour: NDArray[int32], ends: NDArray[int32], face: NDArray[int32], normals: NDArray[float64], corner: NDArray[int32], faces: Sequence[Surface], trust: float) -> Surface:
+    """
+    Thirds of triangles: points (n, 15, 3) of quartic patches; across their edge 0 smooth, 1 sharp, 2 a rim; the third on its other side or -1; its two corners (n, 2); its exact face or -1. Of the corners: the sum of normals (m, 3), and 0, 1, 2.
+    """
+
+def offset(tool: Surface, distance: float, side: int) -> Surface:
+    """
+    The tool grown by a distance (side 1), or all that is farther from it (side -1).
+    """
+
 def placed(tool: Surface, matrix: NDArray[float64], shift: Sequence[float]) -> Surface: ...
 
 class Connectivity:

@@ -18,6 +18,7 @@ from umform.deck.resolution import resolution
 from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallowsSheet
 from umform.model import Model
 from umform.solution.newton import Newton
+from umform.surfaces import CadTool, Offset, Placed, Triangulated
 
 #: Iterations of an increment, on an average.
 _ITERATIONS = 4
@@ -49,6 +50,7 @@ def before_run(deck: Deck, problem: Problem) -> Iterator[Finding]:
     with np.errstate(all="ignore"):
         yield from of_model(problem.model, millimetres=isinstance(deck.contents.material, FromLibrary))
         yield from resolution(deck, problem)
+        yield from drawings(problem)
         yield from idle(deck)
 
 
@@ -60,6 +62,16 @@ def supports(model: Model) -> Finding:
         text = "; ".join(part for part in (refusal.what, refusal.where, str(refusal.value or "")) if part)
         return error("supports" if isinstance(refusal, RigidBodyMotion) else "tools", text, refusal.remedy)
     return ok("supports", "no rigid-body motion is free")
+
+
+def drawings(problem: Problem) -> Iterator[Finding]:
+    """What became of tools that were drawn."""
+    for name, tool in problem.tools.items():
+        own: object = tool
+        while isinstance(own, Placed | Offset):
+            own = own.tool
+        if isinstance(own, CadTool | Triangulated):
+            yield ok(f"tool {name}", str(own))
 
 
 def idle(deck: Deck) -> Iterator[Finding]:

@@ -14,6 +14,7 @@ from umform.deck.errors import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey
 from umform.deck.foreign import Foreign
 from umform.deck.lines import Path
 from umform.deck.metal import J2, Metal
+from umform.deck.profiles import profile_of
 from umform.deck.rolling import direction
 from umform.deck.source import Source
 from umform.deck.steps import Named
@@ -82,12 +83,15 @@ class Problem(Solving):
         Its controls by name.
     steps : list of Step
         What happens, in a row.
+    tools : dict of str to Tool
+        Surfaces of its tools by name.
     """
 
     model: Model
     contacts: dict[str, Contact]
     controls: dict[str, Control]
     steps: list[Step]
+    tools: dict[str, Tool]
 
     def _given(self) -> tuple[Model | None, list[Step]]:
         return self.model, self.steps
@@ -141,6 +145,7 @@ class _Builder:
             contacts=contacts,
             controls=controls,
             steps=steps,
+            tools=tools,
             options=options,
             solver=self.solver,
             frames=self.contents.output.frames,
@@ -152,11 +157,11 @@ class _Builder:
             before = len(self.errors)
             if isinstance(part, Profiled):
                 with self._at("tools", name, "profile"):
-                    part.profile.build()
+                    profile_of(part.profile, self.source.folder)
             if len(self.errors) > before:
                 continue
             with self._at("tools", name):
-                tool = part.build()
+                tool = part.build(self.source.folder)
                 tool.kernel()
                 tools[name] = tool
         return tools

@@ -54,7 +54,7 @@ def bends(deck: Deck, problem: Problem) -> Iterator[Finding]:
     sharpest: tuple[float, str] | None = None
     for name, part in deck.contents.contacts.items():
         tool = deck.contents.tools[part.tool]
-        radius = smallest_radius(tool)
+        radius = smallest_radius(tool, problem.tools[part.tool])
         if radius is None:
             continue
         yield element_size(problem.contacts[name], problem.model, tool, radius)
