@@ -23,7 +23,25 @@ STEEL = mt.J2(E=210e3, nu=0.3, hardening=mt.Swift(strength=520.0, offset=0.004, 
 
 @dataclass(frozen=True)
 class Curve:
-    """Way and force of what is driven, iterations, CPU seconds, drift of the balance and largest penetration."""
+    """Way and force of what is driven, and what it took.
+
+    Attributes
+    ----------
+    way, force : ndarray
+        Of the control, increment by increment.
+    iterations : int
+        All together.
+    seconds : float
+        CPU time.
+    drift : float
+        Largest of the balance.
+    penetration : float
+        The largest.
+    cells : str
+        Their number at each tool.
+    expected : float, optional
+        Ripple to expect of the cells of all tools.
+    """
 
     way: Floats
     force: Floats
@@ -31,6 +49,8 @@ class Curve:
     seconds: float
     drift: float
     penetration: float
+    cells: str
+    expected: float | None
 
     def deviation(self, reference: Curve) -> float:
         """Root of the mean square of the difference of the forces, over that of the force."""
@@ -71,9 +91,12 @@ def solved(model: uf.Model, driven: Any, to: float, steps: int, names: tuple[str
     drift = float(np.abs(result.balance().drift).max())
     way, sign = result[driven.name], 1.0 if to > 0 else -1.0
     deepest = max(float(result[f"{name}_penetration"].max()) for name in names)
+    ripples = [contact.ripple for contact in model.contacts if contact.ripple is not None]
+    cells = "/".join(str(contact.cells) for contact in model.contacts)
     return Curve(
-        sign * way, sign * result[f"{driven.name}_force"], int(result["iterations"].sum()), seconds, drift, deepest
-    )
+        sign * way, sign * result[f"{driven.name}_force"], int(result["iterations"].sum()), seconds, drift, deepest,
+        cells, sum(ripples) if ripples else None,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)

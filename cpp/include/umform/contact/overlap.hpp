@@ -7,10 +7,10 @@ namespace umform {
 
 /// Integrals of min(G, 0) over the square |xi|, |eta| <= 1/2 with G = g + p xi + q eta. eqs. (4.83), (4.84)
 struct Overlap {
-    double gap = 0.0;                // int min(G, 0)
-    double half_square = 0.0;        // int min(G, 0)^2 / 2
-    double share = 0.0;              // m00: area where G <= 0, zero where the tool does not hold the cell
-    double m_xi = 0.0, m_eta = 0.0;  // m10, m01: its first moments
+    double gap = 0.0;                   // int min(G, 0)
+    double half_square = 0.0;           // int min(G, 0)^2 / 2
+    double share = 0.0;                 // m00: area where G <= 0, zero where the tool does not hold the cell
+    double m_xi = 0.0, m_eta = 0.0;     // m10, m01: its first moments
     std::array<double, 4> by_corner{};  // derivatives of the first with respect to the values at the corners
 };
 

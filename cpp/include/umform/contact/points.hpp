@@ -29,8 +29,8 @@ class AtPoints : public FacetPoints<Nodes> {
     }
 
     /// Of a symmetric law what is on and above the diagonal of K, and the diagonal blocks. eqs. (4.9), (4.10)
-    void add(const ContactLaw& law, const Locator<Nodes>& locator, int e, int q, const Workspace& work,
-             bool tangent, double* K, double* f) const {
+    void add(const ContactLaw& law, const Locator<Nodes>& locator, int e, int q, const Workspace& work, bool tangent,
+             double* K, double* f) const {
         const Values& N = locator.shapes(e)[q];
         const Reaction& reaction = work.reactions[q];
         const Vec3 t = reaction.traction(locator.places(e).n[q]);
