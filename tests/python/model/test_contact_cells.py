@@ -410,6 +410,61 @@ def test_cells_or_points():
     model, contact, _ = bent(steps=2)
     assert (contact.cells, contact.points, contact.symmetric) == (3, 3, False)
     assert contact.block.points == 9 * 10
-    for options in ({"cells": 0}, {"cells": 21}, {"cells": True}, {"cells": "3"}, {"cells": 3, "points": 2}):
-        with pytest.raises(InvalidValue, match="cells"):
+    wrong = [{"cells": n} for n in (0, 21, True, "3")] + [{"cells": 3, "points": 2}, {"cells": "auto", "points": 2}]
+    wrong += [{"cells": 3, "ripple": 0.01}, {"cells": "auto", "ripple": 0.0}, {"ripple": 0.01}]
+    for options in wrong:
+        with pytest.raises(InvalidValue, match=r"cells|ripple"):
             model.contact("lower", Plane((0, 0, -9.0)), name="other", **options)
+
+
+# How many ---------------------------------------------------------------------------------------------------
+
+
+def plastic(steps=60, **rule):
+    """A plastic strip over a cylinder, its contact and the force over the way."""
+    import umform as uf
+    from umform import materials as mt
+
+    law = mt.J2(E=2e5, nu=0.3, hardening=mt.Perfect(200.0))
+    model = Model(strip(24.0, 1.0, 1.0, (12, 1)), "ANS3DEAS", material=law)
+    model.symmetry("x0", normal="x")
+    model.fix(np.arange(len(model.mesh.points)), "y")
+    punch = model.prescribe("x0_lower", "z", name="punch")
+    contact = model.contact("lower", Cylinder((14.0, 0.0, -6.5), "y", 6.0), name="tool", penalty=2000.0, **rule)
+    result = uf.solve(model, uf.Move(punch, to=-5.0, steps=steps), frames=0)
+    return contact, result["punch"], result["punch_force"], result
+
+
+def ripple_over_force(force, finest, way):
+    """Difference of two curves less a cubic polynomial, root mean square over the force."""
+    difference = force - finest
+    difference = difference - np.polynomial.Polynomial.fit(way, difference, 3)(way)
+    return np.sqrt(np.mean(difference**2) / np.mean(finest**2))
+
+
+def test_the_ripple_that_is_measured_is_below_the_one_expected():
+    _, way, finest, _ = plastic(cells=20)
+    for rule in ({"cells": 3}, {"cells": "auto", "ripple": 0.004}):
+        contact, _, force, result = plastic(**rule)
+        measured = ripple_over_force(force, finest, way)
+        assert 0.05 * contact.ripple < measured < contact.ripple
+        assert f"contact tool: {contact.cells} x {contact.cells} cells a face, ripple" in "".join(result.events)
+
+
+def test_the_number_of_cells_follows_from_the_ripple_and_the_contact():
+    def contact(length=20.0, **options):
+        import umform as uf
+
+        steel = uf.J2(E=2e5, nu=0.3, hardening=uf.materials.Perfect(200.0))
+        model = Model(strip(length, 2.0, 1.0, (10, 1)), "ANS3DEAS", material=steel)
+        return model.contact("lower", Cylinder((10.0, 0.0, -6.0), "y", 5.5), cells="auto", **options)
+
+    plain = contact()
+    assert plain.cells == 8  # 2 / sqrt(12 * 0.001 * 5.5 * 1)
+    assert plain.points == 8
+    assert plain.ripple == pytest.approx((2.0 / 8.0) ** 2 / (12.0 * 5.5), rel=1e-6)
+    assert contact(length=40.0).cells == 16
+    assert contact(length=400.0).cells == 20
+    assert contact(ripple=0.9, penalty=1.0).cells == 3
+    short = contact(ripple=0.9, penetration=1e-3)
+    assert short.cells == int(np.ceil(2.0 / (2.0 * np.sqrt(2.0 * 5.5 * 1e-3))))  # by the length that touches
