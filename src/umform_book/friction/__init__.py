@@ -5,6 +5,7 @@ from umform_book.friction import (
     bending_work,
     block,
     capstan,
+    draw_bead,
     free_bending,
     history,
     partial_slip,
@@ -26,5 +27,6 @@ CHAPTER = Chapter(
         bending_work.CASE,
         free_bending.CASE,
         u_bend.CASE,
+        draw_bead.CASE,
     ),
 )
