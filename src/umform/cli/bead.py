@@ -56,6 +56,9 @@ def bead(
     element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "BEND8",
     elements: Annotated[float, _option("Elements on a quarter turn of the sharper radius.", _SOLUTION)] = 20.0,
     contact_points: Annotated[int, _option("Contact points per direction and facet.", _SOLUTION)] = 4,
+    extrapolate: Annotated[
+        bool, _option("A coarser mesh too: forces with elements of no length, and the error.", _SOLUTION)
+    ] = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -67,7 +70,7 @@ def bead(
     """
     from umform.io.folders import folder_for
     from umform.io.staging import staging
-    from umform.processes.draw_bead.case import drawn_through
+    from umform.processes.draw_bead.case import drawn_through, extrapolated
     from umform.processes.draw_bead.files import FILES, RESULTS, write_files
     from umform.processes.draw_bead.parameters import DrawBead
 
@@ -92,7 +95,7 @@ def bead(
     place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):
         with _what_was_reached(place):
-            drawn = drawn_through(case)
+            drawn = extrapolated(case) if extrapolate else drawn_through(case)
         try:
             with printing(f"the files of the bead are in {place}"):
                 _show(drawn, note)

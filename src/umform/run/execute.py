@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from umform.errors import InvalidValue
 from umform.model import Model
 from umform.progress import Tick, progress_bar
+from umform.results.cells import tell_of_cells
 from umform.results.penetration import warn_of_contact
 from umform.results.rest import tell_of_rest
 from umform.run.checked import checked
@@ -98,6 +99,7 @@ def solve(
             result = Result(model, timing)
             run = _ready(result, solver, options, frames)
             checkpoints = _checkpoints(run, steps, checkpoint, every, note)
+            tell_of_cells(model, result)
             result.add(run.evaluation, [], frame=frames > 0)
             _go_on(run, steps, progress, checkpoints)
             return result

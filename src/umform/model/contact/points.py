@@ -65,6 +65,11 @@ class PairPoints(Term):
         return self._settings.cells
 
     @property
+    def ripple(self) -> float | None:
+        """Ripple of the force to expect of cells, as a part of it; None at points. eq. (4.121)"""
+        return self._settings.ripple
+
+    @property
     def allowed(self) -> float | None:
         """Penetration that is allowed; None where only a penalty was given."""
         return self._settings.allowed
