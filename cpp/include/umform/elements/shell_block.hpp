@@ -21,10 +21,10 @@ struct PointFields {
 /// Fields of all elements, for output: means over the reference volume, and largest values of all Gauss points. Arrays
 /// [element][...].
 struct CellFields {
-    std::array<double*, 4> stresses;          // [6] Cauchy stress in global and in local axes, S in global and in local axes
-    double* von_mises;                        // largest
+    std::array<double*, 4> stresses;  // [6] Cauchy stress in global and in local axes, S in global and in local axes
+    double* von_mises;                // largest
     double *mean = nullptr, *largest = nullptr;  // of a scalar of the history, if one is asked for
-    int scalar = -1;                          // its place in the history of a point
+    int scalar = -1;                             // its place in the history of a point
 };
 
 /// The elements as Python sees them. `evaluate` is pure in the history: it reads the converged state and writes the

@@ -19,9 +19,9 @@ namespace umform {
 struct Front {
     int first = 0, pivots = 0, size = 0;  // place of the first pivot; rows that may be eliminated, all rows
     int parent = -1;
-    std::int64_t rows = 0;     // begin of the places of the other rows in Plan::rows, and in Plan::seat
-    std::int64_t factor = 0;   // begin of the columns of the factor
-    std::int64_t work = 0;     // multiplications of the subtree that ends here
+    std::int64_t rows = 0;    // begin of the places of the other rows in Plan::rows, and in Plan::seat
+    std::int64_t factor = 0;  // begin of the columns of the factor
+    std::int64_t work = 0;    // multiplications of the subtree that ends here
     int updates() const { return size - pivots; }
 };
 

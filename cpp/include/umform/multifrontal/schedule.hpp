@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "plan.hpp"
-#include "updates.hpp"
 #include "umform/assembly/threads.hpp"
+#include "updates.hpp"
 
 namespace umform {
 
