@@ -111,7 +111,10 @@ def cell_fields(model: Model) -> dict[str, Floats]:
     """Fields of the cells of the converged state, arrays (cells, ...); zero in bodies whose law does not have one."""
     fields: dict[str, Floats] = {}
     for body in model.bodies:
-        for name, values in _cell_fields(body, model.u).items():
+        found = _cell_fields(body, model.u)
+        if body.rolling is not None:
+            found["rolling"] = _rolling(body_fields(body, model.u))
+        for name, values in found.items():
             whole = fields.setdefault(name, np.zeros((len(model.mesh.connectivity), *values.shape[1:])))
             whole[body.cells] = values
     return fields
@@ -126,6 +129,18 @@ def _cell_fields(body: Body, u: Floats) -> dict[str, Floats]:
         place = sum(body.block.state_names[name] for name in parts[: parts.index("eqps")])
         names += ["plastic_strain_mean", "plastic_strain_max"]
     return dict(zip(names, body.block.cell_fields(u, place), strict=True))
+
+
+def _rolling(at: PointFields) -> Floats:
+    """Rolling direction of each cell in its present state, unit vectors (cells, 3): the first local axis, turned by R.
+
+    R is the rotation of the mean deformation gradient of the cell.
+    """
+    left, _, right = np.linalg.svd(at.cell_average(at.F))
+    axis = at.cell_average(at.frame[:, :, 0])
+    turned = np.einsum("cij,cj->ci", left @ right, axis)
+    direction: Floats = turned / np.linalg.norm(turned, axis=1, keepdims=True)
+    return direction
 
 
 def thickness(model: Model) -> Floats:

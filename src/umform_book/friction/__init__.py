@@ -1,7 +1,19 @@
 """Friction: stick, slip and reversal, bands over cylinders, tools that turn, partial slip, drawing and bending."""
 
 from umform_book.case import Chapter
-from umform_book.friction import bending_work, block, capstan, free_bending, history, partial_slip, turning, u_bend
+from umform_book.friction import (
+    bending_work,
+    beside_calculix,
+    block,
+    capstan,
+    free_bending,
+    history,
+    partial_slip,
+    partial_slip_point,
+    turning,
+    u_bend,
+    unconstrained,
+)
 
 CHAPTER = Chapter(
     "Friction",
@@ -12,8 +24,11 @@ CHAPTER = Chapter(
         history.CASE,
         turning.CASE,
         partial_slip.CASE,
+        partial_slip_point.CASE,
         bending_work.CASE,
         free_bending.CASE,
+        beside_calculix.CASE,
         u_bend.CASE,
+        unconstrained.CASE,
     ),
 )
