@@ -466,6 +466,11 @@ class ShellBlock:
         E, S (elements, points, 6) in the local frame, the frame and F (elements, points, 3, 3), dV (elements, points).
         """
 
+    def cell_fields(self, u: NDArray[float64], scalar: int = -1) -> list[NDArray[float64]]:
+        """
+        Means (elements, 6) of the Cauchy stress in global and local axes and of S in both; largest von Mises stress; mean and largest value of a number of the history.
+        """
+
     def energy(self, u: NDArray[float64]) -> tuple[float, float]:
         """
         Elastic energy and plastic work of the block at the converged state u; NaN if the law does not know them.

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.drawing import without_help_texts
 from umform.cli.metal import law_of
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
@@ -101,6 +102,7 @@ def bead(
                 _show(drawn, note)
         finally:  # also if nobody reads the table
             with drawn.result.timing.files:
+                without_help_texts()
                 files = write_files(place, drawn, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:

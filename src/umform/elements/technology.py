@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.polynomial import Legendre
 from numpy.typing import NDArray
 
 from umform import _core
@@ -41,8 +40,7 @@ class Term:
 
     def __call__(self, r: NDArray[np.float64], s: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
         """Value at natural coordinates."""
-        legendre: NDArray[np.float64] = Legendre.basis(self.c)(t)
-        return self.factor * r**self.a * s**self.b * legendre
+        return self.factor * r**self.a * s**self.b * _legendre(self.c, t)
 
     def mean(self) -> float:
         """Mean over the parent cube. eq. (2.12)"""
@@ -52,6 +50,14 @@ class Term:
 
 
 Mode = tuple[Term, ...]
+
+
+def _legendre(order: int, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Legendre polynomial by Bonnet's recursion; those of numpy take long to be imported."""
+    before, here = np.zeros_like(t), np.ones_like(t)
+    for n in range(order):
+        before, here = here, ((2 * n + 1) * t * here - n * before) / (n + 1)
+    return here
 
 
 @dataclass(frozen=True)

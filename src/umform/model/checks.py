@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
 from umform.mesh import Mesh
+from umform.mesh.numbers import median
 from umform.model import forces
 from umform.model.contact import Contact, ContactFound
 from umform.model.evaluated import Evaluated
@@ -34,7 +35,9 @@ def check_model(model: Evaluated) -> None:
 
 def check_nodes(mesh: Mesh) -> None:
     """Refuse nodes without a cell."""
-    unused = np.setdiff1d(np.arange(len(mesh.points)), mesh.connectivity)
+    used = np.zeros(len(mesh.points), dtype=bool)
+    used[mesh.connectivity] = True
+    unused = np.flatnonzero(~used)
     if len(unused):
         raise RigidBodyMotion(
             "a node belongs to no cell, so nothing holds it",
@@ -154,7 +157,7 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
     mesh = model.mesh
     half = len(mesh.connectivity[0]) // 2
     directors = mesh.points[mesh.connectivity[:, half:]] - mesh.points[mesh.connectivity[:, :half]]
-    thickness = float(np.median(np.linalg.norm(directors, axis=-1)))
+    thickness = median(np.linalg.norm(directors, axis=-1))
     for contact in model.contacts:
         if len(contact.facets) == 0 or contact.tool.open:
             continue

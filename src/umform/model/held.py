@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh
+from umform.mesh.numbers import common
 from umform.model.constraints import Groups, Rows
 from umform.model.control import Control, OnDofs, Prescribed
 from umform.model.controls import Controlled
@@ -208,7 +209,7 @@ class Held(Controlled):
 def refuse_twice(dofs: Ids, direction: str, taken: Mapping[str, Ids], by: str) -> None:
     """Refuse degrees of freedom that another support holds already."""
     for other, theirs in taken.items():
-        shared = np.intersect1d(dofs, theirs)
+        shared = common(dofs, theirs)
         if len(shared):
             raise _twice(int(shared[0]) // 3, direction, other, by)
 

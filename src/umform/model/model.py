@@ -11,6 +11,7 @@ from umform.elements import Element, Rolling
 from umform.errors import InvalidValue
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
+from umform.mesh.numbers import unique
 from umform.model import removal
 from umform.model.body import Body
 from umform.model.checks import check_model
@@ -140,7 +141,7 @@ class Model(Standing):
         everything = isinstance(nodes, str) and nodes == "all"
         ids = np.arange(len(self.mesh.points), dtype=np.int32) if everything else self.mesh.nodes(nodes)
         dofs = gauge_dofs(self, ids)
-        return self.wait(np.unique(dofs // 3).astype(np.int32), dofs, name)
+        return self.wait(unique(dofs // 3).astype(np.int32), dofs, name)
 
     def rest(self, stiffness: float | None = None, name: str = "rest") -> Rest:
         """Let a sheet that nothing holds yet rest on weak springs, which let go for good once tools hold it.

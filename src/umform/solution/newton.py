@@ -162,6 +162,7 @@ class Newton:
             if not first.border.unknowns:
                 of_tangent = First(factors, system.largest_entry(first.values))
             du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
+            del first  # with its tangent
         return self.correct(u, du, manner, start, of_tangent)
 
     def prescribed_increment(self, u: Floats) -> Floats:
@@ -229,6 +230,7 @@ class Newton:
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
             recorder.add(evaluation.flowing, norm / scale, increment, energy, entered, left, step_length, pivots)
             lean = self._lean(reuse, manner) and not evaluation.border.unknowns
+            evaluation = evaluation.without_tangent()  # factors there are: the next one takes its memory
             u, evaluation, step_length = self._advance(u, du, r, manner, longest, lean, shifted)
             criteria.entry = criteria.entry if lean else None
             increment = step_length * self._relative(du, evaluation)

@@ -53,7 +53,7 @@ def take_increment(
     way = changes(model.controls, controls, np.subtract(values, before))
     earlier = run.trail if run.newton.options.extrapolate > 1 else None
     run.trail = Trail.of(model.x - x_before, way, earlier, extrapolation)
-    run.evaluation = converged.evaluation
+    run.evaluation = converged.evaluation.without_tangent()
     return converged
 
 

@@ -109,6 +109,7 @@ class ShellBlockOf final : public ShellBlock {
     void element(int e, const double* u, double* K, double* f) override;
     std::pair<int, Voigt> failing_point(int e, const double* u) override;
     void fields(const double* u, const PointFields& out) override;
+    void fields(const double* u, const CellFields& out) override;
     Energy energy(const double* u) override;
 
   private:
@@ -290,8 +291,12 @@ class ShellBlockOf final : public ShellBlock {
     /// Refuses a rolling direction that stands on the sheet.
     void check_rolling();
 
+    /// Calls write(batch, good, workspace) with strains and stresses at u, and refuses elements that have none.
+    template <class Write>
+    void for_each_response(const double* u, const Write& write);
     /// Fields of the element in a lane.
     void write_fields(int e, int lane, const Workspace& w, const PointFields& out) const;
+    void write_fields(const Batch& batch, LaneMask good, const Workspace& w, const CellFields& out) const;
     /// Local frame and compatible deformation gradient F = g_m (x) G^m of the element in a lane at point q.
     void write_base(int q, int lane, const Workspace& w, double* frame, double* F) const;
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.errors import ModelError
 from umform.mesh import Mesh
+from umform.mesh.numbers import unique
 from umform.model.contact.face_basis import in_face_basis
 from umform.model.contact.found import ContactFound, ContactPoints
 from umform.model.contact.points import PairPoints, hat_functions
@@ -263,7 +264,7 @@ class Contact(PairPoints):
         self, at: ContactFound, u: Floats, mesh: Mesh, add: Callable[[Floats], Floats] = lambda shares: shares
     ) -> tuple[Floats, Floats]:
         """The same of any evaluation at ``u``."""
-        count, nodes = len(mesh.points), np.unique(self.facets)
+        count, nodes = len(mesh.points), unique(self.facets)
         shares = np.zeros((count, 2))  # gap, and how many know it
         shares[nodes, 0], shares[nodes, 1] = self.gap((mesh.points + u.reshape(-1, 3))[nodes], self.pose), 1.0
         pressure = self._mean_at_nodes(at.pressure[:, None], at.area, count, add)[:, 0]

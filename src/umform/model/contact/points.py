@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.errors import ModelError
 from umform.mesh import FACE_NODES, Ids, Mesh, Selector
+from umform.mesh.numbers import unique
 from umform.model.contact.found import ContactFound
 from umform.model.contact.friction import AnyFriction, friction_kernel
 from umform.model.contact.settings import ContactSettings
@@ -45,7 +46,7 @@ class PairPoints(Term):
         self.faces: Ids = faces
         self.facets: Ids = mesh.facets_of(faces)
         #: Nodes of all cells that bear a facet, those of the far face too.
-        self.nodes: Ids = np.unique(mesh.connectivity[faces[:, 0]])
+        self.nodes: Ids = unique(mesh.connectivity[faces[:, 0]])
         self._mesh_points = mesh.points
 
     # Settings ------------------------------------------------------------------------------------------------
