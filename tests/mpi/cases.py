@@ -152,7 +152,6 @@ def closed():
     model.symmetry("x0", normal="x")
     model.symmetry("y0", normal="y")
     model.fix("x0_lower", "z")
-    model.rest()
     rule = {"penalty": 2e3, "friction": 0.1}
     die = model.contact("lower", uf.Plane((0.0, 0.0, -0.4)), name="die", **rule)
     holder = model.contact("upper", uf.Plane((0.0, 0.0, 1.4), (0.0, 0.0, -1.0)), name="holder", **rule)

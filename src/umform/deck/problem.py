@@ -129,6 +129,7 @@ class _Builder:
         supports = self._supports(model, rigid=False)
         controls = self._controls(model, contacts)
         supports |= self._supports(model, rigid=True)
+        self._rest(model)
         options = self._options(model)
         self._raise()
         steps = self._steps(Named(controls, supports, contacts))
@@ -232,6 +233,14 @@ class _Builder:
             with self._at("controls", name):
                 controls[name] = part.add_to(model, name, contacts)
         return controls
+
+    def _rest(self, model: Model) -> None:
+        """Springs under a loose sheet: where a run needs them, never, or as the deck has them."""
+        rest = self.contents.solution.rest
+        model.carries_loose_sheet = rest == "auto"
+        if isinstance(rest, float) and not self.errors:
+            with self._at("solution"):
+                model.rest(rest)
 
     def _options(self, model: Model) -> NewtonOptions:
         options = NewtonOptions()

@@ -57,7 +57,14 @@ class Model(Standing):
         If the element does not stand on the cells of the mesh.
     InvalidValue
         If an option does not fit.
+
+    Attributes
+    ----------
+    carries_loose_sheet : bool
+        Whether a run lets a sheet that nothing holds yet rest on springs until tools hold it, see :meth:`rest`.
     """
+
+    carries_loose_sheet = True
 
     def __init__(
         self,
@@ -141,8 +148,11 @@ class Model(Standing):
         dofs = gauge_dofs(self, ids)
         return self.wait(np.unique(dofs // 3).astype(np.int32), dofs, name)
 
-    def rest(self, stiffness: float | None = None, name: str = "rest") -> Rest:
+    def rest(self, stiffness: float | None = None, name: str = "rest", *, motions: str = "") -> Rest:
         """Let a sheet that nothing holds yet rest on weak springs, which let go for good once tools hold it.
+
+        A run does so by itself, with the default, where tools that its steps move will hold the sheet; set
+        :attr:`carries_loose_sheet` to False to have such a model refused instead.
 
         Parameters
         ----------
@@ -151,11 +161,13 @@ class Model(Standing):
         name : str
             Columns of the history: ``<name>_energy`` and ``<name>_acts``. A run warns if the springs still act at its
             end, or if their energy is more than 1e-6 of the work.
+        motions : str
+            For the note of a run: the rigid-body motions that it has put the springs there for by itself.
         """
         if stiffness is None:
             stiffness = 1e-12 * self.largest_entry(self.evaluate(self.x).values)
         check_stiffness(stiffness, 0.0, f"rest {name}", "displacement")
-        term = Rest(name, self.u, stiffness)
+        term = Rest(name, self.u, stiffness, motions)
         self.add(term)
         return term
 

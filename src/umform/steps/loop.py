@@ -17,6 +17,7 @@ from umform.results.history import History
 from umform.solution.habits import Habits
 from umform.solution.newton import Newton
 from umform.solution.records import Converged
+from umform.steps.lost import lost_tools
 from umform.steps.trail import Trail
 
 
@@ -76,5 +77,7 @@ class Run:
         """Add a converged increment of the step to the result and show how far the step ``name`` has come."""
         self.result.add(converged.evaluation, converged.iterations + converged.passes, step=self.number, frame=frame)
         row = self.result.rows[-1]
+        for message in lost_tools(self.model, self.result.rows[-2], row):
+            self.result.warn(f"step {self.number}, time {self.model.time:.4f}: {message}")
         forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
         self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))

@@ -7,6 +7,7 @@ import pytest
 
 from umform.deck import Deck
 from umform.deck.check import check
+from umform.deck.findings import Level
 from umform.errors import UmformError
 
 DRAWN = """
@@ -169,3 +170,22 @@ def test_a_deck_that_holds_tools_is_checked():
     findings = list(check(deck, deck.build()))
     assert not [finding for finding in findings if finding.level == "error"]
     assert "supports" in [finding.about for finding in findings]
+
+
+def test_a_deck_lets_a_loose_sheet_rest_on_springs():
+    """By itself, with a stiffness of its own, or not at all; a check says so."""
+    hovering = DRAWN.replace("translation = [0.0, 0.0, -0.4]", "translation = [0.0, 0.0, -1.0]")
+    deck = Deck.read(hovering)
+    problem = deck.build()
+    supports, effort = (
+        next(one for one in check(deck, problem) if one.about == about) for about in ("supports", "effort")
+    )
+    assert {supports.level, effort.level} == {Level.OK}
+    assert "rests on weak springs: translation z" in supports.text
+    assert not problem.model.others
+    result = problem.solve()
+    assert result["rest_acts"][[0, -1]].tolist() == [1.0, 0.0]
+    own = built(hovering + "\n[solution]\nrest = 1e-5\n").model
+    assert own.others[0].each * len(own.mesh.points) == pytest.approx(1e-5)
+    with pytest.raises(UmformError, match="rigid whole in 1 way"):
+        built(hovering + '\n[solution]\nrest = "off"\n').solve()
