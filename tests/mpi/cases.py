@@ -147,7 +147,7 @@ def beaded():
 
 
 def closed():
-    """A holder that hovers over a loose sheet, closes with friction, follows a table of forces and is released; the die follows it."""
+    """A holder that hovers over a loose sheet, closes with friction, follows a table of forces onto its blocks and is released."""
     model = uf.Model(strip(20.0, 4.0, 0.8, (14, 2)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
     model.symmetry("x0", normal="x")
     model.symmetry("y0", normal="y")
@@ -155,8 +155,8 @@ def closed():
     die = model.contact("lower", uf.Plane((0.0, 0.0, -0.5)), name="die", **rule)
     holder = model.contact("upper", uf.Plane((0.0, 0.0, 1.4), (0.0, 0.0, -1.0)), name="holder", **rule)
     hold = model.press(holder, "z", "hold")
-    model.stop(hold, at=-1.104, stiffness=1e3, below=True)
     model.attach(die, model.turn(holder, "z", (5.0, 2.0, 0.0), "twist"))
+    model.keep_gap(hold, die, 0.79785)
     pull = model.prescribe("x1_lower", "x", "pull")
     table = [(0.0, -160.0), (0.02, -200.0)]
     steps = [uf.Close(hold, force=-160.0), uf.Move(pull, sliding, steps=4, follow={hold: table}), uf.Release(hold)]

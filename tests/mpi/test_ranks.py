@@ -43,6 +43,8 @@ def test_the_cases_are_not_easy(found):
     assert found(0, "pressed")["history press_way"][-3] < -0.3
     assert found(0, "pressed")["history gas_way"][-3] < -0.3
     assert found(0, "closed")["history holder_fz"].max() > 150.0
+    assert found(0, "closed")["history hold_stop"].max() > 5.0
+    assert found(0, "closed")["history rest_acts"][[0, -1]].tolist() == [1.0, 0.0]
     assert found(0, "foundation")["history foam_crush"][-1] > 0.1
     assert found(0, "two_bodies")["cell plastic_strain_max"].max() > 0.01
     for case in NAMES:

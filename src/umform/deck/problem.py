@@ -228,6 +228,7 @@ class _Builder:
         controls: dict[str, Control] = {}
         for name, part in self.contents.controls.items():
             touched = [getattr(part, "contact", None), *getattr(part, "followers", [])]
+            touched.append(getattr(getattr(part, "gap", None), "to", None))
             if any(contact not in (None, *contacts) for contact in touched):
                 continue  # the same
             with self._at("controls", name):

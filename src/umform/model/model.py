@@ -19,11 +19,13 @@ from umform.model.contact import Contact
 from umform.model.dead_load import Load
 from umform.model.gauge import gauge_dofs
 from umform.model.opening import put_tool_back
+from umform.model.kept_gap import stop_at_gap
 from umform.model.press import check_stiffness
 from umform.model.rest import Rest
 from umform.model.standing import Standing
 from umform.model.support import Support
 from umform.model.tool import Tool
+from umform.model.tool_controls import ToolForce
 
 
 class Model(Standing):
@@ -170,6 +172,30 @@ class Model(Standing):
         term = Rest(name, self.u, stiffness, motions)
         self.add(term)
         return term
+
+    def keep_gap(self, force: ToolForce, to: Contact | Tool, gap: float) -> None:
+        """Let a pressed tool keep a gap to another one: it lies on rigid distance blocks, and its force is the largest.
+
+        What the blocks bear is the column ``<name>_stop``: with the force of the sheet on the tool it balances the
+        press. Where the sheet pushes harder than the press, the tool lifts off the blocks under the force of the press.
+
+        Parameters
+        ----------
+        force : ToolForce
+            What :meth:`press` or :meth:`spring` returned for the tool.
+        to : Tool or Contact
+            The other tool, or a pair that touches it; the tool that is pressed follows its ways, see :meth:`attach`.
+        gap : float
+            Least distance of both, measured where they face each other across the sheet.
+
+        Raises
+        ------
+        InvalidValue
+            If the tools do not face each other, are nearer already, or move apart from each other.
+        """
+        other = to if isinstance(to, Tool) else to.tool
+        at, below = stop_at_gap(self, self.press_of(force), other, gap)
+        self.stop(force, at, below=below)
 
     def check(self) -> None:
         """Refuse what cannot be solved before time is spent on it, see :func:`umform.model.checks.check_model`."""

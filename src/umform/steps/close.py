@@ -23,6 +23,8 @@ _EXACT = 1e-10
 _HAIR = 1e-4
 #: Increments that fail or go too far before the step is given up.
 _MOST = 60
+#: A tool this near to a rigid stop, over the largest way, lies on it.
+_AT_STOP = 1e-12
 #: Iterations after which an increment was easy.
 _EASY = 8
 
@@ -139,6 +141,11 @@ class Closing:
         sense = math.copysign(1.0, step.force - self.start_force)
         ahead = self._ahead(press, force, step.force)
         size = self.size if touches else self._short_of_the_sheet(_as_way(run, press, _gap(run, press)))
+        room = press.room(sense)
+        if room <= _AT_STOP * max(self.limit, self.size):
+            self._land(run, step, press)
+            return
+        size = min(size, room)
         near = ahead is not None and 0.0 <= sense * ahead <= (2.0 if touches else 1.0) * size
         if near or (touches and self.failures == 0 and abs(step.force) <= abs(force)):
             self._land(run, step, press)

@@ -146,6 +146,20 @@ axis = "z"
     assert holder.presses[0].stops[0].at == -5.0
 
 
+def test_a_deck_keeps_a_gap():
+    """Rigid blocks between die and holder, and a rigid stop: no stiffness is given."""
+    gap = DRAWN.replace('direction = "z"\nstops', 'direction = "z"\ngap = { to = "die", least = 0.798 }\nstops')
+    result = built(gap).solve()
+    drawn = result["step"] == 2
+    np.testing.assert_allclose(result["hold_way"][drawn], -1.002, rtol=1e-12)
+    np.testing.assert_allclose(result["holder_fz"][drawn] + result["hold_stop"][drawn], [90.0, 100.0], rtol=1e-9)
+    assert result["hold_stop"][drawn].min() > 1.0
+    stop = built(DRAWN.replace("at = -5.0, stiffness = 1e4", "at = -5.0")).model.tools[1].presses[0].stops[0]
+    assert stop.rigid
+    with pytest.raises(UmformError, match="there is no contact of this name"):
+        built(gap.replace('to = "die"', 'to = "dye"'))
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
