@@ -64,6 +64,7 @@ class Tool(Term):
 
     timed_as = "contact"
     fixed = ("surface",)
+    nodal = ("vector",)
 
     def __init__(self, name: str, surface: Surface, now: Now) -> None:
         if not isinstance(surface, Surface):

@@ -120,7 +120,7 @@ class Closing:
         model = run.model
         press = model.press_of(step.control)
         hair = _as_way(run, press, _HAIR * model.thickness)
-        far = max(_gap(run, press), 0.0) + _extent(model)
+        far = max(_gap(run, press), 0.0) + model.extent
         limit = _as_way(run, press, far) if step.way is None else step.way
         return cls(model.time, press.way.value, _takes(run, press), limit, hair, hair)
 
@@ -258,12 +258,6 @@ def _gap(run: Run, press: Press) -> float:
     gaps = [float(found[pair].gap.min(initial=np.inf)) for tool in press.way.tools for pair in tool.pairs]
     least = -run.model.ranks.max(-min(gaps, default=math.inf))
     return least if math.isfinite(least) else 0.0
-
-
-def _extent(model: Model) -> float:
-    """Largest extent of the undeformed sheet along an axis, over all ranks."""
-    points, ranks = model.mesh.points, model.ranks
-    return max(ranks.max(float(points[:, k].max())) + ranks.max(-float(points[:, k].min())) for k in range(3))
 
 
 def _as_way(run: Run, press: Press, length: float) -> float:
