@@ -147,7 +147,7 @@ def beaded():
 
 
 def closed():
-    """A holder that hovers over a loose sheet, closes with friction, follows a table of forces onto its blocks and is released."""
+    """A holder over a loose sheet closes with friction, follows a table of forces onto its blocks and is released."""
     model = uf.Model(strip(20.0, 4.0, 0.8, (14, 2)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
     model.symmetry("x0", normal="x")
     model.symmetry("y0", normal="y")
@@ -174,7 +174,11 @@ def sprung_back():
     punch = model.contact("upper", uf.Cylinder((19.0, 0.0, 3.49), "y", 3.0), penalty=2e3, points=3, name="punch")
     stroke = model.drive(punch, "z", "stroke")
     steps = [uf.Move(stroke, -1.0, steps=2), uf.Free(prop, steps=2), uf.Move(stroke, -1.1, steps=1)]
-    return model, [*steps, uf.Free([clamp, edge, table, punch], steps=3, on=gauge), uf.Move(stroke, upwards, steps=3)], None
+    return (
+        model,
+        [*steps, uf.Free([clamp, edge, table, punch], steps=3, on=gauge), uf.Move(stroke, upwards, steps=3)],
+        None,
+    )
 
 
 class Foam(NodalTerm):

@@ -56,7 +56,9 @@ def test_the_cases_are_not_easy(found):
             assert one["imbalance"][1:][held].max() < 1e-9
 
 
-@pytest.mark.parametrize("case", ["cut", "held_by_multipliers", "pressed", "closed", "sprung_back", "foundation", "two_bodies"])
+@pytest.mark.parametrize(
+    "case", ["cut", "held_by_multipliers", "pressed", "closed", "sprung_back", "foundation", "two_bodies"]
+)
 @pytest.mark.parametrize(("first", "second"), [(2, 3), (2, 0), (0, 2)])
 def test_a_run_stopped_on_some_ranks_goes_on_on_others(case, first, second, found, tmp_path, mpi):
     solver = {True: "petsc", False: "superlu"}

@@ -18,8 +18,8 @@ from umform.model.checks import check_model
 from umform.model.contact import Contact
 from umform.model.dead_load import Load
 from umform.model.gauge import gauge_dofs
-from umform.model.opening import put_tool_back
 from umform.model.kept_gap import stop_at_gap
+from umform.model.opening import put_tool_back
 from umform.model.press import check_stiffness
 from umform.model.rest import Rest
 from umform.model.standing import Standing

@@ -143,7 +143,12 @@ class Gathering:
         tree = self.ranks.on_first(read)
         outline: dict[str, Any] = self.ranks.comm.bcast(None if tree is None else self._outline(tree))
         model = outline["model"]
-        whole: Any = tree or {"model": {"u": None, "terms": {}, "supports": {}}, "before": {}, "trail": None, "result": {}}
+        whole: Any = tree or {
+            "model": {"u": None, "terms": {}, "supports": {}},
+            "before": {},
+            "trail": None,
+            "result": {},
+        }
         model["u"] = self._at_nodes(whole["model"]["u"])
         for key, names in model["rows"].items():
             state = whole["model"]["terms"].get(key, {})

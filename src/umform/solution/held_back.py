@@ -1,7 +1,8 @@
 """Equilibrium by way of a sheet that is held back by springs: for increments behind which equilibrium jumps.
 
 Where the last point of contact of a piece of the sheet lets go, the path of equilibria may end, and the next one is a
-finite way off. Springs that hold the sheet where it has got to make that way one of many short ones. eqs. (4.150), (4.151)
+finite way off. Springs that hold the sheet where it has got to make that way one of many short ones.
+docs/theory, 4.14
 """
 
 from __future__ import annotations
@@ -115,18 +116,18 @@ def _followed(springs: HeldBack, newton: Newton, start: Floats | None) -> Conver
     springs.origin = model.u.copy()
     with _through(newton, springs):
         converged = newton.solve(start)
-        for way in range(_WAYS):
+        for ways in range(1, _WAYS + 1):
             change = -springs.forces(converged.evaluation.u)
             far = model.ranks.max(float(np.abs(converged.evaluation.u - springs.origin).max()))
             springs.origin = converged.evaluation.u.copy()
             if far <= _ARRIVED * model.thickness:
+                log.info("equilibrium jumps: springs hold the sheet back on %d ways", ways)
                 break
             springs.stiffness *= _WEAKER if far < before and springs.stiffness > _LEAST * first else 1.0
             before = far
             converged = _joined(converged, newton.go_on(converged, _with_scalars(change, model)))
         else:
             raise Failed("the sheet does not come to rest on springs that follow it", converged.iterations)
-    log.info("equilibrium jumps: springs hold the sheet back on %d ways", way + 1)
     return _joined(converged, newton.go_on(converged, _with_scalars(change, model)))
 
 
@@ -141,7 +142,7 @@ def _joined(before: Converged, now: Converged) -> Converged:
 @contextmanager
 def _through(newton: Newton, springs: HeldBack) -> Iterator[None]:
     """Let Newton's method see the springs."""
-    newton.system = springs  # type: ignore[assignment]
+    newton.system = springs
     try:
         yield
     finally:

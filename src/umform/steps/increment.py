@@ -66,8 +66,8 @@ def _multipliers_stay(run: Run, failure: Failed | None) -> None:
     if failure is not None:
         columns = ", ".join(f"{pair.name}_multipliers_stay" for pair in pairs)
         run.result.warn(
-            f"step {run.number}, time {run.model.time:.4f}: {failure.reason} in a pass of the multipliers: they stay what "
-            f"they were, and more penetration is left (columns {columns}); smaller increments, or a softer penalty"
+            f"step {run.number}, time {run.model.time:.4f}: {failure.reason} in a pass of the multipliers: they stay "
+            f"what they were, and more penetration is left (columns {columns}); smaller increments, or a softer penalty"
         )
 
 

@@ -104,6 +104,6 @@ class Run:
         log.info("%s: return maps in stages at %d points, over all evaluations", when, points)
         if not any(_STAGES in warning for warning in self.result.warnings):
             self.result.warn(
-                f"{when}: {_STAGES} at {points} points, over all evaluations: the increments of strain are large for it; "
+                f"{when}: {_STAGES} at {points} points, over all evaluations: the increments of strain are large; "
                 "smaller increments are safer. The count of the run is result.timing.attempts.staged"
             )

@@ -117,7 +117,7 @@ def test_directions_ask_for_the_rolling_direction():
 
 
 def test_return_maps_in_stages_are_counted(rng):
-    """A hardening curve with a step, at which Newton's method of the return map stalls; a smooth one needs no stages."""
+    """A hardening curve with a step, at which Newton's method stalls; a smooth one needs no stages."""
     strains = rng.normal(size=(400, 6))
     strains *= 0.004 / np.linalg.norm(strains, axis=1)[:, None]
     step = mt.Table([0.0, 0.001, 0.0010001, 0.01], [100.0, 100.0, 400.0, 400.0])
