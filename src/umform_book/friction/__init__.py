@@ -1,7 +1,17 @@
 """Friction: stick, slip and reversal, bands over cylinders, tools that turn, partial slip, drawing and bending."""
 
 from umform_book.case import Chapter
-from umform_book.friction import bending_work, block, capstan, free_bending, history, partial_slip, turning, u_bend
+from umform_book.friction import (
+    bending_work,
+    block,
+    capstan,
+    free_bending,
+    history,
+    partial_slip,
+    partial_slip_point,
+    turning,
+    u_bend,
+)
 
 CHAPTER = Chapter(
     "Friction",
@@ -12,6 +22,7 @@ CHAPTER = Chapter(
         history.CASE,
         turning.CASE,
         partial_slip.CASE,
+        partial_slip_point.CASE,
         bending_work.CASE,
         free_bending.CASE,
         u_bend.CASE,

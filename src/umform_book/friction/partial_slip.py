@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from umform import mesh
 from umform.materials import SVK
 from umform.model import Model
-from umform.run import solve
 from umform.solution.options import NewtonOptions
 from umform.steps import Move
 from umform.surfaces import Cylinder
@@ -18,6 +17,7 @@ from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
 from umform_book.contact.half_space import growing
 from umform_book.contact.hertz_line import EIGHT, least_rule
+from umform_book.friction.tractions import pushed
 from umform_book.page import Page
 from umform_book.variants import Variant
 
@@ -76,23 +76,12 @@ def push(page: Page, variant: Variant, divisions: int, nu: float) -> list[Found]
     label = f"nu = {nu:g}, {variant.label}, {divisions} intervals"
     page.solve(f"{label}: pressed", model, Move(press, lambda f: DEPTH * f**2, steps=7), options=options)
     states = []
-    for way in np.linspace(0.0, WAY, page.pick((15,), (8,))[0])[1:]:
-        solve(model, Move(along, float(way), steps=1), progress=False, frames=0, options=options)
-        held = contact.found.held
-        p, n, area = np.asarray(held.pressure), np.asarray(held.normal), np.asarray(held.area)
-        q = -(np.asarray(held.traction) - p[:, None] * n)[:, 0]
-        x = np.asarray(held.x)[:, 0] - way
-        normal, tangential = float(p @ area), float(q @ area)
-        hertz = np.sqrt(4.0 * normal * RADIUS * (1.0 - nu**2) / (np.pi * E))
-        middle = float((p * area) @ x) / normal
-        a = np.sqrt(4.0 * float((p * area) @ (x - middle) ** 2) / normal)
-        stick = 4.0 * float((q * area) @ (x - middle) ** 2) / tangential - a * a
-        states.append(
-            Found(
-                abs(tangential) / (MU * normal), a / hertz, float(np.sqrt(max(stick, 0.0))) / a, (x - middle) / a,
-                np.abs(q) / (MU * 2.0 * normal / (np.pi * a)),
-            )
-        )  # fmt: skip
+    for at in pushed(model, contact, along, np.linspace(0.0, WAY, page.pick((15,), (8,))[0])[1:], 1, options):
+        hertz = np.sqrt(4.0 * at.normal_force * RADIUS * (1.0 - nu**2) / (np.pi * E))
+        a = np.sqrt(4.0 * at.spread(at.p))
+        stick = np.sqrt(max(4.0 * at.spread(at.q) - a * a, 0.0)) / a
+        over = np.abs(at.q) / (MU * 2.0 * at.normal_force / (np.pi * a))
+        states.append(Found(at.part(MU), a / hertz, stick, at.x[:, 0] / a, over))
     return states
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import random
 import shutil
 import signal
 import subprocess
@@ -236,3 +237,122 @@ def test_ctrl_c_ends_a_bend_after_the_increment_with_what_was_reached(tmp_path):
     assert len((tmp_path / "history.csv").read_text().splitlines()) > 5
     with h5py.File(tmp_path / "bend.vtkhdf") as file:
         assert file["VTKHDF/Steps"].attrs["NSteps"] >= 2
+
+
+# Twenty kills ---------------------------------------------------------------------------------------------
+
+#: A strip that a punch draws over the radius of a die, under a holder closed by its force; then all tools open.
+DECK = """
+[mesh]
+generator = "strip"
+length = 40.0
+width = 1.0
+thickness = 1.0
+cells = [20, 1]
+[element]
+name = "BEND8"
+[material]
+law = "J2"
+E = 70e3
+nu = 0.33
+hardening = { curve = "Voce", yield_stress = 126.0, saturation = 315.0, rate = 12.0 }
+[tools.die]
+shape = "UDie"
+opening = 26.0
+depth = 60.0
+shoulder_radius = 5.0
+bottom_radius = 5.0
+origin = [0.0, 0.0, -0.5]
+[tools.holder]
+shape = "Plane"
+point = [0.0, 0.0, 0.6]
+normal = "-z"
+[tools.punch]
+shape = "Box"
+centre = [0.0, 0.0, 50.5]
+size = [23.0, 100.0, 100.0]
+radius = 5.0
+"""
+STEPS = """
+[[supports]]
+kind = "symmetry"
+nodes = "x0"
+normal = "x"
+[[supports]]
+kind = "symmetry"
+nodes = "y0"
+normal = "y"
+[[supports]]
+kind = "symmetry"
+nodes = "y1"
+normal = "y"
+[controls.hold]
+kind = "press"
+contact = "holder"
+direction = "-z"
+[controls.stroke]
+kind = "tool"
+contact = "punch"
+direction = "-z"
+[[steps]]
+kind = "close"
+control = "hold"
+force = 10.0
+[[steps]]
+kind = "move"
+to = { stroke = 6.0 }
+increments = 100
+[output]
+report = false
+pictures = false
+"""
+KILLS = 20
+
+
+def contacts():
+    """Friction on all three tools."""
+    common = "friction = 0.1\npoints = 3\npenalty = 300.0\n"
+    return "".join(
+        f'[contacts.{name}]\ntool = "{name}"\nfaces = "{faces}"\n{common}'
+        for name, faces in (("die", "lower"), ("holder", "upper"), ("punch", "upper"))
+    )
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory):
+    """A deck, and the folder of its run from beginning to end."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    (folder / "deck.toml").write_text(DECK + contacts() + STEPS, encoding="utf-8")
+    finish(started("run", folder / "deck.toml", "--out", folder / "out", "--every", 0))
+    return folder
+
+
+def written(path):
+    """When a checkpoint was written last."""
+    return path.stat().st_mtime_ns if path.exists() else 0
+
+
+def finish(run):
+    """Wait for the end of a run that nobody kills."""
+    assert run.wait(120) == 0, run.stderr.read()
+    run.stderr.close()
+
+
+@pytest.mark.long
+def test_a_draw_with_friction_that_is_killed_twenty_times_comes_to_the_same_bits(drawn, tmp_path):
+    kept, seeds = tmp_path / "out" / "checkpoint.h5", random.Random(20)
+    for kill in range(KILLS):
+        command = ("run", drawn / "deck.toml", "--out", tmp_path / "out", "--every", 0)
+        run = started(*command) if kill == 0 else started("resume", kept, "--every", 0)
+        try:
+            for _ in range(seeds.randint(1, 4)):
+                before = written(kept)
+                waited_for(run, lambda before=before: written(kept) != before)
+            time.sleep(seeds.uniform(0.0, 0.03))  # anywhere in an increment or in a checkpoint
+        finally:
+            run.kill()
+            run.wait()
+            run.stderr.close()
+    assert not (tmp_path / "out" / "history.csv").exists()
+    finish(started("resume", kept))
+    assert_the_same(tmp_path / "out", drawn / "out")
