@@ -71,6 +71,11 @@ class Increment:
         return bool(self.model.contacts)
 
     @property
+    def rubs(self) -> bool:
+        """Whether there is friction."""
+        return any(pair.rubs for pair in self.model.pairs_of_tools())
+
+    @property
     def touched(self) -> bool:
         """Whether the sheet touches a tool in the converged state."""
         return self.last.touching(self.model.ranks)
@@ -137,13 +142,13 @@ STRATEGIES = (
     Strategy(
         "tangent",
         lambda at: True,
-        lambda at: at.newton.solve(at.tangent(), at.newton.manner(wary=at.wary)),
+        lambda at: at.newton.solve(at.tangent(), at.newton.manner(wary=at.wary, rubs=at.rubs)),
     ),
     # It may cross a sudden change of shape where the mixed tangent of eq. (5.39) does not.
     Strategy(
         "consistent tangent",
         lambda at: at.newton.mixed,
-        lambda at: at.newton.solve(at.tangent(), at.newton.manner(consistent=True, wary=at.wary)),
+        lambda at: at.newton.solve(at.tangent(), at.newton.manner(consistent=True, wary=at.wary, rubs=at.rubs)),
     ),
     # A stiff tool may come to where nothing touched before: with a soft one the sheet finds its shape first.
     Strategy(
