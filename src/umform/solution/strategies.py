@@ -21,6 +21,7 @@ from umform.solution.options import Wary
 from umform.solution.passage import same_side
 from umform.solution.records import Cause, Converged, Failed
 from umform.solution.softening import softened
+from umform.solution.turning import follows
 
 Floats = NDArray[np.float64]
 
@@ -52,8 +53,8 @@ class Increment:
     last: Evaluation
 
     def accept(self, converged: Converged) -> Converged:
-        """The equilibrium, if the sheet did not go through a tool."""
-        return same_side(self.model, self.last, converged)
+        """The equilibrium, if the sheet did not go through a tool, nor turned on one too far for its friction."""
+        return follows(self.model, self.last, same_side(self.model, self.last, converged))
 
     @property
     def wary(self) -> Wary:
@@ -203,7 +204,7 @@ def _cause(strategy: str, failure: Failed, touched: bool) -> str:
     entered = any(record.entered for record in failure.iterations)
     if failure.cause is Cause.CYCLE:
         return "cycle of contact"
-    if failure.cause is Cause.PASSAGE:
+    if failure.cause in (Cause.PASSAGE, Cause.TURN):
         return str(failure.cause)
     if not touched and entered:
         return "first touch"
