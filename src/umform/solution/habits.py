@@ -12,8 +12,8 @@ _LONGEST_REST = 15
 #: Softer penalties that lead nowhere again and again are left out for so many cuts at most.
 _LONGEST_SOFT_REST = 3
 
-#: An increment is stuck with so many cuts; of a cut this share is left after each increment that was taken.
-_STUCK, _FORGET = 2.5, 0.75
+#: An increment is stuck with so many cuts for a cycle; of one this share is left after each increment that was taken.
+_STUCK, _FORGET = 1.5, 0.75
 
 
 @dataclass
@@ -37,8 +37,8 @@ class Habits:
         Softer penalties in a row that led nowhere, while a tool held the sheet.
     soft_rest : int
         Increments that are cut without them.
-    cuts : float
-        Cuts, each of which counts for less with every increment that was taken since.
+    cycles : float
+        Cuts for contact in a cycle, each of which counts for less with every increment that was taken since.
     """
 
     misses: int = 0
@@ -46,7 +46,7 @@ class Habits:
     stable: bool = True
     soft_misses: int = 0
     soft_rest: int = 0
-    cuts: float = 0.0
+    cycles: float = 0.0
 
     @property
     def extrapolates(self) -> bool:
@@ -61,12 +61,12 @@ class Habits:
     @property
     def stuck(self) -> bool:
         """Whether shorter increments do not help."""
-        return self.cuts >= _STUCK
+        return self.cycles >= _STUCK
 
     def learn(self, failed: Mapping[str, Cause], won: str, negative_pivots: int | None) -> None:
         """Learn from an increment: the strategies that failed and why, the one that won, the pivots at the end."""
         self.stable = not negative_pivots
-        self.cuts = 0.0 if won == "held back" else _FORGET * self.cuts
+        self.cycles = 0.0 if won == "held back" else _FORGET * self.cycles
         if won == "extrapolation":
             self.misses = 0
         elif "extrapolation" in failed:
@@ -79,7 +79,7 @@ class Habits:
 
     def learn_of_cut(self, failed: Mapping[str, Cause]) -> None:
         """Learn from an increment that all strategies failed in."""
-        self.cuts += 1.0
+        self.cycles = 0.0 if "held back" in failed else self.cycles + (Cause.CYCLE in failed.values())
         cause = failed.get("softer penalties")
         if cause is None:
             self.soft_rest = max(self.soft_rest - 1, 0)

@@ -98,41 +98,37 @@ def held_back(
     """
     springs = HeldBack(model)
     stiffness = _FIRST * model.largest_entry(model.evaluate(model.x).values)
-    for failure in range(_FAILURES):
+    for again in reversed(range(_FAILURES)):
         springs.stiffness = stiffness
         try:
-            return accept(_followed(springs, newton, start()))
+            converged, change = _followed(springs, newton, start())
+            break
         except Failed:
-            if failure == _FAILURES - 1:
+            if not again:
                 raise
             stiffness *= _STIFFER
             model.prepare()
-    raise AssertionError  # not reached
+    return accept(_joined(converged, newton.go_on(converged, change)))
 
 
-def _followed(springs: HeldBack, newton: Newton, start: Floats | None) -> Converged:
-    """Springs from the converged state on, then from each place that the sheet has got to. eqs. (4.150), (4.151)"""
+def _followed(springs: HeldBack, newton: Newton, start: Floats | None) -> tuple[Converged, Floats]:
+    """Where the sheet comes to rest, and what the residual changes by as the springs go. eqs. (4.150), (4.151)"""
     model, before, first = springs.model, np.inf, springs.stiffness
     springs.origin = model.u.copy()
     with _through(newton, springs):
         converged = newton.solve(start)
         for ways in range(1, _WAYS + 1):
-            change = -springs.forces(converged.evaluation.u)
-            far = model.ranks.max(float(np.abs(converged.evaluation.u - springs.origin).max()))
-            springs.origin = converged.evaluation.u.copy()
+            u = converged.evaluation.u
+            change = np.concatenate([-springs.forces(u), np.zeros(len(model.unknowns))])
+            far = model.ranks.max(float(np.abs(u - springs.origin).max()))
             if far <= _ARRIVED * model.thickness:
                 log.info("equilibrium jumps: springs hold the sheet back on %d ways", ways)
-                break
+                return converged, change
+            springs.origin = u.copy()
             springs.stiffness *= _WEAKER if far < before and springs.stiffness > _LEAST * first else 1.0
             before = far
-            converged = _joined(converged, newton.go_on(converged, _with_scalars(change, model)))
-        else:
-            raise Failed("the sheet does not come to rest on springs that follow it", converged.iterations)
-    return _joined(converged, newton.go_on(converged, _with_scalars(change, model)))
-
-
-def _with_scalars(change: Floats, model: Model) -> Floats:
-    return np.concatenate([change, np.zeros(len(model.unknowns))])
+            converged = _joined(converged, newton.go_on(converged, change))
+    raise Failed("the sheet does not come to rest on springs that follow it", converged.iterations)
 
 
 def _joined(before: Converged, now: Converged) -> Converged:

@@ -59,20 +59,18 @@ def test_springs_are_a_consistent_term():
     np.testing.assert_allclose(added[model.own_diagonal], 1e3, rtol=1e-6)
 
 
-def test_an_increment_is_stuck_after_three_cuts_in_a_row_or_again_and_again():
+def test_an_increment_is_stuck_after_two_cycles_at_short_intervals():
     habits = Habits()
-    for cuts in (1.0, 1.75, 2.3125):
-        habits.learn_of_cut({"tangent": Cause.CYCLE})
-        assert habits.cuts == cuts
-        assert not habits.stuck
-        habits.learn({}, "tangent", 0)
-    habits.learn_of_cut({"tangent": Cause.CYCLE})
-    assert habits.stuck
-    habits = Habits()
-    for _ in range(2):
-        habits.learn_of_cut({"tangent": Cause.CYCLE})
+    cycle, stall = {"extrapolation": Cause.CYCLE, "tangent": Cause.STALL}, {"tangent": Cause.STALL}
+    for cut, increments, stuck in ((cycle, 3, False), (stall, 0, False), (cycle, 1, False), (cycle, 0, True)):
+        habits.learn_of_cut(cut)
+        assert habits.stuck is stuck
+        for _ in range(increments):
+            habits.learn({}, "tangent", 0)
+    habits.learn_of_cut({**cycle, "held back": Cause.STALL})  # it did not help: not at once again
     assert not habits.stuck
-    habits.learn_of_cut({"tangent": Cause.CYCLE})
+    habits.learn_of_cut(cycle)
+    habits.learn_of_cut(cycle)
     assert habits.stuck
     habits.learn({}, "held back", 0)
     assert not habits.stuck
