@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from umform.model import Evaluation, Model
 from umform.model.contact import Contact
 from umform.solution.records import Cause, Converged, Failed
+
+Floats = NDArray[np.float64]
 
 #: Chord over radius up to which a chord is the arc but for a hundredth.
 _LONGEST = 0.5
@@ -56,6 +59,8 @@ def _chord(model: Model, pair: Contact, last: Evaluation, now: Evaluation) -> fl
     return float(np.sqrt(squares[0] / squares[1])) if squares[1] > 0.0 else 0.0
 
 
-def _in_frame_of_tool(pair: Contact, evaluation: Evaluation) -> np.ndarray:
+def _in_frame_of_tool(pair: Contact, evaluation: Evaluation) -> Floats:
+    """Places of the contact points as the tool sees them, shape (points, 3)."""
     rotation, shift = pair.tool.pose(evaluation.controls, evaluation.time)
-    return (evaluation.found[pair].x - shift) @ rotation
+    places: Floats = (evaluation.found[pair].x - shift) @ rotation
+    return places

@@ -12,7 +12,7 @@ SLIP = 1e-3
 
 def carried():
     """A plate that is pressed to a plane by a pressure and held by friction alone."""
-    plate = uf.mesh.strip(4.0, 2.0, 0.5, (4, 2)).transformed(lambda x: x + [-2.0, -1.0, 0.25])
+    plate = uf.mesh.strip(4.0, 2.0, 0.5, (4, 2)).transformed(lambda x: np.add(x, (-2.0, -1.0, 0.25)))
     model = uf.Model(plate, material=uf.SVK(E=1e5, nu=0.3))
     tool = model.tool("table", uf.Plane((0, 0, 0), (0, 0, 1)))
     model.contact("lower", tool, penalty=1e3, friction=0.2, slip=SLIP, name="foot")
