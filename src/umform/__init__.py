@@ -68,7 +68,7 @@ __version__ = "0.1.0"
 
 _HOME = {
     "umform._core": ("set_threads", "threads"),
-    "umform.elements": ("Element", "Term", "Tying"),
+    "umform.elements": ("Element", "Term", "Tying", "rolling_at"),
     "umform.errors": ("UmformError",),
     "umform.materials": (
         "Chaboche",
@@ -195,6 +195,7 @@ __all__ = [
     "mesh",
     "processes",
     "resume",
+    "rolling_at",
     "set_threads",
     "sheet_metals",
     "solve",

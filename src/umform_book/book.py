@@ -30,6 +30,7 @@ _FOLDERS = (
     "linear",
     "nonlinear",
     "plastic",
+    "material",
     "contact",
     "friction",
     "free_bending",

@@ -92,11 +92,17 @@ class Ring:
         return made, held
 
 
-def contact_with_ring(touching: Iterable[int], penalty: float) -> list[str]:
-    """Lower faces of elements against the ring: surface to surface, the pressure linear in the penetration."""
+def contact_with_ring(touching: Iterable[int], penalty: float, friction: float = 0.0) -> list[str]:
+    """Lower faces of elements against the ring: surface to surface, the pressure linear in the penetration.
+
+    With friction the traction is linear in the slip up to its bound, by the penalty too.
+    """
     lines = ["*SURFACE,NAME=SLOWER", *(f"{number},S1" for number in touching), "*SURFACE,NAME=STOOL", "TOOL,S2"]
     lines += ["*SURFACE INTERACTION,NAME=PENALTY", "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR"]
-    return [*lines, f"{penalty},0.,0.01", "*CONTACT PAIR,INTERACTION=PENALTY,TYPE=SURFACE TO SURFACE", "SLOWER,STOOL"]
+    lines.append(f"{penalty},0.,0.01")
+    if friction:
+        lines += ["*FRICTION", f"{friction},{penalty}"]
+    return [*lines, "*CONTACT PAIR,INTERACTION=PENALTY,TYPE=SURFACE TO SURFACE", "SLOWER,STOOL"]
 
 
 def totals(printed: str) -> tuple[Floats, Floats]:

@@ -40,7 +40,10 @@ def bead(
     gap: Annotated[float | None, _option("Air beside the sheet between the flats; default 5 %.", _TOOLS)] = None,
     friction: Annotated[float, _option("Coefficient of friction.", _TOOLS)] = 0.1,
     thickness: Annotated[float, _option("Thickness of the sheet.", _SHEET)] = 0.8,
-    material: Annotated[str | None, _option("Name in the library of sheet metals, DC04 for one.", _SHEET)] = None,
+    material: Annotated[str | None, _option("Name in the library: `umform metal list`.", _SHEET)] = None,
+    rolling: Annotated[
+        float | None, _option("Degrees from the line of the bead to the rolling direction: 90 across it.", _SHEET)
+    ] = None,
     young: Annotated[float | None, _option("Young's modulus.", _SHEET)] = None,
     poisson: Annotated[float | None, _option("Poisson's ratio.", _SHEET)] = None,
     yield_stress: Annotated[float | None, _option("Yield stress, for linear hardening.", _SHEET)] = None,
@@ -73,6 +76,7 @@ def bead(
     case = DrawBead(
         thickness=thickness,
         material=law,
+        rolling=rolling,
         radius=radius,
         height=height,
         groove_radius=groove_radius,

@@ -53,7 +53,10 @@ def bend(
     punch_radius: Annotated[float, _option("Radius of its tip.", _TOOLS)] = 1.5,
     thickness: Annotated[float, _option("Thickness of the sheet.", _SHEET)] = 2.0,
     width: Annotated[float | None, _option("Length of the bend; default: plane strain.", _SHEET)] = None,
-    material: Annotated[str | None, _option("Name in the library of sheet metals, DC04 for one.", _SHEET)] = None,
+    material: Annotated[str | None, _option("Name in the library: `umform metal list`.", _SHEET)] = None,
+    rolling: Annotated[
+        float | None, _option("Degrees from the bend line to the rolling direction: 0 along it, 90 across.", _SHEET)
+    ] = None,
     young: Annotated[float | None, _option("Young's modulus.", _SHEET)] = None,
     poisson: Annotated[float | None, _option("Poisson's ratio.", _SHEET)] = None,
     yield_stress: Annotated[float | None, _option("Yield stress, for linear hardening.", _SHEET)] = None,
@@ -114,6 +117,7 @@ def bend(
         punch_radius=punch_radius,
         width=width,
         material=law,
+        rolling=rolling,
         element=element,
         layers=layers,
         thickness_points=thickness_points,

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
-    from umform.materials import J2, Hardening
+    from umform.materials import J2, Hardening, Metal
 
 
 def law_of(
@@ -21,7 +21,7 @@ def law_of(
     modulus: float | None,
     swift: str | None,
     flow_curve: Path | None,
-) -> tuple[J2, str]:
+) -> tuple[J2 | Metal, str]:
     """Law of the sheet, and what is to be said of it."""
     from umform.processes.air_bending.parameters import DC04_LIKE
 

@@ -15,6 +15,10 @@ from umform.cli.root import Debug, app
 #: Fields that are shown unless another is wanted: the first that is there.
 _FAVOURITES = ("plastic_strain_max", "thickness_change", "displacement")
 
+#: Field of the rolling direction; its lines are drawn on faces that it lies in, of this length over that of a face.
+_ROLLING = "rolling"
+_LYING, _LINE = 0.9, 0.3
+
 _BAR = {
     "vertical": True,
     "position_x": 0.86,
@@ -33,6 +37,9 @@ def view(
     file: Annotated[Path, typer.Argument(metavar="FILE.vtkhdf", help="Fields of a run, or the folder of a run.")],
     field: Annotated[str | None, typer.Option(help="Field to colour by; of a vector, its length.")] = None,
     frame: Annotated[int, typer.Option(help="Frame: 0 is the first, -1 the last.")] = -1,
+    rolling: Annotated[
+        bool, typer.Option("--rolling/--no-rolling", help="Lines along the rolling direction, if the file has it.")
+    ] = True,
     png: Annotated[Path | None, typer.Option(metavar="OUT.png", help="Write a picture, open no window.")] = None,
     debug: Debug = False,
 ) -> None:
@@ -47,8 +54,9 @@ def view(
     name = _chosen(grid, field)
     plotter = pv.Plotter(off_screen=png is not None, window_size=(1200, 800))
     plotter.set_background("white")
+    shape = grid.warp_by_vector("displacement") if "displacement" in grid.point_data else grid
     plotter.add_mesh(
-        grid.warp_by_vector("displacement") if "displacement" in grid.point_data else grid,
+        shape,
         scalars=name,
         cmap="viridis",
         show_edges=grid.n_cells < 20000,
@@ -56,6 +64,8 @@ def view(
         ambient=0.2,
         scalar_bar_args=_BAR | {"title": name.replace("_", " ") + "\n"},
     )
+    if rolling and _ROLLING in grid.cell_data:
+        _add_rolling(pv, plotter, shape, switch=png is None)
     plotter.view_vector((-0.55, -1.0, 0.5), viewup=(0.0, 0.0, 1.0))
     if png is None:
         plotter.show(title=f"umform: {file.name}")
@@ -66,6 +76,29 @@ def view(
         plotter.screenshot(temporary)
     plotter.close()
     typer.echo(f"Written to {png}")
+
+
+def _add_rolling(pv: Any, plotter: Any, shape: Any, *, switch: bool) -> None:
+    """Add a line along the rolling direction on each outer face; a button in the window switches them."""
+    import warnings
+
+    import numpy as np
+
+    with warnings.catch_warnings():  # newer versions ask for an argument that older ones do not know
+        warnings.simplefilter("ignore")
+        faces = shape.extract_surface().compute_cell_sizes(length=False, volume=False)
+    faces = faces.compute_normals(point_normals=False, auto_orient_normals=True)
+    along, normal = faces.cell_data[_ROLLING], faces.cell_data["Normals"]
+    flat = along - (along * normal).sum(axis=1, keepdims=True) * normal
+    length = np.linalg.norm(flat, axis=1)
+    seen = length > _LYING
+    arm = _LINE * np.sqrt(faces.cell_data["Area"])[seen, None] * flat[seen] / length[seen, None]
+    middle = faces.cell_centers().points[seen] + 0.02 * np.sqrt(faces.cell_data["Area"])[seen, None] * normal[seen]
+    ends = np.stack([middle - arm, middle + arm], axis=1).reshape(-1, 3)
+    lines = plotter.add_mesh(pv.line_segments_from_points(ends), color="#b3261e", line_width=2)
+    if switch:
+        plotter.add_checkbox_button_widget(lines.SetVisibility, value=True, size=24, color_on="#b3261e")
+        plotter.add_text("rolling direction", position=(42, 10), font_size=9, color="#222222")
 
 
 def _file_of(path: Path) -> Path:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic_core import PydanticCustomError
 
 from umform import materials, sheet_metals
 from umform.deck.elastic import Elastic
 from umform.deck.metal import J2, Metal
 from umform.deck.parts import Part, tagged_by
+from umform.deck.rolling import RollingPart
+from umform.errors import UmformError
 from umform.materials import Material
 
 
@@ -51,6 +55,15 @@ class FromLibrary(Part):
 
     library: Annotated[str, Field(min_length=1)]
     """Its name."""
+    rolling: RollingPart | None = None
+    """Rolling direction, which an anisotropic one needs: a way, an angle to the bend line, or a file."""
+
+    @model_validator(mode="after")
+    def _knows_its_directions(self) -> FromLibrary:
+        with suppress(UmformError):  # an unknown name is refused where the law is made
+            if self.rolling is None and getattr(sheet_metals.get(self.library).law, "directional", False):
+                raise PydanticCustomError("rolling", 'a metal with directions needs rolling: rolling = "x"')
+        return self
 
     def build(self) -> Material:
         """The law of the sheet metal."""

@@ -10,7 +10,8 @@ from pydantic_core import PydanticCustomError
 from umform import materials
 from umform.deck.elastic import Elastic
 from umform.deck.hardening import Curve
-from umform.deck.parts import NotNegative, Pair, Part, Positive, Way
+from umform.deck.parts import NotNegative, Pair, Part, Positive
+from umform.deck.rolling import RollingPart
 from umform.materials import Material, YieldFunction
 
 
@@ -39,7 +40,7 @@ class Mises(Part):
 
 
 class Hill48(Part):
-    """Hill (1948) from three r-values, or from four yield stresses over that of the hardening curve."""
+    """Hill (1948) from three r-values, four yield stresses over that of the hardening curve, or its own constants."""
 
     function: Literal["Hill48"]
     """The word Hill48."""
@@ -57,11 +58,26 @@ class Hill48(Part):
     """Across it."""
     biaxial: Positive | None = None
     """Of equal tension in both directions."""
+    F: float | None = None
+    """Constant of (s22 - s33)^2."""
+    G: float | None = None
+    """Constant of (s33 - s11)^2."""
+    H: float | None = None
+    """Constant of (s11 - s22)^2."""
+    N: Positive | None = None
+    """Constant of 2 s12^2."""
+    L: Positive | None = None
+    """Constant of 2 s23^2; 1.5 by default."""
+    M: Positive | None = None
+    """Constant of 2 s13^2; 1.5 by default."""
 
     @model_validator(mode="after")
     def _is_one_set(self) -> Hill48:
-        if set(self._given()) not in ({"r0", "r45", "r90"}, {"s0", "s45", "s90", "biaxial"}):
-            raise PydanticCustomError("constants", "give r0, r45 and r90, or s0, s45, s90 and biaxial, and no others")
+        sets = ({"r0", "r45", "r90"}, {"s0", "s45", "s90", "biaxial"}, set("FGHN"))
+        if set(self._given()) - set("LM" if self.N is not None else "") not in sets:
+            raise PydanticCustomError(
+                "constants", "give r0, r45 and r90, or s0, s45, s90 and biaxial, or F, G, H and N, and no others"
+            )
         return self
 
     def _given(self) -> dict[str, float]:
@@ -70,7 +86,9 @@ class Hill48(Part):
     def build(self) -> YieldFunction:
         """The yield function."""
         given = self._given()
-        return materials.Hill48(**given) if "r0" in given else materials.Hill48.from_stresses(**given)
+        if "r0" in given:
+            return materials.Hill48(**given)
+        return (materials.Hill48.from_constants if "F" in given else materials.Hill48.from_stresses)(**given)
 
 
 Exponent = Annotated[float, Field(ge=2, le=20)]
@@ -211,8 +229,8 @@ class Metal(Elastic):
         Mises | Hill48 | Hosford | Yld91 | Yld2004, Field(discriminator="function", default=Mises(function="Mises"))
     ]
     """Shape of the yield surface."""
-    rolling: Way | None = None
-    """Rolling direction."""
+    rolling: RollingPart | None = None
+    """Rolling direction: a way, an angle to the bend line, or a file."""
     back_stress: BackStress | None = None
     """Motion of the yield surface."""
     two_surfaces: TwoSurfaces | None = None

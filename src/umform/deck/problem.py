@@ -13,9 +13,11 @@ from umform.deck.controls import Rigid
 from umform.deck.errors import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey
 from umform.deck.lines import Path
 from umform.deck.metal import J2, Metal
+from umform.deck.rolling import direction
 from umform.deck.source import Source
 from umform.deck.steps import Named
 from umform.deck.tools import Profiled
+from umform.elements import Rolling
 from umform.elements.technology import Element
 from umform.errors import UmformError
 from umform.materials import Material
@@ -27,7 +29,7 @@ from umform.run import Result, resume, solve
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 from umform.steps import Step
-from umform.surfaces import Tool, unit_vector
+from umform.surfaces import Tool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,10 +163,10 @@ class _Builder:
 
     def _model(self) -> Model | None:
         part = self.contents.element
-        element, mesh, material = self._element(), None, self._material()
+        element, mesh, material, rolling = self._element(), None, self._material(), self._rolling()
         with self._at("mesh"):
             mesh = self.contents.mesh.build(element.cell if element else "hex8", self.source.folder)
-        if element is None or mesh is None or material is None:
+        if element is None or mesh is None or material is None or any("rolling" in e.where for e in self.errors):
             return None
         with self._at("element"):
             return Model(
@@ -173,16 +175,18 @@ class _Builder:
                 material=material,
                 thickness_points=part.thickness_points,
                 thickness_rule=part.thickness_rule,
-                rolling=self._rolling(),
+                rolling=rolling,
             )
         return None
 
-    def _rolling(self) -> tuple[float, ...] | None:
+    def _rolling(self) -> Rolling | None:
         """The rolling direction of a metal that has one."""
-        part = self.contents.material
-        if not isinstance(part, Metal) or part.rolling is None:
+        rolling = getattr(self.contents.material, "rolling", None)
+        if rolling is None:
             return None
-        return tuple(float(component) for component in unit_vector(part.rolling, "rolling"))
+        with self._at("material", "rolling"):
+            return direction(rolling, self.source.folder)
+        return None
 
     def _element(self) -> Element | None:
         with self._at("element"):

@@ -12,7 +12,7 @@ from umform.elements.catalogue import (
     thickness_modes,
     thickness_rule,
 )
-from umform.elements.rolling import rolling_directions
+from umform.elements.rolling import Rolling, rolling_at, rolling_directions
 from umform.elements.technology import COMPONENTS, Element, Mode, Term, Tying
 
 __all__ = [
@@ -25,10 +25,12 @@ __all__ = [
     "MITC9_SHEAR",
     "Element",
     "Mode",
+    "Rolling",
     "Term",
     "Tying",
     "element",
     "membrane_modes",
+    "rolling_at",
     "rolling_directions",
     "thickness_modes",
     "thickness_rule",

@@ -115,6 +115,33 @@ class Hill48:
         made._set(F, G, H, 1.5, 1.5, N)
         return made
 
+    @classmethod
+    def from_constants(cls, F: float, G: float, H: float, N: float, L: float = 1.5, M: float = 1.5) -> Self:
+        """The function of Hill's own constants; 0.5 and 1.5 are those of von Mises.
+
+        Raises
+        ------
+        InvalidValue
+            If the function is not convex.
+        """
+        check_finite("Hill48", F=F, G=G, H=H, L=L, M=M, N=N)
+        if not (min(L, M, N, F + G) > 0 and F * G + G * H + H * F > 0):
+            raise InvalidValue(
+                "Hill's function with these constants is not convex",
+                where="Hill48.from_constants",
+                value={"F": F, "G": G, "H": H, "L": L, "M": M, "N": N},
+                cause="a sign, or constants in another order",
+                remedy="F, G, H about 0.5 and L, M, N about 1.5",
+            )
+        made = cls.__new__(cls)
+        made._set(F, G, H, L, M, N)
+        return made
+
+    @property
+    def r_values(self) -> tuple[float, float, float]:
+        """r-values along, at 45 degrees to and across the rolling direction."""
+        return self.H / self.G, self.N / (self.F + self.G) - 0.5, self.H / self.F
+
     def function(self) -> _core.YieldFunction:
         """The function as the kernels take it."""
         return _core.hill48(self.F, self.G, self.H, self.L, self.M, self.N)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform import _core
-from umform.elements import Element, rolling_directions
+from umform.elements import Element, Rolling, rolling_directions
 from umform.elements import element as catalogue_element
 from umform.elements import thickness_rule as make_thickness_rule
 from umform.errors import EmptySet, InvalidValue, WrongCellType
@@ -65,9 +65,11 @@ class Body(Term):
         plastic one, but 12 with BEND8 and BEND18.
     thickness_rule : {"gauss", "lobatto", "split"}, optional
         Where they lie; default gauss, but split where the default of the points is 12.
-    rolling : array_like, shape (3,) or (cells, 3), optional
-        Rolling direction of the sheet: e_1 of the local axes is its projection onto the layer, eq. (1.26). By default
-        e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic law does not see.
+    rolling : array_like, shape (3,) or (cells, 3), or callable, optional
+        Rolling direction of the sheet, or that of each cell, or a function of the coordinates x, y, z of the centres of
+        the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of the local axes is its projection onto
+        the layer, eq. (1.26). By default e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic
+        law does not see.
     **options
         Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
         compatible_E12.
@@ -90,7 +92,7 @@ class Body(Term):
         name: str = "sheet",
         thickness_points: int | None = None,
         thickness_rule: str | None = None,
-        rolling: ArrayLike | None = None,
+        rolling: Rolling | None = None,
         **options: int | bool | None,
     ) -> None:
         self.name = name
@@ -108,7 +110,7 @@ class Body(Term):
                 where=name,
                 value=type(material).__name__,
                 cause="its yield function differs along and across the rolling direction",
-                remedy="rolling=(1, 0, 0), or one vector for each cell",
+                remedy="rolling=(1, 0, 0), one vector for each cell, or umform.rolling_at(45) to a bend line",
             )
         self.thickness_points, self.thickness_rule = self._through_thickness(thickness_points, thickness_rule)
         least = self.element.thickness_order + 1
@@ -152,9 +154,14 @@ class Body(Term):
         #: Numbers of its cells in the mesh.
         self.cells: Numbers = _cell_numbers(mesh, self._selection, self.name)
         #: Rolling direction, or that of each of its cells.
-        self.rolling = rolling_directions(self._given_rolling, len(self.cells))
+        self.rolling = rolling_directions(self._given_rolling, self._centres())
         self._numbers = self.cells
         return self
+
+    def _centres(self) -> Floats:
+        """Centres of its cells."""
+        centres: Floats = self.mesh.points[self.connectivity].mean(axis=1)
+        return centres
 
     @property
     def whole(self) -> bool:

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from umform.elements import Element
+from umform.elements import Element, Rolling
 from umform.errors import InvalidValue
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
@@ -46,9 +45,11 @@ class Model(Standing):
         plastic one, but 12 with BEND8 and BEND18.
     thickness_rule : {"gauss", "lobatto", "split"}, optional
         Where they lie; default gauss, but split where the default of the points is 12.
-    rolling : array_like, shape (3,) or (cells, 3), optional
-        Rolling direction of the sheet: e_1 of the local axes is its projection onto the layer, eq. (1.26). By default
-        e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic law does not see.
+    rolling : array_like, shape (3,) or (cells, 3), or callable, optional
+        Rolling direction of the sheet, or that of each cell, or a function of the coordinates x, y, z of the centres of
+        the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of the local axes is its projection onto
+        the layer, eq. (1.26). By default e_1 lies along G_1 and follows the numbering of the mesh, which an isotropic
+        law does not see.
     **options
         Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
         compatible_E12.
@@ -77,7 +78,7 @@ class Model(Standing):
         bodies: Sequence[Body] | None = None,
         thickness_points: int | None = None,
         thickness_rule: str | None = None,
-        rolling: ArrayLike | None = None,
+        rolling: Rolling | None = None,
         **options: int | bool | None,
     ) -> None:
         super().__init__(mesh)

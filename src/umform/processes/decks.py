@@ -1,15 +1,11 @@
-"""Decks of ready processes: TOML text from tables, and the table of a plastic law."""
+"""Decks of ready processes: TOML text from tables."""
 
 from __future__ import annotations
 
 import json
 import textwrap
 from collections.abc import Iterable, Mapping
-from dataclasses import fields, is_dataclass
 from typing import Any
-
-from umform.errors import InvalidValue
-from umform.materials import J2, LinearVoce, Swift, Table
 
 #: Header, as in [mesh] or [[steps]], and the keys below it; a key whose value is None is left out.
 Entry = tuple[str, Mapping[str, Any]]
@@ -32,35 +28,11 @@ def deck_text(title: str, remarks: Iterable[str], entries: Iterable[Entry]) -> s
     wrapped = (textwrap.wrap(text, _WIDTH, initial_indent="# ", subsequent_indent="# ") for text in remarks)
     lines = [*(line for paragraph in wrapped for line in paragraph), "", f"title = {_toml(title)}"]
     for header, keys in entries:
-        lines += ["", header, *(_line(key, value) for key, value in keys.items() if value is not None)]
+        lines += ["", header, *(toml_line(key, value) for key, value in keys.items() if value is not None)]
     return "\n".join(lines) + "\n"
 
 
-def law_keys(law: J2) -> dict[str, Any]:
-    """Keys of the table ``[material]`` of a law, to the last bit.
-
-    Raises
-    ------
-    InvalidValue
-        If a deck has no words for its hardening.
-    """
-    curve = law.hardening
-    if not isinstance(curve, LinearVoce | Swift | Table) or not is_dataclass(curve):
-        raise InvalidValue(
-            "a deck has no words for this hardening curve",
-            where="hardening",
-            value=curve,
-            cause="a curve of your own",
-            remedy="give its points as a Table",
-        )
-    E, nu = float(f"{law.E:.12g}"), float(f"{law.nu:.12g}")
-    same = J2(E, nu, hardening=curve) == law
-    constants = {"E": E, "nu": nu} if same else {"kappa": law.kappa, "mu": law.mu}
-    hardening = {"curve": type(curve).__name__} | {part.name: getattr(curve, part.name) for part in fields(curve)}
-    return {"law": "J2", **constants, "hardening": hardening}
-
-
-def _line(key: str, value: Any) -> str:
+def toml_line(key: str, value: Any) -> str:
     """A key with its value; a long array goes on over several lines."""
     line = f"{key} = {_toml(value)}"
     if len(line) > _WIDTH and isinstance(value, tuple | list):

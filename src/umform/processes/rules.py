@@ -75,6 +75,33 @@ def length(what: str, remedy: str) -> Rule:
     return Rule(positive, f"{what} must be positive and finite", "a sign, or a missing value", remedy)
 
 
+#: The rolling direction of a sheet that is bent about one line.
+ROLLING = Rule(
+    lambda value: value is None or (number(value) and abs(value) <= 180.0),
+    "the rolling direction is an angle to the bend line from -180 to 180 degrees",
+    "a vector in place of an angle",
+    "0 along the bend line, 90 across it",
+)
+
+
+def check_rolling(material: Any, rolling: float | None) -> None:
+    """Refuse a law with directions without its rolling direction.
+
+    Raises
+    ------
+    InvalidValue
+        ``where`` is "rolling".
+    """
+    if rolling is None and getattr(material, "directional", False):
+        raise InvalidValue(
+            "this material differs along and across the rolling direction, which is not given",
+            where="rolling",
+            value=rolling,
+            cause="its yield function has directions",
+            remedy="rolling=90 for a bend across the rolling direction, rolling=0 for one along it",
+        )
+
+
 def _shown(value: object) -> str:
     """A value as it is written by hand: a mesh as 24x1."""
     if isinstance(value, tuple | list):

@@ -81,6 +81,7 @@ def _shape(result: History, scene: Scene, stills: bool) -> str:
     hidden = {
         "without_tools": "" if scene.tools else " hidden",
         "without_mirrors": "" if scene.mirrors else " hidden",
+        "without_rolling": "" if scene.rolling else " hidden",
     }
     return _filled("shape.html", still=still, fields=options, last=str(scene.frames - 1), **hidden)
 

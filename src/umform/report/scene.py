@@ -69,6 +69,8 @@ class Scene:
         What could not be drawn.
     mirrors : list of Mirror
         Planes of symmetry: the browser draws the mirror images.
+    rolling : bool
+        Whether it has the rolling direction of each cell.
     """
 
     data: str
@@ -77,6 +79,7 @@ class Scene:
     tools: list[str]
     notes: list[str]
     mirrors: list[Mirror]
+    rolling: bool = False
 
 
 def scene_of(result: History) -> Scene:
@@ -99,6 +102,9 @@ def scene_of(result: History) -> Scene:
     for name, place, values in _fields(result.frames, shifts, nodes, cells):
         arrays[f"field {name}"] = Quantised.of(values)
         fields.append({"name": name, "label": name.replace("_", " "), "on": place, **_scale(values)})
+    axes = _rolling(result.frames, cells)
+    if axes is not None:
+        arrays["rolling"] = Quantised.of(axes)
     planes = mirrors(result.model)
     bodies, notes = _tools(result, _around(X + shifts), planes)
     for number, body in enumerate(bodies):
@@ -108,11 +114,13 @@ def scene_of(result: History) -> Scene:
         "frames": _marks(result),
         "fields": fields,
         "tools": tools,
+        "rolling": axes is not None,
         "maps": _maps(fields),
         "mirrors": [{"axis": plane.axis, "at": plane.at} for plane in planes],
         "toolMirrors": [[planes.index(plane) for plane in body.mirrored] for body in bodies],
     }
-    return Scene(pack(head, arrays), len(shifts), [field["label"] for field in fields], tools, notes, planes)
+    labels = [field["label"] for field in fields]
+    return Scene(pack(head, arrays), len(shifts), labels, tools, notes, planes, axes is not None)
 
 
 @dataclass(frozen=True)
@@ -187,6 +195,13 @@ def _fields(frames: list[Frame], shifts: Floats, nodes: Ids, cells: Ids) -> Iter
                         found[name] = place, values
     for name in sorted(found, key=lambda name: _ORDER.index(name) if name in _ORDER else len(_ORDER)):
         yield name, *found[name]
+
+
+def _rolling(frames: list[Frame], cells: Ids) -> Floats | None:
+    """Rolling directions (frames, cells, 3) of the cells that are seen; None if no body has one."""
+    if not frames or "rolling" not in frames[0].cells:
+        return None
+    return np.stack([frame.cells["rolling"][cells] for frame in frames])
 
 
 def _scale(values: Floats) -> dict[str, object]:

@@ -108,7 +108,11 @@ def cell_fields(model: Model) -> dict[str, Floats]:
     """Fields of the cells of the converged state, arrays (cells, ...); zero in bodies whose law does not have one."""
     fields: dict[str, Floats] = {}
     for body in model.bodies:
-        for name, values in _cell_fields(body_fields(body, model.u)).items():
+        at = body_fields(body, model.u)
+        found = _cell_fields(at)
+        if body.rolling is not None:
+            found["rolling"] = _rolling(at)
+        for name, values in found.items():
             whole = fields.setdefault(name, np.zeros((len(model.mesh.connectivity), *values.shape[1:])))
             whole[body.cells] = values
     return fields
@@ -126,6 +130,18 @@ def _cell_fields(at: PointFields) -> dict[str, Floats]:
     if at.eqps is not None:
         cells |= {"plastic_strain_mean": at.cell_average(at.eqps), "plastic_strain_max": at.eqps.max(axis=1)}
     return cells
+
+
+def _rolling(at: PointFields) -> Floats:
+    """Rolling direction of each cell in its present state, unit vectors (cells, 3): the first local axis, turned by R.
+
+    R is the rotation of the mean deformation gradient of the cell.
+    """
+    left, _, right = np.linalg.svd(at.cell_average(at.F))
+    axis = at.cell_average(at.frame[:, :, 0])
+    turned = np.einsum("cij,cj->ci", left @ right, axis)
+    direction: Floats = turned / np.linalg.norm(turned, axis=1, keepdims=True)
+    return direction
 
 
 def von_mises(stress: Floats) -> Floats:

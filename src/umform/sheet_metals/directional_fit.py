@@ -58,7 +58,7 @@ class Directions:
 
 
 def uniaxial(function: YieldFunction, angle: float) -> tuple[float, float]:
-    """Yield stress over that of the curve, and r-value, of tension at an angle in degrees to the rolling direction."""
+    """Yield stress over that of the curve, and r-value, of tension at an angle in degrees, eq. (3.140)."""
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     phi, n = function.function()(np.array([c * c, s * s, 0.0, c * s, 0.0, 0.0]))
     return 1.0 / phi, float(s * s * n[0] + c * c * n[1] - c * s * n[3]) / float(n[2])

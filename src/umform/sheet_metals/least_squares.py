@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -16,6 +16,10 @@ Law = TypeVar("Law")
 
 #: Residual of constants of which no law can be made.
 _REFUSED = 1e3
+#: A constant is not determined if its standard deviation is more than this share of it.
+_VAGUE = 0.5
+#: Two constants stand for each other if their correlation is beyond this.
+_TIED = 0.95
 
 
 @dataclass(frozen=True)
@@ -33,16 +37,34 @@ class Fit(Generic[Law]):
         determine it.
     misfit : float
         Root of the mean square of the residuals.
+    correlation : ndarray, shape (n, n)
+        Correlations of the constants, in their order; zero where a constant is not determined at all.
     """
 
     law: Law
     constants: Mapping[str, float]
     deviations: Mapping[str, float]
     misfit: float
+    correlation: Floats = field(default_factory=lambda: np.eye(0), compare=False)
+
+    @property
+    def undetermined(self) -> tuple[str, ...]:
+        """Constants whose standard deviation is more than half of them."""
+        return tuple(name for name, value in self.constants.items() if not self.deviations[name] <= _VAGUE * abs(value))
+
+    @property
+    def tied(self) -> tuple[tuple[str, str, float], ...]:
+        """Pairs of constants of which little more than one combination is determined, with their correlation."""
+        names = list(self.constants)
+        pairs = np.argwhere(np.triu(np.abs(self.correlation) > _TIED, 1))
+        return tuple((names[i], names[j], float(self.correlation[i, j])) for i, j in pairs)
 
     def __str__(self) -> str:
         lines = [f"{self.law}", f"misfit {self.misfit:.3g}"]
         lines += [f"{name} = {value:.6g} +- {self.deviations[name]:.2g}" for name, value in self.constants.items()]
+        if self.undetermined:
+            lines.append(f"not determined: {', '.join(self.undetermined)}")
+        lines += [f"correlation of {first} and {second}: {c:.3f}" for first, second, c in self.tied]
         return "\n".join(lines)
 
 
@@ -52,6 +74,8 @@ def fit(
     start: Mapping[str, float],
     *,
     positive: bool,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    tolerance: float = 1e-8,
 ) -> Fit[Law]:
     """Find the constants whose law has the least sum of squares.
 
@@ -65,6 +89,10 @@ def fit(
         First guess, by name.
     positive : bool
         Constants are positive and may be wrong by factors: their logarithms are varied.
+    bounds : mapping of str to pairs of float, optional
+        Lower and upper bounds of some of them; one that ends there is not determined.
+    tolerance : float
+        Relative change of the sum of squares, and of the constants, at which the search ends.
 
     Raises
     ------
@@ -95,22 +123,41 @@ def fit(
 
     from scipy.optimize import least_squares  # slow to import
 
-    found = least_squares(differences, np.zeros(len(names)), x_scale=0.1, method="trf", diff_step=1e-6)
+    free = (0.0 if positive else -np.inf, np.inf)
+    low, high = np.array([(bounds or {}).get(name, free) for name in names]).T
+    with np.errstate(divide="ignore"):
+        ends = (np.log(low / guess), np.log(high / guess)) if positive else (low - guess, high - guess)
+    found = least_squares(
+        differences,
+        np.zeros(len(names)),
+        bounds=ends,
+        x_scale=0.1,
+        method="trf",
+        diff_step=1e-6,
+        ftol=tolerance,
+        xtol=tolerance,
+    )
     values = constants(found.x)
-    spread = _deviations(np.asarray(found.jac), np.asarray(found.fun))
+    spread, correlation = _uncertainty(np.asarray(found.jac), np.asarray(found.fun))
+    spread = np.where(found.active_mask != 0, np.inf, spread)
     if positive:
         spread = spread * np.array(list(values.values()))
     misfit = float(np.sqrt(np.mean(found.fun**2)))
-    return Fit(build(values), values, dict(zip(names, spread.tolist(), strict=True)), misfit)
+    return Fit(build(values), values, dict(zip(names, spread.tolist(), strict=True)), misfit, correlation)
 
 
-def _deviations(jacobian: Floats, residual: Floats) -> Floats:
-    """Standard deviations by the covariance at the solution; infinite along directions that nothing determines."""
+def _uncertainty(jacobian: Floats, residual: Floats) -> tuple[Floats, Floats]:
+    """Standard deviations, infinite along directions that nothing determines, and correlations, eq. (3.141)."""
     _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)
     free = max(len(residual) - jacobian.shape[1], 1)
     variance = float(residual @ residual) / free
     blind = sizes < 1e-6 * sizes.max(initial=1e-300)
     inverse = np.where(blind, 0.0, 1.0 / np.where(blind, 1.0, sizes))
-    spread = np.sqrt(variance * ((directions * inverse[:, None]) ** 2).sum(axis=0))
-    hidden = (np.abs(directions[blind]) > 1e-3).any(axis=0)
-    return np.where(hidden, np.inf, spread)
+    rows = directions * inverse[:, None]
+    covariance = rows.T @ rows
+    sides = np.sqrt(np.diag(covariance))
+    hidden = (np.abs(directions[blind]) > 1e-3).any(axis=0) | (sides == 0.0)
+    scale = np.where(hidden, np.inf, sides)
+    correlation = covariance / np.outer(scale, scale)
+    np.fill_diagonal(correlation, 1.0)
+    return np.where(hidden, np.inf, np.sqrt(variance) * sides), correlation

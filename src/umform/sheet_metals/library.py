@@ -1,4 +1,4 @@
-"""The sheet metals themselves: read from ``metals.toml``, with their flow curves derived."""
+"""The sheet metals by name: those of ``metals.toml``, with their flow curves derived, and the published cards."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ import math
 import re
 import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 from typing import Any
 
 from umform.errors import InvalidValue
 from umform.materials import J2, Hardening
+from umform.sheet_metals.cards import card_rows, made_card
+from umform.sheet_metals.sheet_metal import SheetMetal
 from umform.sheet_metals.tensile_test import swift_from_tensile_test, voce_from_tensile_test
 
 _CURVES: dict[str, Callable[[float, float, float, float], Hardening]] = {
@@ -29,69 +30,14 @@ _RULES = {
 }
 
 
-@dataclass(frozen=True)
-class SheetMetal:
-    """A sheet metal with what is known of it. Units N, mm, MPa.
-
-    Attributes
-    ----------
-    name : str
-        Its name.
-    number : str
-        Material number, where it has one.
-    aliases : tuple of str
-        Other names.
-    law : J2
-        The law that a model takes.
-    young, poisson : float
-        Elastic constants.
-    yield_stress, tensile_strength : float
-        Rp0.2 or the yield point, and Rm: numbers of the source.
-    uniform_elongation : float
-        Ag, plastic elongation at the largest force as a fraction; derived.
-    valid_strain : float
-        Plastic strain at the largest force. Beyond it the curve is an extrapolation.
-    basis : str
-        Which of the values of the source are taken.
-    source : str
-        Where they stand; keys are those of ``references.bib``.
-    derived : str
-        What is not in the source, and how it was derived.
-    caveat : str
-        What the law leaves out, and how far coils differ.
-    """
-
-    name: str
-    number: str
-    aliases: tuple[str, ...]
-    law: J2
-    young: float
-    poisson: float
-    yield_stress: float
-    tensile_strength: float
-    uniform_elongation: float
-    valid_strain: float
-    basis: str
-    source: str
-    derived: str
-    caveat: str
-
-    def __str__(self) -> str:
-        return "\n".join(
-            [
-                f"{self.name}: R {self.yield_stress:g} MPa, Rm {self.tensile_strength:g} MPa, "
-                f"Ag {100 * self.uniform_elongation:.1f} %, E {self.young:g} MPa, nu {self.poisson:g} ({self.basis})",
-                f"  law:     {self.law.hardening}",
-                f"  source:  {self.source}",
-                f"  derived: {self.derived}",
-                f"  caveat:  {self.caveat}",
-            ]
-        )
-
-
 def names() -> tuple[str, ...]:
-    """Names of all sheet metals of the library."""
+    """Names of the isotropic sheet metals, whose flow curves are derived from standards."""
     return tuple(_data())
+
+
+def cards() -> tuple[str, ...]:
+    """Names of the published cards: anisotropy, back stress, falling modulus."""
+    return tuple(card_rows())
 
 
 def get(name: str) -> SheetMetal:
@@ -100,8 +46,8 @@ def get(name: str) -> SheetMetal:
     Parameters
     ----------
     name : str
-        Name, material number or another name, as ``"DC04"``, ``"1.0338"``, ``"AISI 304"``, ``"AlMg3"``; spaces, hyphens
-        and capitals do not matter.
+        Name, material number or another name, as ``"DC04"``, ``"1.0338"``, ``"AISI 304"``, ``"AA6016-T4"``; spaces,
+        hyphens and capitals do not matter.
 
     Returns
     -------
@@ -123,7 +69,8 @@ def get(name: str) -> SheetMetal:
         where="sheet_metals",
         value=name,
         cause=f"perhaps {known[near[0]]} is meant" if near else "",
-        remedy=f"choose one of {', '.join(names())}, or make a law from a certificate: swift_from_tensile_test",
+        remedy=f"choose one of {', '.join((*names(), *cards()))}, or make a law from a certificate: "
+        "swift_from_tensile_test",
     )
 
 
@@ -140,10 +87,11 @@ def _data() -> dict[str, dict[str, Any]]:
 @cache
 def _known() -> dict[str, str]:
     """Plain form of all names and aliases, with the name of the metal."""
+    rows = {**_data(), **card_rows()}
     return {
         _plain(other): name
-        for name, row in _data().items()
-        for other in (name, row["number"], *row["aliases"])
+        for name, row in rows.items()
+        for other in (name, row.get("number", ""), *row["aliases"])
         if other
     }
 
@@ -165,6 +113,8 @@ def _strain_at_largest_force(row: dict[str, Any]) -> float:
 
 @cache
 def _made(name: str) -> SheetMetal:
+    if name in card_rows():
+        return made_card(name)
     row = _data()[name]
     young, strength = float(row["young"]), float(row["tensile_strength"])
     elongation = _strain_at_largest_force(row) - strength / young

@@ -32,15 +32,15 @@ class Bordered:
         self._border: Border | None = None
         self._eliminated = False
 
-    def factor(self, evaluation: Evaluation) -> Factorisation:
-        """Factorise the tangent of an evaluation.
+    def factor(self, evaluation: Evaluation, values: Floats | None = None) -> Factorisation:
+        """Factorise the tangent of an evaluation, or other values in its place.
 
         Raises
         ------
         SingularMatrix
             If the tangent is singular.
         """
-        found = self.solver.factor(evaluation.values)
+        found = self.solver.factor(evaluation.values if values is None else values)
         self._border, self._eliminated = evaluation.border if evaluation.border.unknowns else None, False
         return found
 

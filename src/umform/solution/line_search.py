@@ -20,6 +20,8 @@ Floats = NDArray[np.float64]
 _OVERSHOOT = 0.8
 #: Each trial is at least a quarter of the one before: thin sheets, whose energy is a narrow bent valley, creep else.
 _TRIALS, _SHORTEST, _LONGEST = 3, 0.25, 0.5
+#: Slope at the end over that at the beginning from which an increment is doubled, and how often.
+_STILL_DOWNHILL, _DOUBLINGS = 0.5, 6
 
 
 def shortened(
@@ -51,6 +53,25 @@ def shortened(
         length *= part
         evaluation = system.evaluate(u + length * du)
     return evaluation, length
+
+
+def lengthened(
+    system: System, u: Floats, du: Floats, r: Floats, evaluation: Evaluation, length: float
+) -> tuple[Evaluation, float]:
+    """The same, after an increment that has been doubled as long as the slope along it hardly falls.
+
+    Increments of a tangent that was shifted to be positive are too short: near a state that has lost its stability the
+    residual is small, and the next stable state far. Parameters as of :func:`shortened`.
+    """
+    along = system.coefficients(du)
+    slope = system.ranks.dot(r, along)
+    for _ in range(_DOUBLINGS):
+        if _overshoot(system, along, slope, evaluation) > -_STILL_DOWNHILL:
+            break
+        system.shorten(2.0)
+        length *= 2.0
+        evaluation = system.evaluate(u + length * du)
+    return shortened(system, u, du, r, evaluation, length)
 
 
 def _overshoot(system: System, along: Floats, slope: float, evaluation: Evaluation) -> float:

@@ -20,11 +20,12 @@ from umform.errors import NotFinite, SingularMatrix
 from umform.solution.bordered import Bordered
 from umform.solution.criteria import Criteria, largest
 from umform.solution.factor_reuse import Reuse
-from umform.solution.line_search import shortened
+from umform.solution.line_search import lengthened, shortened
 from umform.solution.options import Manner, NewtonOptions, Wary
 from umform.solution.prospects import Prospects
 from umform.solution.recorder import Recorder
 from umform.solution.records import Cause, Converged, Failed, First, Iteration
+from umform.solution.shift import Shift
 from umform.solution.system import Evaluation, System
 from umform.solution.timed_solver import TimedSolver
 from umform.solvers import Pattern, make_solver
@@ -189,6 +190,7 @@ class Newton:
         system.recover(du, manner.mixed)
         u = u + du
         criteria, prospects = Criteria(system, options.residual, options.increment), Prospects(system)
+        shift = Shift(system)
         reuse = Reuse(options, system.pattern.n, system.effort)
         pivots = reuse.remember(first.factors) if first is not None else None
         criteria.entry = first.entry if first is not None else None
@@ -196,6 +198,7 @@ class Newton:
         evaluation = system.evaluate(u, tangent=not lean)
         increment, step_length = self._relative(du, evaluation), 1.0
         status = previous = evaluation.status
+        shifted = False
 
         for _ in range(options.max_iterations):
             self.check_domain(evaluation, iterations)
@@ -218,6 +221,9 @@ class Newton:
                     evaluation = system.evaluate(u)
                 pivots = reuse.remember(solver.factor(evaluation))
                 prospects.bear(pivots, norm / scale, manner.wary, iterations)
+                shifted = prospects.shifts(pivots, manner.wary)
+                if shifted:
+                    shift.factor(solver, evaluation)
                 criteria.entry = system.largest_entry(evaluation.values)
             elif lean:
                 system.follow()
@@ -225,7 +231,7 @@ class Newton:
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
             recorder.add(evaluation.flowing, norm / scale, increment, energy, entered, left, step_length, pivots)
             lean = self._lean(reuse, manner) and not evaluation.border.unknowns
-            u, evaluation, step_length = self._advance(u, du, r, manner, longest, lean)
+            u, evaluation, step_length = self._advance(u, du, r, manner, longest, lean, shifted)
             criteria.entry = criteria.entry if lean else None
             increment = step_length * self._relative(du, evaluation)
             previous, status = status, evaluation.status
@@ -236,7 +242,7 @@ class Newton:
         return reuse.dear and not manner.line_search and self.system.smooth
 
     def _advance(
-        self, u: Floats, du: Floats, r: Floats, manner: Manner, longest: float, lean: bool
+        self, u: Floats, du: Floats, r: Floats, manner: Manner, longest: float, lean: bool, shifted: bool
     ) -> tuple[Floats, Evaluation, float]:
         """Take the increment, or a part of it where it goes too far. eq. (5.12)"""
         system, length = self.system, longest
@@ -244,7 +250,9 @@ class Newton:
         if length < 1.0:
             system.shorten(length)
         evaluation = system.evaluate(u + length * du, tangent=not lean)
-        if manner.line_search:
+        if shifted:
+            evaluation, length = lengthened(system, u, du, r, evaluation, length)
+        elif manner.line_search:
             evaluation, length = shortened(system, u, du, r, evaluation, length)
         return evaluation.x, evaluation, length
 

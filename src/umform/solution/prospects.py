@@ -23,6 +23,7 @@ class Prospects:
         self._cycle = Cycle(system)
         self._stall = None if system.smooth else Stall()
         self._pivots = 0
+        self._downhill = False
 
     def longest(
         self, evaluation: Evaluation, before: NDArray[np.uint8], norm: float, iterations: list[Iteration]
@@ -50,7 +51,7 @@ class Prospects:
         if cycle.stays:
             where = evaluation.at_points(evaluation.status != before)
             raise Failed(f"contact comes and goes in a cycle{where}", iterations, Cause.CYCLE)
-        if stall is not None and stall.seen(norm):
+        if stall is not None and not self._downhill and stall.seen(norm):  # downhill the residual may grow
             raise Failed(f"the residual has not fallen for {stall.patience} iterations", iterations, Cause.STALL)
         return longest
 
@@ -80,6 +81,15 @@ class Prospects:
             reason = f"the tangent has {pivots} negative pivots far from equilibrium"
             raise Failed(reason, iterations, Cause.INDEFINITE)
 
+    def shifts(self, pivots: int | None, wary: Wary) -> bool:
+        """Whether an indefinite tangent is shifted, so that the increment goes downhill; parameters as of `bear`.
+
+        It is where the last equilibrium was stable, and where contact has gone in a cycle.
+        """
+        wanted = bool(pivots) and (wary is Wary.OF_ANY or self._cycle.met)
+        self._downhill = self._downhill or wanted
+        return wanted
+
 
 class Cycle:
     """Sees contact points come and go in a cycle while the residual does not fall.
@@ -94,6 +104,11 @@ class Cycle:
         self._system = system
         self._states: list[bytes] = []
         self._begin = self._count = 0
+
+    @property
+    def met(self) -> bool:
+        """Whether a cycle was seen."""
+        return self._count > 0
 
     @property
     def stays(self) -> bool:

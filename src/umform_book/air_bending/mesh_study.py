@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from umform.materials import J2
+from umform.materials import Material
 from umform.model import Model
 from umform.processes.air_bending import AirBending, Measures, air_bending, find_stroke
 from umform_book.air_bending.causes import LAYERS, ONE_LAYER, known
@@ -144,7 +144,7 @@ class Metal(Candidate):
         return Model(flat, element, material=_metal(), thickness_points=self.points, thickness_rule=rule)
 
 
-def _metal() -> J2:
+def _metal() -> Material:
     return AirBending().material
 
 

@@ -3,6 +3,7 @@
 from umform_book.case import Chapter
 from umform_book.friction import (
     bending_work,
+    beside_calculix,
     block,
     capstan,
     free_bending,
@@ -11,6 +12,7 @@ from umform_book.friction import (
     partial_slip_point,
     turning,
     u_bend,
+    unconstrained,
 )
 
 CHAPTER = Chapter(
@@ -25,6 +27,8 @@ CHAPTER = Chapter(
         partial_slip_point.CASE,
         bending_work.CASE,
         free_bending.CASE,
+        beside_calculix.CASE,
         u_bend.CASE,
+        unconstrained.CASE,
     ),
 )

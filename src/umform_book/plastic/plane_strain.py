@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
-from umform.materials import J2, Hardening, LinearVoce, Swift
+from umform.materials import J2, Hardening, LinearVoce, Plastic, Swift
 
 Floats = NDArray[np.float64]
 
@@ -171,7 +171,7 @@ def bending_path(
     return BendingPath(up, moment, back, np.array([section.bend(k) for k in back]))
 
 
-def plane_strain_modulus(material: J2) -> float:
+def plane_strain_modulus(material: Plastic) -> float:
     """E' = E / (1 - nu^2)."""
     return material.E / (1.0 - material.nu**2)
 

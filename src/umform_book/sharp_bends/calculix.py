@@ -52,6 +52,8 @@ class Continuum:
         Displacement of the punch, or of the end.
     radius : float
         Of the cylinder.
+    friction : float
+        Coefficient on the cylinder.
     """
 
     over: str
@@ -61,12 +63,14 @@ class Continuum:
     fine: float
     stroke: float
     radius: float = 20.0
+    friction: float = 0.0
 
     @property
     def file(self) -> str:
         """Name of the file with the stored forces."""
         where = f"fold_R{self.radius:g}" if self.over == "fold" else self.over
-        return f"calculix_{where}_H{self.hardening:g}_{self.layers}_layers.csv"
+        rough = f"_mu{self.friction:g}" if self.friction else ""
+        return f"calculix_{where}_H{self.hardening:g}{rough}_{self.layers}_layers.csv"
 
     @property
     def length(self) -> float:
@@ -95,6 +99,8 @@ STORED = (
     Continuum("cylinder", 500.0, 4, 0.25, 5.0, 15.0),
     Continuum("cylinder", 500.0, 6, 0.16666666, 4.0, 15.0),
     Continuum("fold", 500.0, 4, 0.5, 20.0, 12.0, 10.0),
+    Continuum("cylinder", 500.0, 4, 0.25, 5.0, 15.0, friction=0.1),
+    Continuum("cylinder", 500.0, 4, 0.25, 5.0, 15.0, friction=0.3),
 )
 
 
@@ -208,7 +214,7 @@ def deck(mesh: Continuum) -> str:
         )
         made.lines += tool
         made.material(mesh.hardening)
-        made.lines += contact_with_ring(made.lower, penalty=5000.0 if fold else 100.0)
+        made.lines += contact_with_ring(made.lower, 5000.0 if fold else 100.0, mesh.friction)
         made.lines += ["*BOUNDARY", "X0,1,1", "NALL,2,2", *(f"{node},1,3" for node in held)]
     for to in mesh.pushes:
         made.step()
@@ -222,7 +228,7 @@ def csv_text(mesh: Continuum, u: Floats, force: Floats) -> str:
     """A file of stored forces."""
     lines = [
         f"# CalculiX 2.20, C3D20R, {mesh.layers} layers, elements of {mesh.size:.3g} in the hinge, H = "
-        f"{mesh.hardening:g}, plane strain, {mesh.over}; force for a width of {WIDTH:g}.",
+        f"{mesh.hardening:g}, mu = {mesh.friction:g}, plane strain, {mesh.over}; force for a width of {WIDTH:g}.",
         "# Made by `python -m umform_book.sharp_bends.calculix FOLDER`; increments as CalculiX chose them.",
         "u,force",
         *(f"{a:.6g},{b:.6g}" for a, b in zip(u, force, strict=True)),

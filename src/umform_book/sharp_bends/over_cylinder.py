@@ -51,7 +51,7 @@ def _paper(page: Page, hardening: float) -> tuple[Runs, dict[int, Bend]]:
 def _table(page: Page, hardening: float, runs: Runs, stacks: Mapping[int, Bend]) -> None:
     rows: list[tuple[str | float | None, ...]] = []
     for mesh in calculix.STORED:
-        if mesh.over == "cylinder" and mesh.hardening == hardening:
+        if mesh.over == "cylinder" and mesh.hardening == hardening and not mesh.friction:
             u, force, origin = calculix.forces(mesh)
             label = f"CalculiX, {mesh.layers} layers ({origin})"
             rows.append((label, None, *(float(np.interp(mark, u, force)) for mark in MARKS), None))

@@ -22,6 +22,8 @@ from umform_book.sharp_bends.candidates import Candidate
 Floats = NDArray[np.float64]
 
 THICKNESS, WIDTH = 1.0, 10.0
+#: Elastic slip that is allowed, where there is friction.
+SLIP = 0.005
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,8 @@ class Strip:
         Of the cylinder.
     steps : int
         Increments.
+    friction : float
+        Coefficient on the cylinder.
     """
 
     kind: str
@@ -51,6 +55,7 @@ class Strip:
     hardening: float
     radius: float = 20.0
     steps: int = 50
+    friction: float = 0.0
 
     @property
     def driven(self) -> str:
@@ -134,6 +139,7 @@ def bend(
     label += f", {across} across" if across else ""
     label += f", R = {strip.radius:g}" if strip.kind == "fold" else ""
     label += f", {distortion.name}" if distortion else ""
+    label += f", mu = {strip.friction:g}" if strip.friction else ""
     try:
         result = page.solve(label, model, [Move(control, to=-strip.stroke, steps=strip.steps)], frames=frames)
     except UmformError as error:  # the page shows how far it came
@@ -156,7 +162,8 @@ def _model(strip: Strip, candidate: Candidate, cells: int, across: int, distorti
     fold = strip.kind == "fold"
     tool = Cylinder((0.0 if fold else 25.0, 0.0, -0.5 * THICKNESS - strip.radius), "y", strip.radius)
     points = 5 if fold else (2 if model.mesh.cell == "hex8" else 3)
-    model.contact("lower", tool, penalty=5000.0 if fold else 100.0, points=points, name="tool")
+    penalty, mu = 5000.0 if fold else 100.0, strip.friction or None
+    model.contact("lower", tool, penalty=penalty, points=points, name="tool", friction=mu, slip=SLIP if mu else None)
     return model
 
 

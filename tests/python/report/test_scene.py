@@ -190,3 +190,18 @@ def test_a_tool_of_one_side_gets_an_image_and_one_of_both_a_larger_picture():
     bar, lid = (arrays[f"tool {n} points"].reshape(-1, 3)[:, 0] for n in (0, 1))
     assert bar.min() > 0.0
     assert lid.min() == pytest.approx(-lid.max())
+
+
+def test_rolling_direction_of_the_cells():
+    """One vector for each cell that is seen; a scene without says so."""
+    strip = uf.mesh.strip(8, 2, 0.5, (4, 1))
+    model = uf.Model(strip, "ANS3DEAS", material=uf.SVK(E=1000.0, nu=0.3), rolling=uf.rolling_at(30))
+    model.fix("x0", "xyz")
+    result = uf.solve(model, uf.Move(model.prescribe("x1", "z", name="end"), to=2.0, steps=2), progress=False, frames=2)
+    scene = scene_of(result)
+    head, arrays = unpacked(scene.data)
+    shown = arrays["rolling"].reshape(len(result.frames), -1, 3)
+    assert scene.rolling
+    assert head["rolling"]
+    assert shown[-1] == pytest.approx(result.frames[-1].cells["rolling"], abs=1e-3)
+    assert not scene_of(bent()).rolling

@@ -30,7 +30,13 @@ _FIRST_BACK = 0.02
 def build(case: AirBending) -> tuple[Model, Control]:
     """Model of a case, and the control that moves the punch down."""
     mesh = half_sheet(case)
-    model = Model(mesh, case.element, material=case.material, thickness_points=case.thickness_points)
+    model = Model(
+        mesh,
+        case.element,
+        material=case.material,
+        thickness_points=case.thickness_points,
+        rolling=case.rolling_direction,
+    )
     model.symmetry("x0", normal="x")
     if case.width is None:
         model.fix(np.arange(len(mesh.points)), "y")

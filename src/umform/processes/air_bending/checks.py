@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from umform.errors import InvalidValue
-from umform.materials import J2
-from umform.processes.rules import Rule, check_rules, length, number, positive, whole
+from umform.materials import J2, Metal
+from umform.processes.rules import ROLLING, Rule, check_rolling, check_rules, length, number, positive, whole
 
 #: The most contact points per direction, and the most layers.
 MOST_POINTS, MOST_LAYERS = 10, 8
@@ -52,6 +52,14 @@ class Geometry(Protocol):
     @property
     def material(self) -> Any:
         """Law of the sheet."""
+
+    @property
+    def rolling(self) -> float | None:
+        """Degrees from the bend line to the rolling direction."""
+
+    @property
+    def width(self) -> float | None:
+        """Length of the bend."""
 
     @property
     def penalty(self) -> float | None:
@@ -106,11 +114,12 @@ RULES: dict[str, Rule] = {
     "width": length("the length of the bend", "in mm, such as 50; leave it out for plane strain").optional(),
     "stroke": length("the way of the punch", "in mm, downwards, such as 6").optional(),
     "material": Rule(
-        lambda value: isinstance(value, J2),
+        lambda value: isinstance(value, J2 | Metal),
         "air bending needs a plastic material",
         "an elastic law, or the name of a metal",
-        "a J2; umform.sheet_metals.get('DC04').law for one",
+        "a J2 or a Metal; umform.sheet_metals.get('DC04').law for one",
     ),
+    "rolling": ROLLING,
     "layers": _count("the number of layers", 1, MOST_LAYERS, "2"),
     "thickness_points": _count("the number of thickness points", 2, 15, "6"),
     "elements_per_thickness": Rule(
@@ -177,6 +186,7 @@ def check_geometry(case: Geometry) -> None:
     """
     _check_proportions(case)
     _check_room(case)
+    _check_rolling(case)
     if case.stroke is not None and case.stroke > case.largest_stroke:
         raise _unfit(
             case,
@@ -184,6 +194,20 @@ def check_geometry(case: Geometry) -> None:
             "the stroke goes beyond air bending: the sheet would be pressed against a flank",
             f"with these tools a leg lies against a flank at {case.largest_stroke:.4g} at the latest",
             "a smaller stroke, or sharper angles of punch and die",
+        )
+
+
+def _check_rolling(case: Geometry) -> None:
+    """Refuse a law with directions without its rolling direction, and one that breaks the symmetry of a half width."""
+    check_rolling(case.material, case.rolling)
+    anisotropic = getattr(case.material, "directional", False)
+    if anisotropic and case.width is not None and (case.rolling or 0.0) % 90.0 != 0.0:
+        raise _unfit(
+            case,
+            "rolling",
+            "with a width, the rolling direction must be along or across the bend line",
+            "a quarter of the sheet is modelled, and a sheet that is bent at another angle has no such symmetry",
+            "rolling=0 or rolling=90, or no width: plane strain takes all angles",
         )
 
 

@@ -11,7 +11,8 @@ from umform.processes.air_bending.brake import OPTIONS, loading, unloading_keys
 from umform.processes.air_bending.checks import needed_stroke
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.sheet import lines_of
-from umform.processes.decks import Entry, deck_text, law_keys
+from umform.processes.decks import Entry, deck_text
+from umform.processes.material_keys import law_keys
 
 
 def deck_of(case: AirBending) -> str:
@@ -45,7 +46,8 @@ def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
     lines = dict(zip("xyz", (line.tolist() for line in lines_of(case)), strict=True))
     yield "[mesh]", {"generator": "grid", **lines}
     yield "[element]", {"name": _element_name(case), "thickness_points": case.thickness_points}
-    yield "[material]", law_keys(case.material)
+    rolling = None if case.rolling is None else {"angle": float(case.rolling)}
+    yield "[material]", law_keys(case.material, rolling)
     die = {"shape": "VDie", "opening": case.opening, "angle": case.die_angle, "shoulder_radius": case.die_radius}
     yield "[tools.die]", die
     tip = {"tip_radius": case.punch_radius, "angle": case.punch_angle}

@@ -16,7 +16,7 @@ from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.bend import AirBend
 from umform.processes.air_bending.budget import Budget
 from umform.processes.air_bending.deck import deck_of
-from umform.processes.air_bending.formulas import shop_forces, tensile_strength
+from umform.processes.air_bending.formulas import shop_forces, strength
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.words import columns
@@ -91,7 +91,7 @@ def record(bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None 
         "measures": _told(asdict(bend.measures)),
         "total_force": bend.total_force,
         "shop_forces": shop_forces(bend.case),
-        "tensile_strength": tensile_strength(bend.case.material),
+        "tensile_strength": strength(bend.case),
         **_told({"force_balance": bend.force_balance}),
         "penetration": bend.penetration,
         "increments": len(bend.result) - 1,

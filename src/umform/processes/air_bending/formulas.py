@@ -4,24 +4,33 @@ from __future__ import annotations
 
 import numpy as np
 
-from umform.materials import J2
+from umform.materials import J2, Metal
 from umform.processes.air_bending.parameters import AirBending
+from umform.sheet_metals import tension_test
 
 #: Factors in use for F = factor Rm t² / V.
 FORCE_FACTORS = (1.33, 1.42)
 
 
-def tensile_strength(material: J2) -> float:
-    """Tensile strength Rm of a hardening curve: the largest y(e) exp(-e), y the true yield stress (Considère).
+def tensile_strength(material: J2 | Metal, angle: float = 0.0) -> float:
+    """Tensile strength Rm: of J2 the largest y(e) exp(-e), y the true yield stress (Considère); else of a bar.
 
-    Elastic strains are neglected, and strains up to 2 are looked at.
+    Of J2, elastic strains are neglected, and strains up to 2 are looked at. ``angle``: degrees from the rolling
+    direction to the bar.
     """
+    if isinstance(material, Metal):
+        return tension_test(material, angle).tensile_strength
     curve = material.hardening.curve()
     strains = np.linspace(0.0, 2.0, 4001)
     return float(max(curve(float(e))[0] * np.exp(-e) for e in strains))
 
 
+def strength(case: AirBending) -> float:
+    """Tensile strength of a bar that lies across the bend line."""
+    return tensile_strength(case.material, 0.0 if case.rolling is None else 90.0 - case.rolling)
+
+
 def shop_forces(case: AirBending) -> tuple[float, float]:
     """Largest force of air bending by the rule of the shop, F = 1.33 ... 1.42 Rm t² / V in N/mm, V the opening."""
-    base = tensile_strength(case.material) * case.thickness**2 / case.opening
+    base = strength(case) * case.thickness**2 / case.opening
     return FORCE_FACTORS[0] * base, FORCE_FACTORS[1] * base

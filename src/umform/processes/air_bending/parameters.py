@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass, fields
 from typing import Any
 
+from umform.elements.rolling import Vector, rolling_at
 from umform.elements.technology import Element
-from umform.materials import J2, Swift
+from umform.materials import J2, Metal, Swift
 from umform.processes.air_bending.checks import check_geometry, check_parameters
 from umform.surfaces import Punch, VDie
 
@@ -42,8 +43,11 @@ class AirBending:
         Length of the bend. Without it, plane strain: a sheet so wide that nothing moves along the bend.
     stroke : float, optional
         Way of the punch from where it touches the sheet; a search or a table does not need it.
-    material : J2
+    material : J2 or Metal
         Law of the sheet.
+    rolling : float, optional
+        Degrees from the bend line to the rolling direction, 0 along the line and 90 across it; a law with directions
+        needs it.
     element : str or Element
         Name in the catalogue, or an element of your own.
     layers : int
@@ -73,7 +77,8 @@ class AirBending:
     punch_radius: float = 1.5
     width: float | None = None
     stroke: float | None = None
-    material: J2 = DC04_LIKE
+    material: J2 | Metal = DC04_LIKE
+    rolling: float | None = None
     element: str | Element = "BEND18"
     layers: int = 2
     thickness_points: int = 6
@@ -101,6 +106,11 @@ class AirBending:
     def punch(self) -> Punch:
         """The punch, touching the sheet at z = thickness."""
         return Punch(self.punch_radius, self.punch_angle, origin=(0.0, 0.0, self.thickness))
+
+    @property
+    def rolling_direction(self) -> Vector | None:
+        """Unit vector of the rolling direction; the bend line is y."""
+        return None if self.rolling is None else rolling_at(self.rolling)
 
     @property
     def way(self) -> float:

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from umform.processes.bending.case import law_of
 from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
-from umform.processes.decks import Entry, deck_text, law_keys
+from umform.processes.decks import Entry, deck_text
+from umform.processes.material_keys import law_keys
 
 
 def deck_of(case: FreeBending) -> str:

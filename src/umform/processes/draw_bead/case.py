@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from umform.elements import rolling_at
 from umform.model import Model
 from umform.processes.draw_bead.measures import Drawn
 from umform.processes.draw_bead.parameters import DrawBead
@@ -17,7 +18,8 @@ def build(case: DrawBead) -> tuple[Model, list[Step]]:
 
     The sheet flows in from the left only, where its end is free.
     """
-    model = Model(case.sheet(), case.element, material=case.material)
+    direction = None if case.rolling is None else rolling_at(case.rolling)
+    model = Model(case.sheet(), case.element, material=case.material, rolling=direction)
     model.fix(lambda x, y, z: y > -1.0, "y")
     pull = model.prescribe("x1", "x", "way")
     given = {"points": case.contact_points, "friction": case.friction}

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from umform.errors import InvalidValue
-from umform.materials import J2
-from umform.processes.rules import Rule, check_rules, length, number, positive, whole
+from umform.materials import J2, Metal
+from umform.processes.rules import ROLLING, Rule, check_rolling, check_rules, length, number, positive, whole
 
 #: Sharper radii, in thicknesses, crush the sheet; rounder ones are no bead.
 _SHARPEST, _ROUNDEST = 1.0, 200.0
@@ -15,11 +15,12 @@ _SHARPEST, _ROUNDEST = 1.0, 200.0
 RULES: dict[str, Rule] = {
     "thickness": length("the thickness of the sheet", "in mm, such as 0.8"),
     "material": Rule(
-        lambda value: isinstance(value, J2),
+        lambda value: isinstance(value, J2 | Metal),
         "a draw bead needs a plastic material",
         "an elastic law, or the name of a metal",
-        "a J2; umform.sheet_metals.get('DC04').law for one",
+        "a J2 or a Metal; umform.sheet_metals.get('DC04').law for one",
     ),
+    "rolling": ROLLING,
     "radius": length("the radius of the bead", "in mm, such as 5.5"),
     "height": length("the height of the bead", "in mm, such as 6"),
     "groove_radius": length("the radius of the edges of the groove", "in mm, such as 5"),
@@ -93,6 +94,7 @@ def check_parameters(values: Mapping[str, Any]) -> None:
         ``where`` is the name of the parameter.
     """
     check_rules(values, RULES)
+    check_rolling(values["material"], values["rolling"])
 
 
 def check_geometry(case: Geometry) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from umform.elements import element
 from umform.elements.technology import Element
-from umform.materials import J2
+from umform.materials import J2, Metal
 from umform.mesh import Mesh, strip
 from umform.processes.draw_bead.checks import check_geometry, check_parameters
 from umform.surfaces import Arc, Extruded, Line, Profile, UDie
@@ -31,7 +31,7 @@ class DrawBead:
     ----------
     thickness : float
         Thickness of the sheet.
-    material : J2
+    material : J2 or Metal
         Law of the sheet.
     radius, height : float
         Radius of the tip of the bead, and how far it stands out of its flat. A bead higher than its radius has upright
@@ -52,10 +52,12 @@ class DrawBead:
         Elements along the sheet on a quarter turn of the sharper radius.
     contact_points : int
         Contact points per direction and facet.
+    rolling : float, optional
+        Degrees from the line of the bead to the rolling direction, 90 across it; a law with directions needs it.
     """
 
     thickness: float
-    material: J2
+    material: J2 | Metal
     radius: float = 5.5
     height: float = 6.0
     groove_radius: float = 5.0
@@ -66,6 +68,7 @@ class DrawBead:
     element: str | Element = "BEND8"
     elements: float = 20.0
     contact_points: int = 4
+    rolling: float | None = None
 
     def __post_init__(self) -> None:
         check_parameters(self.record())

@@ -13,7 +13,7 @@ class ShapeView {
     this.sheet = new Sheet(scene);
     this.tools = scene.head.tools.map((_, number) => new ToolBody(scene, number));
     this.world = new THREE.Scene();
-    this.world.add(this.sheet.mesh, this.sheet.lines, ...this.tools.map((tool) => tool.group));
+    this.world.add(this.sheet.mesh, this.sheet.lines, this.sheet.axes, ...this.tools.map((tool) => tool.group));
     this.images = new THREE.Group();
     this.images.add(...[this.sheet, ...this.tools].flatMap((body) => body.images));
     this.world.add(this.images);
@@ -58,6 +58,7 @@ class ShapeView {
     });
     on("shape-scale", "change", () => this.show());
     on("shape-lines", "change", () => this.show());
+    on("shape-rolling", "change", () => this.show());
     on("shape-tools", "change", () => this.show());
     on("shape-whole", "change", () => {
       this.corners = this.cornersOfPath();
@@ -190,6 +191,7 @@ class ShapeView {
     const range = this.sheet.range(this.field, element("shape-scale").value === "all" ? undefined : this.frame);
     this.sheet.show(this.frame, this.field, range);
     this.sheet.lined(element("shape-lines").checked);
+    this.sheet.rolled(this.head.rolling && element("shape-rolling").checked);
     this.images.visible = this.whole;
     for (const tool of this.tools) {
       tool.place(this.frame);

@@ -135,8 +135,10 @@ class Sheet {
     this.mesh = new THREE.Mesh(this.faces.geometry, this.material);
     const ink = new THREE.LineBasicMaterial({ color: 0x87919b, transparent: true, opacity: 0.5 });
     this.lines = new THREE.LineSegments(this.faces.lines(), ink);
-    this.mesh.frustumCulled = this.lines.frustumCulled = false;
-    this.images = images(head.mirrors, () => new THREE.Group().add(this.mesh.clone(), this.lines.clone()));
+    this.axes = this.rollingLines();
+    this.mesh.frustumCulled = this.lines.frustumCulled = this.axes.frustumCulled = false;
+    const all = [this.mesh, this.lines, this.axes];
+    this.images = images(head.mirrors, () => new THREE.Group().add(...all.map((part) => part.clone())));
     this.maps = Object.fromEntries(Object.entries(head.maps).map(([name, hex]) => [name, texture(hex)]));
   }
 
@@ -144,6 +146,39 @@ class Sheet {
   lined(visible) {
     this.lines.visible = visible;
     for (const image of this.images) image.children[0].children[1].visible = visible;
+  }
+
+  // Whether the rolling direction is drawn.
+  rolled(visible) {
+    this.axes.visible = visible;
+    for (const image of this.images) image.children[0].children[2].visible = visible;
+  }
+
+  // A line for each face.
+  rollingLines() {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(6 * this.faces.count), 3));
+    return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: 0xb3261e }));
+  }
+
+  // Lines along the rolling direction through the middles of the faces; none on faces that it stands on.
+  turnAxes(frame, points) {
+    if (!this.arrays.rolling) return;
+    const directions = this.arrays.rolling.at(frame);
+    const { faces, count } = this.faces;
+    const position = this.axes.geometry.getAttribute("position");
+    for (let f = 0; f < count; f += 1) {
+      const corners = [0, 1, 2, 3].map((i) => new THREE.Vector3().fromArray(points, 3 * faces[4 * f + i]));
+      const middle = corners.reduce((sum, x) => sum.add(x), new THREE.Vector3()).multiplyScalar(0.25);
+      const [u, v] = [corners[2].clone().sub(corners[0]), corners[3].clone().sub(corners[1])];
+      const normal = u.clone().cross(v).normalize();
+      const along = new THREE.Vector3().fromArray(directions, 3 * this.arrays.owners[f]);
+      const standing = Math.abs(along.dot(normal)) > 0.5;
+      along.addScaledVector(normal, -along.dot(normal)).setLength(standing ? 0 : 0.22 * Math.min(u.length(), v.length()));
+      middle.clone().sub(along).toArray(position.array, 6 * f);
+      middle.add(along).toArray(position.array, 6 * f + 3);
+    }
+    position.needsUpdate = true;
   }
 
   points(frame) {
@@ -165,7 +200,9 @@ class Sheet {
   }
 
   show(frame, field, [bottom, top]) {
-    this.faces.move(this.points(frame));
+    const points = this.points(frame);
+    this.faces.move(points);
+    this.turnAxes(frame, points);
     this.faces.colour(this.values(field, frame), field.on === "cells" && this.arrays.owners);
     const { map, range } = this.material.uniforms;
     map.value = this.maps[field.map];

@@ -1,0 +1,199 @@
+"""``umform metal``: the library of sheet metals, and laws from measurements."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from umform.cli.root import Debug, Overwrite, app, console, printing
+
+if TYPE_CHECKING:
+    from umform.calibration import Calibration
+    from umform.sheet_metals import SheetMetal
+
+metals = typer.Typer(
+    no_args_is_help=True, rich_markup_mode="markdown", help="Sheet metals with sources, and laws from measurements."
+)
+app.add_typer(metals, name="metal")
+
+_MEASURED, _LAW, _FILES = "Measurements (CSV)", "Law", "Files"
+
+
+def _option(help_text: str, panel: str, **more: Any) -> Any:
+    return typer.Option(help=help_text, rich_help_panel=panel, **more)
+
+
+@metals.command("list")
+def list_metals() -> None:
+    """Show the sheet metals of the library."""
+    from rich import box
+    from rich.table import Table
+
+    from umform import sheet_metals
+
+    table = Table("name", box=box.SIMPLE_HEAD)
+    for name in ("E, GPa", "R, MPa", "Rm, MPa", "Ag, %"):
+        table.add_column(name, justify="right")
+    table.add_column("law")
+    for name in (*sheet_metals.names(), *sheet_metals.cards()):
+        metal = sheet_metals.get(name)
+        numbers = (metal.young / 1e3, metal.yield_stress, metal.tensile_strength, 100 * metal.uniform_elongation)
+        table.add_row(
+            name, *(f"{value:.{digits}f}" for value, digits in zip(numbers, (0, 0, 0, 1), strict=True)), _kind(metal)
+        )
+    console().print(table)
+    typer.echo("R, Rm and Ag: `umform metal show NAME` says where they come from.")
+
+
+def _kind(metal: SheetMetal) -> str:
+    """Yield function, hardening and back stress in a few words."""
+    from umform.materials import Hill48, Metal, Mises, YoshidaUemori
+
+    law = metal.law
+    if not isinstance(law, Metal):
+        return f"J2, {_curve(law.hardening)}"
+    function = law.yield_function
+    shape = "von Mises" if isinstance(function, Mises) else "Hill48" if isinstance(function, Hill48) else "Yld2004"
+    if shape == "Yld2004" and not law.directional:
+        shape = "Hosford"
+    if isinstance(law.back_stress, YoshidaUemori):
+        motion = "Yoshida-Uemori"
+    else:
+        motion = _curve(law.hardening) + (", Chaboche" if law.back_stress else "")
+    return f"{shape}, {motion}" + (", falling modulus" if law.modulus else "")
+
+
+def _curve(hardening: object) -> str:
+    return type(hardening).__name__.replace("LinearVoce", "Voce")
+
+
+@metals.command()
+def show(name: Annotated[str, typer.Argument(help="Name of a sheet metal, `umform metal list` has them.")]) -> None:
+    """Show a sheet metal: numbers, source, deck and Python."""
+    from umform import sheet_metals
+    from umform.calibration.code import deck_block, python_code
+    from umform.materials import Metal
+
+    metal = sheet_metals.get(name)
+    typer.echo(metal)
+    if isinstance(metal.law, Metal):
+        _print_directions(metal)
+    typer.echo(f'\nIn a deck, by name: material = {{ library = "{metal.name}"{_rolling(metal)} }}, or\n')
+    typer.echo(deck_block(metal.law))
+    typer.echo(f'In Python, by name: umform.sheet_metals.get("{metal.name}").law, or\n')
+    typer.echo(python_code(metal.law))
+
+
+def _rolling(metal: SheetMetal) -> str:
+    return ', rolling = "x"' if getattr(metal.law, "directional", False) else ""
+
+
+def _print_directions(metal: SheetMetal) -> None:
+    """Yield stress and r over the angle, beside what the source measured."""
+    from rich import box
+    from rich.table import Table
+
+    from umform.materials import Metal
+    from umform.sheet_metals import Directions, balanced, uniaxial
+
+    assert isinstance(metal.law, Metal)
+    function, measured = metal.law.yield_function, metal.measured or Directions({}, {})
+    table = Table("angle", title="Yield stress over that of the curve, and r-value", box=box.SIMPLE_HEAD)
+    for column in ("stress", "measured", "r", "measured"):
+        table.add_column(column, justify="right")
+    for angle in range(0, 91, 15):
+        stress, r = uniaxial(function, angle)
+        table.add_row(
+            str(angle), f"{stress:.3f}", _told(measured.stress.get(angle)), f"{r:.3f}", _told(measured.r.get(angle))
+        )
+    stress, r = balanced(function)
+    table.add_row("biaxial", f"{stress:.3f}", _told(measured.biaxial), f"{r:.3f}", _told(measured.r_biaxial))
+    console().print(table)
+
+
+def _told(value: float | None) -> str:
+    return "" if value is None else f"{value:.3f}"
+
+
+@metals.command()
+def fit(
+    young: Annotated[float, _option("Young's modulus in MPa.", _LAW)],
+    poisson: Annotated[float, _option("Poisson's ratio.", _LAW)] = 0.3,
+    angles: Annotated[
+        Path | None, _option("Columns angle, stress, r; a row whose angle is biaxial has the biaxial point.", _MEASURED)
+    ] = None,
+    tension: Annotated[
+        Path | None, _option("Columns strain (or plastic_strain) and stress, up to the largest force.", _MEASURED)
+    ] = None,
+    cycles: Annotated[Path | None, _option("Columns strain and stress, in the order of time.", _MEASURED)] = None,
+    engineering: Annotated[
+        bool, typer.Option("--engineering", help="Engineering strain and stress.", rich_help_panel=_MEASURED)
+    ] = False,
+    percent: Annotated[bool, typer.Option("--percent", help="Strains in per cent.", rich_help_panel=_MEASURED)] = False,
+    yield_function: Annotated[str, _option("hill48 or yld2004, fitted to --angles.", _LAW)] = "hill48",
+    exponent: Annotated[float, _option("Of Yld2004: 6 for steel, 8 for aluminium.", _LAW)] = 8.0,
+    hardening: Annotated[
+        str, _option("swift, voce, linear-voce, linear, perfect, table, or auto: the best of the first three.", _LAW)
+    ] = "auto",
+    back_stress: Annotated[
+        str, _option("chaboche1 to chaboche4, or yoshida-uemori, fitted to --cycles.", _LAW)
+    ] = "chaboche2",
+    largest_step: Annotated[float, _option("Largest strain of a step through the cycles.", _LAW)] = 1e-3,
+    out: Annotated[
+        str | None, _option("Folder for deck, Python, constants and pictures; default: results/metal.", _FILES)
+    ] = None,
+    overwrite: Overwrite = False,
+    debug: Debug = False,
+) -> None:
+    """Fit a law to measurements; say how well each number is determined.
+
+    The files and the law are described in docs/materials.md.
+    """
+    from umform.calibration import Measurements, calibrate, read_cycles, read_directions, read_tension
+    from umform.calibration.files import FILES, write_files
+    from umform.io.folders import folder_for
+
+    measured = Measurements(
+        None if angles is None else read_directions(angles),
+        None if tension is None else read_tension(tension, young, engineering=engineering, percent=percent),
+        None if cycles is None else read_cycles(cycles, young, engineering=engineering, percent=percent),
+    )
+    found = calibrate(
+        measured,
+        young,
+        poisson,
+        yield_function=yield_function,
+        exponent=exponent,
+        hardening=hardening,
+        back_stress=back_stress,
+        largest_step=largest_step,
+    )
+    say = partial(typer.echo, err=True)
+    place = folder_for(out, Path("results/metal"), FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    try:
+        with printing(f"the files of the fit are in {place}"):
+            _show(found)
+    finally:  # also if nobody reads the table
+        files = write_files(place, found)
+    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+
+
+def _show(found: Calibration) -> None:
+    """Print constants with their errors, remarks, deck and Python."""
+    from rich import box
+    from rich.table import Table
+
+    from umform.calibration.files import texts
+    from umform.calibration.words import HEADER, remarks, rows
+
+    table = Table(*HEADER, box=box.SIMPLE_HEAD)
+    for row in rows(found):
+        table.add_row(*row)
+    console().print(table)
+    for remark in remarks(found):
+        typer.echo(remark)
+    deck, python = texts(found)
+    typer.echo(f"\n{deck}\n{python}")

@@ -1,0 +1,59 @@
+"""Descend to a stable equilibrium where the tangent is indefinite: factorise K + s 1 in its place. eq. (5.54)
+
+Where a contact point lets go the sheet may lose its stability: no equilibrium is near, and Newton's method goes from
+the states with the point to those without it and back. With all eigenvalues positive each increment goes downhill, and
+the line search leads to the next stable equilibrium. There the tangent is positive and is taken as it is.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.solution.bordered import Bordered
+from umform.solution.system import Evaluation, System
+from umform.solvers import Factorisation
+
+Floats = NDArray[np.float64]
+
+#: First shift over the largest entry, factor from one to the next, and how many are tried.
+_FIRST, _GROWTH, _MOST = 1e-8, 10.0, 9
+
+
+class Shift:
+    """Shifts of the tangents of one increment.
+
+    Parameters
+    ----------
+    system : System
+        Its pattern has all diagonal entries.
+    """
+
+    def __init__(self, system: System) -> None:
+        self._system, self._next = system, _FIRST
+
+    @cached_property
+    def _diagonal(self) -> NDArray[np.intp]:
+        pattern = self._system.pattern
+        return np.flatnonzero(pattern.indices == pattern.rows)
+
+    def factor(self, solver: Bordered, evaluation: Evaluation) -> Factorisation:
+        """Factorise a tangent that has negative pivots, with the least shift tried that leaves none.
+
+        Returns
+        -------
+        Factorisation
+            Of the shifted tangent; with negative pivots if no shift was enough.
+        """
+        unit, shift = self._system.largest_entry(evaluation.values), self._next
+        for _ in range(_MOST):
+            values = evaluation.values.copy()
+            values[self._diagonal] += shift * unit
+            found = solver.factor(evaluation, values)
+            if not found.negative_pivots:
+                break
+            shift *= _GROWTH
+        self._next = max(_FIRST, shift / _GROWTH)
+        return found

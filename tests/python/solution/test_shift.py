@@ -1,0 +1,78 @@
+"""Where the tangent loses its stability, iterations go downhill to the next stable state. eq. (5.54)"""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+
+import umform as uf
+from umform.solution.bordered import Bordered
+from umform.solution.line_search import lengthened
+from umform.solution.shift import Shift
+from umform.solution.timed_solver import TimedSolver
+from umform.solvers import Pattern, make_solver
+from umform.timing import Timing
+
+STROKE = 24.5
+
+
+def bent_without_friction():
+    """A strip pushed into a round die by a cylinder: its legs slide over the shoulders, on a few points each."""
+    mesh = uf.mesh.strip(60.0, 1.0, 1.0, (60, 1)).transformed(lambda X: X + np.array([0.0, 0.0, 0.5]))
+    metal = uf.J2(E=70500.0, nu=0.342, hardening=uf.Swift(550.4, 0.0093, 0.223))
+    model = uf.Model(mesh, "BEND8", material=metal)
+    model.symmetry("x0", "x")
+    model.fix(np.arange(len(mesh.points)), "y")
+    die = model.tool("die", uf.UDie(50.0, 29.0, 4.0, 25.0))
+    punch = model.tool("punch", uf.Cylinder((0.0, 0.0, 24.5), "y", 23.5))
+    model.contact("lower", die, penalty=3000.0, points=3)
+    model.contact("upper", punch, penalty=3000.0, points=3)
+    return model, uf.Move(model.drive(punch, "-z", "stroke"), STROKE)
+
+
+def test_a_strip_that_loses_its_hold_on_a_shoulder_jumps_to_the_next_stable_state():
+    model, stroke = bent_without_friction()
+    result = uf.solve(model, stroke, progress=False, frames=0)
+    assert result["stroke"][-1] == STROKE
+    assert result.timing.attempts.share < 0.3
+    assert np.abs(result.balance().drift).max() < 0.02
+
+
+def test_the_shift_leaves_no_negative_pivots_and_goes_downhill():
+    n = 5
+    rows = [np.arange(i, min(i + 2, n)) for i in range(n)]
+    starts = np.cumsum([0] + [len(row) for row in rows])
+    pattern = Pattern(n, starts.astype(np.int32), np.concatenate(rows).astype(np.int32), symmetric=True)
+    K = np.diag([100.0, 90.0, -3e-3, 80.0, 70.0]) + np.diag(np.full(n - 1, 0.5), 1)
+    values = np.concatenate([K[i, row] for i, row in enumerate(rows)])
+    system = SimpleNamespace(pattern=pattern, largest_entry=lambda v: float(np.abs(v).max()))
+    evaluation = SimpleNamespace(values=values, border=SimpleNamespace(unknowns=()))
+    solver = Bordered(system, TimedSolver(make_solver(pattern, "multifrontal"), Timing()))
+    assert solver.factor(evaluation).negative_pivots == 1
+    kept, shift = values.copy(), Shift(system)
+    assert shift.factor(solver, evaluation).negative_pivots == 0
+    assert np.array_equal(values, kept)
+    r = np.array([0.0, 0.0, 1e-3, 0.0, 0.0])
+    du = solver.solve(-r)
+    assert r @ du < 0.0
+    assert 1e-3 / abs(du[2]) < 10 * 3e-3 + 1e-2  # the least of the shifts that will do, not any
+    full = K + np.triu(K, 1).T
+    shifted = -r - full @ du
+    np.testing.assert_allclose(shifted / du, np.full(n, (shifted / du)[2]), rtol=1e-6)
+
+
+def test_increments_near_a_saddle_are_doubled_until_the_slope_has_fallen():
+    shortened = []
+    system = SimpleNamespace(
+        coefficients=lambda du: du,
+        restrict=lambda r: r,
+        ranks=SimpleNamespace(dot=lambda a, b: float(a @ b)),
+        shorten=shortened.append,
+        evaluate=lambda u: SimpleNamespace(residual=u**3 - u, failed=-1, x=u),
+    )
+    u, du = np.array([0.01]), np.array([0.02])
+    evaluation, length = lengthened(system, u, du, u**3 - u, system.evaluate(u + du), 1.0)
+    assert shortened[:6] == [2.0] * 6
+    assert length == np.prod(shortened)
+    assert 0.3 < evaluation.x[0] < 1.5
