@@ -113,12 +113,6 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
         return self._assembly().pattern
 
     @property
-    def own_diagonal(self) -> NDArray[np.intp]:
-        """Entries of the tangent on the diagonal, of unknowns that several ranks have on their owner alone."""
-        pattern = self._assembly().pattern
-        return np.flatnonzero(pattern.indices == pattern.rows)
-
-    @property
     def effort(self) -> float:
         """What an evaluation costs for each equation; 1 for 8-node elements with 20 points.
 

@@ -101,11 +101,14 @@ def _own(term: Term, twins: Twins) -> Term:
 
 def _moving(step: Step, twins: Twins) -> Step:
     """The same step of the controls of an outline."""
+    own: Any
     if isinstance(step, Free):
         on = None if step.on is None else twins.of(step.on)
-        return replace(step, support=[twins.of(thing) for thing in step.things], on=on)
+        given = step.support
+        own = [twins.of(thing) for thing in given] if isinstance(given, Sequence) else twins.of(given)
+        return replace(step, support=own, on=on)
     moved = step.control
-    own: Any = twins.of(moved) if isinstance(moved, Control) else [twins.of(control) for control in moved]
+    own = twins.of(moved) if isinstance(moved, Control) else [twins.of(control) for control in moved]
     if isinstance(step, Move):
         return replace(step, control=own, follow={twins.of(control): law for control, law in step.follow.items()})
     return replace(step, control=own)

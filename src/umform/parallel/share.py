@@ -157,12 +157,6 @@ class Share(Model):
         modes = rigid_body_modes(self.mesh.points, *middle(self))
         return np.stack([self.coefficients(mode) for mode in modes])
 
-    @property
-    def own_diagonal(self) -> NDArray[np.intp]:
-        """Entries on the diagonal, of unknowns that this rank owns."""
-        diagonal, mine = super().own_diagonal, self._assembly().pattern.indices
-        return diagonal[np.isin(mine[diagonal], self._owned_places)]
-
     def _restrict_nodes(self, r: Floats) -> Floats:
         """Forces at the unknowns that this rank owns, summed over the ranks. eq. (5.18)"""
         return self._unknowns.sum(super()._restrict_nodes(r))

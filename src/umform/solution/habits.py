@@ -12,9 +12,6 @@ _LONGEST_REST = 15
 #: Softer penalties that lead nowhere again and again are left out for so many cuts at most.
 _LONGEST_SOFT_REST = 3
 
-#: An increment is stuck with so many cuts for a cycle; of one this share is left after each increment that was taken.
-_STUCK, _FORGET = 1.5, 0.75
-
 
 @dataclass
 class Habits:
@@ -37,8 +34,6 @@ class Habits:
         Softer penalties in a row that led nowhere, while a tool held the sheet.
     soft_rest : int
         Increments that are cut without them.
-    cycles : float
-        Cuts for contact in a cycle, each of which counts for less with every increment that was taken since.
     """
 
     misses: int = 0
@@ -46,7 +41,6 @@ class Habits:
     stable: bool = True
     soft_misses: int = 0
     soft_rest: int = 0
-    cycles: float = 0.0
 
     @property
     def extrapolates(self) -> bool:
@@ -58,15 +52,9 @@ class Habits:
         """Whether softer penalties may be tried before the next cut."""
         return self.soft_rest == 0
 
-    @property
-    def stuck(self) -> bool:
-        """Whether shorter increments do not help."""
-        return self.cycles >= _STUCK
-
     def learn(self, failed: Mapping[str, Cause], won: str, negative_pivots: int | None) -> None:
         """Learn from an increment: the strategies that failed and why, the one that won, the pivots at the end."""
         self.stable = not negative_pivots
-        self.cycles = 0.0 if won == "held back" else _FORGET * self.cycles
         if won == "extrapolation":
             self.misses = 0
         elif "extrapolation" in failed:
@@ -79,7 +67,6 @@ class Habits:
 
     def learn_of_cut(self, failed: Mapping[str, Cause]) -> None:
         """Learn from an increment that all strategies failed in."""
-        self.cycles = 0.0 if "held back" in failed else self.cycles + (Cause.CYCLE in failed.values())
         cause = failed.get("softer penalties")
         if cause is None:
             self.soft_rest = max(self.soft_rest - 1, 0)

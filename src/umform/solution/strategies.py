@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from umform.model import Evaluation, Model
 from umform.model.control import Control
 from umform.solution.habits import Habits
-from umform.solution.held_back import held_back
 from umform.solution.newton import Newton
 from umform.solution.options import Wary
 from umform.solution.passage import same_side
@@ -156,12 +155,6 @@ STRATEGIES = (
         "softer penalties",
         lambda at: at.touches and (at.habits.softens or not at.touched),
         lambda at: at.soft(),
-    ),
-    # Equilibrium may jump where the sheet lets go of a point of contact: shorter increments lead to the same jump.
-    Strategy(
-        "held back",
-        lambda at: at.touched and at.habits.stuck,
-        lambda at: held_back(at.model, at.newton, at.tangent, at.accept),
     ),
 )
 
