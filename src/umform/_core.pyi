@@ -88,6 +88,11 @@ def material_from_function(function: Callable[[NDArray[float64], NDArray[float64
     A law from a function (E (n, 6), state (n, size), cell, (axes (n, 3, 3), size, step) or None) -> (S (n, 6), CC (n, 6, 6), new state (n, size)); its energy (E, state, cell) -> (elastic (n,), plastic (n,)).
     """
 
+def staged_returns() -> int:
+    """
+    Points at which return maps have gone through stages of a shrinking yield surface, since the process began.
+    """
+
 class YieldFunction:
     """
     Equivalent stress as a function of the stress in the axes of the sheet.

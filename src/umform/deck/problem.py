@@ -136,6 +136,7 @@ class _Builder:
         supports = self._supports(model, rigid=False)
         controls = self._controls(model, contacts)
         supports |= self._supports(model, rigid=True)
+        self._rest(model)
         options = self._options(model)
         self._raise()
         steps = self._steps(Named(controls, supports, contacts))
@@ -237,11 +238,20 @@ class _Builder:
         controls: dict[str, Control] = {}
         for name, part in self.contents.controls.items():
             touched = [getattr(part, "contact", None), *getattr(part, "followers", [])]
+            touched.append(getattr(getattr(part, "gap", None), "to", None))
             if any(contact not in (None, *contacts) for contact in touched):
                 continue  # the same
             with self._at("controls", name):
                 controls[name] = part.add_to(model, name, contacts)
         return controls
+
+    def _rest(self, model: Model) -> None:
+        """Springs under a loose sheet: where a run needs them, never, or as the deck has them."""
+        rest = self.contents.solution.rest
+        model.carries_loose_sheet = rest == "auto"
+        if isinstance(rest, float) and not self.errors:
+            with self._at("solution"):
+                model.rest(rest)
 
     def _options(self, model: Model) -> NewtonOptions:
         options = NewtonOptions()

@@ -265,10 +265,12 @@ class Solution(Part):
     """Start an increment from the tangent (0), or from a line (1) or a parabola (2) through the last states."""
     mixed: bool | None = None
     """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets."""
+    rest: Literal["auto", "off"] | Positive = "auto"
+    """Springs under a sheet that lies loosely at first: auto where needed, off, or their stiffness in all."""
 
     def build(self) -> NewtonOptions:
         """Options of Newton's method."""
-        return NewtonOptions(**self.model_dump(exclude={"solver"}))
+        return NewtonOptions(**self.model_dump(exclude={"solver", "rest"}))
 
 
 class Output(Part):

@@ -64,13 +64,38 @@ def check_held(model: Evaluated) -> None:
     model.ranks.agree(problem)
     free = free_motions(model, touched)
     if free:
+        for_good = free_in_touch(model)
         raise RigidBodyMotion(
             f"the sheet can move as a rigid whole in {len(free)} way{'s' if len(free) > 1 else ''}",
             value="free: " + "; ".join(free),
-            cause="too few supports, or a tool that does not touch the sheet yet",
+            cause="too few supports: tools that touch would leave free " + "; ".join(for_good)
+            if for_good
+            else "a tool that does not touch the sheet yet, and that no step moves, or springs that are switched off",
             remedy="hold the sheet with fix(), symmetry(), hinge() or prescribe(), let a tool overlap it by a hair, "
             "or rest() it on springs until tools hold it",
         )
+
+
+def free_now(model: Evaluated) -> list[str]:
+    """Rigid-body motions that supports, tools in touch and springs leave free at the present state, in words.
+
+    Raises
+    ------
+    ToolSwallowsSheet
+        If a tool overlaps the sheet by more than half of its thickness.
+    """
+    return free_motions(model, [*_touching(model), *_sprung(model)])
+
+
+def free_in_touch(model: Evaluated) -> list[str]:
+    """Rigid-body motions that would be free if all contact points touched, in words."""
+    pairs = [pair for pair in model.contacts if len(pair.facets) > 0 and not pair.tool.open]
+    held = []
+    for pair in pairs:
+        at = pair.locate(model.u, pair.pose)
+        known = np.isfinite(at.normal).all(axis=1)
+        held += _directions(pair, at.x[known], at.normal[known])
+    return free_motions(model, [*held, *_sprung(model)])
 
 
 def free_motions(model: Evaluated, touched: Sequence[tuple[Floats, Floats]] = ()) -> list[str]:
@@ -184,13 +209,15 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
 
 
 def _held_by(contact: Contact, at: ContactFound) -> Iterator[tuple[Floats, Floats]]:
-    """Positions of the points that a tool holds, and the directions: the normals, with friction all."""
-    x = at.x[at.active]
+    """Positions of the points that a tool holds, and the directions in which it does."""
+    yield from _directions(contact, at.x[at.active], at.normal[at.active])
+
+
+def _directions(contact: Contact, x: Floats, normals: Floats) -> list[tuple[Floats, Floats]]:
+    """Points of a tool with the directions in which it holds them: the normals, with friction all."""
     if contact.friction is None:
-        yield x, at.normal[at.active]
-        return
-    for direction in np.eye(3):
-        yield x, np.broadcast_to(direction, x.shape)
+        return [(x, normals)]
+    return [(x, np.broadcast_to(direction, x.shape)) for direction in np.eye(3)]
 
 
 def _motion_along(x: Floats, n: Floats, centre: Floats, size: float) -> Floats:

@@ -55,6 +55,11 @@ class Held(Controlled):
         """The supports, also those that have been removed and may be put back."""
         return [holder for holder in self._holders if holder.control is None]
 
+    @property
+    def holders(self) -> list[Support]:
+        """All that holds nodes: supports and what belongs to controls, also those that have been removed."""
+        return self._holders
+
     def hold_again(self) -> None:
         """Let the supports act as they stand, after one of them has been removed, put back or moved."""
         self._support(self._holders)

@@ -24,6 +24,8 @@ _EXACT = 1e-10
 _HAIR = 1e-4
 #: Increments that fail or go too far before the step is given up.
 _MOST = 60
+#: A tool this near to a rigid stop, over the largest way, lies on it.
+_AT_STOP = 1e-12
 #: Iterations after which an increment was easy.
 _EASY = 8
 
@@ -123,7 +125,7 @@ class Closing:
         model = run.model
         press = model.press_of(step.control)
         hair = _as_way(run, press, _HAIR * model.thickness)
-        far = max(_gap(run, press), 0.0) + _extent(model)
+        far = max(_gap(run, press), 0.0) + model.extent
         limit = _as_way(run, press, far) if step.way is None else step.way
         return cls(model.time, press.way.value, _takes(run, press), limit, hair, hair)
 
@@ -144,6 +146,11 @@ class Closing:
         sense = math.copysign(1.0, step.force - self.start_force)
         ahead = self._ahead(press, force, step.force)
         size = self.size if touches else self._short_of_the_sheet(_as_way(run, press, _gap(run, press)))
+        room = press.room(sense)
+        if room <= _AT_STOP * max(self.limit, self.size):
+            self._land(run, step, press)
+            return
+        size = min(size, room)
         near = ahead is not None and 0.0 <= sense * ahead <= (2.0 if touches else 1.0) * size
         if near or (touches and self.failures == 0 and abs(step.force) <= abs(force)):
             self._land(run, step, press)
@@ -256,12 +263,6 @@ def _gap(run: Run, press: Press) -> float:
     gaps = [float(found[pair].gap.min(initial=np.inf)) for tool in press.way.tools for pair in tool.pairs]
     least = -run.model.ranks.max(-min(gaps, default=math.inf))
     return least if math.isfinite(least) else 0.0
-
-
-def _extent(model: Model) -> float:
-    """Largest extent of the undeformed sheet along an axis, over all ranks."""
-    points, ranks = model.mesh.points, model.ranks
-    return max(ranks.max(float(points[:, k].max())) + ranks.max(-float(points[:, k].min())) for k in range(3))
 
 
 def _as_way(run: Run, press: Press, length: float) -> float:

@@ -11,6 +11,7 @@
 
 #include "umform/assembly/history.hpp"
 #include "umform/materials/point.hpp"
+#include "umform/materials/staged_returns.hpp"
 
 namespace umform {
 
@@ -101,6 +102,7 @@ class Material {
     virtual void energy(int n, const Voigt* E, const double* state, Energy* energies, std::int32_t cell) const = 0;
 };
 
+/// A law at all points of elements. If its return map may go through stages, it says so by a static member `has_stages`.
 template <MaterialLaw Law>
 class MaterialOf final : public Material {
   public:
@@ -115,6 +117,7 @@ class MaterialOf final : public Material {
                      Mat<Lanes, 6, 6>* CC, const LaneTrials& trial, const LanePoints& points) const override {
         std::array<Lanes, state_limit<Law>()> before, after;
         const int size = law_.state_size;
+        [[maybe_unused]] const LaneMask asked = wanted;
         for (int q = 0; q < n; ++q) {
             for (int k = 0; k < size; ++k) before[k] = by_lane([&](int lane) { return state[lane][q * size + k]; });
             if constexpr (SeesPoint<Law>)
@@ -125,6 +128,7 @@ class MaterialOf final : public Material {
                 wanted = wanted & law_.respond(E[q], before.data(), S[q], CC[q], after.data(), points.step);
             else
                 wanted = wanted & law_.respond(E[q], before.data(), S[q], CC[q], after.data());
+            if constexpr (requires { Law::has_stages; }) count_stages(asked);
             for (int lane = 0; lane < lane_count; ++lane)
                 for (int k = 0; k < size; ++k) trial[lane][q * size + k] = after[k][lane];
         }
@@ -148,7 +152,9 @@ class MaterialOf final : public Material {
                 before[lane] = state + point(lane) * law_.state_size;
                 after[lane] = trial + point(lane) * law_.state_size;
             }
-            const LaneMask answered = respond(1, true, &strain, before, &stress, &tangent, after, points);
+            LaneMask asked = false;
+            for (int lane = 0; lane < std::min(lane_count, n - first); ++lane) asked.set(lane, true);
+            const LaneMask answered = respond(1, asked, &strain, before, &stress, &tangent, after, points);
             for (int q = first; q < std::min(first + lane_count, n); ++q) {
                 if (!answered[q - first]) return q;
                 for (int p = 0; p < 6; ++p) S[q][p] = stress[p][q - first];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "umform/materials/plastic_increment.hpp"
+#include "umform/materials/staged_returns.hpp"
 
 namespace umform {
 
@@ -153,6 +154,7 @@ PlasticFlow<Real> general_return_map(const MetalParts& metal, const Yield& yield
     Mask<Real> found = !open;
     if (any(open)) {
         Mask<Real> staged = open;
+        note_stages(staged);
         const PlasticIncrement<Real> none(metal, start, 0.0);
         for (int i = 0; i < 5; ++i) xi[i] = select(staged, none.b[i] - start.inner[i], xi[i]);
         dp = select(staged, rated ? rated_start<Real>(metal, start, 1.0 / shrink, elastic) : Real(0.0), dp);

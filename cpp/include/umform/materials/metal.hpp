@@ -16,6 +16,7 @@ struct Metal {
     Yield yield;
     int state_size;
 
+    static constexpr bool has_stages = true;
     static constexpr int surface_size = 14;  // alpha*, R, q, r
     static constexpr int state_limit = 8 + 6 * Chaboche::largest + surface_size;
 
