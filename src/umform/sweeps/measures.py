@@ -69,7 +69,7 @@ class Measure:
                 where="measure",
                 value=wanted,
                 cause=slip(stat, _STATS, "an unknown word behind the colon"),
-                remedy=f"write COLUMN or COLUMN:{', COLUMN:'.join(_STATS)}; peak is the largest in size, with its sign",
+                remedy=f"write COLUMN or COLUMN:{', COLUMN:'.join(_STATS)}; peak is that of the largest magnitude",
             )
         return cls(column if stat == "last" else wanted, column, stat or "last")
 

@@ -30,14 +30,16 @@ def plot(rows: Sequence[Row], varied: Sequence[str], measures: Sequence[str], pa
     path : str or Path, optional
         Where to save the picture: .png, .svg or .pdf.
     """
-    x = _abscissa(rows, varied)
-    lines = _lines([row for row in rows if row["outcome"] == "done"], [name for name in varied if name != x], x)
+    several = [name for name in varied if len({row[name] for row in rows}) > 1]
+    x = _abscissa(rows, several or varied)
+    lines = _lines([row for row in rows if row["outcome"] == "done"], [name for name in several if name != x], x)
     with house_style():
         figure = Figure(figsize=(6.6, 1.2 + 2.6 * len(measures)), layout="constrained")
         panels = figure.subplots(len(measures), 1, squeeze=False, sharex=True)[:, 0]
         for axes, measure in zip(panels, measures, strict=True):
             _draw(axes, lines, x, measure)
         panels[-1].set_xlabel(x)
+        figure.align_ylabels()
         if 1 < len(lines) <= _MOST_NAMED:
             panels[0].legend()
     if path is not None:
@@ -46,10 +48,9 @@ def plot(rows: Sequence[Row], varied: Sequence[str], measures: Sequence[str], pa
 
 
 def _abscissa(rows: Sequence[Row], varied: Sequence[str]) -> str:
-    """The first key that has several numbers; else the first one."""
+    """The first key whose values are numbers; else the first one."""
     numbers = [name for name in varied if all(_is_number(row[name]) for row in rows)]
-    several = [name for name in numbers if len({row[name] for row in rows}) > 1]
-    return [*several, *numbers, *varied][0]
+    return [*numbers, *varied][0]
 
 
 def _lines(rows: Sequence[Row], others: Sequence[str], x: str) -> dict[str, list[Row]]:
