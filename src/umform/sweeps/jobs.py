@@ -109,7 +109,7 @@ def run_job(job: Job) -> Record:
     KeyboardInterrupt
         At Ctrl-C; the checkpoint stays.
     Exception
-        What nobody has foreseen, a disk that is full for one: then nothing is kept, and the job runs again next time.
+        Anything unexpected, such as a full disk: then nothing is kept, and the job runs again next time.
     """
     start = time.perf_counter()
     try:

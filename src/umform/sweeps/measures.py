@@ -106,7 +106,7 @@ class Measure:
 
 
 def usual(records: Sequence[Record]) -> list[Measure]:
-    """Measures for which nobody has asked: peaks of the forces of controls, springback, last values of the history."""
+    """Default measures: peaks of the forces of controls, springback, last values of the history."""
     if not records:
         return []
     controls = dict.fromkeys(name for record in records for name in record["controls"])

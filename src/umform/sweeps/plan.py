@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -15,9 +16,6 @@ from umform.sweeps.jobs import Job, job, record_of
 from umform.sweeps.keys import change, find_key, is_text
 from umform.sweeps.measures import Measure, Record, usual
 from umform.sweeps.values import MOST_VALUES, Written, read_values
-
-#: Outcomes of jobs that are not run again: those that would come out the same.
-_FINISHED = ("done", "stopped", "refused")
 
 
 @dataclass(frozen=True)
@@ -44,13 +42,32 @@ class Plan:
     def __len__(self) -> int:
         return len(self.values)
 
-    def known(self, *, retry: bool) -> dict[int, Record]:
-        """Records of the jobs that need not run; with ``retry`` of those that were done only."""
-        wanted = ("done",) if retry else _FINISHED
+    def known(self, *, retry: bool, force: bool) -> dict[int, Record]:
+        """Records of the jobs that need not run: they are done, or would end in the same way again.
+
+        Parameters
+        ----------
+        retry : bool
+            Whether jobs that are not done run again.
+        force : bool
+            Whether jobs that were refused run again.
+        """
+        finished = {"done"} | (set() if retry else {"stopped"}) | (set() if retry or force else {"refused"})
         kept = {number: job.record() for number, job in self.jobs.items()}
         return self.refused | {
-            number: record for number, record in kept.items() if record is not None and record["outcome"] in wanted
+            number: record for number, record in kept.items() if record is not None and record["outcome"] in finished
         }
+
+    def alike(self, number: int) -> list[int]:
+        """Jobs that are the same as one, itself included: a value may be given twice."""
+        return self._by_folder[self.jobs[number].folder]
+
+    @cached_property
+    def _by_folder(self) -> dict[Path, list[int]]:
+        numbers: dict[Path, list[int]] = {}
+        for number in self.jobs:
+            numbers.setdefault(self.jobs[number].folder, []).append(number)
+        return numbers
 
     def row(self, number: int, record: Record, measures: Iterable[Measure]) -> dict[str, Any]:
         """A row of the table; a job that is not done has no measures.

@@ -123,7 +123,7 @@ def sweep(
     retry : bool
         Run jobs again that were refused or did not converge.
     force : bool
-        Run in spite of numbers that cannot be meant.
+        Run in spite of numbers that cannot be meant; jobs that were refused run again.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
     on_job : callable
@@ -160,15 +160,17 @@ def sweep(
     folder = Path(out) if out is not None else Path("results") / f"{Path(base.source.name).stem}-sweep"
     options = {"files": files, "functions": functions, "force": force}
     plan = make_plan(base, vary or {}, jobs, changes or {}, folder.resolve() / JOBS, **options)
-    with staging(folder, FILES) as stage:
-        records = plan.known(retry=retry)
+    with staging(folder if out is None else out, FILES) as stage:
+        records = plan.known(retry=retry, force=force)
         try:
             with progress_bar(progress) as tick:
                 _run(plan, records, wanted, processes, executor, tick, on_job)
         except KeyboardInterrupt as stop:
             rows, names = plan.table(records, wanted)
             write(stage, rows, plan.varied, names)
-            stop.add_note(f"  kept:   {len(records)} of {len(plan)} jobs in {folder}; the same sweep again goes on")
+            stop.add_note(
+                f"  kept:   {len(records)} of {len(plan)} jobs in {folder}; run the same sweep again to continue"
+            )
             raise
         rows, names = plan.table(records, wanted)
         return Sweep(plan.varied, names, rows, write(stage, rows, plan.varied, names))
@@ -186,24 +188,23 @@ def _run(
     """Run the jobs that have no record, and put what comes of each into the records."""
     from umform.sweeps.jobs import record_of, run_numbered
 
-    title, counts = f"{len(plan)} jobs", Counter(record["outcome"] for record in records.values())
-
-    def told() -> str:
-        return ", ".join(f"{count} {outcome}" for outcome, count in counts.items())
+    def show() -> None:
+        counts = Counter(record["outcome"] for record in records.values())
+        said = ", ".join(f"{count} {outcome}" for outcome, count in counts.items())
+        tick(f"{len(plan)} jobs", len(records) / len(plan), said)
 
     def take(answer: tuple[int, Record]) -> None:
-        number, record = answer
-        records[number] = record
-        counts[record["outcome"]] += 1
-        row = plan.row(number, record, wanted)
+        first, record = answer
+        for number in plan.alike(first):
+            records[number] = record
+            on_job(plan.row(number, record, wanted))
         log.info("job %d of %d: %s", len(records), len(plan), record["outcome"])
-        on_job(row)
-        tick(title, len(records) / len(plan), told())
+        show()
 
     for number, record in records.items():
         plan.row(number, record, wanted)  # refuses a measure that is not there
-    tick(title, len(records) / len(plan), told())
-    todo = [(number, job) for number, job in plan.jobs.items() if number not in records]
+    show()
+    todo = [(n, job) for n, job in plan.jobs.items() if n not in records and n == plan.alike(n)[0]]
     run_all(
         run_numbered,
         todo,

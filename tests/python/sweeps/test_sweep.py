@@ -83,7 +83,7 @@ def test_failures_are_rows_with_their_reason_and_the_others_go_on(deck):
         sweep(deck, {"mesh.thicknes": [1.0, 2.0]})
 
 
-def test_what_nobody_has_foreseen_is_a_failure_and_runs_again(deck, ran):
+def test_an_unexpected_error_is_a_failure_and_runs_again(deck, ran):
     found = sweep(deck, {"E": [1e5]}, measures=[fails])
     assert found["outcome"] == ["failed"]
     assert found["reason"] == ["RuntimeError: this measure has a bug"]
@@ -116,6 +116,20 @@ def test_files_that_the_deck_reads_are_part_of_what_was_run_and_its_title_is_non
     assert place() == before
     (tmp_path / "sheet.inp").write_text((tmp_path / "sheet.inp").read_text() + "** more\n")
     assert place() != before
+
+
+def test_a_job_that_comes_twice_runs_once(deck, ran):
+    found = sweep(deck, {"E": [1e5, 2e5, 1e5]}, measures=["pull_force:max"])
+    assert [row["E"] for row in ran] == [1e5, 2e5]
+    assert found["pull_force:max"][0] == found["pull_force:max"][2] != found["pull_force:max"][1]
+
+
+def test_jobs_that_were_refused_run_again_by_force(deck, ran):
+    vary = {"thickness": [2000.0]}  # a sheet thicker than it is long
+    assert sweep(deck, vary)["outcome"] == ["refused"]
+    assert sweep(deck, vary)["outcome"] == ["refused"]
+    assert sweep(deck, vary, force=True)["outcome"] == ["done"]
+    assert len(ran) == 2
 
 
 def test_jobs_that_did_not_converge_run_again_if_that_is_wanted(deck, ran):
