@@ -176,7 +176,9 @@ class Transformation:
 
 @dataclass(frozen=True)
 class Yld2004:
-    """Yld2004-18p of Barlat et al. (2005): sum_ij |S'_i - S''_j|^a = 4 phi^a, principal values of two mapped stresses.
+    """Yld2004-18p of Barlat et al. (2005): ``sum_ij |S'_i - S''_j|^a = 4 phi^a``.
+
+    S' and S'' stand for the principal values of two mapped stresses.
 
     Parameters
     ----------
@@ -214,7 +216,7 @@ class Yld2004:
 
 
 def Hosford(exponent: float = 8) -> Yld2004:
-    """Hosford (1972): |s1 - s2|^a + |s2 - s3|^a + |s3 - s1|^a = 2 phi^a of principal stresses, isotropic."""
+    """Hosford (1972): ``|s1 - s2|^a + |s2 - s3|^a + |s3 - s1|^a = 2 phi^a`` of principal stresses, isotropic."""
     return Yld2004(Transformation(), Transformation(), exponent)
 
 

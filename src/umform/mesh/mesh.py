@@ -52,7 +52,7 @@ class Mesh:
     sets : mapping of str to array_like, optional
         Named sets of node ids.
     faces : mapping of str to array_like, shape (k, 2), optional
-        Named sets of faces, each row (cell, number of the face in :data:`FACES`).
+        Named sets of faces, each row (cell, number of the face in :data:`umform.mesh.FACES`).
 
     Raises
     ------
@@ -172,7 +172,7 @@ class Mesh:
         return ids
 
     def face_set(self, selector: Selector) -> Ids:
-        """Faces of a set as rows (cell, number of the face in :data:`FACES`).
+        """Faces of a set as rows (cell, number of the face in :data:`umform.mesh.FACES`).
 
         Parameters
         ----------
@@ -241,7 +241,7 @@ class Mesh:
         return np.ascontiguousarray(np.where(rows[:, 1:] == 0, lower[rows[:, 0]], upper[rows[:, 0]]))
 
     def face_centres(self) -> Floats:
-        """Mean of the corners of each face, in the order of :data:`FACES`; shape (m, 6, 3)."""
+        """Mean of the corners of each face, in the order of :data:`umform.mesh.FACES`; shape (m, 6, 3)."""
         corners, half = np.array(_nodes_of_faces("hex8")), self.connectivity.shape[1] // 2
         local = corners % 4 + half * (corners // 4)
         centres: Floats = self.points[self.connectivity[:, local]].mean(axis=2)

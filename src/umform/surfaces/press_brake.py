@@ -44,7 +44,9 @@ class Section(Tool):
 
 @dataclass(frozen=True)
 class VDie(Section):
-    r"""Die with a V; its top is the plane z = 0, its middle x = 0. ::
+    r"""Die with a V; its top is the plane z = 0, its middle x = 0.
+
+    Its section::
 
                |<--- opening --->|
         --------.       +       .--------  z = 0
@@ -164,7 +166,9 @@ class WipingDie(Section):
 
 @dataclass(frozen=True)
 class Punch(Section):
-    r"""Punch for air bending; its lowest line is z = 0, x = 0. ::
+    r"""Punch for air bending; its lowest line is z = 0, x = 0.
+
+    Its section::
 
          |         |
          |<-width->|
