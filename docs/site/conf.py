@@ -4,8 +4,9 @@ import os
 import sys
 from pathlib import Path
 
-import umform
 from numpydoc.xref import DEFAULT_LINKS
+
+import umform
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
@@ -43,12 +44,8 @@ autosummary_ignore_module_all = False
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
 autodoc_preserve_defaults = True
-autodoc_type_aliases = {
-    name: name
-    for name in (
-        "AnyFriction ArrayLike Cells Direction Floats FrictionFunction GapFunction Ids Integers Material Numbers Rolling Selector"
-    ).split()
-}
+ALIASES = "AnyFriction ArrayLike Cells Direction Floats FrictionFunction GapFunction Material Rolling Selector"
+autodoc_type_aliases = {name: name for name in ALIASES.split(" ")}
 python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 90
 autodoc_member_order = "bysource"

@@ -19,6 +19,7 @@ PICTURES = {
 }
 CITED = re.compile(r"\b[Ee]qs?\.\s*\(\d\.\d+\)(?:\s*(?:,|and|to|-)\s*\(\d\.\d+\))*")
 NUMBER = re.compile(r"\((\d\.\d+)\)")
+ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
 PAGE = re.compile(r"(?<!`)\bdocs/([\w/-]+)\.md\b(?!`)")
 
 
@@ -36,7 +37,15 @@ def process(app: Sphinx, what: str, name: str, thing: object, options: object, l
         lines += ["", f".. image:: /images/{file}", f"   :alt: {words}", ""]
 
 
+def short_aliases(
+    app: Sphinx, what: str, name: str, thing: object, options: object, signature: str | None, result: str | None
+) -> tuple[str | None, str | None]:
+    """Names of the aliases of types in a signature as they are in the code."""
+    return tuple(text and ALIAS.sub(r"\1", text) for text in (signature, result))
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Register with Sphinx; before numpydoc, which reads the sections."""
+    """Register with Sphinx; after numpydoc, which reads the sections."""
     app.connect("autodoc-process-docstring", process, priority=900)
+    app.connect("autodoc-process-signature", short_aliases)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,4 +1,4 @@
-"""Tables of contents from the links of a page, so that the Markdown of a forge needs none; pages and files from outside docs/."""
+"""Tables of contents from the links of a page, so that Markdown needs none; pages and files from outside docs/."""
 
 from __future__ import annotations
 

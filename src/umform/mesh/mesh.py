@@ -60,6 +60,13 @@ class Mesh:
         If the arrays make no mesh.
     InvertedElement, FoldedElement, WrongNodeOrder
         If a cell has no positive volume everywhere.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> strip = uf.mesh.strip(length=10.0, width=1.0, thickness=0.2, cells=(8, 1))
+    >>> len(strip.points), sorted(strip.faces)
+    (36, ['lower', 'upper', 'x0', 'x1', 'y0', 'y1'])
     """
 
     points: Floats
