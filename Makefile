@@ -28,7 +28,7 @@ unexport PYTHONPATH PYTHONHOME
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
 .PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-stubs lint-format lint-cpp stubs \
-        format docs bench dome robust ubend compare peers clean
+        format docs bench dome robust ubend cup compare peers clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -80,6 +80,10 @@ robust: env  ## 300 random jobs and how many arrive (some 10 minutes of CPU); wr
 ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter of an hour)
 	$(SAY) 'Drawing the U-bend'
 	@$(BIN)/python benchmarks/ubend.py --page docs/performance.md $(ARGS)
+
+cup: env  ## the cup of the ESAFORM benchmark 2021 on finer meshes (a quarter of an hour)
+	$(SAY) 'Drawing the cup'
+	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json $(ARGS)
 
 compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)

@@ -31,7 +31,7 @@ def build(cells: int, thickness: float = 1.0, increments: int = 10) -> tuple[Any
 
     law = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
     mesh = uf.mesh.strip(length=50.0, width=50.0, thickness=thickness, cells=(cells, cells))
-    model = uf.Model(mesh, "ANS3DEAS", material=law)
+    model = uf.Model(mesh, "ANS3DEAS", material=law, thickness_order=1, thickness_points=5)
     model.symmetry("x0", normal="x")
     model.symmetry("y0", normal="y")
     model.fix("x1")

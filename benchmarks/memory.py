@@ -34,7 +34,7 @@ def stages(elements: int, solver: str) -> Iterator[tuple[str, float, float]]:
     side = round(math.sqrt(elements))
     mesh = uf.mesh.strip(length=float(side), width=float(side), thickness=0.5, cells=(side, side))
     steel = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
-    model = uf.Model(mesh, "ANS3DEAS", material=steel)
+    model = uf.Model(mesh, "ANS3DEAS", material=steel, thickness_order=1, thickness_points=5)
     model.fix("x0")
     block, count = model.block, len(mesh.connectivity)
     held = 2 * block.state.nbytes

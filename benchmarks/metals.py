@@ -24,6 +24,7 @@ YLD2004 = uf.Yld2004(
     uf.Transformation(0.981171, 0.476741, 0.575316, 0.866827, 1.145010, -0.079294, 1.404620, 1.051660, 1.147100),
 )
 TWO = uf.Chaboche([(4000.0, 60.0), (800.0, 8.0)])
+RATE = uf.CowperSymonds(reference=6500.0, exponent=4.0)
 SPCC = uf.YoshidaUemori(C=500.0, B=168.0, growth=190.0, b=9.0, m=12.0, h=0.5)
 FALLING = uf.FallingModulus(saturated=60e3, rate=30.0)
 LAWS = {
@@ -33,6 +34,7 @@ LAWS = {
     "Hill48 + Swift": uf.Metal(**ELASTIC, hardening=SWIFT, yield_function=HILL),
     "Hill48 + Chaboche(2)": uf.Metal(**ELASTIC, hardening=VOCE, yield_function=HILL, back_stress=TWO),
     "Hill48 + falling E": uf.Metal(**ELASTIC, hardening=VOCE, yield_function=HILL, modulus=FALLING),
+    "Hill48 + rate": uf.Metal(**ELASTIC, hardening=VOCE, yield_function=HILL, rate=RATE),
     "Hill48 + two surfaces": uf.Metal(**ELASTIC, hardening=uf.Perfect(124.0), yield_function=HILL, back_stress=SPCC),
     "Yld2004 + Voce": uf.Metal(**ELASTIC, hardening=VOCE, yield_function=YLD2004),
     "Yld2004 + Chaboche(2)": uf.Metal(**ELASTIC, hardening=VOCE, yield_function=YLD2004, back_stress=TWO),
@@ -44,8 +46,9 @@ def flowing(law: uf.Metal | uf.J2, cells: int, strain: float) -> tuple[uf.Model,
     mesh = uf.mesh.strip(length=10.0, width=10.0, thickness=1.0, cells=(cells, cells), cell="hex8")
     x, y, z = mesh.points.T
     u = np.stack([strain * x * (1 + 0.1 * z), -0.4 * strain * y + 0.2 * strain * x, -0.6 * strain * z], axis=1)
-    model = uf.Model(mesh, "ANS3DEAS", material=law, rolling=(1, 0, 0))
+    model = uf.Model(mesh, "ANS3DEAS", material=law, rolling=(1, 0, 0), thickness_order=1, thickness_points=5)
     model.fix("x0")
+    model.time = 0.01  # for the law with a rate
     return model, u.ravel()
 
 

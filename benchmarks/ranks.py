@@ -37,7 +37,8 @@ FIGURE = Path("docs/images/ranks.png")
 def sheet(cells: int) -> uf.Model:
     """A square sheet of 1 mm over a cylinder; the elements are squares of 1 mm."""
     mesh = uf.mesh.strip(float(cells), float(cells), 1.0, (cells, cells))
-    model = uf.Model(mesh, "ANS3DEAS", material=uf.J2(kappa=175e3, mu=80.77e3, hardening=uf.Linear(160.0, 500.0)))
+    steel = uf.J2(kappa=175e3, mu=80.77e3, hardening=uf.Linear(160.0, 500.0))
+    model = uf.Model(mesh, "ANS3DEAS", material=steel, thickness_order=1, thickness_points=5)
     model.symmetry("x0", normal="x")
     model.symmetry("y0", normal="y")
     model.prescribe("x0_lower", "z", "punch")

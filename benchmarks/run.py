@@ -23,7 +23,7 @@ def main() -> None:
 
     mesh = uf.mesh.strip(length=60, width=10, thickness=1, cells=(24, 1))
     steel = uf.J2(kappa=175e3, mu=80.77e3, hardening=uf.Perfect(yield_stress=160))
-    model = uf.Model(mesh, "ANS3DEAS", material=steel)
+    model = uf.Model(mesh, "ANS3DEAS", material=steel, thickness_order=1, thickness_points=5)
     model.symmetry("x0", normal="x")
     model.fix(lambda x, y, z: (x < 1e-9) & (y < 1e-9) & (z < 0), "y")
     punch = model.prescribe("x0_lower", "z", name="punch")

@@ -64,7 +64,7 @@ def evaluations(element: str, cells: tuple[int, int]) -> Callable[[], object]:
 def free_bending(frames: int = 0) -> uf.Result:
     """Half of the stroke of the demo on its coarsest mesh: contact, plasticity, a narrow band, much Python."""
     mesh = uf.mesh.strip(length=60, width=10, thickness=1, cells=(24, 1))
-    model = uf.Model(mesh, "ANS3DEAS", material=LAWS["J2 plastic"])
+    model = uf.Model(mesh, "ANS3DEAS", material=LAWS["J2 plastic"], thickness_order=1, thickness_points=5)
     model.symmetry("x0", normal="x")
     model.fix(lambda x, y, z: (x < 1e-9) & (y < 1e-9) & (z < 0), "y")
     punch = model.prescribe("x0_lower", "z", name="punch")

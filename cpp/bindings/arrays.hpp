@@ -49,6 +49,7 @@ inline umform::Connectivity to_connectivity(const InputIds& ids) {
 void bind_quadrature(nb::module_& m);
 void bind_materials(nb::module_& m);
 void bind_metals(nb::module_& m);
+void bind_foreign(nb::module_& m);
 void bind_surfaces(nb::module_& m);
 void bind_sparse(nb::module_& m);
 void bind_multifrontal(nb::module_& m);

@@ -34,12 +34,41 @@ nb::object point_fields(ShellBlock& block, const Input& u) {
     const double* position = nodal(block, u);
     {
         const nb::gil_scoped_release release;
-        block.fields(position, {E.data(), S.data(), frame.data(), F.data(), dV.data()});
+        block.fields(position, PointFields{E.data(), S.data(), frame.data(), F.data(), dV.data()});
     }
     return nb::make_tuple(to_numpy(std::move(E), {elements, points, 6}), to_numpy(std::move(S), {elements, points, 6}),
                           to_numpy(std::move(frame), {elements, points, 3, 3}),
                           to_numpy(std::move(F), {elements, points, 3, 3}),
                           to_numpy(std::move(dV), {elements, points}));
+}
+
+nb::object cell_fields(ShellBlock& block, const Input& u, int scalar) {
+    const std::size_t elements = block.connectivity().size();
+    require(scalar < block.state_size(), "the history of a point has no such number");
+    std::array<std::vector<double>, 4> stress;
+    std::vector<double> mises(elements), mean, largest;
+    CellFields out{{}, mises.data()};
+    for (int kind = 0; kind < 4; ++kind) {
+        stress[kind].resize(6 * elements);
+        out.stresses[kind] = stress[kind].data();
+    }
+    if (scalar >= 0) {
+        mean.resize(elements), largest.resize(elements);
+        out.mean = mean.data(), out.largest = largest.data(), out.scalar = scalar;
+    }
+    const double* position = nodal(block, u);
+    {
+        const nb::gil_scoped_release release;
+        block.fields(position, out);
+    }
+    nb::list found;
+    for (std::vector<double>& values : stress) found.append(to_numpy(std::move(values), {elements, 6}));
+    found.append(to_numpy(std::move(mises), {elements}));
+    if (scalar >= 0) {
+        found.append(to_numpy(std::move(mean), {elements}));
+        found.append(to_numpy(std::move(largest), {elements}));
+    }
+    return found;
 }
 
 /// Reads `Size` numbers of each of the points first ... of an array, for the lanes.
@@ -108,6 +137,16 @@ void bind_blocks(nb::module_& m) {
             "state_names", [](const ShellBlock& b) { return to_dict(b.state_names()); },
             nb::sig("def state_names(self) -> dict[str, int]"), "Parts of the history of a point, in their order.")
         .def_prop_ro("symmetric", &ShellBlock::symmetric, "Whether the tangent is symmetric.")
+        .def(
+            "failing_point",
+            [](ShellBlock& b, int e, const Input& u) {
+                require(e >= 0 && e < b.connectivity().size(), "there is no such element");
+                const auto [q, E] = b.failing_point(e, nodal(b, u));
+                return nb::make_tuple(q, to_numpy(std::vector<double>(E.begin(), E.end()), {6}));
+            },
+            nb::arg("e"), nb::arg("u"),
+            nb::sig("def failing_point(self, e: int, u: NDArray[float64]) -> tuple[int, NDArray[float64]]"),
+            "First point of an element at which its law has no answer, or -1, and its Green-Lagrange strain (6,).")
         .def_rw("step", &ShellBlock::step, "Increment of time, for laws that ask for it.")
         .def(
             "set_numbers",
@@ -171,6 +210,10 @@ void bind_blocks(nb::module_& m) {
             nb::sig(
                 "def point_fields(self, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64]]"),
             "E, S (elements, points, 6) in the local frame, the frame and F (elements, points, 3, 3), dV (elements, points).")
+        .def(
+            "cell_fields", &cell_fields, nb::arg("u"), nb::arg("scalar") = -1,
+            nb::sig("def cell_fields(self, u: NDArray[float64], scalar: int = -1) -> list[NDArray[float64]]"),
+            "Means (elements, 6) of the Cauchy stress in global and local axes and of S in both; largest von Mises stress; mean and largest value of a number of the history.")
         .def(
             "energy", &energy, nb::arg("u"), nb::sig("def energy(self, u: NDArray[float64]) -> tuple[float, float]"),
             "Elastic energy and plastic work of the block at the converged state u; NaN if the law does not know them.")

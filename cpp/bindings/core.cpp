@@ -12,6 +12,7 @@ NB_MODULE(_core, m) {
     bind_quadrature(m);
     bind_materials(m);
     bind_metals(m);
+    bind_foreign(m);
     bind_surfaces(m);
     bind_sparse(m);
     bind_multifrontal(m);

@@ -6,6 +6,7 @@
 #include "arrays.hpp"
 #include "umform/materials/logarithmic_space.hpp"
 #include "umform/materials/metal.hpp"
+#include "umform/materials/staged_returns.hpp"
 #include "umform/materials/yield/yld2004.hpp"
 #include "umform/materials/yield/yld2004_roots.hpp"
 
@@ -17,7 +18,8 @@ using YieldFunction = std::variant<QuadraticYield, Yld2004<6>, Yld2004<8>, Yld20
 
 std::shared_ptr<Material> metal(double kappa, double mu, const Hardening& hardening, const YieldFunction& yield,
                                 const std::vector<std::pair<double, double>>& back_stress, double first, double growth,
-                                double fall, double rate, const std::vector<double>& surfaces) {
+                                double fall, double rate, const std::vector<double>& surfaces,
+                                const RateFactor& rate_factor) {
     if (back_stress.size() > Chaboche::largest) throw std::invalid_argument("no more than four back stresses");
     MetalParts parts{kappa, mu, hardening, {{}, first, growth}, {fall, rate}};
     for (const auto& [modulus, recall] : back_stress) parts.back_stress.parts.push_back({modulus, recall});
@@ -26,6 +28,7 @@ std::shared_ptr<Material> metal(double kappa, double mu, const Hardening& harden
     } else if (!surfaces.empty()) {
         throw std::invalid_argument("two surfaces have the numbers Y, C, B, Rsat, m, h");
     }
+    parts.rate = rate_factor;
     return std::visit(
         [&](const auto& function) -> std::shared_ptr<Material> {
             using Law = Metal<std::decay_t<decltype(function)>>;
@@ -53,11 +56,30 @@ nb::object evaluate(const YieldFunction& yield, const Input& stress) {
 }  // namespace
 
 void bind_metals(nb::module_& m) {
+    m.def(
+        "staged_returns", [] { return staged_returns().load(); },
+        "Points at which return maps have gone through stages of a shrinking yield surface, since the process began.");
     nb::class_<YieldFunction>(m, "YieldFunction",
                               "Equivalent stress as a function of the stress in the axes of the sheet.")
         .def("__call__", &evaluate, nb::arg("stress"),
              nb::sig("def __call__(self, stress: NDArray[float64]) -> tuple[float, NDArray[float64]]"),
              "Equivalent stress, and its gradient as a strain with engineering shears (6,).");
+    nb::class_<RateFactor>(m, "RateFactor", "Factor of the yield stress over the rate of the plastic strain.")
+        .def(
+            "__call__", [](const RateFactor& factor, double rate) { return factor(rate, 1.0).value; }, nb::arg("rate"),
+            "The factor at a plastic strain rate.");
+    m.def(
+        "cowper_symonds",
+        [](double reference, double exponent) {
+            return RateFactor{RateFactor::Kind::CowperSymonds, reference, 1.0 / exponent};
+        },
+        nb::arg("reference"), nb::arg("exponent"));
+    m.def(
+        "johnson_cook",
+        [](double reference, double strength) {
+            return RateFactor{RateFactor::Kind::JohnsonCook, reference, strength};
+        },
+        nb::arg("reference"), nb::arg("strength"));
     m.def(
         "hill48",
         [](double F, double G, double H, double L, double M, double N) {
@@ -84,7 +106,7 @@ void bind_metals(nb::module_& m) {
     m.def(
         "metal", &metal, nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"), nb::arg("yield_function"),
         nb::arg("back_stress"), nb::arg("first"), nb::arg("growth"), nb::arg("fall"), nb::arg("rate"),
-        nb::arg("surfaces") = std::vector<double>{},
+        nb::arg("surfaces") = std::vector<double>{}, nb::arg("rate_factor") = RateFactor{},
         "A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.");
     m.def(
         "logarithmic_space",

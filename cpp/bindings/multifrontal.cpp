@@ -18,19 +18,18 @@ using namespace umform;
 
 namespace {
 
-/// A pattern of its own, the plan for it, and factors.
+/// The plan for a pattern, whose arrays are those of Python, and factors.
 class Multifrontal {
   public:
-    Multifrontal(const InputIds& indptr, const InputIds& indices, bool symmetric)
-        : indptr_(indptr.data(), indptr.data() + indptr.size()),
-          indices_(indices.data(), indices.data() + indices.size()), symmetric_(symmetric) {
-        const Columns columns(rows());
+    Multifrontal(InputIds indptr, InputIds indices, bool symmetric)
+        : indptr_(std::move(indptr)), indices_(std::move(indices)), symmetric_(symmetric) {
         if (symmetric) {
-            plan(indptr_.data(), indices_.data(), columns);
+            plan(rows());
         } else {
-            const UpperTriangle upper(rows(), columns);
-            plan(upper.indptr.data(), upper.indices.data(), columns);
+            const UpperTriangle upper(rows(), Columns(rows()));
+            plan({upper.indptr.data(), upper.indices.data(), rows().n});
         }
+        plan_->map_entries(rows());
         factors_ = std::make_unique<Factors>(*plan_);
     }
 
@@ -40,15 +39,14 @@ class Multifrontal {
     Factors& factors() { return *factors_; }
 
   private:
-    std::vector<std::int32_t> indptr_, indices_;
+    InputIds indptr_, indices_;
     bool symmetric_;
     std::unique_ptr<Plan> plan_;
     std::unique_ptr<Factors> factors_;
 
-    void plan(const std::int32_t* indptr, const std::int32_t* indices, const Columns& columns) {
-        const Quotient quotient = make_quotient(indptr, indices, rows().n);
+    void plan(const Rows& upper) {
+        const Quotient quotient = make_quotient(upper.indptr, upper.indices, upper.n);
         plan_ = std::make_unique<Plan>(rows(), symmetric_, quotient, eliminate(quotient));
-        plan_->map_entries(rows(), columns);
     }
 };
 
@@ -94,9 +92,9 @@ void bind_multifrontal(nb::module_& m) {
     nb::class_<Multifrontal>(m, "Multifrontal", "Multifrontal factors of matrices with one pattern.")
         .def(
             "__init__",
-            [](Multifrontal* self, const InputIds& indptr, const InputIds& indices, bool symmetric) {
+            [](Multifrontal* self, InputIds indptr, InputIds indices, bool symmetric) {
                 nb::gil_scoped_release release;
-                new (self) Multifrontal(indptr, indices, symmetric);
+                new (self) Multifrontal(std::move(indptr), std::move(indices), symmetric);
             },
             nb::arg("indptr"), nb::arg("indices"), nb::arg("symmetric"),
             nb::sig("def __init__(self, indptr: NDArray[int32], indices: NDArray[int32], symmetric: bool) -> None"))

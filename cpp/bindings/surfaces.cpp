@@ -1,14 +1,17 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
 #include "umform/surfaces/cylinder.hpp"
 #include "umform/surfaces/extruded.hpp"
+#include "umform/surfaces/offset.hpp"
 #include "umform/surfaces/placed.hpp"
 #include "umform/surfaces/plane.hpp"
 #include "umform/surfaces/revolved.hpp"
 #include "umform/surfaces/rounded_box.hpp"
 #include "umform/surfaces/sphere.hpp"
+#include "umform/surfaces/triangulated.hpp"
 
 using namespace umform;
 
@@ -51,7 +54,42 @@ Mat3 matrix(const Input& values) {
     return m;
 }
 
-/// Tools of lines and arcs, and tools at another place.
+void require(bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(what);
+}
+
+/// The thirds of triangles with what lies around them.
+std::shared_ptr<Surface> triangulated(const Input& control, const InputIds& across, const InputIds& neighbour,
+                                      const InputIds& ends, const InputIds& face, const Input& normals,
+                                      const InputIds& corner, const std::vector<std::shared_ptr<Surface>>& faces,
+                                      double trust) {
+    const std::size_t count = control.shape(0), corners = normals.shape(0);
+    require(count > 0 && control.ndim() == 3 && control.shape(1) == 15 && control.shape(2) == 3,
+            "control must have shape (n, 15, 3), n > 0");
+    require(across.size() == count && neighbour.size() == count && face.size() == count && ends.size() == 2 * count,
+            "across, neighbour, face and ends must have n rows");
+    require(normals.size() == 3 * corners && corner.size() == corners, "normals and corner must have as many rows");
+    std::vector<Third> thirds(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        Third& third = thirds[i];
+        for (int k = 0; k < 15; ++k) std::copy_n(control.data() + 45 * i + 3 * k, 3, third.patch.control[k].begin());
+        third.across = static_cast<Across>(across.data()[i]);
+        third.neighbour = neighbour.data()[i];
+        third.face = face.data()[i];
+        require(third.face < static_cast<int>(faces.size()), "a face must be one of the exact ones");
+        third.ends = {ends.data()[2 * i], ends.data()[2 * i + 1]};
+        require(third.neighbour < static_cast<int>(count), "a neighbour must be a row of control");
+        for (const int end : third.ends) require(end >= 0 && end < static_cast<int>(corners), "ends must be corners");
+    }
+    std::vector<Corner> around(corners);
+    for (std::size_t i = 0; i < corners; ++i) {
+        std::copy_n(normals.data() + 3 * i, 3, around[i].normal.begin());
+        around[i].across = static_cast<Across>(corner.data()[i]);
+    }
+    return std::make_shared<Triangulated>(thirds, std::move(around), ExactFaces{{faces.begin(), faces.end()}, trust});
+}
+
+/// Tools of lines and arcs, of triangles, and tools that others give.
 void bind_shapes(nb::module_& m) {
     nb::enum_<ProfileEnd>(m, "ProfileEnd", "What the first and the last segment of a profile do.")
         .value("joined", ProfileEnd::Joined)
@@ -83,6 +121,21 @@ void bind_shapes(nb::module_& m) {
         nb::arg("centre"), nb::arg("axes"), nb::arg("core"), nb::arg("radius"),
         nb::sig("def rounded_box(centre: Sequence[float], axes: NDArray[float64], core: Sequence[float], "
                 "radius: float) -> Surface"));
+    m.def(
+        "triangulated", &triangulated, nb::arg("control"), nb::arg("across"), nb::arg("neighbour"), nb::arg("ends"),
+        nb::arg("face"), nb::arg("normals"), nb::arg("corner"), nb::arg("faces"), nb::arg("trust"),
+        nb::sig("def triangulated(control: NDArray[float64], across: NDArray[int32], neighbour: NDArray[int32], "
+                "ends: NDArray[int32], face: NDArray[int32], normals: NDArray[float64], corner: NDArray[int32], "
+                "faces: Sequence[Surface], trust: float) -> Surface"),
+        "Thirds of triangles: points (n, 15, 3) of quartic patches; across their edge 0 smooth, 1 sharp, 2 a rim; the "
+        "third on its other side or -1; its two corners (n, 2); its exact face or -1. Of the corners: the sum of normals (m, 3), and 0, 1, 2.");
+    m.def(
+        "offset",
+        [](std::shared_ptr<Surface> tool, double distance, int side) -> std::shared_ptr<Surface> {
+            return std::make_shared<Offset>(std::move(tool), distance, side);
+        },
+        nb::arg("tool"), nb::arg("distance"), nb::arg("side"),
+        "The tool grown by a distance (side 1), or all that is farther from it (side -1).");
     m.def(
         "placed",
         [](std::shared_ptr<Surface> tool, const Input& Q, Vec3 shift) -> std::shared_ptr<Surface> {

@@ -88,6 +88,11 @@ def material_from_function(function: Callable[[NDArray[float64], NDArray[float64
     A law from a function (E (n, 6), state (n, size), cell, (axes (n, 3, 3), size, step) or None) -> (S (n, 6), CC (n, 6, 6), new state (n, size)); its energy (E, state, cell) -> (elastic (n,), plastic (n,)).
     """
 
+def staged_returns() -> int:
+    """
+    Points at which return maps have gone through stages of a shrinking yield surface, since the process began.
+    """
+
 class YieldFunction:
     """
     Equivalent stress as a function of the stress in the axes of the sheet.
@@ -98,6 +103,16 @@ class YieldFunction:
         Equivalent stress, and its gradient as a strain with engineering shears (6,).
         """
 
+class RateFactor:
+    """Factor of the yield stress over the rate of the plastic strain."""
+
+    def __call__(self, rate: float) -> float:
+        """The factor at a plastic strain rate."""
+
+def cowper_symonds(reference: float, exponent: float) -> RateFactor: ...
+
+def johnson_cook(reference: float, strength: float) -> RateFactor: ...
+
 def hill48(F: float, G: float, H: float, L: float, M: float, N: float) -> YieldFunction: ...
 
 def yld2004(exponent: float, first: Sequence[float], second: Sequence[float]) -> YieldFunction:
@@ -105,7 +120,7 @@ def yld2004(exponent: float, first: Sequence[float], second: Sequence[float]) ->
     c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.
     """
 
-def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float, surfaces: Sequence[float] = []) -> Material:
+def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float, surfaces: Sequence[float] = [], rate_factor: RateFactor = ...) -> Material:
     """
     A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.
     """
@@ -113,6 +128,14 @@ def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFu
 def logarithmic_space(law: Material) -> Material:
     """
     A small-strain law as one of finite strain: asked with logarithmic strains.
+    """
+
+def compiled_law(function: int, energy: int, name: str, properties: Sequence[float], state: Sequence[tuple[str, int]], initial: Sequence[float], symmetric: bool, parallel: bool, sees_points: bool) -> Material:
+    """A law from the address of a C function, and that of its energy or 0."""
+
+def umat_law(function: int, energies: bool, name: str, properties: Sequence[float], state: Sequence[tuple[str, int]], initial: Sequence[float], symmetric: bool, parallel: bool) -> Material:
+    """
+    A small-strain law from the address of a UMAT; with `energies` it fills SSE, SPD and SCD.
     """
 
 class Surface:
@@ -160,6 +183,16 @@ def revolved(segments: NDArray[float64], start: ProfileEnd, end: ProfileEnd, ori
     """
 
 def rounded_box(centre: Sequence[float], axes: NDArray[float64], core: Sequence[float], radius: float) -> Surface: ...
+
+def triangulated(control: NDArray[float64], across: NDArray[int32], neighbour: NDArray[int32], ends: NDArray[int32], face: NDArray[int32], normals: NDArray[float64], corner: NDArray[int32], faces: Sequence[Surface], trust: float) -> Surface:
+    """
+    Thirds of triangles: points (n, 15, 3) of quartic patches; across their edge 0 smooth, 1 sharp, 2 a rim; the third on its other side or -1; its two corners (n, 2); its exact face or -1. Of the corners: the sum of normals (m, 3), and 0, 1, 2.
+    """
+
+def offset(tool: Surface, distance: float, side: int) -> Surface:
+    """
+    The tool grown by a distance (side 1), or all that is farther from it (side -1).
+    """
 
 def placed(tool: Surface, matrix: NDArray[float64], shift: Sequence[float]) -> Surface: ...
 
@@ -374,6 +407,11 @@ class ShellBlock:
     def symmetric(self) -> bool:
         """Whether the tangent is symmetric."""
 
+    def failing_point(self, e: int, u: NDArray[float64]) -> tuple[int, NDArray[float64]]:
+        """
+        First point of an element at which its law has no answer, or -1, and its Green-Lagrange strain (6,).
+        """
+
     @property
     def step(self) -> float:
         """Increment of time, for laws that ask for it."""
@@ -431,6 +469,11 @@ class ShellBlock:
     def point_fields(self, u: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64]]:
         """
         E, S (elements, points, 6) in the local frame, the frame and F (elements, points, 3, 3), dV (elements, points).
+        """
+
+    def cell_fields(self, u: NDArray[float64], scalar: int = -1) -> list[NDArray[float64]]:
+        """
+        Means (elements, 6) of the Cauchy stress in global and local axes and of S in both; largest von Mises stress; mean and largest value of a number of the history.
         """
 
     def energy(self, u: NDArray[float64]) -> tuple[float, float]:

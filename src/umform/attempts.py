@@ -27,10 +27,12 @@ class Attempts:
         How often each strategy was tried, and led to the equilibrium that was taken.
     causes : Counter of str
         Why attempts were given up.
+    staged : int
+        Points of the material, over all evaluations, whose return map went through stages of a shrinking yield surface.
     """
 
     def __init__(self) -> None:
-        self.evaluations = self.thrown = 0
+        self.evaluations = self.thrown = self.staged = 0
         self.tried: Counter[str] = Counter()
         self.won: Counter[str] = Counter()
         self.causes: Counter[str] = Counter()
@@ -69,6 +71,7 @@ class Attempts:
         """Add the counts of another run."""
         self.evaluations += other.evaluations
         self.thrown += other.thrown
+        self.staged += other.staged
         self.tried.update(other.tried)
         self.won.update(other.won)
         self.causes.update(other.causes)
@@ -80,4 +83,4 @@ class Attempts:
     def record(self) -> dict[str, object]:
         """All counts, for JSON and checkpoints."""
         counts = {name: dict(getattr(self, name)) for name in ("tried", "won", "causes")}
-        return {"evaluations": self.evaluations, "thrown": self.thrown, **counts}
+        return {"evaluations": self.evaluations, "thrown": self.thrown, "staged": self.staged, **counts}

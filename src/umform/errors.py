@@ -143,6 +143,36 @@ class EmptySet(MeshError):
     id = "mesh.empty-set"
 
 
+class DrawingError(UmformError):
+    """A drawing from which no tool can be made."""
+
+    id = "drawing"
+
+
+class UnfitTriangles(DrawingError):
+    """Triangles that are no surface: without area, or more than two at an edge."""
+
+    id = "drawing.triangles"
+
+
+class TurnedNormals(DrawingError):
+    """Normals of a surface that look to different sides, or into the sheet."""
+
+    id = "drawing.turned-normals"
+
+
+class HoleInSurface(DrawingError):
+    """A surface with a rim where it must be closed."""
+
+    id = "drawing.hole"
+
+
+class OpenSection(DrawingError):
+    """Lines and arcs of a drawing that do not meet, or make more than one curve."""
+
+    id = "drawing.section"
+
+
 class ModelError(UmformError):
     """A model that cannot be solved as it stands."""
 

@@ -62,6 +62,8 @@ _MANY = 4000
 _FORMATS = (".png", ".svg", ".pdf")
 #: Dots an inch of pictures, and of what is pixels in SVG and PDF.
 _DPI = 200
+#: Lines compress as well by a low level, in two thirds of the time.
+_PNG = {"compress_level": 3}
 #: Fields that a shape is coloured by unless another is wanted: the first that is there.
 _FAVOURITES = ("plastic_strain_max", "thickness_change", "displacement")
 
@@ -108,7 +110,10 @@ def save(figure: Figure, path: str | Path, dpi: int = _DPI) -> Path:
             temporary.write_text(_svg(figure, dpi), encoding="utf-8", newline="\n")
         else:
             with house_style():
-                figure.savefig(temporary, dpi=dpi, metadata={"CreationDate": None} if path.suffix == ".pdf" else {})
+                if path.suffix == ".pdf":
+                    figure.savefig(temporary, dpi=dpi, metadata={"CreationDate": None})
+                else:
+                    figure.savefig(temporary, dpi=dpi, pil_kwargs=_PNG)
     return path
 
 

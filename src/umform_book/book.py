@@ -33,6 +33,7 @@ _FOLDERS = (
     "material",
     "contact",
     "friction",
+    "drawing",
     "free_bending",
     "sharp_bends",
     "air_bending",

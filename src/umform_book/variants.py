@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from umform.elements import element
@@ -14,7 +14,7 @@ Options = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Variant:
-    """An element of the catalogue with its options.
+    """An element of the catalogue with its options; at thickness order 1, as in the literature, if they name none.
 
     Attributes
     ----------
@@ -40,8 +40,9 @@ class Variant:
 
     @property
     def element(self) -> Element:
-        """The element."""
-        return element(self.name, **self.options)
+        """The element: those for bends have their complete order."""
+        made = element(self.name, **self.options)
+        return replace(made, complete=made.complete and self.name.startswith("BEND"))
 
     @property
     def cell(self) -> str:

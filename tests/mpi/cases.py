@@ -147,22 +147,38 @@ def beaded():
 
 
 def closed():
-    """A holder that hovers, closes with friction, follows a table of forces and is released; the die follows it."""
+    """A holder over a loose sheet closes with friction, follows a table of forces onto its blocks and is released."""
     model = uf.Model(strip(20.0, 4.0, 0.8, (14, 2)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
     model.symmetry("x0", normal="x")
     model.symmetry("y0", normal="y")
-    model.fix("x0_lower", "z")
-    model.rest()
     rule = {"penalty": 2e3, "friction": 0.1}
-    die = model.contact("lower", uf.Plane((0.0, 0.0, -0.4)), name="die", **rule)
+    die = model.contact("lower", uf.Plane((0.0, 0.0, -0.5)), name="die", **rule)
     holder = model.contact("upper", uf.Plane((0.0, 0.0, 1.4), (0.0, 0.0, -1.0)), name="holder", **rule)
     hold = model.press(holder, "z", "hold")
-    model.stop(hold, at=-1.004, stiffness=1e3, below=True)
     model.attach(die, model.turn(holder, "z", (5.0, 2.0, 0.0), "twist"))
+    model.keep_gap(hold, die, 0.79785)
     pull = model.prescribe("x1_lower", "x", "pull")
     table = [(0.0, -160.0), (0.02, -200.0)]
     steps = [uf.Close(hold, force=-160.0), uf.Move(pull, sliding, steps=4, follow={hold: table}), uf.Release(hold)]
     return model, steps, None
+
+
+def sprung_back():
+    """A strip that is bent over a hinge and a table, and let go of a support, then of all tools, on a gauge."""
+    model = uf.Model(strip(20.0, 4.0, 1.0, (12, 2)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
+    gauge = model.hold_rigid(lambda x, y, z: (x > 3.0) & (y > 1.0), name="gauge")
+    edge = model.fix("y0_lower", "y", name="edge")
+    clamp = model.hinge("x0", "xz", name="clamp")
+    prop = model.fix(lambda x, y, z: (abs(x - 1.7) < 0.2) & (z > 0.0), "z", name="prop")
+    table = model.contact("lower", uf.Cylinder((12.0, 0.0, -5.49), "y", 5.0), penalty=2e3, name="table")
+    punch = model.contact("upper", uf.Cylinder((19.0, 0.0, 3.49), "y", 3.0), penalty=2e3, points=3, name="punch")
+    stroke = model.drive(punch, "z", "stroke")
+    steps = [uf.Move(stroke, -1.0, steps=2), uf.Free(prop, steps=2), uf.Move(stroke, -1.1, steps=1)]
+    return (
+        model,
+        [*steps, uf.Free([clamp, edge, table, punch], steps=3, on=gauge), uf.Move(stroke, upwards, steps=3)],
+        None,
+    )
 
 
 class Foam(NodalTerm):
@@ -222,6 +238,29 @@ def two_bodies():
     return model, [uf.Move(tip, downwards, steps=4), uf.Move(tip, -3.0, steps=2)], NewtonOptions(max_iterations=12)
 
 
+def metals():
+    """Metals from parts with rolling directions: back stresses, a modulus that falls, a rate; and two surfaces."""
+    hill, surfaces = uf.Hill48(1.8, 1.5, 2.2), uf.YoshidaUemori(C=500.0, B=168.0, growth=190.0, b=9.0, m=12.0, h=0.5)
+    dull = uf.Metal(
+        206e3,
+        0.3,
+        hardening=uf.Voce(180.0, 330.0, 14.0),
+        yield_function=hill,
+        back_stress=uf.Chaboche([(4000.0, 80.0), (600.0, 6.0)]),
+        modulus=uf.FallingModulus(saturated=160e3, rate=30.0),
+        rate=uf.CowperSymonds(reference=40.0, exponent=5.0),
+    )
+    bounded = uf.Metal(206e3, 0.3, hardening=uf.Perfect(124.0), yield_function=hill, back_stress=surfaces)
+    bodies = [
+        Body(material=dull, cells=lambda x, y, z: x < 7.0, name="dull", rolling=(1.0, 0.5, 0.0)),
+        Body(material=bounded, cells=lambda x, y, z: x > 7.0, name="bounded", rolling=(0.0, 1.0, 0.0)),
+    ]
+    model = uf.Model(strip(12.0, 4.0, 1.0, (12, 2)), bodies=bodies)
+    model.fix("x0")
+    tip = model.prescribe("x1", "z", "tip")
+    return model, [uf.Move(tip, downwards, steps=5, time=0.01), uf.Move(tip, -1.0, steps=3)], None
+
+
 class Stop(Exception):
     """The end of a run in its middle."""
 
@@ -230,6 +269,12 @@ def inwards(fraction):
     """Way of the ram."""
     trouble_at(fraction)
     return 0.8 * fraction
+
+
+def upwards(fraction):
+    """Way of the punch once it is open."""
+    trouble_at(fraction)
+    return -1.1 + fraction
 
 
 def downwards(fraction):
@@ -259,7 +304,7 @@ def trouble_at(fraction):
 
 
 CASES = [free_bending, air_bending, hinged_strip, blown_strip, held_by_multipliers, cut]
-CASES += [pressed, closed, rubbed, beaded, foundation, two_bodies]
+CASES += [pressed, closed, sprung_back, rubbed, beaded, foundation, two_bodies, metals]
 
 
 def rank():

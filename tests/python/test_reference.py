@@ -41,6 +41,12 @@ def test_the_pages_list_what_a_module_exports(module: str) -> None:
     assert exported <= on_the_pages()
 
 
+def test_every_error_is_on_a_page() -> None:
+    errors = (thing for thing in vars(uf.errors).values() if inspect.isclass(thing))
+    known = {f"umform.errors.{error.__name__}" for error in errors if issubclass(error, uf.UmformError)}
+    assert known - {"umform.errors.UmformError"} <= on_the_pages()
+
+
 @pytest.mark.parametrize("name", sorted(set(NAMES) - COMPILED))
 def test_every_public_name_has_an_example_that_runs(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)

@@ -49,6 +49,8 @@ def python_code(law: J2 | Metal) -> str:
     for name, made in (("two_surfaces", "back_stress=uf.YoshidaUemori"), ("modulus", "modulus=uf.FallingModulus")):
         if name in keys:
             arguments.append(f"{made}({_arguments(keys[name])})")
+    if "rate" in keys:
+        arguments.append(f"rate={_call(keys['rate'], 'factor')}")
     inside = "".join(f"    {argument},\n" for argument in arguments)
     return f"import umform as uf\n\nmaterial = uf.{keys['law']}(\n{inside})\n"
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.drawing import without_help_texts
 from umform.cli.metal import law_of
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
@@ -56,6 +57,9 @@ def bead(
     element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "BEND8",
     elements: Annotated[float, _option("Elements on a quarter turn of the sharper radius.", _SOLUTION)] = 20.0,
     contact_points: Annotated[int, _option("Contact points per direction and facet.", _SOLUTION)] = 4,
+    extrapolate: Annotated[
+        bool, _option("A coarser mesh too: forces with elements of no length, and the error.", _SOLUTION)
+    ] = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -67,7 +71,7 @@ def bead(
     """
     from umform.io.folders import folder_for
     from umform.io.staging import staging
-    from umform.processes.draw_bead.case import drawn_through
+    from umform.processes.draw_bead.case import drawn_through, extrapolated
     from umform.processes.draw_bead.files import FILES, RESULTS, write_files
     from umform.processes.draw_bead.parameters import DrawBead
 
@@ -92,12 +96,13 @@ def bead(
     place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):
         with _what_was_reached(place):
-            drawn = drawn_through(case)
+            drawn = extrapolated(case) if extrapolate else drawn_through(case)
         try:
             with printing(f"the files of the bead are in {place}"):
                 _show(drawn, note)
         finally:  # also if nobody reads the table
             with drawn.result.timing.files:
+                without_help_texts()
                 files = write_files(place, drawn, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from umform.cli.check import Force
+from umform.cli.drawing import without_help_texts
 from umform.cli.metal import law_of, numbers
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
@@ -161,6 +162,7 @@ def bend(
             raise
         finally:  # also if nobody reads the table
             with done.result.timing.files:
+                without_help_texts()
                 files = write_files(place, done, rows, errors, note=note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:

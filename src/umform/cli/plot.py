@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from umform.cli.drawing import without_help_texts
 from umform.cli.root import Debug, app
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ def plot(
     Runs have colours, columns have kinds of lines. Without --y all columns are listed.
     """
     from umform.io.histories import read_histories
+
+    without_help_texts()
     from umform.plotting import compare_histories
 
     histories = read_histories(runs)

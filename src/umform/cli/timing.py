@@ -48,4 +48,6 @@ def _show_attempts(attempts: Attempts) -> None:
         table.add_section()
     for cause, count in attempts.causes.most_common():
         table.add_row(f"given up: {cause}", str(count), "")
+    if attempts.staged:
+        table.add_row("return maps in stages", str(attempts.staged), "")
     console().print(table)

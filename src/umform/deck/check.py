@@ -16,8 +16,9 @@ from umform.deck.problem import Problem
 from umform.deck.references import references
 from umform.deck.resolution import resolution
 from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallowsSheet
-from umform.model import Model
+from umform.run.loose import carried, carried_motions
 from umform.solution.newton import Newton
+from umform.surfaces import CadTool, Offset, Placed, Triangulated
 
 #: Iterations of an increment, on an average.
 _ITERATIONS = 4
@@ -39,9 +40,10 @@ def check(deck: Deck, problem: Problem) -> Iterator[Finding]:
         Errors are what `umform.solve` would refuse, and what cannot be meant; warnings are rules of thumb.
     """
     with np.errstate(all="ignore"):
-        yield supports(problem.model)
+        yield supports(problem)
         yield from before_run(deck, problem)
-        yield effort(deck.contents, problem)
+        with carried(problem.model, problem.steps):
+            yield effort(deck.contents, problem)
 
 
 def before_run(deck: Deck, problem: Problem) -> Iterator[Finding]:
@@ -49,17 +51,31 @@ def before_run(deck: Deck, problem: Problem) -> Iterator[Finding]:
     with np.errstate(all="ignore"):
         yield from of_model(problem.model, millimetres=isinstance(deck.contents.material, FromLibrary))
         yield from resolution(deck, problem)
+        yield from drawings(problem)
         yield from idle(deck)
 
 
-def supports(model: Model) -> Finding:
+def supports(problem: Problem) -> Finding:
     """Whether supports and tools leave a rigid-body motion free, or a tool swallows the sheet."""
+    motions = carried_motions(problem.model, problem.steps)
+    if motions:
+        return ok("supports", f"free until tools hold the sheet, which rests on weak springs: {'; '.join(motions)}")
     try:
-        model.check()
+        problem.model.check()
     except (RigidBodyMotion, ToolSwallowsSheet) as refusal:
         text = "; ".join(part for part in (refusal.what, refusal.where, str(refusal.value or "")) if part)
         return error("supports" if isinstance(refusal, RigidBodyMotion) else "tools", text, refusal.remedy)
     return ok("supports", "no rigid-body motion is free")
+
+
+def drawings(problem: Problem) -> Iterator[Finding]:
+    """What became of tools that were drawn."""
+    for name, tool in problem.tools.items():
+        own: object = tool
+        while isinstance(own, Placed | Offset):
+            own = own.tool
+        if isinstance(own, CadTool | Triangulated):
+            yield ok(f"tool {name}", str(own))
 
 
 def idle(deck: Deck) -> Iterator[Finding]:

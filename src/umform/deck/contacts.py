@@ -76,6 +76,11 @@ Points = Annotated[
     Discriminator(_points),
 ]
 
+Cells = Annotated[
+    Annotated[int, Field(ge=1, le=20), Tag("number")] | Annotated[Literal["auto"], Tag("word")],
+    Discriminator(_points),
+]
+
 
 Coefficient = Annotated[float, Field(ge=0, le=2)]
 _Coordinate = Annotated[float, Field(allow_inf_nan=True)]
@@ -151,8 +156,10 @@ class ContactPart(Part):
     """Multipliers take the penetration away that is not allowed."""
     points: Points | None = None
     """Contact points per direction of a face, 1 to 10, by default 2; at the nodes; or as many as are needed (auto)."""
-    cells: Annotated[int, Field(ge=1, le=20)] | None = None
-    """Instead of points: cells per direction of a face, over which the pressure is integrated."""
+    cells: Cells | None = None
+    """Instead of points: cells per direction of a face, over which the pressure is integrated, 1 to 20, or auto."""
+    ripple: Positive | None = None
+    """Ripple of the force that is wanted of cells = auto, as a part of it; by default 0.001."""
     friction: AnyFriction | None = None
     """Coefficient of friction, or a law."""
     slip: Positive | None = None
@@ -166,6 +173,8 @@ class ContactPart(Part):
             raise PydanticCustomError("penalty", "give the penalty or the penetration, and not both, unless augmented")
         if self.points is not None and self.cells is not None:
             raise PydanticCustomError("cells", "give points or cells, and not both")
+        if self.ripple is not None and (self.cells != "auto" or self.ripple >= 1.0):
+            raise PydanticCustomError("ripple", "a ripple below 1 is wanted with cells = auto only")
         return self
 
     def add_to(self, model: Model, tool: Tool, name: str) -> Contact:
@@ -178,6 +187,7 @@ class ContactPart(Part):
             augmented=self.augmented,
             points=self.points,
             cells=self.cells,
+            ripple=self.ripple,
             friction=self.friction.build() if isinstance(self.friction, FrictionsPart) else self.friction,
             slip=self.slip,
             name=name,

@@ -264,14 +264,23 @@ class Turn(_OfTool):
 
 
 class StopPart(Part):
-    """Something elastic that a pressed tool comes to lie on: distance blocks, the end of a spring."""
+    """Something that a pressed tool comes to lie on: distance blocks, the end of a spring."""
 
     at: float
     """Way at which the tool meets it."""
-    stiffness: Positive
-    """Force per length beyond."""
+    stiffness: Positive | None = None
+    """Force per length beyond; by default it is rigid."""
     below: bool = False
     """The way must not fall below it, instead of not growing beyond it."""
+
+
+class GapPart(Part):
+    """Gap that a pressed tool keeps to another one: rigid distance blocks between both."""
+
+    to: Name
+    """Contact of the other tool."""
+    least: Positive
+    """Least distance of both tools."""
 
 
 class _Pressed(Part):
@@ -295,10 +304,15 @@ class Press(_Pressed):
     """The word press."""
     direction: Way
     """Direction."""
+    gap: GapPart | None = None
+    """Gap that the tool keeps to another one; the force is then the largest."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
-        return self._stopped(model, model.press(contacts[self.contact], self.direction, name))
+        force = self._stopped(model, model.press(contacts[self.contact], self.direction, name))
+        if self.gap is not None:
+            model.keep_gap(force, contacts[self.gap.to], self.gap.least)
+        return force
 
 
 class Spring(_Pressed):

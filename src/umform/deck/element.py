@@ -19,8 +19,8 @@ class ElementPart(Part):
     """Name in the catalogue; `umform elements` lists it."""
     thickness_modes: Literal[1, 4, 9] | None = None
     """Enhanced modes of the thickness strain."""
-    thickness_order: Literal[1, 2, 3, 4] | None = None
-    """Order of the thickness strain; 3 or 4 for sharp bends."""
+    thickness_order: Annotated[int, Field(ge=1, le=14)] | None = None
+    """Order of the thickness strain; by default complete with a plastic law: the number of points less one."""
     order_modes: Literal[1, 4, 9] | None = None
     """Modes in the surface that go with each order above 1."""
     membrane_modes: Literal[4, 5, 7] | None = None
@@ -31,8 +31,8 @@ class ElementPart(Part):
     """Leave the tying of E_12 out of MI9K3DEAS or BEND18."""
     thickness_points: Annotated[int, Field(ge=2, le=15)] | None = None
     """Points through the thickness; by default what suits the material."""
-    thickness_rule: Literal["gauss", "lobatto", "split"] = "gauss"
-    """Where they lie."""
+    thickness_rule: Literal["gauss", "lobatto", "split", "graded"] | None = None
+    """Where they lie; by default gauss, but graded where the points are those of the material."""
 
     def options(self) -> dict[str, Any]:
         """Options that were given, as the catalogue and the model take them."""

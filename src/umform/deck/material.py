@@ -10,6 +10,7 @@ from pydantic_core import PydanticCustomError
 
 from umform import materials, sheet_metals
 from umform.deck.elastic import Elastic
+from umform.deck.foreign import Compiled, Umat
 from umform.deck.metal import J2, Metal
 from umform.deck.parts import Part, tagged_by
 from umform.deck.rolling import RollingPart
@@ -76,11 +77,17 @@ MaterialPart = Annotated[
     | Annotated[NeoHookePower, Tag("NeoHookePower")]
     | Annotated[J2, Tag("J2")]
     | Annotated[Metal, Tag("Metal")]
+    | Annotated[Umat, Tag("UMAT")]
+    | Annotated[Compiled, Tag("Compiled")]
     | Annotated[FromLibrary, Tag("library")],
     Discriminator(
         tagged_by("law", "library"),
         custom_error_type="law",
-        custom_error_message="a material has law = SVK, NeoHooke, NeoHookePower, J2 or Metal, or library = a name",
-        custom_error_context={"key": "law", "expected_tags": "'SVK', 'NeoHooke', 'NeoHookePower', 'J2', 'Metal'"},
+        custom_error_message="a material has law = SVK, NeoHooke, NeoHookePower, J2, Metal, UMAT or Compiled, or "
+        "library = a name",
+        custom_error_context={
+            "key": "law",
+            "expected_tags": "'SVK', 'NeoHooke', 'NeoHookePower', 'J2', 'Metal', 'UMAT', 'Compiled'",
+        },
     ),
 ]

@@ -12,7 +12,7 @@ from umform.deck.elastic import Elastic
 from umform.deck.hardening import Curve
 from umform.deck.parts import NotNegative, Pair, Part, Positive
 from umform.deck.rolling import RollingPart
-from umform.materials import Material, YieldFunction
+from umform.materials import Material, RateFactor, YieldFunction
 
 
 class J2(Elastic):
@@ -218,8 +218,38 @@ class Modulus(Part):
     """How fast."""
 
 
+class CowperSymonds(Part):
+    """Cowper and Symonds: 1 + (rate / reference)^(1 / exponent)."""
+
+    factor: Literal["CowperSymonds"]
+    """The word CowperSymonds."""
+    reference: Positive
+    """Plastic strain rate at which the yield stress is twice the static one."""
+    exponent: Annotated[float, Field(ge=1, le=20)]
+    """From 1 to 20."""
+
+    def build(self) -> RateFactor:
+        """The factor."""
+        return materials.CowperSymonds(self.reference, self.exponent)
+
+
+class JohnsonCook(Part):
+    """Johnson and Cook: 1 + strength ln(rate / reference), 1 below the reference rate."""
+
+    factor: Literal["JohnsonCook"]
+    """The word JohnsonCook."""
+    reference: Positive
+    """Plastic strain rate of the hardening curve."""
+    strength: Annotated[float, Field(ge=1e-3, le=1)]
+    """C."""
+
+    def build(self) -> RateFactor:
+        """The factor."""
+        return materials.JohnsonCook(self.reference, self.strength)
+
+
 class Metal(Elastic):
-    """Plasticity with a yield function, back stresses and a modulus that falls."""
+    """Plasticity with a yield function, back stresses, a modulus that falls and a rate."""
 
     law: Literal["Metal"]
     """The word Metal."""
@@ -237,6 +267,8 @@ class Metal(Elastic):
     """The same by Yoshida and Uemori."""
     modulus: Modulus | None = None
     """Fall of Young's modulus."""
+    rate: Annotated[CowperSymonds | JohnsonCook, Field(discriminator="factor")] | None = None
+    """Factor of the yield stress over the rate of the plastic strain, in the time of the steps."""
 
     @model_validator(mode="after")
     def _knows_its_directions(self) -> Metal:
@@ -254,4 +286,6 @@ class Metal(Elastic):
             parts["back_stress"] = motion.build()
         if self.modulus is not None:
             parts["modulus"] = materials.FallingModulus(**self.modulus.model_dump())
+        if self.rate is not None:
+            parts["rate"] = self.rate.build()
         return materials.Metal(**self.constants(), **parts)

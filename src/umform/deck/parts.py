@@ -38,6 +38,11 @@ def number_or_array(value: Any) -> str | None:
     return "array" if isinstance(value, list | tuple) else "number"
 
 
+def number_or_table(value: Any) -> str | None:
+    """Which of two ways to write a value was taken."""
+    return "table" if isinstance(value, dict) else "number"
+
+
 def tagged_by(key: str, other: str) -> Callable[[Any], str | None]:
     """What tells kinds of a table apart: the word of a key; or the name of another key that stands in its place."""
 
@@ -71,6 +76,7 @@ __all__ = [
     "Vector",
     "Way",
     "number_or_array",
+    "number_or_table",
     "tagged_by",
     "word_or_array",
 ]

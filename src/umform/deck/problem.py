@@ -11,8 +11,10 @@ import numpy as np
 from umform.deck.contents import Contents
 from umform.deck.controls import Rigid
 from umform.deck.errors import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey
+from umform.deck.foreign import Foreign
 from umform.deck.lines import Path
 from umform.deck.metal import J2, Metal
+from umform.deck.profiles import profile_of
 from umform.deck.rolling import direction
 from umform.deck.source import Source
 from umform.deck.steps import Named
@@ -81,12 +83,15 @@ class Problem(Solving):
         Its controls by name.
     steps : list of Step
         What happens, in a row.
+    tools : dict of str to Tool
+        Surfaces of its tools by name.
     """
 
     model: Model
     contacts: dict[str, Contact]
     controls: dict[str, Control]
     steps: list[Step]
+    tools: dict[str, Tool]
 
     def _given(self) -> tuple[Model | None, list[Step]]:
         return self.model, self.steps
@@ -131,6 +136,7 @@ class _Builder:
         supports = self._supports(model, rigid=False)
         controls = self._controls(model, contacts)
         supports |= self._supports(model, rigid=True)
+        self._rest(model)
         options = self._options(model)
         self._raise()
         steps = self._steps(Named(controls, supports, contacts))
@@ -140,6 +146,7 @@ class _Builder:
             contacts=contacts,
             controls=controls,
             steps=steps,
+            tools=tools,
             options=options,
             solver=self.solver,
             frames=self.contents.output.frames,
@@ -151,11 +158,11 @@ class _Builder:
             before = len(self.errors)
             if isinstance(part, Profiled):
                 with self._at("tools", name, "profile"):
-                    part.profile.build()
+                    profile_of(part.profile, self.source.folder)
             if len(self.errors) > before:
                 continue
             with self._at("tools", name):
-                tool = part.build()
+                tool = part.build(self.source.folder)
                 tool.kernel()
                 tools[name] = tool
         return tools
@@ -200,7 +207,7 @@ class _Builder:
         if len(self.errors) > before:
             return None
         with self._at("material"):
-            return part.build()
+            return part.build(self.source.folder) if isinstance(part, Foreign) else part.build()
         return None
 
     def _contacts(self, model: Model, tools: dict[str, Tool]) -> dict[str, Contact]:
@@ -231,11 +238,20 @@ class _Builder:
         controls: dict[str, Control] = {}
         for name, part in self.contents.controls.items():
             touched = [getattr(part, "contact", None), *getattr(part, "followers", [])]
+            touched.append(getattr(getattr(part, "gap", None), "to", None))
             if any(contact not in (None, *contacts) for contact in touched):
                 continue  # the same
             with self._at("controls", name):
                 controls[name] = part.add_to(model, name, contacts)
         return controls
+
+    def _rest(self, model: Model) -> None:
+        """Springs under a loose sheet: where a run needs them, never, or as the deck has them."""
+        rest = self.contents.solution.rest
+        model.carries_loose_sheet = rest == "auto"
+        if isinstance(rest, float) and not self.errors:
+            with self._at("solution"):
+                model.rest(rest)
 
     def _options(self, model: Model) -> NewtonOptions:
         options = NewtonOptions()

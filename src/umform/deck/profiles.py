@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path as File
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
 from umform import surfaces
-from umform.deck.parts import NotNegative, Pair, Part, number_or_array
+from umform.deck.parts import NotNegative, Pair, Part, Positive, number_or_array
 from umform.surfaces import Profile
 
 
@@ -61,8 +62,9 @@ class ByCorners(Part):
     closed: bool = True
     """The last corner is followed by the first."""
 
-    def build(self) -> Profile:
+    def build(self, folder: File = File()) -> Profile:
         """The profile."""
+        del folder
         return Profile.from_corners(self.corners, self.radii, self.closed)
 
 
@@ -74,18 +76,65 @@ class BySegments(Part):
     closed: bool = True
     """The last one ends where the first one starts."""
 
-    def build(self) -> Profile:
+    def build(self, folder: File = File()) -> Profile:
         """The profile."""
+        del folder
         return Profile([segment.build() for segment in self.segments], self.closed)
 
 
+class FromDxf(Part):
+    """The lines and arcs of a DXF drawing."""
+
+    file: Annotated[str, Field(min_length=1)]
+    """Path, from the folder of the deck."""
+    layer: str | None = None
+    """The layer with the section; by default all of the drawing is the section."""
+    solid: Literal["inside", "outside", "below", "above", "left", "right"] | None = None
+    """Where the solid is: inside or outside of a closed section, by default inside; below, above, left or right of an
+    open one, by default below."""
+    origin: Pair = (0.0, 0.0)
+    """Place of the drawing that is the origin of the section."""
+    unit: Literal["mm", "cm", "m", "um", "in", "ft"] = "mm"
+    """Unit of the model."""
+    tolerance: Positive = 1e-3
+    """Ends nearer than this are one point; arcs are no farther from ellipses and splines."""
+
+    def build(self, folder: File = File()) -> Profile:
+        """The profile."""
+        return Profile.from_dxf(
+            folder / self.file,
+            self.layer,
+            solid=self.solid,
+            origin=self.origin,
+            unit=self.unit,
+            tolerance=self.tolerance,
+        )
+
+
+_KEYS = {"corners": ByCorners, "segments": BySegments, "file": FromDxf}
+
+
 def _kind(value: Any) -> str | None:
+    if isinstance(value, str):
+        return "name"
     if isinstance(value, dict):
-        return next((key for key in ("corners", "segments") if key in value), None)
-    return "corners" if isinstance(value, ByCorners) else "segments" if isinstance(value, BySegments) else None
+        return next((key for key in _KEYS if key in value), None)
+    return next((key for key, kind in _KEYS.items() if isinstance(value, kind)), None)
 
 
 ProfilePart = Annotated[
-    Annotated[ByCorners, Tag("corners")] | Annotated[BySegments, Tag("segments")],
-    Discriminator(_kind, custom_error_type="profile", custom_error_message="a profile has corners or segments"),
+    Annotated[ByCorners, Tag("corners")]
+    | Annotated[BySegments, Tag("segments")]
+    | Annotated[FromDxf, Tag("file")]
+    | Annotated[str, Field(min_length=1), Tag("name")],
+    Discriminator(
+        _kind,
+        custom_error_type="profile",
+        custom_error_message="a profile has corners, segments or file, or is the name of a DXF file",
+    ),
 ]
+
+
+def profile_of(part: ProfilePart, folder: File) -> Profile:
+    """The profile; a name alone is that of a drawing which is the section as a whole."""
+    return (FromDxf(file=part) if isinstance(part, str) else part).build(folder)

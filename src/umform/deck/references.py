@@ -40,6 +40,8 @@ def references(data: dict[str, Any]) -> Iterator[tuple[str, str, Path]]:
             if isinstance(part, dict) and isinstance(part.get("contact"), str):
                 yield "contacts", part["contact"], (kind, name, "contact")
             if isinstance(part, dict):
+                if isinstance(other := _table(part, "gap").get("to"), str):
+                    yield "contacts", other, (kind, name, "gap", "to")
                 yield from _listed(part, "followers", "contacts", (kind, name))
     steps = data.get("steps")
     for number, step in enumerate(steps if isinstance(steps, list) else []):

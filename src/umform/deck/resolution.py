@@ -31,7 +31,7 @@ from umform.model.contact.encounter import sheet_thickness
 _ARC = {4: 12.0, 9: 24.0}
 #: False moment over the plastic one that is borne.
 _LOCKING = 0.05
-#: Highest order of the thickness strain, and the elements that have it, with E_33 tied.
+#: Order of the thickness strain above which the straight director sets the limit, and the elements for bends.
 _HIGHEST, _FOR_BENDS = 4, {"hex8": "BEND8", "hex18": "BEND18"}
 #: Points through the thickness that plastic bending needs, and sharp bends (strain above 0.1).
 _POINTS, _SHARP_POINTS, _SHARP = 5, 7, 0.1
@@ -54,7 +54,7 @@ def bends(deck: Deck, problem: Problem) -> Iterator[Finding]:
     sharpest: tuple[float, str] | None = None
     for name, part in deck.contents.contacts.items():
         tool = deck.contents.tools[part.tool]
-        radius = smallest_radius(tool)
+        radius = smallest_radius(tool, problem.tools[part.tool])
         if radius is None:
             continue
         yield element_size(problem.contacts[name], problem.model, tool, radius)
@@ -97,8 +97,9 @@ def through_thickness(model: Model, material: Plastic, h: float, radius: float, 
     """Thickness points and thickness order against the strain that the smallest radius asks for."""
     strain, layers = h / (2.0 * radius + h), layers_of(model, h)
     order, stiffness = max(model.element.thickness_order, 1), material.kappa / first_yield(material)
+    follows = min(order, _HIGHEST)
     text = f"the radius {radius:.4g} of {tool} strains a sheet of {h:.4g} by {100 * strain:.3g} %"
-    if locking_moment(order, strain, stiffness, layers) > _LOCKING:
+    if locking_moment(follows, strain, stiffness, layers) > _LOCKING:
         remedy = against_locking(model.element, strain, stiffness, layers)
         yield warning("element", f"{text}: at thickness order {order} it locks", remedy)
     else:
@@ -118,9 +119,9 @@ def against_locking(element: Element, strain: float, stiffness: float, layers: i
     """What helps: a higher order of the thickness strain if one can follow, else layers."""
     for order in range(max(element.thickness_order, 1) + 1, _HIGHEST + 1):
         if locking_moment(order, strain, stiffness, layers) <= _LOCKING:
-            tied = any(row.component == "33" for row in element.tying)
-            tie = "" if tied else " and tie_E33 = true"
-            return f"name = '{_FOR_BENDS[element.cell]}', or thickness_order = {order}{tie}"
+            if element.thickness_order == 0:
+                return f"name = '{_FOR_BENDS[element.cell]}'"
+            return f"leave thickness_order out, or give {order} or more"
     while locking_moment(_HIGHEST, strain, stiffness, layers) > _LOCKING:
         layers += 1
     return f"{layers} layers of BEND18: no order follows so sharp a bend in fewer"

@@ -27,6 +27,8 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging) -> list[
     """Write the files that the deck asks for; numbers get their names before pictures are drawn."""
     wanted, waiting, text = deck.contents.output, stage.waiting, as_run(deck)
     (waiting / COPY).write_text(text, encoding="utf-8")
+    if wanted.forming or wanted.forming_limit is not None:
+        _add_forming(result, wanted.forming_limit)
     if wanted.csv:
         result.write(waiting / "history.csv")
     if wanted.vtkhdf:
@@ -42,6 +44,14 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging) -> list[
 
         write_report(result, waiting / "report.html", deck=text, title=deck.contents.title)
     return [*files, *stage.commit(["report.html", "curve.png", "shape.png"])]
+
+
+def _add_forming(result: Result, points: list[tuple[float, float]] | None) -> None:
+    """Add the fields of forming to the frames."""
+    from umform.results.forming import LimitTable, add_forming_fields
+
+    limit = None if points is None else LimitTable(*zip(*points, strict=True))
+    add_forming_fields(result, limit)
 
 
 def as_run(deck: Deck) -> str:

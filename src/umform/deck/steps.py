@@ -83,6 +83,8 @@ class Move(Part):
     """Largest increment over the nominal one, where their number is given."""
     follow: dict[Name, Annotated[list[Pair], Field(min_length=1)]] = {}
     """More controls as tables over the first one: pairs of its value and theirs, straight lines between them."""
+    time: Positive = 1.0
+    """What the step takes: for metals with a rate, and for motions over time."""
 
     @model_validator(mode="after")
     def _one_of_both(self) -> Move:
@@ -101,6 +103,7 @@ class Move(Part):
             cuts=self.cuts,
             grow=self.grow,
             follow={named.controls[name]: table for name, table in self.follow.items()},
+            time=self.time,
         )
 
     @property
@@ -120,10 +123,12 @@ class Release(Part):
     """First increment; by default 1/1000 of the present value."""
     tolerance: Positive = 1e-6
     """Force that counts as zero, relative to that at the beginning."""
+    time: Positive = 1.0
+    """What it would take to go back to zero: for metals with a rate, and for motions over time."""
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
-        return steps.Release(named.controls[self.control], self.increment, self.tolerance)
+        return steps.Release(named.controls[self.control], self.increment, self.tolerance, self.time)
 
     @property
     def expected(self) -> int:
@@ -187,6 +192,8 @@ class Free(Part):
     """How often an increment may be halved."""
     grow: Grow = 1.0
     """Largest increment over the nominal one."""
+    time: Positive = 1.0
+    """What the step takes: for metals with a rate, and for motions over time."""
 
     @model_validator(mode="after")
     def _something(self) -> Free:
@@ -200,7 +207,7 @@ class Free(Part):
         if self.support is not None:
             things.insert(0, named.supports[self.support])
         on = None if self.on is None else named.supports[self.on]
-        return steps.Free(things, steps=self.increments, cuts=self.cuts, grow=self.grow, on=on)
+        return steps.Free(things, steps=self.increments, cuts=self.cuts, grow=self.grow, on=on, time=self.time)
 
     @property
     def expected(self) -> int:
@@ -219,10 +226,13 @@ class Close(Part):
     """Force (or moment) that it is closed with."""
     way: Positive | None = None
     """Largest way that it may go; by default its distance from the sheet and the largest extent of the sheet."""
+    time: Positive = 1.0
+    """What the step takes: for metals with a rate, and for motions over time."""
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
-        return steps.Close(named.controls[self.control], self.force, self.way)  # type: ignore[arg-type]
+        control = named.controls[self.control]
+        return steps.Close(control, self.force, self.way, self.time)  # type: ignore[arg-type]
 
     @property
     def expected(self) -> int:
@@ -255,10 +265,12 @@ class Solution(Part):
     """Start an increment from the tangent (0), or from a line (1) or a parabola (2) through the last states."""
     mixed: bool | None = None
     """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets."""
+    rest: Literal["auto", "off"] | Positive = "auto"
+    """Springs under a sheet that lies loosely at first: auto where needed, off, or their stiffness in all."""
 
     def build(self) -> NewtonOptions:
         """Options of Newton's method."""
-        return NewtonOptions(**self.model_dump(exclude={"solver"}))
+        return NewtonOptions(**self.model_dump(exclude={"solver", "rest"}))
 
 
 class Output(Part):
@@ -276,3 +288,15 @@ class Output(Part):
     """A page, report.html."""
     pictures: bool = True
     """Force over displacement as curve.png, the last shape as shape.png."""
+    forming: bool = False
+    """Strains of both skins and of the middle, thinning and wrinkling among the fields."""
+    forming_limit: list[Pair] | None = None
+    """Forming limit: logarithmic minor and major strains, the minor ones ascending; its margin is a field then."""
+
+    @model_validator(mode="after")
+    def _ascending(self) -> Output:
+        minor = [pair[0] for pair in self.forming_limit or ()]
+        if self.forming_limit is not None and (len(minor) < 2 or sorted(set(minor)) != minor):
+            text = "a forming limit has two points or more, pairs of minor and major strain, the minor ones ascending"
+            raise PydanticCustomError("forming_limit", text)
+        return self

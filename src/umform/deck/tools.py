@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from pathlib import Path as File
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -11,12 +12,14 @@ from pydantic import Field
 
 from umform import surfaces
 from umform.deck.parts import NotNegative, Part, Positive, Vector, Way
-from umform.deck.profiles import ProfilePart
+from umform.deck.profiles import ProfilePart, profile_of
 from umform.surfaces import Tool
 from umform.surfaces.directions import rotation_matrix
 
 Angle = Annotated[float, Field(gt=0, lt=180)]
 ORIGIN = (0.0, 0.0, 0.0)
+#: Sine of the angle between two segments of a section from which they make an edge.
+_EDGE = 1e-3
 
 
 class Placeable(Part):
@@ -27,25 +30,41 @@ class Placeable(Part):
     translation: Vector = ORIGIN
     """Shift after the rotation."""
 
-    def build(self) -> Tool:
-        """The tool in its place."""
-        tool = self._tool()
+    offset: float = 0.0
+    """Distance by which the tool is grown on all sides; a sheet of this thickness lies between it and the drawn one."""
+    other_side: bool = False
+    """The tool is what lies beyond this distance: the punch of a die."""
+
+    def build(self, folder: File = File()) -> Tool:
+        """The tool in its place.
+
+        Parameters
+        ----------
+        folder : Path
+            Where files are looked for.
+        """
+        tool = self._tool(folder)
+        if self.other_side:
+            tool = tool.counterpart(self.offset)
+        elif self.offset:
+            tool = tool.offset(self.offset)
         if self.rotation == ORIGIN and self.translation == ORIGIN:
             return tool
         x, y, z = (math.radians(angle) for angle in self.rotation)
         return tool.moved(self.translation, (x, y, z))
 
-    def _tool(self) -> Tool:
+    def _tool(self, folder: File) -> Tool:
+        del folder
         own = {name: getattr(self, name) for name in type(self).model_fields if name not in _NOT_OF_THE_TOOL}
         made: Tool = getattr(surfaces, type(self).__name__)(**own)
         return made
 
-    def convex_radii(self) -> Iterator[float]:
-        """Radii that a sheet may be bent around; 0 is an edge."""
+    def convex_radii(self, own: Tool) -> Iterator[float]:
+        """Radii that a sheet may be bent around, 0 at an edge, of the tool as it is without offset and place."""
         yield from ()
 
 
-_NOT_OF_THE_TOOL = ("shape", "rotation", "translation")
+_NOT_OF_THE_TOOL = ("shape", "rotation", "translation", "offset", "other_side")
 
 
 class Plane(Placeable):
@@ -73,7 +92,7 @@ class Cylinder(Placeable):
     inside: bool = False
     """The sheet lies inside of the bore."""
 
-    def convex_radii(self) -> Iterator[float]:
+    def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radius of the bar."""
         if not self.inside:
             yield self.radius
@@ -91,7 +110,7 @@ class Sphere(Placeable):
     inside: bool = False
     """The sheet lies inside of the bowl."""
 
-    def convex_radii(self) -> Iterator[float]:
+    def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radius of the ball."""
         if not self.inside:
             yield self.radius
@@ -111,7 +130,7 @@ class Torus(Placeable):
     minor: Positive
     """Radius of the section."""
 
-    def convex_radii(self) -> Iterator[float]:
+    def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radius of the section."""
         yield self.minor
 
@@ -132,7 +151,7 @@ class Box(Placeable):
     y: Way = "y"
     """Second direction, at right angles."""
 
-    def convex_radii(self) -> Iterator[float]:
+    def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radius of the edges."""
         yield self.radius
 
@@ -164,7 +183,7 @@ class VDie(Section):
     depth: Positive | None = None
     """Depth of a flat bottom."""
 
-    def convex_radii(self) -> Iterator[float]:
+    def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radius of the shoulders."""
         yield self.shoulder_radius
 
@@ -183,7 +202,7 @@ class UDie(Section):
     bottom_radius: NotNegative = 0.0
     """Radius between walls and bottom."""
 
-    def convex_radii(self) -> Iterator[float]:
+    def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radius of the shoulders."""
         yield self.shoulder_radius
 
@@ -196,7 +215,7 @@ class WipingDie(Section):
     radius: NotNegative
     """Radius of the edge."""
 
-    def convex_radii(self) -> Iterator[float]:
+    def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radius of the edge."""
         yield self.radius
 
@@ -213,7 +232,7 @@ class Punch(Section):
     width: Positive | None = None
     """Width of the body above the flanks."""
 
-    def convex_radii(self) -> Iterator[float]:
+    def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radius of the tip."""
         yield self.tip_radius
 
@@ -224,16 +243,16 @@ class Profiled(Placeable):
     profile: ProfilePart
     """Its section."""
 
-    def convex_radii(self) -> Iterator[float]:
+    def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radii of the arcs that turn to the left, and 0 if there is a sharp edge."""
-        segments = self.profile.build().segments
-        closed = self.profile.closed
+        assert isinstance(own, surfaces.Extruded | surfaces.Revolved)
+        segments, closed = own.profile.segments, own.profile.closed
         for i, segment in enumerate(segments):
             if isinstance(segment, surfaces.Arc) and not segment.clockwise:
                 yield segment.radius
             if i + 1 < len(segments) or closed:
                 one, other = segment.tangents()[1], segments[(i + 1) % len(segments)].tangents()[0]
-                if one[0] * other[1] - one[1] * other[0] > 1e-6:
+                if one[0] * other[1] - one[1] * other[0] > _EDGE:
                     yield 0.0
 
 
@@ -249,8 +268,8 @@ class Extruded(Profiled):
     y: Way = "z"
     """Second direction of the profile."""
 
-    def _tool(self) -> Tool:
-        return surfaces.Extruded(self.profile.build(), self.origin, self.x, self.y)
+    def _tool(self, folder: File) -> Tool:
+        return surfaces.Extruded(profile_of(self.profile, folder), self.origin, self.x, self.y)
 
 
 class Revolved(Profiled):
@@ -263,19 +282,57 @@ class Revolved(Profiled):
     axis: Way = "z"
     """Direction of the axis."""
 
-    def _tool(self) -> Tool:
-        return surfaces.Revolved(self.profile.build(), self.origin, self.axis)
+    def _tool(self, folder: File) -> Tool:
+        return surfaces.Revolved(profile_of(self.profile, folder), self.origin, self.axis)
+
+
+class Drawing(Placeable):
+    """The faces of a STEP or IGES file, or the triangles of an STL file."""
+
+    shape: Literal["Drawing"]
+    """The word Drawing."""
+    file: Annotated[str, Field(min_length=1)]
+    """Path, from the folder of the deck; it ends in .step, .stp, .iges, .igs or .stl."""
+    tolerance: Positive = 1e-3
+    """Largest distance of the tool from free-form faces of a STEP or IGES file."""
+    sharp: Annotated[float, Field(gt=0, lt=90)] | None = None
+    """Angle in degrees from which an edge is sharp: by default 30 between triangles of STL, 2 between faces."""
+    open: bool = False
+    """The surface may have rims; beyond them nothing is touched."""
+    scale: Positive = 1.0
+    """Factor to the unit of the model: from millimetres for STEP and IGES, from what stands in an STL file."""
+
+    def convex_radii(self, own: Tool) -> Iterator[float]:
+        """One over the largest curvature."""
+        assert isinstance(own, surfaces.CadTool | surfaces.Triangulated)
+        if own.largest_curvature > 0.0:
+            yield 1.0 / own.largest_curvature
+
+    def _tool(self, folder: File) -> Tool:
+        return surfaces.read_tool(
+            folder / self.file, tolerance=self.tolerance, sharp=self.sharp, open=self.open, scale=self.scale
+        )
 
 
 ToolPart = Annotated[
-    Plane | Cylinder | Sphere | Torus | Box | VDie | UDie | WipingDie | Punch | Extruded | Revolved,
+    Plane | Cylinder | Sphere | Torus | Box | VDie | UDie | WipingDie | Punch | Extruded | Revolved | Drawing,
     Field(discriminator="shape"),
 ]
 
 
-def smallest_radius(tool: ToolPart) -> float | None:
-    """The smallest radius that a sheet may be bent around: 0 at an edge, None of a tool without any."""
-    return min(tool.convex_radii(), default=None)
+def smallest_radius(tool: ToolPart, built: Tool) -> float | None:
+    """The smallest radius that a sheet may be bent around: 0 at an edge, None of a tool without any.
+
+    That of a tool on the other side of another one is not known.
+    """
+    if tool.other_side:
+        return None
+    own: object = built
+    while isinstance(own, surfaces.Placed | surfaces.Offset):
+        own = own.tool
+    assert isinstance(own, Tool)
+    least = min(tool.convex_radii(own), default=None)
+    return None if least is None else max(least + tool.offset, 0.0)
 
 
 def along(tool: ToolPart) -> np.ndarray[Any, np.dtype[np.float64]] | None:

@@ -7,13 +7,14 @@ from umform.elements.catalogue import (
     MITC9_IN_PLANE_SHEAR,
     MITC9_MEMBRANE,
     MITC9_SHEAR,
+    at_order,
     element,
     membrane_modes,
     thickness_modes,
-    thickness_rule,
 )
 from umform.elements.rolling import Rolling, rolling_at, rolling_directions
 from umform.elements.technology import COMPONENTS, Element, Mode, Term, Tying
+from umform.elements.through_thickness import thickness_rule
 
 __all__ = [
     "ANS_SHEAR",
@@ -28,6 +29,7 @@ __all__ = [
     "Rolling",
     "Term",
     "Tying",
+    "at_order",
     "element",
     "membrane_modes",
     "rolling_at",

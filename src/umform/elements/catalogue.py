@@ -9,13 +9,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TypedDict
+from typing import Any, TypedDict
 
-import numpy as np
-from numpy.typing import NDArray
-
-from umform import _core
 from umform.elements.technology import Element, Mode, Term, Tying
+from umform.elements.through_thickness import MOST_POINTS
 from umform.errors import InvalidValue
 
 _A = 1.0 / math.sqrt(3.0)
@@ -69,8 +66,8 @@ def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode,
     count : {0, 1, 4, 9}
         Number of modes linear in t: Büchter, Ramm & Roehl (1994) for one; {1, r, s, rs} let the distorted bending patch
         test pass; nine are the full biquadratic set.
-    order : {1, 2, 3, 4}
-        Highest Legendre polynomial in t.
+    order : int
+        Highest Legendre polynomial in t, 1 to 14.
     order_count : {1, 4, 9}
         Number of polynomials in the surface that go with P_2 ... P_order. One is enough for 8 nodes, where more change
         nothing that was measured; 18 nodes need nine in a sharp bend (docs/theory, 2.8).
@@ -79,8 +76,8 @@ def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode,
         raise InvalidValue("the number of modes of higher order must be 1, 4 or 9", value=order_count)
     if count not in (0, 1, 4, 9):
         raise InvalidValue("the number of thickness modes must be 0, 1, 4 or 9", value=count)
-    if order not in (1, 2, 3, 4):
-        raise InvalidValue("the thickness order must be 1, 2, 3 or 4", value=order)
+    if order not in range(1, MOST_POINTS):
+        raise InvalidValue(f"the thickness order must be 1 to {MOST_POINTS - 1}", value=order)
     counts = {1: count} | dict.fromkeys(range(2, order + 1), order_count)
     few: tuple[Mode, ...] = tuple(
         (Term("33", a, b, p),)
@@ -111,7 +108,6 @@ def membrane_modes(count: int) -> tuple[Mode, ...]:
 class _Bends(TypedDict):
     order: int
     tied: bool
-    plastic_points: tuple[int, str]
 
 
 # Elements ----------------------------------------------------------------------------------------------------
@@ -127,18 +123,19 @@ def _build(
     membrane: int = 0,
     order: int = 1,
     tied: bool = False,
-    plastic_points: tuple[int, str] = (5, "gauss"),
 ) -> Callable[..., Element]:
     """Element factory whose keyword arguments are the options that the literature leaves open."""
 
     def make(
         thickness_modes_count: int = thickness,
-        thickness_order: int = order,
+        thickness_order: int | None = None,
         order_modes_count: int = 9 if cell == "hex18" else 1,
         membrane_modes_count: int = membrane,
         tie_E33: bool = tied,
         compatible_E12: bool = False,
     ) -> Element:
+        complete = thickness > 0 and thickness_order is None
+        thickness_order = order if thickness_order is None else thickness_order
         _check_thickness(name, cell, thickness, thickness_modes_count, thickness_order, order_modes_count)
         if membrane == 0 and membrane_modes_count != 0:
             raise InvalidValue(f"{name} has no enhanced membrane strain", remedy="take EAS3DEAS")
@@ -156,7 +153,8 @@ def _build(
             surface_points=2 if cell == "hex8" else 3,
             thickness_order=thickness_order if thickness > 0 else 0,
             citation=citation,
-            plastic_points=plastic_points,
+            plastic_points=_SPRINGBACK if thickness > 0 else (5, "gauss"),
+            complete=complete,
             options={
                 "thickness_modes": thickness_modes_count,
                 "thickness_order": thickness_order,
@@ -193,8 +191,10 @@ def _check_thickness(name: str, cell: str, thickness: int, count: int, order: in
 
 _MITC9 = MITC9_MEMBRANE + MITC9_IN_PLANE_SHEAR + MITC9_SHEAR
 
-#: What sharp bends need; the neutral line leaves the mid-surface, so that few Gauss points miss the plastic moment.
-_BENDS: _Bends = {"order": 4, "tied": True, "plastic_points": (12, "split")}
+#: Points that find the permanent set of a mild bend (docs/theory, 2.10).
+_SPRINGBACK = (12, "graded")
+#: What sharp bends need, of an elastic law too.
+_BENDS: _Bends = {"order": 4, "tied": True}
 
 #: The catalogue: name -> factory.
 CATALOGUE: dict[str, Callable[..., Element]] = {
@@ -229,9 +229,9 @@ def element(
         A name of :data:`CATALOGUE`, or an element of your own (then without options).
     thickness_modes : {1, 4, 9}, optional
         Number of enhanced modes of E_33 linear in t; default 4 (8 nodes) or 9 (18 nodes, there only).
-    thickness_order : {1, 2, 3, 4}, optional
-        Order of the thickness strain in t; 1 is the literature, the default; 4 is for sharp bends, the default of BEND8
-        and BEND18.
+    thickness_order : int, optional
+        Order of the thickness strain in t, 1 to 14; 1 is the literature. Default: with a plastic law the complete
+        order, the number of thickness points less one; else 1, but 4 with BEND8 and BEND18.
     order_modes : {1, 4, 9}, optional
         Number of polynomials in the surface that go with each order above 1; default 1 (8 nodes) or 9 (18 nodes).
     membrane_modes : {4, 5, 7}, optional
@@ -268,25 +268,12 @@ def element(
     return CATALOGUE[name](**given)
 
 
-def thickness_rule(points: int, rule: str = "gauss") -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Abscissae and weights through the thickness on [-1, 1].
-
-    Parameters
-    ----------
-    points : int
-        2 to 15.
-    rule : {"gauss", "lobatto", "split"}
-        ``split`` puts points/2 Gauss points into each half, exact for the kink of the stress at the mid-surface.
-    """
-    if points not in range(2, 16):
-        raise InvalidValue("the number of thickness points must be a whole number from 2 to 15", value=points)
-    if rule not in ("gauss", "lobatto", "split"):
-        raise InvalidValue("unknown thickness rule", value=rule, remedy="gauss, lobatto or split")
-    if rule == "split" and points % 2:
-        raise InvalidValue(
-            "the split rule needs an even number of thickness points", value=points, remedy=f"take {points + 1}"
-        )
-    return {"gauss": _core.gauss, "lobatto": _core.lobatto, "split": _core.split}[rule](points)
+def at_order(made: Element, order: int) -> Element:
+    """An element of the catalogue at another thickness order; one with modes of its own stays as it is."""
+    known: dict[str, Any] = dict(made.options)
+    if made.name not in CATALOGUE or element(made.name, **known).modes != made.modes:
+        return made
+    return element(made.name, **(known | {"thickness_order": order}))
 
 
 __all__ = [
@@ -294,8 +281,8 @@ __all__ = [
     "Element",
     "Term",
     "Tying",
+    "at_order",
     "element",
     "membrane_modes",
     "thickness_modes",
-    "thickness_rule",
 ]

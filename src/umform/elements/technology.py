@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.polynomial import Legendre
 from numpy.typing import NDArray
 
 from umform import _core
@@ -53,8 +52,7 @@ class Term:
 
     def __call__(self, r: NDArray[np.float64], s: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
         """Value at natural coordinates."""
-        legendre: NDArray[np.float64] = Legendre.basis(self.c)(t)
-        return self.factor * r**self.a * s**self.b * legendre
+        return self.factor * r**self.a * s**self.b * _legendre(self.c, t)
 
     def mean(self) -> float:
         """Mean over the parent cube. eq. (2.12)"""
@@ -64,6 +62,14 @@ class Term:
 
 
 Mode = tuple[Term, ...]
+
+
+def _legendre(order: int, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Legendre polynomial by Bonnet's recursion; those of numpy take long to be imported."""
+    before, here = np.zeros_like(t), np.ones_like(t)
+    for n in range(order):
+        before, here = here, ((2 * n + 1) * t * here - n * before) / (n + 1)
+    return here
 
 
 @dataclass(frozen=True)
@@ -88,6 +94,8 @@ class Element:
         Where it comes from (a key of references.bib).
     plastic_points : tuple (int, str), optional
         Points through the thickness and their rule that a model takes with a plastic law if nothing is said.
+    complete : bool
+        Whether a plastic law raises the thickness order to the number of points less one, see :func:`at_order`.
 
     Examples
     --------
@@ -104,6 +112,7 @@ class Element:
     thickness_order: int = 0
     citation: str = ""
     plastic_points: tuple[int, str] = (5, "gauss")
+    complete: bool = False
     options: dict[str, object] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:

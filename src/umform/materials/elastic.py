@@ -84,7 +84,7 @@ class Elastic:
 
 
 class SVK(Elastic):
-    """St. Venant-Kirchhoff: S = lambda tr(E) 1 + 2 mu E. For small strains; it softens in strong compression.
+    """Saint Venant-Kirchhoff: S = lambda tr(E) 1 + 2 mu E. For small strains; it softens in strong compression.
 
     Examples
     --------

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+
+import numpy as np
 
 from umform import _core
 from umform.errors import InvalidValue
@@ -11,7 +14,12 @@ from umform.materials.checks import check_finite
 from umform.materials.hardening import Hardening
 from umform.materials.j2 import Plastic
 from umform.materials.material import Material
+from umform.materials.rate_factor import RateFactor
+from umform.materials.user_law import Floats
 from umform.materials.yield_functions import Mises, YieldFunction
+
+#: Largest yield stress over E.
+_LARGEST_YIELD = 0.2
 
 
 @dataclass(frozen=True)
@@ -62,6 +70,9 @@ class Metal(Plastic):
         Motion of the yield surface.
     modulus : FallingModulus, optional
         Young's modulus over the plastic strain.
+    rate : CowperSymonds or JohnsonCook, optional
+        Factor of the yield stress over the rate of the plastic strain, in the time of the steps. In no time nothing
+        flows: a model that is evaluated without a step, at the time where it stands, answers elastically.
 
     Examples
     --------
@@ -80,6 +91,7 @@ class Metal(Plastic):
     yield_function: YieldFunction = field(default_factory=Mises)
     back_stress: Chaboche | YoshidaUemori | None = None
     modulus: FallingModulus | None = None
+    rate: RateFactor | None = None
 
     def __init__(
         self,
@@ -92,6 +104,7 @@ class Metal(Plastic):
         yield_function: YieldFunction | None = None,
         back_stress: Chaboche | YoshidaUemori | None = None,
         modulus: FallingModulus | None = None,
+        rate: RateFactor | None = None,
     ) -> None:
         super().__init__(E, nu, kappa=kappa, mu=mu, hardening=hardening)
         function = Mises() if yield_function is None else yield_function
@@ -113,9 +126,12 @@ class Metal(Plastic):
             )
         if isinstance(back_stress, YoshidaUemori):
             _check_surfaces(back_stress, hardening)
+        _check_rate(rate, back_stress)
+        _check_first_yield(self)
         object.__setattr__(self, "yield_function", function)
         object.__setattr__(self, "back_stress", back_stress)
         object.__setattr__(self, "modulus", modulus)
+        object.__setattr__(self, "rate", rate)
 
     @property
     def directional(self) -> bool:
@@ -137,9 +153,63 @@ class Metal(Plastic):
             first_yield, _ = self.hardening.curve()(0.0)
             pairs, surfaces = [(back.m * back.b, back.m)], [first_yield, back.C, back.B, back.growth, back.m, back.h]
         fall, rate = (0.0, 0.0) if self.modulus is None else (1.0 - self.modulus.saturated / self.E, self.modulus.rate)
-        function = self.yield_function.function()
-        return _core.metal(
-            self.kappa, self.mu, self.hardening.curve(), function, pairs, first, growth, fall, rate, surfaces
+        function, curve = self.yield_function.function(), self.hardening.curve()
+        factor = [] if self.rate is None else [self.rate.factor()]
+        return _core.metal(self.kappa, self.mu, curve, function, pairs, first, growth, fall, rate, surfaces, *factor)
+
+    def shown(self, history: Mapping[str, Floats]) -> dict[str, Floats]:
+        """What fields show of the history: the sum of the back stresses, the surface of stagnation, the modulus.
+
+        Parameters
+        ----------
+        history : mapping of str to ndarray, shape (cells, points, size)
+            Parts of the history by their names.
+        """
+        shown: dict[str, Floats] = {}
+        moving = [values for name, values in history.items() if "back_stress" in name]
+        if moving:
+            back = shown["back_stress"] = np.sum(moving, axis=0)
+            weights = np.array([1.5, 1.5, 1.5, 3.0, 3.0, 3.0])
+            shown["back_stress_von_mises"] = np.sqrt((weights * back**2).sum(axis=-1))
+        shown |= {name: history[name] for name in ("stagnation_radius", "bounding_growth") if name in history}
+        if self.modulus is not None:
+            saturated, p = self.modulus.saturated, history["eqps"][..., 0]
+            shown["modulus"] = self.E - (self.E - saturated) * (1.0 - np.exp(-self.modulus.rate * p))
+        return shown
+
+
+def _check_rate(rate: object, back_stress: object) -> None:
+    """Refuse what is no rate factor, and one with two surfaces."""
+    if rate is None:
+        return
+    if not callable(getattr(rate, "factor", None)) or isinstance(rate, type):
+        raise InvalidValue(
+            "rate must be a rate factor",
+            where="Metal",
+            value=rate,
+            cause="a strain rate, or the name of a factor in place of one",
+            remedy="CowperSymonds(reference=40.0, exponent=5.0) or JohnsonCook(reference=1.0, strength=0.014)",
+        )
+    if isinstance(back_stress, YoshidaUemori):
+        raise InvalidValue(
+            "the yield surface of Yoshida and Uemori has a constant size: no rate",
+            where="Metal",
+            value=rate,
+            cause="a rate factor beside two surfaces",
+            remedy="Chaboche for the back stress, or no rate",
+        )
+
+
+def _check_first_yield(metal: Plastic) -> None:
+    """Refuse a metal that yields at a strain no metal knows."""
+    first, _ = metal.hardening.curve()(0.0)
+    if first > _LARGEST_YIELD * metal.E:
+        raise InvalidValue(
+            "the metal would be elastic up to a strain of more than 20 %",
+            where="Metal",
+            value=f"yield stress {first:.6g}, E={metal.E:.6g}",
+            cause="E in GPa and the yield stress in MPa",
+            remedy="both in one unit: E = 206e3 and a yield stress of 180, in MPa",
         )
 
 
@@ -192,3 +262,7 @@ class LogarithmicSpace:
     def law(self) -> _core.Material:
         """The law as the kernels take it."""
         return _core.logarithmic_space(self.small.law())
+
+    def shown(self, history: Mapping[str, Floats]) -> Mapping[str, Floats]:
+        """What fields show of the history: what the small-strain law does."""
+        return getattr(self.small, "shown", lambda history: {})(history)

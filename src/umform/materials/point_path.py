@@ -41,7 +41,14 @@ class PointPath:
     state: Floats
 
 
-def point_path(material: SmallStrainLaw, strain: ArrayLike, stress: ArrayLike, angle: float = 0.0) -> PointPath:
+def point_path(
+    material: SmallStrainLaw,
+    strain: ArrayLike,
+    stress: ArrayLike,
+    angle: float = 0.0,
+    *,
+    time: ArrayLike | None = None,
+) -> PointPath:
     """Lead a point along a path: each component has its strain prescribed, or its stress.
 
     Parameters
@@ -54,6 +61,8 @@ def point_path(material: SmallStrainLaw, strain: ArrayLike, stress: ArrayLike, a
         Stresses of the other components.
     angle : float
         Degrees from the rolling direction to axis 1 of the test, about the normal of the sheet.
+    time : array_like, shape (n,), optional
+        When each row is reached, from 0 on, for a metal with a rate.
 
     Returns
     -------
@@ -74,19 +83,25 @@ def point_path(material: SmallStrainLaw, strain: ArrayLike, stress: ArrayLike, a
             cause="components that were left out",
             remedy="NaN in strain where the stress is prescribed",
         )
+    steps = _durations(material, time, len(wanted))
     law = material.small_strain_law()
     turn = _turned(math.radians(angle))
     state, h, T = law.initial(), np.zeros(6), np.zeros(6)
     rows: list[tuple[Floats, Floats, Floats]] = []
-    for number, (target, force) in enumerate(zip(wanted, given, strict=True)):
-        h, T, state = _reach(law, turn, (h, T, state), target, force, f"row {number}")
+    for number, (target, force, step) in enumerate(zip(wanted, given, steps, strict=True)):
+        h, T, state = _reach(law, turn, (h, T, state), target, force, float(step), f"row {number}")
         rows.append((h, T, state))
     strains, stresses, states = (np.array(part) for part in zip(*rows, strict=True))
     return PointPath(strains, stresses, states)
 
 
 def tension(
-    material: SmallStrainLaw, strains: ArrayLike, angle: float = 0.0, *, component: int = 0
+    material: SmallStrainLaw,
+    strains: ArrayLike,
+    angle: float = 0.0,
+    *,
+    component: int = 0,
+    time: ArrayLike | None = None,
 ) -> tuple[Floats, Floats, Floats]:
     """Strain, stress and plastic strains (n, 6) of a bar that is pulled and pushed along the logarithmic strains given.
 
@@ -100,13 +115,39 @@ def tension(
         Degrees from the rolling direction to the bar.
     component : int
         0 to 2 for tension along axis 1 to 3; 3 for simple shear in the plane of the sheet.
+    time : array_like, shape (n,), optional
+        When each strain is reached, from 0 on, for a metal with a rate.
     """
     along = np.asarray(strains, dtype=float)
     path = np.full((len(along), 6), np.nan)
     path[:, component] = along
-    found = point_path(material, path, np.zeros_like(path), angle)
+    found = point_path(material, path, np.zeros_like(path), angle, time=time)
     plastic = found.state[:, :6] @ _turned(-math.radians(angle)).T
     return found.strain[:, component], found.stress[:, component], plastic
+
+
+def _durations(material: SmallStrainLaw, time: ArrayLike | None, rows: int) -> Floats:
+    """Time from each row to the next, shape (rows,)."""
+    if time is None:
+        if getattr(material, "rate", None) is not None:
+            raise InvalidValue(
+                "a metal with a rate needs the times of its path",
+                where="point_path",
+                value=getattr(material, "rate", None),
+                cause="a path without time",
+                remedy="time= when each row is reached, rising from above 0",
+            )
+        return np.zeros(rows)
+    steps = np.diff(np.asarray(time, dtype=float), prepend=0.0)
+    if steps.shape != (rows,) or not (steps > 0).all():
+        raise InvalidValue(
+            "times of a path must rise, one for each row",
+            where="point_path",
+            value=time,
+            cause="a first time of zero, or times of another number",
+            remedy="time= when each row is reached, rising from above 0",
+        )
+    return steps
 
 
 def _turned(angle: float) -> Floats:
@@ -126,10 +167,17 @@ State = tuple[Floats, Floats, Floats]
 
 
 def _reach(
-    law: _core.Material, turn: Floats, start: State, target: Floats, force: Floats, where: str, cuts: int = 0
+    law: _core.Material,
+    turn: Floats,
+    start: State,
+    target: Floats,
+    force: Floats,
+    step: float,
+    where: str,
+    cuts: int = 0,
 ) -> State:
     """The state at a row, in halves where Newton's method does not get there at once."""
-    found = _newton(law, turn, start, target, force)
+    found = _newton(law, turn, start, target, force, step)
     if found is not None:
         return found
     if cuts == _MOST_CUTS:
@@ -141,18 +189,20 @@ def _reach(
             remedy="prescribe the strain along the load",
         )
     h, T, _ = start
-    half = _reach(law, turn, start, 0.5 * (h + target), 0.5 * (T + force), where, cuts + 1)
-    return _reach(law, turn, half, target, force, where, cuts + 1)
+    half = _reach(law, turn, start, 0.5 * (h + target), 0.5 * (T + force), 0.5 * step, where, cuts + 1)
+    return _reach(law, turn, half, target, force, 0.5 * step, where, cuts + 1)
 
 
-def _newton(law: _core.Material, turn: Floats, start: State, target: Floats, force: Floats) -> State | None:
+def _newton(
+    law: _core.Material, turn: Floats, start: State, target: Floats, force: Floats, step: float
+) -> State | None:
     before, _, state = start
     free = np.isnan(target)
     h = np.where(free, before, target)
     smallest = math.inf
     for _ in range(_MOST_ITERATIONS):
         try:
-            T, C, after = law.respond((turn @ h)[None], state[None])
+            T, C, after = law.respond((turn @ h)[None], state[None], step=step)
         except ValueError:
             return None
         stress, tangent = turn.T @ T[0], turn.T @ C[0] @ turn

@@ -46,6 +46,11 @@ class Points:
     step: float
 
 
+def named_parts(history: Mapping[str, Floats], state: Mapping[str, int]) -> dict[str, Floats]:
+    """Parts of a history that fields show by their names; the plastic strain has fields of its own."""
+    return {name: history[name] for name in state if name != "eqps"}
+
+
 @dataclass(frozen=True)
 class UserLaw:
     """A material law from a Python function: slow (one call for each element), but ten lines to a first result.
@@ -231,6 +236,10 @@ class UserLaw:
                 remedy="take smaller steps, or widen the domain of the law",
             )
         return array
+
+    def shown(self, history: Mapping[str, Floats]) -> dict[str, Floats]:
+        """What fields show of the history: its named parts."""
+        return named_parts(history, self.state)
 
     def law(self) -> _core.Material:
         """The law as the kernels take it."""

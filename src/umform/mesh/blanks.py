@@ -27,6 +27,8 @@ def disc(
     cell: str = "hex8",
     layers: int = 1,
     grading: float = 1.0,
+    core: float = _CORE,
+    radii: Sequence[float] | None = None,
 ) -> Mesh:
     """Flat disc about the z-axis, mid-surface at z = 0: a square core in the middle, rings of elements around it.
 
@@ -45,6 +47,10 @@ def disc(
         Elements stacked through the thickness.
     grading : float
         Size of the last element over that of the first one, from the core to the rim.
+    core : float
+        Half of the side of the core, over the radius.
+    radii : sequence of float, optional
+        Radii of the rings in place of the second number of cells and the grading: from ``core * radius`` to ``radius``.
 
     Returns
     -------
@@ -58,14 +64,16 @@ def disc(
         If a number is out of range.
     """
     _check(part, cells, layers, radius=radius, thickness=thickness)
-    core, rings = cells
-    order = _order(cell)
-    square = np.linspace(0.0, 1.0, core * order + 1)
+    if not 0.05 <= core <= 0.75:
+        raise InvalidValue("the core of a disc takes 0.05 to 0.75 of its radius", value=core, remedy="0.5 is usual")
+    sides, rings = cells
+    order = order_of(cell)
+    square = np.linspace(0.0, 1.0, sides * order + 1)
     u, v = np.meshgrid(square, square, indexing="ij")
     round_ = np.stack([u * np.sqrt(1.0 - 0.5 * v * v), v * np.sqrt(1.0 - 0.5 * u * u)], axis=-1)
     straight = np.stack([u, v], axis=-1) / math.sqrt(2.0) * 1.15
-    middle = _CORE * radius * (_BULGE * round_ + (1.0 - _BULGE) * straight)
-    out = _along(1.0, rings, grading, order)
+    middle = core * radius * (_BULGE * round_ + (1.0 - _BULGE) * straight)
+    out = _along(1.0, rings, grading, order) if radii is None else _parts_of(radii, core * radius, radius, order)
     patches = [middle]
     for edge, angles in ((middle[-1], 0.25 * math.pi * square), (middle[::-1, -1], 0.25 * math.pi * (1.0 + square))):
         arc = radius * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
@@ -73,7 +81,7 @@ def disc(
     points, quads = _joined(patches, part, order, 1e-9 * radius)
     far = np.hypot(*points.T)
     sets = {"rim": far > radius * (1 - 1e-9), "centre": far < radius * 1e-9}
-    return _stacked(points, quads, thickness, layers, sets | _symmetry(points, part, 1e-9 * radius), cell)
+    return stacked(points, quads, thickness, layers, sets | _symmetry(points, part, 1e-9 * radius), cell)
 
 
 def ring(
@@ -112,20 +120,36 @@ def ring(
     if not inner < outer:
         raise InvalidValue("the outer radius of a ring is larger than the inner one", value=f"{inner:g}, {outer:g}")
     around, rings = cells
-    order = _order(cell)
+    order = order_of(cell)
     angles = np.linspace(0.0, 0.5 * math.pi, around * order + 1)
     radii = inner + _along(outer - inner, rings, grading, order)
     arcs = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     points, quads = _joined([radii[:, None, None] * arcs[None]], part, order, 1e-9 * outer)
     far = np.hypot(*points.T)
     sets = {"rim": far > outer * (1 - 1e-9), "hole": far < inner * (1 + 1e-9)}
-    return _stacked(points, quads, thickness, layers, sets | _symmetry(points, part, 1e-9 * outer), cell)
+    return stacked(points, quads, thickness, layers, sets | _symmetry(points, part, 1e-9 * outer), cell)
 
 
 def _along(length: float, cells: int, grading: float, order: int) -> Floats:
     """Nodes on a graded line from 0 on; middle nodes of 18-node cells lie half-way."""
     ends = graded(length, cells, grading)
     return ends if order == 1 else np.sort(np.concatenate([ends, 0.5 * (ends[1:] + ends[:-1])]))
+
+
+def _parts_of(radii: Sequence[float], first: float, last: float, order: int) -> Floats:
+    """Radii of rings as parts of the way from the core to the rim, with middle nodes half-way."""
+    given = np.asarray(radii, dtype=float)
+    ends = np.ptp(given) if given.ndim == 1 and len(given) > 1 else 0.0
+    if not ends > 0 or (np.diff(given) <= 0).any() or np.abs(given[[0, -1]] - (first, last)).max() > 1e-6 * last:
+        raise InvalidValue(
+            "radii of rings ascend from the core to the rim",
+            where="disc, radii",
+            value=radii,
+            cause="another core, or radii that are not sorted",
+            remedy=f"from {first:g} to {last:g}",
+        )
+    parts = (given - given[0]) / ends
+    return parts if order == 1 else np.sort(np.concatenate([parts, 0.5 * (parts[1:] + parts[:-1])]))
 
 
 def _joined(patches: Sequence[Floats], part: str, order: int, tolerance: float) -> tuple[Floats, Whole]:
@@ -156,7 +180,7 @@ def _symmetry(points: Floats, part: str, tolerance: float) -> dict[str, NDArray[
     return {} if part == "whole" else {"x0": on["x0"]} if part == "half" else on
 
 
-def _stacked(
+def stacked(
     points: Floats, quads: Whole, thickness: float, layers: int, sets: Mapping[str, NDArray[np.bool_]], cell: str
 ) -> Mesh:
     """Layers of cells above each other."""
@@ -172,7 +196,8 @@ def _stacked(
     return Mesh(nodes, {cell: cells}, named, outer_faces(cells))
 
 
-def _order(cell: str) -> int:
+def order_of(cell: str) -> int:
+    """Order of the sides of a cell type."""
     if cell not in ("hex8", "hex18"):
         raise WrongCellType("unknown cell type", value=cell, remedy="hex8 or hex18")
     return 1 if cell == "hex8" else 2

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from umform.errors import InvalidValue, WrongCellType
 from umform.mesh.mesh import FACE_NODES, Floats, Mesh
+from umform.mesh.numbers import common
 
 
 def graded(length: float, cells: int, ratio: float = 1.0) -> Floats:
@@ -84,7 +85,7 @@ def grid(x: ArrayLike, y: ArrayLike, z: ArrayLike, cell: str = "hex8") -> Mesh:
     sets = {name: ids.ravel() for name, ids in planes.items()}
     for name in ("x0", "x1", "y0", "y1"):
         for side in ("lower", "upper"):
-            sets[f"{name}_{side}"] = np.intersect1d(sets[name], sets[side])
+            sets[f"{name}_{side}"] = common(sets[name], sets[side])
     where = {
         "x0": (ix == 0, 2),
         "x1": (ix == ix.max(), 3),

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import EmptySet, InvalidValue, NotFinite, UnknownSet, WrongCellType
+from umform.mesh.numbers import unique
 from umform.mesh.quality import check_cells
 
 Floats = NDArray[np.float64]
@@ -115,7 +116,7 @@ class Mesh:
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "cells", {name: cells})
         object.__setattr__(
-            self, "sets", {key: np.unique(np.asarray(ids, dtype=np.int32)) for key, ids in self.sets.items()}
+            self, "sets", {key: unique(np.asarray(ids, dtype=np.int32)) for key, ids in self.sets.items()}
         )
         object.__setattr__(
             self, "faces", {key: np.asarray(rows, dtype=np.int32).reshape(-1, 2) for key, rows in self.faces.items()}
@@ -159,13 +160,13 @@ class Mesh:
             if selector in self.sets:
                 ids = np.asarray(self.sets[selector], dtype=np.int32)
             elif selector in self.faces:
-                ids = np.unique(np.concatenate([self._face_nodes(face) for face in self.faces[selector]]))
+                ids = unique(np.concatenate([self._face_nodes(face) for face in self.faces[selector]]))
             else:
                 raise _unknown("node", selector, [*self.sets, *self.faces])
         elif callable(selector):
             ids = np.flatnonzero(np.asarray(selector(*self.points.T), dtype=bool)).astype(np.int32)
         else:
-            ids = np.unique(_as_ids(selector, len(self.points)))
+            ids = unique(_as_ids(selector, len(self.points)))
         if len(ids) == 0:
             raise EmptySet(
                 "a set selects no node",

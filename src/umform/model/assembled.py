@@ -133,8 +133,9 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
 
     @cached_property
     def extent(self) -> float:
-        """Largest extent of the undeformed body along an axis."""
-        return self.ranks.max(float(np.ptp(self.mesh.points, axis=0).max()))
+        """Largest extent of the undeformed body along an axis, over all ranks."""
+        points, ranks = self.mesh.points, self.ranks
+        return max(ranks.max(float(points[:, k].max())) + ranks.max(-float(points[:, k].min())) for k in range(3))
 
     @property
     def free(self) -> NDArray[np.int64]:

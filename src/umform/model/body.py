@@ -21,6 +21,7 @@ from umform.model.control import Twins
 from umform.model.cut import Cut
 from umform.model.elsewhere import not_here
 from umform.model.term import At, Energies, Found, Into, Term, Tree
+from umform.model.through_thickness import completed, points_through
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -61,10 +62,10 @@ class Body(Term):
     name : str
         For messages and fields.
     thickness_points : int, optional
-        Points through the thickness, 2 to 15, at least thickness_order + 1. Default: 2 with an elastic law; 5 with a
-        plastic one, but 12 with BEND8 and BEND18.
-    thickness_rule : {"gauss", "lobatto", "split"}, optional
-        Where they lie; default gauss, but split where the default of the points is 12.
+        Points through the thickness, 2 to 15, at least thickness_order + 1. Default: 2 with an elastic law, 12 with a
+        plastic one; the elements without an enhanced thickness strain have 5.
+    thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
+        Where they lie; default gauss, but graded where the 12 points are the default.
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional
         Rolling direction of the sheet, or that of each cell, or a function of the coordinates x, y, z of the centres of
         the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of the local axes is its projection onto
@@ -104,7 +105,7 @@ class Body(Term):
         **options: int | bool | None,
     ) -> None:
         self.name = name
-        self.element = catalogue_element(element, **options)  # type: ignore[arg-type]
+        made = catalogue_element(element, **options)  # type: ignore[arg-type]
         if not isinstance(material, Material) or isinstance(material, type):
             raise InvalidValue(
                 "material must be a material law",
@@ -120,7 +121,9 @@ class Body(Term):
                 cause="its yield function differs along and across the rolling direction",
                 remedy="rolling=(1, 0, 0), one vector for each cell, or umform.rolling_at(45) to a bend line",
             )
-        self.thickness_points, self.thickness_rule = self._through_thickness(thickness_points, thickness_rule)
+        through = points_through(made, material, thickness_points, thickness_rule)
+        self.thickness_points, self.thickness_rule = through
+        self.element = completed(made, material, self.thickness_points)
         least = self.element.thickness_order + 1
         if self.thickness_points < least:
             raise InvalidValue(
@@ -134,14 +137,6 @@ class Body(Term):
         self._selection, self._given_rolling = cells, rolling
         self.elsewhere = False
         self.before = np.empty(0)
-
-    def _through_thickness(self, points: int | None, rule: str | None) -> tuple[int, str]:
-        """Points through the thickness and their rule: what is given, else what law and element want."""
-        plastic = self.material.thickness_points > 2
-        wanted, wanted_rule = self.element.plastic_points if plastic else (2, "gauss")
-        if points is not None:
-            return points, rule or "gauss"
-        return max(wanted, self.material.thickness_points, self.element.thickness_order + 1), rule or wanted_rule
 
     def on(self, mesh: Mesh) -> Self:
         """Stand on the cells of a mesh.
@@ -226,8 +221,21 @@ class Body(Term):
         product = None if at.du is None else into.predictor
         scatter, self.block.step = into.scatters[self][0], at.step
         failed, scale, failure = self.block.evaluate(at.u, scatter, into.residual, into.values, at.du, product)
-        failed = failed if failed < 0 else int(self.cells[failed])
+        if failed >= 0:
+            failed, failure = int(self.cells[failed]), failure + self._at_point(failed, at.u)
         return BodyFound(scale, failed=failed, failure=failure, flows=self.block.flowing)
+
+    def _at_point(self, cell: int, u: Floats) -> str:
+        """Where in a cell its law has no answer, in words; nothing if it has failed for another reason."""
+        point, E = self.block.failing_point(cell, u)
+        if point < 0:
+            return ""
+        names = list(self.block.state_names)
+        text = f" at its point {point} with the strain ({', '.join(f'{value:.4g}' for value in E)})"
+        if "eqps" not in names:
+            return text
+        place = sum(size for name, size in self.block.state_names.items() if names.index(name) < names.index("eqps"))
+        return f"{text}, plastic strain {self.block.state[cell, point, place]:.4g}"
 
     def recover(self, du: Floats, mixed: bool) -> None:
         """Update the enhanced parameters. eq. (2.19)"""

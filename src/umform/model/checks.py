@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from umform.errors import ModelError, RigidBodyMotion, ToolSwallowsSheet
 from umform.mesh import Mesh
+from umform.mesh.numbers import median
 from umform.model import forces
 from umform.model.contact import Contact, ContactFound
 from umform.model.evaluated import Evaluated
@@ -34,7 +35,9 @@ def check_model(model: Evaluated) -> None:
 
 def check_nodes(mesh: Mesh) -> None:
     """Refuse nodes without a cell."""
-    unused = np.setdiff1d(np.arange(len(mesh.points)), mesh.connectivity)
+    used = np.zeros(len(mesh.points), dtype=bool)
+    used[mesh.connectivity] = True
+    unused = np.flatnonzero(~used)
     if len(unused):
         raise RigidBodyMotion(
             "a node belongs to no cell, so nothing holds it",
@@ -61,13 +64,38 @@ def check_held(model: Evaluated) -> None:
     model.ranks.agree(problem)
     free = free_motions(model, touched)
     if free:
+        for_good = free_in_touch(model)
         raise RigidBodyMotion(
             f"the sheet can move as a rigid whole in {len(free)} way{'s' if len(free) > 1 else ''}",
             value="free: " + "; ".join(free),
-            cause="too few supports, or a tool that does not touch the sheet yet",
+            cause="too few supports: tools that touch would leave free " + "; ".join(for_good)
+            if for_good
+            else "a tool that does not touch the sheet yet, and that no step moves, or springs that are switched off",
             remedy="hold the sheet with fix(), symmetry(), hinge() or prescribe(), let a tool overlap it by a hair, "
             "or rest() it on springs until tools hold it",
         )
+
+
+def free_now(model: Evaluated) -> list[str]:
+    """Rigid-body motions that supports, tools in touch and springs leave free at the present state, in words.
+
+    Raises
+    ------
+    ToolSwallowsSheet
+        If a tool overlaps the sheet by more than half of its thickness.
+    """
+    return free_motions(model, [*_touching(model), *_sprung(model)])
+
+
+def free_in_touch(model: Evaluated) -> list[str]:
+    """Rigid-body motions that would be free if all contact points touched, in words."""
+    pairs = [pair for pair in model.contacts if len(pair.facets) > 0 and not pair.tool.open]
+    held = []
+    for pair in pairs:
+        at = pair.locate(model.u, pair.pose)
+        known = np.isfinite(at.normal).all(axis=1)
+        held += _directions(pair, at.x[known], at.normal[known])
+    return free_motions(model, [*held, *_sprung(model)])
 
 
 def free_motions(model: Evaluated, touched: Sequence[tuple[Floats, Floats]] = ()) -> list[str]:
@@ -154,7 +182,7 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
     mesh = model.mesh
     half = len(mesh.connectivity[0]) // 2
     directors = mesh.points[mesh.connectivity[:, half:]] - mesh.points[mesh.connectivity[:, :half]]
-    thickness = float(np.median(np.linalg.norm(directors, axis=-1)))
+    thickness = median(np.linalg.norm(directors, axis=-1))
     for contact in model.contacts:
         if len(contact.facets) == 0 or contact.tool.open:
             continue
@@ -181,13 +209,15 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
 
 
 def _held_by(contact: Contact, at: ContactFound) -> Iterator[tuple[Floats, Floats]]:
-    """Positions of the points that a tool holds, and the directions: the normals, with friction all."""
-    x = at.x[at.active]
+    """Positions of the points that a tool holds, and the directions in which it does."""
+    yield from _directions(contact, at.x[at.active], at.normal[at.active])
+
+
+def _directions(contact: Contact, x: Floats, normals: Floats) -> list[tuple[Floats, Floats]]:
+    """Points of a tool with the directions in which it holds them: the normals, with friction all."""
     if contact.friction is None:
-        yield x, at.normal[at.active]
-        return
-    for direction in np.eye(3):
-        yield x, np.broadcast_to(direction, x.shape)
+        return [(x, normals)]
+    return [(x, np.broadcast_to(direction, x.shape)) for direction in np.eye(3)]
 
 
 def _motion_along(x: Floats, n: Floats, centre: Floats, size: float) -> Floats:

@@ -29,7 +29,7 @@ class Evaluated(Assembled):
 
     def __init__(self, mesh: Mesh) -> None:
         super().__init__(mesh)
-        self._evaluations, self._converged_time = 0, 0.0
+        self._evaluations, self._converged_time, self._began = 0, 0.0, 0.0
 
     def evaluate(
         self,

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,6 +89,12 @@ class Evaluation:
         """1 for each point of the material whose history the evaluation has changed, else 0."""
         joined: NDArray[np.uint8] = _joined([found.flowing for found in self.found.values()], np.dtype(np.uint8))
         return joined
+
+    def without_tangent(self) -> Self:
+        """The same without the entries of the tangent, whose memory the next one may take."""
+        bare = copy(self)
+        object.__setattr__(bare, "values", np.empty(0))
+        return bare
 
     def at_points(self, chosen: NDArray[np.bool_]) -> str:
         """Where some of the contact points are, in words for a message: ": 3 points of die, one near (12, 0, 0.5)".

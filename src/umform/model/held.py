@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.mesh import Ids, Mesh
+from umform.mesh.numbers import common
 from umform.model.constraints import Groups, Rows
 from umform.model.control import Control, OnDofs, Prescribed
 from umform.model.controls import Controlled
@@ -53,6 +54,11 @@ class Held(Controlled):
     def all_supports(self) -> list[Support]:
         """The supports, also those that have been removed and may be put back."""
         return [holder for holder in self._holders if holder.control is None]
+
+    @property
+    def holders(self) -> list[Support]:
+        """All that holds nodes: supports and what belongs to controls, also those that have been removed."""
+        return self._holders
 
     def hold_again(self) -> None:
         """Let the supports act as they stand, after one of them has been removed, put back or moved."""
@@ -208,7 +214,7 @@ class Held(Controlled):
 def refuse_twice(dofs: Ids, direction: str, taken: Mapping[str, Ids], by: str) -> None:
     """Refuse degrees of freedom that another support holds already."""
     for other, theirs in taken.items():
-        shared = np.intersect1d(dofs, theirs)
+        shared = common(dofs, theirs)
         if len(shared):
             raise _twice(int(shared[0]) // 3, direction, other, by)
 

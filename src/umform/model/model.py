@@ -11,18 +11,21 @@ from umform.elements import Element, Rolling
 from umform.errors import InvalidValue
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
+from umform.mesh.numbers import unique
 from umform.model import removal
 from umform.model.body import Body
 from umform.model.checks import check_model
 from umform.model.contact import Contact
 from umform.model.dead_load import Load
 from umform.model.gauge import gauge_dofs
+from umform.model.kept_gap import stop_at_gap
 from umform.model.opening import put_tool_back
 from umform.model.press import check_stiffness
 from umform.model.rest import Rest
 from umform.model.standing import Standing
 from umform.model.support import Support
 from umform.model.tool import Tool
+from umform.model.tool_controls import ToolForce
 
 
 class Model(Standing):
@@ -39,10 +42,10 @@ class Model(Standing):
     bodies : sequence of Body, optional
         Several bodies instead of element and material: each cell belongs to one.
     thickness_points : int, optional
-        Points through the thickness, 2 to 15, at least thickness_order + 1. Default: 2 with an elastic law; 5 with a
-        plastic one, but 12 with BEND8 and BEND18.
-    thickness_rule : {"gauss", "lobatto", "split"}, optional
-        Where they lie; default gauss, but split where the default of the points is 12.
+        Points through the thickness, 2 to 15, at least thickness_order + 1. Default: 2 with an elastic law, 12 with a
+        plastic one; the elements without an enhanced thickness strain have 5.
+    thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
+        Where they lie; default gauss, but graded where the 12 points are the default.
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional
         Rolling direction of the sheet, or that of each cell, or a function of the coordinates x, y, z of the centres of
         the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of the local axes is its projection onto
@@ -59,6 +62,11 @@ class Model(Standing):
     InvalidValue
         If an option does not fit.
 
+    Attributes
+    ----------
+    carries_loose_sheet : bool
+        Whether a run lets a sheet that nothing holds yet rest on springs until tools hold it, see :meth:`rest`.
+
     Examples
     --------
     >>> import umform as uf
@@ -70,6 +78,8 @@ class Model(Standing):
     >>> cylinder = model.contact("lower", uf.Cylinder(centre=(25, 0, -20.5), axis="y", radius=20), name="cylinder")
     >>> steps = [uf.Move(punch, to=-15.0, steps=60), uf.Release(punch)]  # for uf.solve
     """
+
+    carries_loose_sheet = True
 
     def __init__(
         self,
@@ -151,10 +161,13 @@ class Model(Standing):
         everything = isinstance(nodes, str) and nodes == "all"
         ids = np.arange(len(self.mesh.points), dtype=np.int32) if everything else self.mesh.nodes(nodes)
         dofs = gauge_dofs(self, ids)
-        return self.wait(np.unique(dofs // 3).astype(np.int32), dofs, name)
+        return self.wait(unique(dofs // 3).astype(np.int32), dofs, name)
 
-    def rest(self, stiffness: float | None = None, name: str = "rest") -> Rest:
+    def rest(self, stiffness: float | None = None, name: str = "rest", *, motions: str = "") -> Rest:
         """Let a sheet that nothing holds yet rest on weak springs, which let go for good once tools hold it.
+
+        A run does so by itself, with the default, where tools that its steps move will hold the sheet; set
+        :attr:`carries_loose_sheet` to False to have such a model refused instead.
 
         Parameters
         ----------
@@ -163,13 +176,39 @@ class Model(Standing):
         name : str
             Columns of the history: ``<name>_energy`` and ``<name>_acts``. A run warns if the springs still act at its
             end, or if their energy is more than 1e-6 of the work.
+        motions : str
+            For the note of a run: the rigid-body motions that it has put the springs there for by itself.
         """
         if stiffness is None:
             stiffness = 1e-12 * self.largest_entry(self.evaluate(self.x).values)
         check_stiffness(stiffness, 0.0, f"rest {name}", "displacement")
-        term = Rest(name, self.u, stiffness)
+        term = Rest(name, self.u, stiffness, motions)
         self.add(term)
         return term
+
+    def keep_gap(self, force: ToolForce, to: Contact | Tool, gap: float) -> None:
+        """Let a pressed tool keep a gap to another one: it lies on rigid distance blocks, and its force is the largest.
+
+        What the blocks bear is the column ``<name>_stop``: with the force of the sheet on the tool it balances the
+        press. Where the sheet pushes harder than the press, the tool lifts off the blocks under the force of the press.
+
+        Parameters
+        ----------
+        force : ToolForce
+            What :meth:`press` or :meth:`spring` returned for the tool.
+        to : Tool or Contact
+            The other tool, or a pair that touches it; the tool that is pressed follows its ways, see :meth:`attach`.
+        gap : float
+            Least distance of both, measured where they face each other across the sheet.
+
+        Raises
+        ------
+        InvalidValue
+            If the tools do not face each other, are nearer already, or move apart from each other.
+        """
+        other = to if isinstance(to, Tool) else to.tool
+        at, below = stop_at_gap(self, self.press_of(force), other, gap)
+        self.stop(force, at, below=below)
 
     def check(self) -> None:
         """Refuse what cannot be solved before time is spent on it, see :func:`umform.model.checks.check_model`."""

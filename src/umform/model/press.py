@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,14 +15,14 @@ from umform.model.tool_controls import ToolForce, ToolWay
 
 @dataclass(frozen=True)
 class Stop:
-    """Something elastic that a tool comes to lie on: distance blocks, the end of a spring.
+    """Something that a tool comes to lie on: distance blocks, the end of a spring.
 
     Attributes
     ----------
     at : float
         The way at which the tool meets it.
     stiffness : float
-        Force per length beyond.
+        Force per length beyond; infinite for a rigid stop, which the way cannot pass.
     side : float
         1 if it keeps the way from growing, -1 from falling.
     """
@@ -30,9 +31,14 @@ class Stop:
     stiffness: float
     side: float
 
+    @property
+    def rigid(self) -> bool:
+        """Whether the way cannot pass it."""
+        return math.isinf(self.stiffness)
+
     def push(self, way: float) -> tuple[float, float]:
         """Force on the tool along its way, and minus its derivative."""
-        beyond = self.side * (way - self.at)
+        beyond = 0.0 if self.rigid else self.side * (way - self.at)
         return (-self.side * self.stiffness * beyond, self.stiffness) if beyond > 0.0 else (0.0, 0.0)
 
 
@@ -77,6 +83,40 @@ class Press:
         pushes = [stop.push(way) for stop in self.stops]
         force = self.stiffness * (way - self.free) - sum(push for push, _ in pushes) - sheet
         return force, self.stiffness + sum(slope for _, slope in pushes)
+
+    @property
+    def rigid(self) -> bool:
+        """Whether one of its stops is."""
+        return any(stop.rigid for stop in self.stops)
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Least and largest way that rigid stops allow."""
+        rigid = [stop for stop in self.stops if stop.rigid]
+        least = max((stop.at for stop in rigid if stop.side < 0.0), default=-math.inf)
+        return least, min((stop.at for stop in rigid if stop.side > 0.0), default=math.inf)
+
+    def room(self, sense: float) -> float:
+        """Way to the rigid stop ahead, in the sense +1 or -1; infinite where there is none."""
+        least, largest = self.bounds
+        return largest - self.way.value if sense > 0.0 else self.way.value - least
+
+    def bearing(self, way: float, rest: float, measure: float) -> float | None:
+        """Way of the rigid stop that bears the tool; None where forces alone balance it. eq. (4.140)
+
+        Parameters
+        ----------
+        way : float
+            Value of the way.
+        rest : float
+            What the other forces leave: the force that a stop would have to exert on the tool along the way.
+        measure : float
+            A stiffness by which ways and forces are compared; equilibria do not depend on it.
+        """
+        least, largest = self.bounds
+        if measure * (way - least) <= rest:
+            return least
+        return largest if measure * (way - largest) >= rest else None
 
     def twin(self, twins: Twins) -> Press:
         """The same of the twins of its controls."""

@@ -123,12 +123,13 @@ def put_supports(model: Evaluated, states: Mapping[str, Any]) -> None:
         state = states[support.name]
         base, removed = state["base"], bool(state["removed"])
         if support.load is not None:
-            support.load.vector = np.array(state["vector"])
+            vector = state["vector"]  # not known on other ranks than the first one
+            support.load.vector = np.full_like(model.u, np.nan) if vector is None else np.array(vector)
         if support.removed == removed and _same(support.base, base):
             continue
         changed, support.removed = True, removed
         support.hold_at(base)
-    if changed:
+    if model.ranks.any(changed):
         model.hold_again()
 
 
@@ -170,4 +171,6 @@ def _remove_contact(model: Evaluated, contact: Contact) -> Load:
 def unbalanced(model: Evaluated) -> NDArray[np.float64]:
     """Forces on the unknowns that nothing in the model balances at its present state."""
     residual: NDArray[np.float64] = model.extend(model.restrict(model.evaluate(model.x).residual))
-    return residual[: model.u.size]
+    forces = np.zeros((model.u.size // 3, 3))
+    forces[model.owned] = residual[: model.u.size].reshape(-1, 3)[model.owned]  # of a node on several ranks once
+    return forces.ravel()

@@ -31,11 +31,14 @@ class Rest(NodalTerm):
         Displacement at which they have no force.
     stiffness : float
         Force per length of all springs together.
+    motions : str
+        Rigid-body motions that made a run put the springs there by itself; empty if the user did.
     """
 
     each_node = ("origin",)
 
-    def __init__(self, name: str, u: Floats, stiffness: float) -> None:
+    def __init__(self, name: str, u: Floats, stiffness: float, motions: str = "") -> None:
+        self.motions = motions
         self.origin = u.reshape(-1, 3).copy()
         super().__init__(name, np.arange(len(self.origin), dtype=np.int32), history=2)  # let go, energy then
         self.each = stiffness / len(self.origin)

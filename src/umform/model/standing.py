@@ -26,7 +26,7 @@ class Standing(Evaluated):
             unknown.value = float(value)
         for term in self.terms:
             term.commit(evaluation.found[term])
-        self.u, self._converged_time = evaluation.u.copy(), evaluation.time
+        self.u, self._began, self._converged_time = evaluation.u.copy(), self._converged_time, evaluation.time
         for term in self.others:
             term.settled(self, evaluation)
 
@@ -57,6 +57,7 @@ class Standing(Evaluated):
         for term in self.terms:
             if term.key in before:
                 term.go_back(before[term.key])
+        self._converged_time = self._began  # the time that the increment took, which laws with a rate see
         evaluation = self.evaluate(self.x)
         self.commit(evaluation)
         return evaluation
@@ -76,12 +77,14 @@ class Standing(Evaluated):
             {unknown.name: unknown.value for unknown in self.unknowns},
             {key: tree for key, tree in states.items() if tree},
             removal.states_of_supports(self),
+            self._began,
         )
 
     def restore(self, snapshot: Snapshot) -> None:
         """Go back to a snapshot."""
         removal.put_supports(self, snapshot.supports)
         self.u, self.time, self._converged_time = snapshot.u.copy(), snapshot.time, snapshot.time
+        self._began = snapshot.began
         for control in self.controls:
             control.value = snapshot.controls.get(control.name, 0.0)
         for unknown in self.unknowns:

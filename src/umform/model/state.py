@@ -22,8 +22,8 @@ class Snapshot:
     ----------
     u : ndarray, shape (3 n,)
         Displacement.
-    time : float
-        Time.
+    time, began : float
+        Time, and that at which its increment began.
     controls : dict of str to float
         Value of each control, by its name.
     unknowns : dict of str to float
@@ -40,3 +40,4 @@ class Snapshot:
     unknowns: dict[str, float] = field(default_factory=dict)
     terms: dict[str, Tree] = field(default_factory=dict)
     supports: dict[str, Tree] = field(default_factory=dict)
+    began: float = 0.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +13,8 @@ from umform.errors import InvalidValue
 from umform.mesh import Ids
 from umform.model.axes import Axes, directions_at, unit_normals
 from umform.model.constraints import Rows
-from umform.model.control import Control
+from umform.model.control import Control, Twins
+from umform.model.cut import Cut
 from umform.model.dead_load import Load
 from umform.model.forces import DIRECTIONS
 from umform.model.ties import MidLine, Tie
@@ -22,6 +24,10 @@ Floats = NDArray[np.float64]
 
 def _no_dofs() -> Ids:
     return np.empty(0, dtype=np.int32)
+
+
+def _no_pairs() -> Ids:
+    return np.empty((0, 2), dtype=np.int32)
 
 
 @dataclass(eq=False)
@@ -75,11 +81,40 @@ class Support:
         self.ties = [replace(tie, offsets=None if base is None else base[tie.dofs].mean(axis=1)) for tie in self.ties]
         self.rows = [replace(part, offsets=_offsets(part.dofs, part.weights, base)) for part in self.rows]
 
+    # Ranks ---------------------------------------------------------------------------------------------------
+
+    def strip(self, bare: Any, twins: Twins) -> None:
+        """Without nodes, and with the twins of its controls."""
+        bare.nodes, bare.held, bare.base = _no_dofs(), _no_dofs(), None
+        bare.ties = [Tie(_no_pairs(), _twin(tie.control, twins)) for tie in self.ties]
+        bare.control, bare.load = _twin(self.control, twins), _twin(self.load, twins)
+
+    def piece(self, cut: Cut) -> dict[str, Any]:
+        """Nodes, degrees of freedom and pairs of the rank, and the displacement that it holds them at."""
+        nodes, held = cut.node[self.nodes], cut.dofs(self.held)
+        known = [(cut.node[tie.dofs // 3] >= 0).all(axis=1) for tie in self.ties]
+        ties = [
+            (cut.dofs(tie.dofs[here]), None if tie.offsets is None else tie.offsets[here])
+            for tie, here in zip(self.ties, known, strict=True)
+        ]
+        base = None if self.base is None else self.base.reshape(-1, 3)[cut.nodes].ravel()
+        return {"nodes": nodes[nodes >= 0], "held": held[held >= 0], "ties": ties, "base": base}
+
+    def fill(self, piece: dict[str, Any], mesh: Any) -> None:
+        """Take them."""
+        self.nodes, self.held, self.base = piece["nodes"], piece["held"], piece["base"]
+        own = zip(piece["ties"], self.ties, strict=True)
+        self.ties = [Tie(dofs, tie.control, offsets) for (dofs, offsets), tie in own]
+
     def __repr__(self) -> str:
         return f"Support({self.name!r}, {self.kind} {self.directions}, {len(self.nodes)} nodes)"
 
     def __str__(self) -> str:
         return self.name
+
+
+def _twin(thing: Any, twins: Twins) -> Any:
+    return None if thing is None else twins.of(thing)
 
 
 def direction_number(name: str) -> int:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform.mesh import Selector
+from umform.mesh.numbers import unique
 from umform.model.axes import GLOBAL, Axes
 from umform.model.control import Prescribed
 from umform.model.held import HELD, Held, refuse_twice
@@ -121,7 +122,7 @@ class Supported(Held):
         >>> hinge = model.hinge("x0", "xz")
         """
         pairs = node_pairs(self.mesh, nodes)
-        support = self._new("hinge", directions, np.unique(pairs), here, name)
+        support = self._new("hinge", directions, unique(pairs), here, name)
         if axes is None:
             support.directions = letters = "xyz" if directions is None else directions
             support.ties = [tie_of(pairs, direction_number(letter), None, support.base) for letter in letters]
@@ -175,7 +176,7 @@ class Supported(Held):
         >>> ends = model.hinge("y1", "xz"), model.hold_director("y1", "t", axes=cylindrical((0, 0, -50), "y"))
         """
         pairs = node_pairs(self.mesh, nodes)
-        support = self._new("director", directions, np.unique(pairs), here, name)
+        support = self._new("director", directions, unique(pairs), here, name)
         middle = self.mesh.points[pairs].mean(axis=1)
         support.directions, vectors = directions_of(axes or GLOBAL, directions, None, middle)
         support.rows = [rows_of_pairs(pairs, v, support.name, None, support.base, turn=True) for v in vectors]
@@ -252,7 +253,7 @@ class Supported(Held):
         >>> result = solve(model, Move(lift, 0.5, steps=2))
         """
         control, pairs = MidLine(name or self._name("midline")), node_pairs(self.mesh, nodes)
-        holder = Support(control.name, control.name, direction, np.unique(pairs), control=control)
+        holder = Support(control.name, control.name, direction, unique(pairs), control=control)
         if axes is not None:
             _, vectors = directions_of(axes, direction, None, self.mesh.points[pairs].mean(axis=1))
             holder.rows = [rows_of_pairs(pairs, vector, control.name, control, None) for vector in vectors]

@@ -112,6 +112,8 @@ class Term(Frozen):
         Whether the ranks of a run have its history.
     rows : ndarray of int, optional
         On a rank: which rows of its state over the whole model are here; None if the state has no rows.
+    nodal : tuple of str
+        Entries of its state with three values for each node, of which each rank has those of the nodes that it owns.
     before : ndarray
         History that the evaluation of the converged state had read; empty where there is none.
     memory : tuple of str
@@ -125,6 +127,7 @@ class Term(Frozen):
     unknowns: tuple[Global, ...] = ()
     elsewhere: bool = False
     rows: NDArray[np.int64] | None = None
+    nodal: tuple[str, ...] = ()
     before: Floats = np.empty(0)
     memory: tuple[str, ...] = ("elsewhere", "rows")
 

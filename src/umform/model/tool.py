@@ -18,6 +18,7 @@ from umform.model.dead_load import Load
 from umform.model.forces import vector3
 from umform.model.now import Now
 from umform.model.press import Press
+from umform.model.rigid_stops import ToolFound, bear
 from umform.model.term import At, Found, Global, Into, Term, Tree
 from umform.model.tool_controls import ToolMotion, ToolTurn, ToolWay
 from umform.ranks import Ranks
@@ -63,6 +64,7 @@ class Tool(Term):
 
     timed_as = "contact"
     fixed = ("surface",)
+    nodal = ("vector",)
 
     def __init__(self, name: str, surface: Surface, now: Now) -> None:
         if not isinstance(surface, Surface):
@@ -171,12 +173,15 @@ class Tool(Term):
 
     def evaluate(self, at: At, into: Into) -> Found:
         """Add the equations of its unknown ways: sheet, press, spring and stops balance. eqs. (4.42), (4.61)"""
-        border = into.border
+        border, borne = into.border, dict[str, float]()
         seen = _Seen(into.residual, into.found, at.values, at.time)
         for press in self._finding():
             k, way = border.number(press.unknown), press.way
             takes, slope = press.takes(at.values[way], way.force(seen, into.ranks))
             border.residual[k] = takes - at.values[press.force]
+            if press.rigid and (force := bear(press, at, into)) is not None:
+                borne[press.force.name] = force
+                continue
             border.rows[k] = border.columns[k] if way.symmetric else way.row(at)
             border.corner[k, k] += slope
             for other, unknown in enumerate(border.unknowns):
@@ -187,7 +192,7 @@ class Tool(Term):
                 border.predictor[k] -= way.rate(at.rates, _moved(into, None), at, into)
             if at.du is not None:
                 border.predictor[k] += into.ranks.sum(float(border.rows[k] @ at.du))
-        return Found()
+        return ToolFound(borne=borne)
 
     def resultant(self, found: Mapping[Term, Any], ranks: Ranks) -> tuple[Floats, Floats]:
         """Force of the sheet on it and moment about the origin, over all pairs. eq. (4.17)"""
@@ -198,7 +203,12 @@ class Tool(Term):
     def resultant_columns(self, found: Mapping[Term, Any], ranks: Ranks) -> dict[str, float]:
         """Its columns of the history: force and moment of the sheet on it."""
         force, moment = self.resultant(found, ranks)
-        return {name: float(value) for name, value in zip(self.column_names(), [*force, *moment], strict=True)}
+        return {name: float(value) for name, value in zip(self._of_resultant(), [*force, *moment], strict=True)}
+
+    def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
+        """Forces of rigid stops on it, along its ways."""
+        borne = found.borne if isinstance(found, ToolFound) else {}
+        return {f"{press.force.name}_stop": borne.get(press.force.name, 0.0) for press in self.presses if press.rigid}
 
     def state(self) -> Tree:
         """Ways that are found, those that are given for now; whether it is open, and the forces in its place."""
@@ -230,7 +240,10 @@ class Tool(Term):
                 pair.block.open = open_now
 
     def column_names(self) -> Iterable[str]:
-        """Force and moment of the sheet on it."""
+        """Force and moment of the sheet on it, and what rigid stops bear."""
+        return [*self._of_resultant(), *(f"{press.force.name}_stop" for press in self.presses if press.rigid)]
+
+    def _of_resultant(self) -> list[str]:
         return [f"{self.name}_{kind}{axis}" for kind in "fm" for axis in "xyz"]
 
     def strip(self, bare: Self, twins: Twins) -> None:

@@ -158,7 +158,7 @@ class Tooled(Controlled):
         tool.presses[-1].stiffness, tool.presses[-1].free = stiffness, preload / stiffness
         return force
 
-    def stop(self, force: ToolForce, at: float, stiffness: float, *, below: bool = False) -> None:
+    def stop(self, force: ToolForce, at: float, stiffness: float | None = None, *, below: bool = False) -> None:
         """Let a pressed or sprung tool come to lie on a stop: distance blocks, the end of a gas spring.
 
         Parameters
@@ -167,19 +167,38 @@ class Tooled(Controlled):
             What :meth:`press`, :meth:`press_turn` or :meth:`spring` returned.
         at : float
             The way at which the tool meets the stop.
-        stiffness : float
-            Of the stop: force per length beyond it.
+        stiffness : float, optional
+            Of the stop: force per length beyond it. Default: it is rigid, and the way cannot pass it; what it bears is
+            the column ``<name>_stop``, the force on the tool along its way.
         below : bool
             Whether the way must not fall below it, instead of not growing beyond it.
+
+        Raises
+        ------
+        InvalidValue
+            If a number makes no sense, or rigid stops leave no way between them.
         """
-        check_stiffness(stiffness, at, f"stop of {force.name}", "way")
-        self.press_of(force).stops.append(Stop(float(at), float(stiffness), -1.0 if below else 1.0))
+        press = self.press_of(force)
+        check_stiffness(1.0 if stiffness is None else stiffness, at, f"stop of {force.name}", "way")
+        if stiffness is None and not any(stop.rigid for stop in press.stops):
+            self._refuse_taken([f"{force.name}_stop"], f"{force.name}_stop")
+        press.stops.append(Stop(float(at), math.inf if stiffness is None else float(stiffness), -1.0 if below else 1.0))
+        least, largest = press.bounds
+        if least > largest:
+            press.stops.pop()
+            raise InvalidValue(
+                "two rigid stops leave a tool no way between them",
+                where=f"stop of {force.name}",
+                value=f"not below {least:.6g}, not beyond {largest:.6g}",
+                cause="the sign of a way, or below= at the wrong one",
+                remedy="the lower one with below=True, at a smaller way than the upper one",
+            )
 
     def attach(self, tool: Contact | Tool, way: ToolWay) -> None:
         """Let a tool follow the way or turn of another one, at the distance at which it stands now.
 
-        A pad on springs in a punch follows the punch, and has a way of its own by :meth:`spring`; a holder on distance
-        blocks follows the die. The force of the control is then that on both tools.
+        A pad on springs in a punch follows the punch, and has a way of its own by :meth:`spring`; a holder that keeps a
+        gap follows the die. The force of the control is then that on both tools.
 
         Parameters
         ----------

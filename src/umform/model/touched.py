@@ -60,7 +60,8 @@ class Touched(Tooled):
         penalty: float | None = None,
         penetration: float | None = None,
         points: int | str | None = None,
-        cells: int | None = None,
+        cells: int | str | None = None,
+        ripple: float | None = None,
         augmented: bool = False,
         friction: AnyFriction | None = None,
         slip: float | None = None,
@@ -83,10 +84,13 @@ class Touched(Tooled):
         points : int, "auto" or "nodes"
             Gauss points per direction and facet, 1 to 10, or as many as the length that touches asks for by eq. (4.31),
             or the nodes with their tributary areas; default 2. Take at least 2 on 4-node and 3 on 9-node facets.
-        cells : int, optional
+        cells : int or "auto", optional
             Instead of points: cells per direction and facet, 1 to 20, over which a linear gap is integrated with the
-            moving edge of contact, so that the force has no stairs. Take at least 3 on 4-node and 5 on 9-node facets.
-            The tangent is unsymmetric. docs/cells.md
+            moving edge of contact, so that the force has no stairs; "auto": as many as the ripple that is wanted asks
+            for, eq. (4.122). Take at least 3 on 4-node and 5 on 9-node facets. The tangent is unsymmetric.
+            docs/cells.md
+        ripple : float, optional
+            Ripple of the force that is wanted of cells="auto", as a part of it; default 0.001.
         augmented : bool
             Take what penetrates further than allowed back, by multipliers; penalty and penetration may then both be
             given. It costs a few iterations more in each increment.
@@ -122,6 +126,7 @@ class Touched(Tooled):
             penetration=penetration,
             points=points,
             cells=cells,
+            ripple=ripple,
             augmented=augmented,
             friction=friction,
             slip=slip,

@@ -35,7 +35,7 @@ class Parcel:
     fixed : ndarray of bool, shape (3 * nodes,)
         Degrees of freedom that are held.
     pieces : list
-        What each body, control, tool, contact and other term gets, in this order.
+        What each body, control, tool, contact, other term and support gets, in this order.
     ties : list of ndarray, shape (k, 2)
         Pairs of each tie.
     numbers, node_numbers : ndarray of int
@@ -92,6 +92,7 @@ class Cutting:
         owned = np.flatnonzero(owners.node[nodes] == rank)
         cut = Cut(nodes, owned, self._node, self._cell)
         things: list[Any] = [*whole.bodies, *whole.controls, *whole.tools, *whole.contacts, *whole.others]
+        things += whole.holders
         number = owners.equation.reshape(-1, 3)[nodes].ravel()
         parcel = Parcel(
             cells=cells,
@@ -120,7 +121,9 @@ class Cutting:
         known = self._node[self._pairs // 3] >= 0
         tied: NDArray[np.bool_] = np.logical_or(known[:, 0], known[:, 1])
         self._node[nodes] = -1
-        return tied, np.union1d(nodes, self._pairs[tied] // 3).astype(np.int64)
+        later = [tie.dofs // 3 for holder in self._whole.holders for tie in holder.ties]  # if others are freed
+        partners = np.concatenate([self._pairs[tied] // 3, *(pair[np.isin(pair, nodes).any(axis=1)] for pair in later)])
+        return tied, np.union1d(nodes, partners).astype(np.int64)
 
     @cached_property
     def _consecutive(self) -> Numbers:

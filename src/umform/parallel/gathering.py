@@ -19,6 +19,15 @@ from umform.parallel.places import Places
 Floats = NDArray[np.float64]
 
 
+#: Stands in the outline of a tree for values at nodes.
+_NODAL = "at nodes"
+
+
+def _nodal(value: Any) -> bool:
+    """Whether an entry of the state of a support has values at nodes."""
+    return isinstance(value, np.ndarray)
+
+
 class Part(Protocol):
     """What a share says of where it is in the whole model."""
 
@@ -52,6 +61,8 @@ class Gathering:
         self.cells = Places(share.cells, ranks)
         #: Rows of the state of each term that has some, by its key.
         self.rows = {term.key: Places(term.rows, ranks) for term in share.terms if term.rows is not None}
+        #: Entries of the states of terms that have values at nodes.
+        self.nodal = {term.key: term.nodal for term in share.terms if term.nodal}
 
     # Whole arrays --------------------------------------------------------------------------------------------
 
@@ -92,15 +103,23 @@ class Gathering:
                 **model,
                 "u": self.displacement(model["u"]),
                 "terms": {key: self._collected(key, state) for key, state in model["terms"].items()},
+                "supports": self.supports(model["supports"]),
             },
             "before": {key: self.rows[key].collect(values) for key, values in tree["before"].items()},
             "trail": self._collected_trail(tree["trail"]),
         }
 
+    def supports(self, states: Tree) -> Tree:
+        """States of supports over the whole model, on the first rank."""
+        return {
+            name: {key: self.displacement(values) if _nodal(values) else values for key, values in state.items()}
+            for name, state in states.items()
+        }
+
     def _collected(self, key: str, state: Tree) -> Tree:
-        """State of a term over the whole model; one without rows is the same on all ranks."""
+        """State of a term over the whole model; one without rows is the same on all ranks, but for what nodes have."""
         if key not in self.rows:
-            return state
+            return {name: self.displacement(v) if name in self.nodal.get(key, ()) else v for name, v in state.items()}
         return {name: self.rows[key].collect(values) for name, values in state.items()}
 
     def _collected_trail(self, trail: Tree | None) -> Tree | None:
@@ -124,12 +143,25 @@ class Gathering:
         tree = self.ranks.on_first(read)
         outline: dict[str, Any] = self.ranks.comm.bcast(None if tree is None else self._outline(tree))
         model = outline["model"]
-        whole: Any = tree or {"model": {"u": None, "terms": {}}, "before": {}, "trail": None, "result": {}}
+        whole: Any = tree or {
+            "model": {"u": None, "terms": {}, "supports": {}},
+            "before": {},
+            "trail": None,
+            "result": {},
+        }
         model["u"] = self._at_nodes(whole["model"]["u"])
         for key, names in model["rows"].items():
             state = whole["model"]["terms"].get(key, {})
             model["terms"][key] = {name: self.rows[key].hand_out(state.get(name)) for name in names}
         del model["rows"]
+        for key, names in self.nodal.items():
+            for name in sorted(set(names) & set(model["terms"].get(key, ()))):
+                model["terms"][key][name] = self._at_own_nodes(whole["model"]["terms"].get(key, {}).get(name))
+        for name, state in model["supports"].items():
+            given = whole["model"]["supports"].get(name, {})
+            for entry, hand_out in (("base", self._at_nodes), ("vector", self._at_own_nodes)):
+                if state[entry] is not None:
+                    state[entry] = hand_out(given.get(entry))
         outline["before"] = {key: self.rows[key].hand_out(whole["before"].get(key)) for key in outline["before"]}
         if outline["trail"] is not None:
             scalars = outline["trail"]["terms"]
@@ -142,11 +174,26 @@ class Gathering:
     def _at_nodes(self, values: Floats | None) -> Floats:
         return self.known_nodes.hand_out(None if values is None else values.reshape(-1, 3)).ravel()
 
+    def _at_own_nodes(self, values: Floats | None) -> Floats:
+        """Values that count for the owner of a node, zero at the others."""
+        here = self._at_nodes(values).reshape(-1, 3)
+        own = np.zeros_like(here)
+        own[self.share.owned] = here[self.share.owned]
+        return own.ravel()
+
     def _outline(self, tree: dict[str, Any]) -> dict[str, Any]:
         """The tree without what each rank has a part of, and the names of what it has."""
-        model = {key: tree["model"][key] for key in ("controls", "unknowns", "time")}
+        model = {key: tree["model"][key] for key in ("controls", "unknowns", "time", "began")}
         terms = tree["model"]["terms"]
-        model["terms"] = {key: state for key, state in terms.items() if key not in self.rows}
+        model["terms"] = {
+            key: {name: None if name in self.nodal.get(key, ()) else value for name, value in state.items()}
+            for key, state in terms.items()
+            if key not in self.rows
+        }
+        model["supports"] = {
+            name: {key: _NODAL if _nodal(value) else value for key, value in state.items()}
+            for name, state in tree["model"]["supports"].items()
+        }
         model["rows"] = {key: list(state) for key, state in terms.items() if key in self.rows}
         result = {key: value for key, value in tree["result"].items() if key != "frames"}
         small = {key: tree[key] for key in ("fingerprint", "note", "number", "factors", "loop", "habits")}

@@ -12,6 +12,7 @@ from umform.model import Body, Model, Tool
 from umform.model.contact import Contact
 from umform.model.control import Control, Twins
 from umform.model.now import Now
+from umform.model.support import Support
 from umform.model.term import Term
 from umform.model.ties import MidLine
 from umform.parallel.mpi_ranks import MpiRanks
@@ -30,6 +31,8 @@ class Outline:
         In the order of the model.
     tied : list of MidLine or None
         The control of each tie.
+    holders : list of Support
+        Supports and what controls hold, also those that do not act.
     steps : list of Step
         What happens to these controls.
     """
@@ -41,6 +44,7 @@ class Outline:
     contacts: list[Contact]
     others: list[Term]
     tied: list[MidLine | None]
+    holders: list[Support]
     steps: list[Step]
 
     @classmethod
@@ -55,6 +59,7 @@ class Outline:
             [twins.of(contact) for contact in model.contacts],
             [_own(term, twins) for term in model.others],
             [None if tie.control is None else twins.of(tie.control) for tie in model.ties],
+            [twins.of(holder) for holder in model.holders],
             [_moving(step, twins) for step in steps],
         )
 
@@ -76,7 +81,7 @@ class Outline:
 
     def pieces_for(self) -> list[Any]:
         """All that gets a piece of the mesh, in the order of the pieces of a parcel."""
-        return [*self.bodies, *self.controls, *self.tools, *self.contacts, *self.others]
+        return [*self.bodies, *self.controls, *self.tools, *self.contacts, *self.others, *self.holders]
 
 
 def _own(term: Term, twins: Twins) -> Term:
@@ -96,9 +101,14 @@ def _own(term: Term, twins: Twins) -> Term:
 
 def _moving(step: Step, twins: Twins) -> Step:
     """The same step of the controls of an outline."""
-    assert not isinstance(step, Free)  # refused before
+    own: Any
+    if isinstance(step, Free):
+        on = None if step.on is None else twins.of(step.on)
+        given = step.support
+        own = [twins.of(thing) for thing in given] if isinstance(given, Sequence) else twins.of(given)
+        return replace(step, support=own, on=on)
     moved = step.control
-    own: Any = twins.of(moved) if isinstance(moved, Control) else [twins.of(control) for control in moved]
+    own = twins.of(moved) if isinstance(moved, Control) else [twins.of(control) for control in moved]
     if isinstance(step, Move):
         return replace(step, control=own, follow={twins.of(control): law for control, law in step.follow.items()})
     return replace(step, control=own)

@@ -7,13 +7,15 @@ from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from umform.digest import digest
 from umform.errors import InvalidValue, UmformError
-from umform.model import Model
+from umform.model import Model, Tool
 from umform.model.checks import check_nodes
 from umform.model.dead_load import Load
 from umform.model.elsewhere import not_here
+from umform.model.removal import put_supports, states_of_supports
 from umform.parallel.cutting import Cutting
 from umform.parallel.mpi_ranks import MpiRanks, world
 from umform.parallel.outline import Outline
@@ -23,8 +25,9 @@ from umform.parallel.solver import Petsc
 from umform.parallel.together import together
 from umform.results.history import History
 from umform.solvers import register
-from umform.steps import Arc, Free, Step
+from umform.steps import Arc, Step
 
+Floats = NDArray[np.float64]
 _H = TypeVar("_H", bound=History)
 
 
@@ -94,21 +97,14 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
                 cause="the load is one more unknown, and critical points are looked for in the whole tangent",
                 remedy="another solver in one process, or Move and Release",
             )
-        if isinstance(step, Free):
-            raise InvalidValue(
-                "a support cannot be freed with the solver petsc",
-                where=f"step {number}",
-                cause="the unknowns of all ranks would have to be numbered again",
-                remedy="another solver in one process; or remove() between two calls of solve()",
-            )
-    asked_by = {part.by for part in model.rows} | {str(part) for part in model.supports if part.base is not None}
+    asked_by = {part.by for part in model.rows} | {str(holder) for holder in model.holders if len(holder.rows)}
     if asked_by:
         raise InvalidValue(
-            "supports in local axes, and those that hold nodes where they are now, do not go with the solver petsc",
+            "supports in local axes do not go with the solver petsc",
             where="supports",
             value=", ".join(sorted(asked_by)),
             cause="ranks share out single degrees of freedom and pairs of them",
-            remedy="another solver in one process, or supports along x, y and z of the undeformed mesh",
+            remedy="another solver in one process, or supports along x, y and z",
         )
     _refuse_what_cannot_be_cut(model)
     if model.elsewhere:
@@ -160,17 +156,18 @@ def hand_out(outline: Outline, model: Model | None, ranks: MpiRanks) -> Share:
 
 
 def _give_back(share: Share, result: History | None) -> None:
-    """Leave the whole model at the last converged state: its displacement on the first rank, NaN on the others."""
-    u, whole = share.gathering.displacement(share.u), share.whole
+    """Leave the whole model at the last converged state: what nodes have on the first rank, NaN on the others."""
+    gathering, whole = share.gathering, share.whole
+    u, supports = gathering.displacement(share.u), gathering.supports(states_of_supports(share))
+    loads = [None if tool.load is None else gathering.displacement(tool.load.vector) for tool in share.tools]
     if whole is None:
         return
-    whole.u = np.broadcast_to(np.nan, whole.u.shape) if u is None else u
-    whole.time = share.time
+    whole.u, whole.time = np.full_like(whole.u, np.nan) if u is None else u, share.time
     for control, own in zip(whole.controls, share.controls, strict=True):
         control.value = own.value
-    for tool, own_tool in zip(whole.tools, share.tools, strict=True):
-        for press, own_press in zip(tool.presses, own_tool.presses, strict=True):
-            press.unknown.value, press.held = own_press.unknown.value, own_press.held
+    for tool, own_tool, vector in zip(whole.tools, share.tools, loads, strict=True):
+        _give_back_tool(tool, own_tool, vector)
+    put_supports(whole, supports)
     for unknown, own_unknown in zip(whole.unknowns, share.unknowns, strict=True):
         unknown.value = own_unknown.value
     whole.elsewhere = True
@@ -180,3 +177,12 @@ def _give_back(share: Share, result: History | None) -> None:
             vars(thing).pop(made, None)
     if result is not None:
         result.model = whole
+
+
+def _give_back_tool(tool: Tool, own: Tool, vector: Floats | None) -> None:
+    """Let a tool of the whole model stand and be open as that of the share."""
+    tool.open = own.open
+    if tool.load is not None and vector is not None:
+        tool.load.vector = vector
+    for press, own_press in zip(tool.presses, own.presses, strict=True):
+        press.unknown.value, press.held = own_press.unknown.value, own_press.held

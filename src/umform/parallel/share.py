@@ -69,23 +69,42 @@ class Share(Model):
         self.cells, self.nodes, self.owned = parcel.cells, parcel.nodes, parcel.owned
         self.now, self.tools, self.contacts = outline.now, outline.tools, outline.contacts
         self.controls, self.others, self._fixed = outline.controls, outline.others, parcel.fixed
+        self._holders = outline.holders
         self.ties = [Tie(dofs, control) for dofs, control in zip(parcel.ties, outline.tied, strict=True)]
-        self._number(parcel)
+        self._at_nodes = Exchange(parcel.node_numbers, len(parcel.owned), self.ranks)
+        self._number(parcel.numbers, parcel.own, parcel.before, parcel.count)
         self.u = parcel.u
+        self._began = self._converged_time = self.time
 
     def _embody(self, bodies: Sequence[Body]) -> None:
         """Take the bodies as they are: they stand on the cells of this rank."""
         self.bodies = list(bodies)
 
-    def _number(self, parcel: Parcel) -> None:
-        """Global numbers of the unknowns and nodes that are here, and the ways to sum shares of them up."""
-        self._numbers, self._own, self._count = parcel.numbers, parcel.own, parcel.count
-        self._unknowns = Exchange(parcel.numbers, parcel.own, self.ranks)
-        self._at_nodes = Exchange(parcel.node_numbers, len(parcel.owned), self.ranks)
-        number = parcel.numbers - parcel.before
-        self._owned_places = np.flatnonzero((number >= 0) & (number < parcel.own))
+    def _number(self, numbers: NDArray[np.int64], own: int, before: int, count: int) -> None:
+        """Take global numbers of the unknowns that are here, and make the ways to sum shares of them up."""
+        self._numbers, self._own, self._count = numbers, own, count
+        self._unknowns = Exchange(numbers, own, self.ranks)
+        number = numbers - before
+        self._owned_places = np.flatnonzero((number >= 0) & (number < own))
         self._owned_numbers = number[self._owned_places]
         self._shared: SharedPattern | None = None
+
+    def hold_again(self) -> None:
+        """Let the supports act as they stand, and number the unknowns of all ranks anew."""
+        super().hold_again()
+        constrained, pairs = self.constrained(), self.pairs
+        constrained[pairs] = True
+        owned = np.zeros((len(self.nodes), 3), dtype=bool)
+        owned[self.owned] = True
+        free = np.flatnonzero(~constrained)
+        places = np.concatenate([free, pairs[:, 0]])  # the unknown of a pair has the place of its lower node
+        mine = places[owned.ravel()[places]]
+        counts = self.ranks.sum(np.eye(self.ranks.size)[self.ranks.rank] * len(mine)).astype(np.int64)
+        before = int(counts[: self.ranks.rank].sum())
+        number = np.full((len(self.nodes), 3), -1.0)
+        number.ravel()[mine] = before + np.arange(len(mine))
+        known = np.stack([self._at_nodes.spread(column) for column in number[self.owned].T], axis=1)
+        self._number(known.ravel()[places].astype(np.int64), len(mine), before, int(counts.sum()))
 
     # What all ranks have together ----------------------------------------------------------------------------
 

@@ -10,7 +10,9 @@ from umform.errors import InvalidValue
 from umform.materials import (
     J2,
     Chaboche,
+    CowperSymonds,
     Hill48,
+    JohnsonCook,
     LinearVoce,
     Metal,
     Mises,
@@ -50,6 +52,8 @@ def law_keys(law: J2 | Metal, rolling: object = None) -> dict[str, Any]:
         keys["two_surfaces"] = asdict(law.back_stress)
     if law.modulus is not None:
         keys["modulus"] = asdict(law.modulus)
+    if isinstance(law.rate, CowperSymonds | JohnsonCook):
+        keys["rate"] = {"factor": type(law.rate).__name__, **asdict(law.rate)}
     return keys
 
 

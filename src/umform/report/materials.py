@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import fields, is_dataclass
 
-from umform.materials import Elastic, LinearVoce, Metal, Plastic, Swift, Table, UserLaw
+from umform.materials import CompiledLaw, Elastic, LinearVoce, Metal, Plastic, Swift, Table, Umat, UserLaw
 
 
 def material_text(material: object) -> str:
@@ -22,6 +22,10 @@ def material_text(material: object) -> str:
     """
     if isinstance(material, UserLaw):
         return f"user law: {material.name}"
+    if isinstance(material, CompiledLaw | Umat):
+        kind = "UMAT" if isinstance(material, Umat) else "compiled law"
+        name = "" if material.name in ("UMAT", "compiled law") else f" {material.name}"
+        return f"{kind}{name}, {len(material.properties)} properties, {len(material.initial)} state variables"
     if not isinstance(material, Elastic):
         return str(material)
     text = f"{type(material).__name__}: E = {material.E:.6g}, nu = {material.nu:.6g}"
@@ -29,7 +33,7 @@ def material_text(material: object) -> str:
         return text
     text += f", {hardening_text(material.hardening)}"
     if isinstance(material, Metal):
-        parts = (material.yield_function, material.back_stress, material.modulus)
+        parts = (material.yield_function, material.back_stress, material.modulus, material.rate)
         text += "".join(f", {_part_text(part)}" for part in parts if part is not None)
     return text
 

@@ -44,6 +44,8 @@ _ORDER = (
     "plastic_strain_mean",
     "thickness_change",
     "stress_von_mises",
+    "back_stress_von_mises",
+    "modulus",
     "displacement",
     "contact_pressure",
     "friction_traction",

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import platform
+from importlib.metadata import version
 
 import numpy
-import scipy
 
 import umform
 from umform.solvers import available
@@ -17,7 +17,7 @@ def versions() -> dict[str, str]:
         "umform": umform.__version__,
         "python": platform.python_version(),
         "numpy": numpy.__version__,
-        "scipy": scipy.__version__,
+        "scipy": version("scipy"),  # without the time of its import
         "platform": platform.platform(),
         "solvers": ", ".join(name for name, here in available().items() if here),
     }

@@ -19,6 +19,9 @@ Floats = NDArray[np.float64]
 #: Directions of the two products of a cross product.
 _NEXT, _LAST = [1, 2, 0], [2, 0, 1]
 
+#: Means in a cell, and the largest value of the last one.
+_STRESSES = ("stress_cauchy", "stress_cauchy_local", "stress_pk2", "stress_pk2_local", "stress_von_mises")
+
 
 @dataclass(frozen=True)
 class PointFields:
@@ -108,28 +111,21 @@ def cell_fields(model: Model) -> dict[str, Floats]:
     """Fields of the cells of the converged state, arrays (cells, ...); zero in bodies whose law does not have one."""
     fields: dict[str, Floats] = {}
     for body in model.bodies:
-        at = body_fields(body, model.u)
-        found = _cell_fields(at)
-        if body.rolling is not None:
-            found["rolling"] = _rolling(at)
-        for name, values in found.items():
+        for name, values in (_cell_fields(body, model.u) | _of_law(body, model.u)).items():
             whole = fields.setdefault(name, np.zeros((len(model.mesh.connectivity), *values.shape[1:])))
             whole[body.cells] = values
     return fields
 
 
-def _cell_fields(at: PointFields) -> dict[str, Floats]:
-    local = at.stress("cauchy", "local")
-    cells = {
-        "stress_cauchy": at.cell_average(at.stress("cauchy", "global")),
-        "stress_cauchy_local": at.cell_average(local),
-        "stress_pk2": at.cell_average(at.stress("pk2", "global")),
-        "stress_pk2_local": at.cell_average(at.stress("pk2", "local")),
-        "stress_von_mises": von_mises(local).max(axis=1),
-    }
-    if at.eqps is not None:
-        cells |= {"plastic_strain_mean": at.cell_average(at.eqps), "plastic_strain_max": at.eqps.max(axis=1)}
-    return cells
+def _cell_fields(body: Body, u: Floats) -> dict[str, Floats]:
+    """Means over the cells of a body, and largest values in them: what follows from `body_fields`, without its size."""
+    names = list(_STRESSES)
+    place = -1
+    if "eqps" in body.block.state_names:
+        parts = list(body.block.state_names)
+        place = sum(body.block.state_names[name] for name in parts[: parts.index("eqps")])
+        names += ["plastic_strain_mean", "plastic_strain_max"]
+    return dict(zip(names, body.block.cell_fields(u, place), strict=True))
 
 
 def _rolling(at: PointFields) -> Floats:
@@ -144,12 +140,17 @@ def _rolling(at: PointFields) -> Floats:
     return direction
 
 
-def von_mises(stress: Floats) -> Floats:
-    """Von Mises stress (...) of stresses (..., 6), Voigt order 11 22 33 12 23 13."""
-    normal, shear = stress[..., :3], stress[..., 3:]
-    differences = normal - normal[..., _NEXT]
-    size: Floats = np.sqrt(0.5 * (differences**2).sum(axis=-1) + 3.0 * (shear**2).sum(axis=-1))
-    return size
+def _of_law(body: Body, u: Floats) -> dict[str, Floats]:
+    """Means over the cells of what a law shows of its history, and its rolling direction."""
+    shown = getattr(body.material, "shown", None)
+    if shown is None and body.rolling is None:
+        return {}
+    at = body_fields(body, u)
+    parts: Mapping[str, Floats] = shown(at.history) if shown is not None else {}
+    cells = {
+        name: at.cell_average(values[..., 0] if values.shape[2:] == (1,) else values) for name, values in parts.items()
+    }
+    return cells if body.rolling is None else cells | {"rolling": _rolling(at)}
 
 
 def thickness(model: Model) -> Floats:

@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Any
 from umform.errors import InvalidValue
 from umform.model import Model
 from umform.progress import Tick, progress_bar
+from umform.results.cells import tell_of_cells
 from umform.results.penetration import warn_of_contact
 from umform.results.rest import tell_of_rest
 from umform.run.checked import checked
 from umform.run.interrupt import Interrupt, gentle_interrupt
+from umform.run.loose import carry_loose_sheet, note_springs
 from umform.run.result import Result
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
@@ -108,11 +110,12 @@ def solve(
             result = Result(model, timing)
             run = _ready(result, solver, options, frames)
             checkpoints = _checkpoints(run, steps, checkpoint, every, note)
+            tell_of_cells(model, result)
             result.add(run.evaluation, [], frame=frames > 0)
             _go_on(run, steps, progress, checkpoints)
             return result
 
-    return _where(solver)(model, partial(checked, model, steps), work)
+    return _where(solver)(model, partial(_prepared, model, steps), work)
 
 
 def resume(
@@ -179,7 +182,15 @@ def resume(
             _go_on(run, steps, progress, checkpoints)
             return result
 
-    return _where(solver)(model, partial(checked, model, steps), work)
+    return _where(solver)(model, partial(_prepared, model, steps), work)
+
+
+def _prepared(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
+    """The steps, if the model can go them; a sheet that lies loosely rests on springs then."""
+    sequence = checked(model, steps)
+    assert model is not None
+    carry_loose_sheet(model, sequence)
+    return sequence
 
 
 def _where(solver: str) -> Callable[[Model | None, Callable[[], Sequence[Step]], _Work], Result]:
@@ -211,6 +222,7 @@ def _ready(result: Result, solver: str, options: NewtonOptions | None, frames: i
     model.begin(evaluation)
     run = Run(model, Newton(model, options, solver, timing), result, evaluation, frames=frames)
     run.result.solver = run.newton.solver
+    note_springs(model, result)
     return run
 
 

@@ -21,6 +21,7 @@ from umform.digest import digest
 from umform.model import Model, Term, Tool
 from umform.model.contact import Contact
 from umform.model.control import Control
+from umform.model.support import Support
 from umform.solution.newton import Newton
 
 _DEEPEST = 8
@@ -46,6 +47,7 @@ def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: i
         [(tie.dofs, tie.control) for tie in model.ties],
         [(part.dofs, part.weights, part.control, part.offsets) for part in model.rows],
         [(support.name, support.base) for support in model.supports if support.base is not None],
+        [(support.name, support.held) for support in model.all_supports if support.waits],
     ]
     return {
         "version of umform": umform.__version__,
@@ -82,7 +84,7 @@ def text(value: object, depth: int = 0) -> str:
         return "[" + ", ".join(inner(item) for item in value) + "]"
     if isinstance(value, dict):
         return "{" + ", ".join(f"{inner(key)}: {inner(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, Control):
+    if isinstance(value, Control | Support):  # a rank has a part of it
         return value.name
     if isinstance(value, Term):
         return value.key

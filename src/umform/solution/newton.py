@@ -68,7 +68,7 @@ class Newton:
         """Whether tangents have the geometric stiffness of the stress that the last increment foresaw. eq. (5.39)"""
         return self.system.elastic if self.options.mixed is None else self.options.mixed
 
-    def manner(self, *, consistent: bool = False, wary: Wary = Wary.NOT) -> Manner:
+    def manner(self, *, consistent: bool = False, wary: Wary = Wary.NOT, rubs: bool = False) -> Manner:
         """How iterations are made, with the options of the user.
 
         Parameters
@@ -77,10 +77,12 @@ class Newton:
             Take the consistent tangent even if the options ask for the mixed one.
         wary : Wary
             When to give up because the tangent is indefinite far from equilibrium.
+        rubs : bool
+            Whether points may go to and fro between stick and slip, so that elastic sheets get a line search, too.
         """
         search = self.options.line_search
         if search is None:  # in elastic sheets, whose energy is a narrow bent valley, it creeps
-            search = not self.system.elastic
+            search = rubs or not self.system.elastic
         return Manner(search, True, self.mixed and not consistent, wary)
 
     def solve(self, extrapolation: Floats | None = None, manner: Manner | None = None) -> Converged:
@@ -162,6 +164,7 @@ class Newton:
             if not first.border.unknowns:
                 of_tangent = First(factors, system.largest_entry(first.values))
             du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
+            del first  # with its tangent
         return self.correct(u, du, manner, start, of_tangent)
 
     def prescribed_increment(self, u: Floats) -> Floats:
@@ -229,6 +232,7 @@ class Newton:
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
             recorder.add(evaluation.flowing, norm / scale, increment, energy, entered, left, step_length, pivots)
             lean = self._lean(reuse, manner) and not evaluation.border.unknowns
+            evaluation = evaluation.without_tangent()  # factors there are: the next one takes its memory
             u, evaluation, step_length = self._advance(u, du, r, manner, longest, lean, shifted)
             criteria.entry = criteria.entry if lean else None
             increment = step_length * self._relative(du, evaluation)

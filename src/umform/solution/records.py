@@ -59,6 +59,7 @@ class Cause(StrEnum):
     SINGULAR = "singular tangent"
     STALL = "residual does not fall"
     PASSAGE = "sheet through a tool"
+    TURN = "sheet turns on a tool"
     ITERATIONS = "too many iterations"
     OTHER = "other"
 

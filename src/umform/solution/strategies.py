@@ -20,6 +20,7 @@ from umform.solution.options import Wary
 from umform.solution.passage import same_side
 from umform.solution.records import Cause, Converged, Failed
 from umform.solution.softening import softened
+from umform.solution.turning import follows
 
 Floats = NDArray[np.float64]
 
@@ -51,8 +52,8 @@ class Increment:
     last: Evaluation
 
     def accept(self, converged: Converged) -> Converged:
-        """The equilibrium, if the sheet did not go through a tool."""
-        return same_side(self.model, self.last, converged)
+        """The equilibrium, if the sheet did not go through a tool, nor turned on one too far for its friction."""
+        return follows(self.model, self.last, same_side(self.model, self.last, converged))
 
     @property
     def wary(self) -> Wary:
@@ -68,6 +69,11 @@ class Increment:
     def touches(self) -> bool:
         """Whether there is contact."""
         return bool(self.model.contacts)
+
+    @property
+    def rubs(self) -> bool:
+        """Whether there is friction."""
+        return any(pair.rubs for pair in self.model.pairs_of_tools())
 
     @property
     def touched(self) -> bool:
@@ -136,13 +142,13 @@ STRATEGIES = (
     Strategy(
         "tangent",
         lambda at: True,
-        lambda at: at.newton.solve(at.tangent(), at.newton.manner(wary=at.wary)),
+        lambda at: at.newton.solve(at.tangent(), at.newton.manner(wary=at.wary, rubs=at.rubs)),
     ),
     # It may cross a sudden change of shape where the mixed tangent of eq. (5.39) does not.
     Strategy(
         "consistent tangent",
         lambda at: at.newton.mixed,
-        lambda at: at.newton.solve(at.tangent(), at.newton.manner(consistent=True, wary=at.wary)),
+        lambda at: at.newton.solve(at.tangent(), at.newton.manner(consistent=True, wary=at.wary, rubs=at.rubs)),
     ),
     # A stiff tool may come to where nothing touched before: with a soft one the sheet finds its shape first.
     Strategy(
@@ -191,7 +197,7 @@ def _cause(strategy: str, failure: Failed, touched: bool) -> str:
     entered = any(record.entered for record in failure.iterations)
     if failure.cause is Cause.CYCLE:
         return "cycle of contact"
-    if failure.cause is Cause.PASSAGE:
+    if failure.cause in (Cause.PASSAGE, Cause.TURN):
         return str(failure.cause)
     if not touched and entered:
         return "first touch"

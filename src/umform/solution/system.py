@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Protocol
+from typing import Any, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,6 +76,9 @@ class Evaluation(Protocol):
     @property
     def status(self) -> NDArray[np.uint8]:
         """0 for each contact point that is open, 1 if a tool holds it, 2 if it slips as well."""
+
+    def without_tangent(self) -> Self:
+        """The same without the entries of the tangent, whose memory the next one may take."""
 
     def at_points(self, chosen: NDArray[np.bool_]) -> str:
         """Where some of the contact points are, in words."""

@@ -37,12 +37,13 @@ class Multifrontal:
     """Supernodal multifrontal factorisation: Cholesky, L D L^T or LU; the same bits on any number of threads."""
 
     name = "multifrontal"
-    _values: FloatArray | None = None
+    _ready = False
+    _values: FloatArray | None = None  # to refine with, of factors that are not Cholesky's
     _factors: _core.Multifrontal
 
     def analyse(self, pattern: Pattern) -> None:
         """Order the equations and plan the fronts; Cholesky is expected of a symmetric matrix."""
-        self._values = None
+        self._ready, self._values = False, None
         blas.hand_over()
         indptr, indices = (np.ascontiguousarray(part, np.int32) for part in (pattern.indptr, pattern.indices))
         self._pattern = pattern
@@ -52,7 +53,7 @@ class Multifrontal:
 
     def factor(self, values: FloatArray) -> Factorisation:
         """Factorise; after a pivot that is not positive, Cholesky is left out until none is negative any more."""
-        self._values = None
+        self._ready, self._values = False, None
         values = self._pattern.checked(values)
         factors, symmetric = self._factors, self._pattern.symmetric
         with _memory(self._pattern, lambda: factors.bytes):
@@ -69,18 +70,18 @@ class Multifrontal:
         if lost is not None:
             raise singular(self.name, lost)
         self._positive = symmetric and pivots.negative == 0
-        self._values = values
+        self._ready, self._values = True, None if self._with_cholesky else values
         return Factorisation(pivots.negative if symmetric else None, factors.fill, pivots.odd)
 
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solve; without Cholesky the residual is checked, and the solution refined where that is poor."""
-        if self._values is None:
+        if not self._ready:
             raise not_factored()
         b = np.ascontiguousarray(self._pattern.checked_rhs(rhs).T)
         x = np.empty_like(b)
         with _memory(self._pattern, lambda: self._factors.bytes):
             self._factors.solve(b, x)
-            if not self._with_cholesky:
+            if self._values is not None:
                 self._refine(self._values, b, x)
             elif not np.isfinite(x).all():
                 check_accuracy(self.name, np.nan)

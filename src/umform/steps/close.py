@@ -15,6 +15,7 @@ from umform.model.tool_controls import ToolForce, ToolTurn
 from umform.solution.records import Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
+from umform.steps.move import check_time
 from umform.steps.saved import Saved, tightened
 
 #: Part of the force that the residual of the last increment may reach.
@@ -23,6 +24,8 @@ _EXACT = 1e-10
 _HAIR = 1e-4
 #: Increments that fail or go too far before the step is given up.
 _MOST = 60
+#: A tool this near to a rigid stop, over the largest way, lies on it.
+_AT_STOP = 1e-12
 #: Iterations after which an increment was easy.
 _EASY = 8
 
@@ -43,6 +46,8 @@ class Close:
         The force (or moment) on the tool that it is closed with, in the sense of the control.
     way : float, optional
         Largest way (or angle) that it may go. Default: its distance from the sheet and the largest extent of the sheet.
+    time : float
+        What the step takes.
 
     Examples
     --------
@@ -61,8 +66,10 @@ class Close:
     control: ToolForce
     force: float
     way: float | None = None
+    time: float = 1.0
 
     def __post_init__(self) -> None:
+        check_time("Close", self.time)
         if not isinstance(self.control, ToolForce):
             raise InvalidValue(
                 "a step Close takes the control of a pressed tool",
@@ -131,7 +138,7 @@ class Closing:
         model = run.model
         press = model.press_of(step.control)
         hair = _as_way(run, press, _HAIR * model.thickness)
-        far = max(_gap(run, press), 0.0) + _extent(model)
+        far = max(_gap(run, press), 0.0) + model.extent
         limit = _as_way(run, press, far) if step.way is None else step.way
         return cls(model.time, press.way.value, _takes(run, press), limit, hair, hair)
 
@@ -152,6 +159,11 @@ class Closing:
         sense = math.copysign(1.0, step.force - self.start_force)
         ahead = self._ahead(press, force, step.force)
         size = self.size if touches else self._short_of_the_sheet(_as_way(run, press, _gap(run, press)))
+        room = press.room(sense)
+        if room <= _AT_STOP * max(self.limit, self.size):
+            self._land(run, step, press)
+            return
+        size = min(size, room)
         near = ahead is not None and 0.0 <= sense * ahead <= (2.0 if touches else 1.0) * size
         if near or (touches and self.failures == 0 and abs(step.force) <= abs(force)):
             self._land(run, step, press)
@@ -183,9 +195,8 @@ class Closing:
         travelled = abs(value + way - self.start_way) / self.limit
         press.held = True
         try:
-            converged = take_increment(
-                run, [value + way], [press.way], self.start_time + 0.99 * travelled, extrapolation
-            )
+            time = self.start_time + 0.99 * step.time * travelled
+            converged = take_increment(run, [value + way], [press.way], time, extrapolation)
         except Failed as failure:
             self._shorten(run, step, 0.25, touched, failure)
             return
@@ -212,7 +223,8 @@ class Closing:
         step.control.value = _takes(run, press)
         try:
             with tightened(run, _EXACT * abs(step.force)):
-                converged = take_increment(run, [step.force], [step.control], self.start_time + 1.0, None)
+                end = self.start_time + step.time
+                converged = take_increment(run, [step.force], [step.control], end, None)
         except Failed as failure:
             self._shorten(run, step, 0.25, _touches(run, press), failure)
             return
@@ -264,12 +276,6 @@ def _gap(run: Run, press: Press) -> float:
     gaps = [float(found[pair].gap.min(initial=np.inf)) for tool in press.way.tools for pair in tool.pairs]
     least = -run.model.ranks.max(-min(gaps, default=math.inf))
     return least if math.isfinite(least) else 0.0
-
-
-def _extent(model: Model) -> float:
-    """Largest extent of the undeformed sheet along an axis, over all ranks."""
-    points, ranks = model.mesh.points, model.ranks
-    return max(ranks.max(float(points[:, k].max())) + ranks.max(-float(points[:, k].min())) for k in range(3))
 
 
 def _as_way(run: Run, press: Press, length: float) -> float:

@@ -38,6 +38,8 @@ class Free:
         As for :class:`umform.Move`.
     on : Support, optional
         What ``hold_rigid`` of the model returned: it holds its nodes where they are when the step begins, from then on.
+    time : float
+        What the step takes.
 
     Examples
     --------
@@ -53,6 +55,7 @@ class Free:
     cuts: int = 10
     grow: float = 1.0
     on: Support | None = None
+    time: float = 1.0
 
     def __post_init__(self) -> None:
         for thing in self.things:
@@ -73,7 +76,7 @@ class Free:
                 cause="a support that acts already, or something else",
                 remedy="what hold_rigid() of the model returned",
             )
-        Move([], [], self.steps, self.cuts, self.grow)  # refuses numbers that make no sense
+        Move([], [], self.steps, self.cuts, self.grow, time=self.time)  # refuses numbers that make no sense
 
     @property
     def things(self) -> list[Support | Tool]:
@@ -96,7 +99,7 @@ class Free:
     def move(self) -> Move:
         """The step as a move of the loads."""
         loads = self.moved()
-        return Move(loads, [0.0] * len(loads), self.steps, self.cuts, self.grow)
+        return Move(loads, [0.0] * len(loads), self.steps, self.cuts, self.grow, time=self.time)
 
 
 class Freeing(Marching):

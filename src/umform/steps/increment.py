@@ -39,8 +39,9 @@ def take_increment(
         try:
             with _counted(run):
                 converged = augmented(model, run.newton, converged)
+            _multipliers_stay(run, None)
         except Failed as failure:  # a smaller increment would end in the same pass: it is taken as the penalty has it
-            log.info("%s in a pass of the multipliers: they stay what they were", failure.reason)
+            _multipliers_stay(run, failure)
             model.prepare()
             converged = equilibrium(replace(increment, guess=converged.x - x_before))
     except BaseException:  # no convergence, Ctrl-C, a user's function: the last converged state stands
@@ -53,8 +54,21 @@ def take_increment(
     way = changes(model.controls, controls, np.subtract(values, before))
     earlier = run.trail if run.newton.options.extrapolate > 1 else None
     run.trail = Trail.of(model.x - x_before, way, earlier, extrapolation)
-    run.evaluation = converged.evaluation
+    run.evaluation = converged.evaluation.without_tangent()
     return converged
+
+
+def _multipliers_stay(run: Run, failure: Failed | None) -> None:
+    """Mark the pairs whose multipliers stay what they were, if a pass of them has failed, and warn of it."""
+    pairs = [contact for contact in run.model.contacts if contact.augmented]
+    for pair in pairs:
+        pair.multipliers_stay = failure is not None
+    if failure is not None:
+        columns = ", ".join(f"{pair.name}_multipliers_stay" for pair in pairs)
+        run.result.warn(
+            f"step {run.number}, time {run.model.time:.4f}: {failure.reason} in a pass of the multipliers: they stay "
+            f"what they were, and more penetration is left (columns {columns}); smaller increments, or a softer penalty"
+        )
 
 
 def _counted(run: Run) -> AbstractContextManager[None]:

@@ -6,10 +6,12 @@ from the `Loop` of the step that is under way. There it may be written to a chec
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
+from umform._core import staged_returns
 from umform.model import Evaluation, Model
 from umform.model.control import Control
 from umform.progress import Tick, silent
@@ -17,7 +19,13 @@ from umform.results.history import History
 from umform.solution.habits import Habits
 from umform.solution.newton import Newton
 from umform.solution.records import Converged
+from umform.steps.lost import lost_tools
 from umform.steps.trail import Trail
+
+log = logging.getLogger("umform.steps")
+
+#: Beginning of the warning about return maps in stages, which is given once.
+_STAGES = "the return map of the material went through stages of a shrinking yield surface"
 
 
 class Loop(Protocol):
@@ -54,6 +62,8 @@ class Run:
         That of the converged state.
     habits : Habits
         What earlier increments have taught.
+    staged : int
+        Count of return maps in stages when the last increment was kept.
     tick, pause : callable
         Shows where the run stands; writes checkpoints and stops the run, between increments.
     """
@@ -67,6 +77,7 @@ class Run:
     number: int = 1
     loop: Loop | None = None
     trail: Trail | None = None
+    staged: int = field(default_factory=lambda: staged_returns())
     tick: Tick = silent
     pause: Callable[[], None] = field(default=lambda: None)
 
@@ -75,6 +86,24 @@ class Run:
     ) -> None:
         """Add a converged increment of the step to the result and show how far the step ``name`` has come."""
         self.result.add(converged.evaluation, converged.iterations + converged.passes, step=self.number, frame=frame)
+        self._tell_of_stages()
         row = self.result.rows[-1]
+        for message in lost_tools(self.model, self.result.rows[-2], row):
+            self.result.warn(f"step {self.number}, time {self.model.time:.4f}: {message}")
         forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
         self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))
+
+    def _tell_of_stages(self) -> None:
+        """Count the points whose return map went through stages since the last increment; warn at the first ones."""
+        before, self.staged = self.staged, staged_returns()
+        points = int(self.model.ranks.sum(float(self.staged - before)))
+        if points == 0:
+            return
+        self.newton.timing.attempts.staged += points
+        when = f"step {self.number}, time {self.model.time:.4f}"
+        log.info("%s: return maps in stages at %d points, over all evaluations", when, points)
+        if not any(_STAGES in warning for warning in self.result.warnings):
+            self.result.warn(
+                f"{when}: {_STAGES} at {points} points, over all evaluations: the increments of strain are large; "
+                "smaller increments are safer. The count of the run is result.timing.attempts.staged"
+            )

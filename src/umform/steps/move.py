@@ -36,6 +36,8 @@ class Move:
     follow : mapping of Control to callable or sequence of (float, float), optional
         More controls, as functions of the value of the first one: a holder force over the stroke. A sequence of pairs
         (stroke, force) is a table with straight lines between them, constant outside.
+    time : float
+        What the step takes: for metals with a rate, and for motions of tools over time.
 
     Examples
     --------
@@ -57,6 +59,7 @@ class Move:
     cuts: int = 10
     grow: float = 1.0
     follow: Mapping[Control, Law] = field(default_factory=dict)
+    time: float = 1.0
 
     def __post_init__(self) -> None:
         if (isinstance(self.steps, int) and self.steps < 1) or not isinstance(self.steps, int | Pace | None):
@@ -69,6 +72,7 @@ class Move:
             raise InvalidValue("cuts must be 0 or more", value=self.cuts)
         if not self.grow >= 1:
             raise InvalidValue("grow must be 1 or more", value=self.grow)
+        check_time("Move", self.time)
         for target in self.targets():
             if not callable(target) and not (np.isscalar(target) and np.isrealobj(target) and np.isfinite(target)):
                 raise InvalidValue("a control is moved to a finite number or along a function", value=target)
@@ -121,6 +125,24 @@ class Move:
                 where = f"fraction {fraction:g} of the step"
                 raise NotFinite(f"the function that moves {control.name} is not finite", where=where, value=value)
         return values
+
+
+def check_time(where: str, time: float) -> None:
+    """Refuse a step that takes no time.
+
+    Raises
+    ------
+    InvalidValue
+        If the time is not positive and finite.
+    """
+    if not 0.0 < time < math.inf:
+        raise InvalidValue(
+            "the time of a step must be positive",
+            where=where,
+            value=time,
+            cause="a sign, or the time at the end in place of what the step takes",
+            remedy="time=1 is the default; a way of 10 at a speed of 50 takes 0.2",
+        )
 
 
 def _at(law: Law, value: float) -> float:

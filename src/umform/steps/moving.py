@@ -85,7 +85,8 @@ class Moving:
             run.habits.last_chance()
         try:
             values = step.values(target, self.starts)
-            converged = take_increment(run, values, step.moved(), self.start_time + target, extrapolation)
+            time = self.start_time + target * step.time
+            converged = take_increment(run, values, step.moved(), time, extrapolation)
         except Failed as failure:
             self._cut(run, step, failure, target)
             return
@@ -113,7 +114,7 @@ class Moving:
         """Halve an increment that failed, or give up."""
         self.size, self.last_size = 0.5 * (target - self.fraction), None
         if failure.cause is Cause.CYCLE:
-            time = self.start_time + target
+            time = self.start_time + target * step.time
             run.result.warn(f"step {run.number}, time {time:.4f}: {failure.reason}; the increment is cut")
         log.info("step %d: %s; increment cut to %.3g", run.number, failure.reason, self.size)
         if self._hopeless(step, self.size):

@@ -14,6 +14,7 @@ from umform.model.tool_controls import ToolForce
 from umform.solution.records import Converged, Failed
 from umform.steps.increment import no_convergence, take_increment
 from umform.steps.loop import Run
+from umform.steps.move import check_time
 from umform.steps.saved import Saved, tightened
 
 #: Part of the force that counts as zero which the residual of an increment may reach.
@@ -41,6 +42,8 @@ class Release:
         ease, up to a twentieth of the value.
     tolerance : float
         Force that counts as zero, relative to the force at the beginning.
+    time : float
+        What it would take to go back all the way to zero.
 
     Examples
     --------
@@ -56,8 +59,10 @@ class Release:
     control: Control
     increment: float | None = None
     tolerance: float = 1e-6
+    time: float = 1.0
 
     def __post_init__(self) -> None:
+        check_time("Release", self.time)
         if self.increment is not None and not self.increment > 0:
             raise InvalidValue("the increment of a release must be positive", value=self.increment)
         if not self.tolerance > 0:
@@ -138,7 +143,7 @@ class Releasing:
         if target == value or self.attempts > 50:  # the force jumps over zero
             jump = Failed("the zero of the force cannot be closed in", [])
             raise no_convergence(run, jump, [control], [target])
-        time = self.start_time + 1.0 - target / self.start_value
+        time = self.start_time + step.time * (1.0 - target / self.start_value)
         extrapolation = None if self.taken is None else (target - value) / self.taken
         try:
             with tightened(run, _PART * step.tolerance * self.scale):

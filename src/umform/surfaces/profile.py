@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from umform.errors import InvalidValue
+from umform.surfaces.chains import chain
 from umform.surfaces.corners import rounded
 from umform.surfaces.crossings import refuse_crossings
 from umform.surfaces.directions import point, positive
+from umform.surfaces.dxf import read_dxf
 from umform.surfaces.segments import Arc, Floats, Point2, Segment
 
 
@@ -87,6 +90,49 @@ class Profile:
         return cls(rounded(corners, radii, closed), closed)
 
     @classmethod
+    def from_dxf(
+        cls,
+        path: str | Path,
+        layer: str | None = None,
+        *,
+        solid: str | None = None,
+        origin: Point2 = (0.0, 0.0),
+        unit: str = "mm",
+        tolerance: float = 1e-3,
+    ) -> Profile:
+        """The section in a DXF drawing: lines, arcs, circles and polylines as they are, ellipses and splines as arcs.
+
+        Needs ezdxf: `pip install "umform[cad]"`.
+
+        Parameters
+        ----------
+        path : str or Path
+            The drawing, in its xy-plane.
+        layer : str, optional
+            The layer with the section; by default all of the drawing is the section.
+        solid : str, optional
+            Where the solid is: inside (by default) or outside of a closed curve; below (by default), above, left or
+            right of an open one, that is of the line from its one end to the other.
+        origin : (x, y)
+            The place of the drawing, in the unit of the model, that is the origin of the profile.
+        unit : str
+            Unit of the model, mm, cm, m, um, in or ft; a drawing that does not say its unit is taken as it is.
+        tolerance : float
+            Ends nearer than this are one point; arcs are no farther from ellipses and splines.
+
+        Raises
+        ------
+        FileProblem
+            If the file cannot be read.
+        OpenSection
+            If lines and arcs do not make one curve; the message has the coordinates of gaps and branches.
+        """
+        segments, closed = chain(read_dxf(path, layer, unit, tolerance), tolerance, str(path))
+        shift = tuple(-c for c in point(origin, "from_dxf.origin", 2))
+        made = cls([segment.shifted((shift[0], shift[1])) for segment in segments], closed)
+        return made if made._has_solid(solid, str(path)) else made.reversed()
+
+    @classmethod
     def circle(cls, centre: Point2, radius: float, hole: bool = False) -> Profile:
         """A whole circle, solid inside or a hole."""
         x, y = point(centre, "circle", 2)
@@ -126,6 +172,35 @@ class Profile:
     def reversed(self) -> Profile:
         """The same curve with solid and void exchanged."""
         return Profile([segment.reversed() for segment in reversed(self.segments)], self.closed)
+
+    def _has_solid(self, solid: str | None, where: str) -> bool:
+        """Whether the solid is on the side that is named."""
+        sides = {"below": (0, -1), "above": (0, 1), "left": (-1, 0), "right": (1, 0)}
+        words = ("inside", "outside") if self.closed else tuple(sides)
+        solid = solid or ("inside" if self.closed else "below")
+        if solid not in words:
+            raise InvalidValue(
+                f"the solid of {'a closed' if self.closed else 'an open'} section is one of {', '.join(words)}",
+                where=where,
+                value=solid,
+                cause="a closed section where an open one is meant, or the other way round",
+                remedy=f"solid='{words[0]}', or mend the drawing",
+            )
+        if self.closed:
+            return (self.area > 0.0) == (solid == "inside")
+        d = np.subtract(self.segments[-1].end, self.segments[0].start)
+        toward = float(np.dot((-d[1], d[0]), sides[solid]))
+        if abs(toward) <= 1e-9 * self.size:
+            raise InvalidValue(
+                "the section has no such side",
+                where=where,
+                value=f"{solid} of the line from {self.segments[0].start} to {self.segments[-1].end}",
+                cause="its ends lie above each other or beside each other",
+                remedy=", ".join(
+                    word for word, (x, y) in sides.items() if abs(-d[1] * x + d[0] * y) > 1e-9 * self.size
+                ),
+            )
+        return toward > 0.0
 
     def points(self, chord: float, beyond: float = 0.0) -> Floats:
         """Polyline along the curve.

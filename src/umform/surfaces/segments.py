@@ -12,6 +12,7 @@ from umform.errors import InvalidValue
 from umform.surfaces.directions import point
 
 Floats = NDArray[np.float64]
+Ids = NDArray[np.int64]
 Point2 = tuple[float, float]
 
 
@@ -65,6 +66,10 @@ class Line:
     def reversed(self) -> Line:
         """The same line, walked the other way."""
         return Line(self.end, self.start)
+
+    def shifted(self, by: Point2) -> Line:
+        """The same line at another place."""
+        return Line(_sum(self.start, by), _sum(self.end, by))
 
     def row(self) -> list[float]:
         """Start, end, centre and turn, as the kernels take them."""
@@ -167,9 +172,17 @@ class Arc:
         """The same arc, walked the other way."""
         return Arc(self.end, self.start, self.centre, not self.clockwise)
 
+    def shifted(self, by: Point2) -> Arc:
+        """The same arc at another place."""
+        return Arc(_sum(self.start, by), _sum(self.end, by), _sum(self.centre, by), self.clockwise)
+
     def row(self) -> list[float]:
         """Start, end, centre and turn, as the kernels take them."""
         return [*self.start, *self.end, *self.centre, float(self.turn)]
+
+
+def _sum(a: Point2, b: Point2) -> Point2:
+    return a[0] + b[0], a[1] + b[1]
 
 
 Segment = Line | Arc

@@ -87,6 +87,26 @@ class Tool(ABC):
         """
         return _mirrored(self, normal, point)
 
+    def offset(self, distance: float) -> Offset:
+        """The tool grown by a distance on all sides, or made smaller by a negative one.
+
+        Parameters
+        ----------
+        distance : float
+            How far its surface goes outward. Edges become round as it grows, concave radii below it vanish.
+        """
+        return Offset(self, distance)
+
+    def counterpart(self, thickness: float) -> Offset:
+        """All beyond a sheet that lies on the tool: the punch of a die.
+
+        Parameters
+        ----------
+        thickness : float
+            Thickness of the sheet, and of the clearance with it.
+        """
+        return Offset(self, thickness, other_side=True)
+
     def triangles(self, box: Box3, chord: float = 0.0) -> Triangles:
         """The surface of the tool inside of a box, for pictures and files.
 
@@ -165,6 +185,49 @@ class Placed(Tool):
         own = self.tool.facets((centre - c) @ Q, reach, chord)
         step = 1 if np.linalg.det(Q) > 0 else -1
         return Triangles(own.points @ Q.T + c, own.triangles[:, ::step])
+
+
+@dataclass(frozen=True)
+class Offset(Tool):
+    """What a tool gives at a distance from its surface. eq. (4.172)
+
+    Made by :meth:`Tool.offset` and :meth:`Tool.counterpart`; exact as far as the distance to the tool is.
+
+    Parameters
+    ----------
+    tool : Surface
+        The tool.
+    distance : float
+        Distance of the new surface from that of the tool, positive outward.
+    other_side : bool
+        The solid is what lies beyond the new surface.
+    """
+
+    tool: Surface
+    distance: float
+    other_side: bool = False
+
+    def kernel(self) -> _core.Surface:
+        """The surface as the kernels take it."""
+        if not np.isfinite(self.distance):
+            raise InvalidValue(
+                "the distance to another tool must be finite",
+                where="Offset.distance",
+                value=self.distance,
+                cause="nan or inf",
+                remedy="the thickness of the sheet",
+            )
+        return _core.offset(self.tool.kernel(), float(self.distance), -1 if self.other_side else 1)
+
+    def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
+        """Those of the tool along its normals, without what is nearer to another part of it."""
+        if not isinstance(self.tool, Tool):
+            return super().facets(centre, reach, chord)  # by samples
+        own = self.tool.facets(centre, reach + abs(self.distance), chord)
+        kernel = self.tool.kernel()
+        points = own.points + self.distance * kernel.gap(np.ascontiguousarray(own.points))[1]
+        there = np.abs(kernel.gap(points)[0] - self.distance) <= 1e-6 * abs(self.distance) + 0.5 * chord
+        return Triangles(points, own.triangles[there[own.triangles].all(axis=1)][:, :: -1 if self.other_side else 1])
 
 
 def _moved(tool: Surface, translation: Point, rotation: Point) -> Placed:

@@ -3,6 +3,7 @@
 from umform_book.case import Chapter
 from umform_book.contact import (
     beam_on_cylinder,
+    cells,
     hertz_line,
     hertz_point,
     penalty,
@@ -22,5 +23,6 @@ CHAPTER = Chapter(
         wrapping.CASE,
         rolling_edge.CASE,
         penalty.CASE,
+        cells.CASE,
     ),
 )

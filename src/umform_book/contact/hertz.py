@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,7 +96,15 @@ def hertz_point(force: float, radius: float) -> tuple[float, float]:
 
 
 def press(
-    page: Page, problem: Problem, variant: Variant, divisions: int, points: int | str, stiffness: float, frames: int = 0
+    page: Page,
+    problem: Problem,
+    variant: Variant,
+    divisions: int,
+    points: int | str,
+    stiffness: float,
+    frames: int = 0,
+    *,
+    over_cells: bool = False,
 ) -> tuple[Model, Contact, Result]:
     """Drive the tool into the block.
 
@@ -115,6 +124,8 @@ def press(
         Penalty times half-width over E*.
     frames : int
         States kept.
+    over_cells : bool
+        Whether there are so many cells in place of points.
     """
     element, line = variant.element, problem.kind == "line"
     body = block(1.0 / variant.cells(divisions), problem.end, problem.growth, element.cell, plane=line)
@@ -124,9 +135,11 @@ def press(
     model.fix("lower", "z")
     centre, radius = (0.0, 0.0, problem.radius), problem.radius
     tool = Cylinder(centre, "y", radius) if line else Sphere(centre, radius)
-    contact = model.contact("upper", tool, penalty=stiffness * E_STAR, points=points, name="tool")
+    where: dict[str, Any] = {"cells" if over_cells else "points": points}
+    contact = model.contact("upper", tool, penalty=stiffness * E_STAR, name="tool", **where)
     drive = model.drive(contact, "-z")
-    label = f"{variant.label}, {divisions} intervals, {rule_name(points)}, penalty {stiffness:g} E*/a"
+    rule = f"{points} x {points} cells" if over_cells else rule_name(points)
+    label = f"{variant.label}, {divisions} intervals, {rule}, penalty {stiffness:g} E*/a"
     step = Move(drive, lambda fraction: problem.depth * fraction**2, steps=problem.steps)
     return model, contact, page.solve(label, model, step, options=_OPTIONS, frames=frames)
 
@@ -165,8 +178,15 @@ def measure(problem: Problem, at: ContactPoints, nodal: Floats) -> Measures:
 
 
 def pressed_to(
-    page: Page, problem: Problem, variant: Variant, divisions: int, points: int | str, stiffness: float = 100.0
+    page: Page,
+    problem: Problem,
+    variant: Variant,
+    divisions: int,
+    points: int | str,
+    stiffness: float = 100.0,
+    *,
+    over_cells: bool = False,
 ) -> Measures:
     """Drive the tool into the block and compare with Hertz at the end."""
-    model, contact, _ = press(page, problem, variant, divisions, points, stiffness)
+    model, contact, _ = press(page, problem, variant, divisions, points, stiffness, over_cells=over_cells)
     return measure(problem, contact.at_points(), contact.at_nodes(model.u, model.mesh)[0])

@@ -6,6 +6,7 @@ from umform_book.friction import (
     beside_calculix,
     block,
     capstan,
+    draw_bead,
     free_bending,
     history,
     partial_slip,
@@ -29,6 +30,7 @@ CHAPTER = Chapter(
         free_bending.CASE,
         beside_calculix.CASE,
         u_bend.CASE,
+        draw_bead.CASE,
         unconstrained.CASE,
     ),
 )

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
-from umform.materials import J2, Swift
+from umform.materials import J2, Material, Swift
 from umform.model import Model
+from umform.results.forming import u_bend_angles
 from umform.run import Result
 from umform.steps import Move
 from umform.surfaces import Box, Plane, UDie
@@ -50,6 +51,8 @@ class Setup:
         Allowed elastic slip, in thicknesses.
     increments : int
         Of the stroke; 0 for the pace that umform chooses.
+    material : Material
+        Law of the blank.
     """
 
     variant: Variant = Variant("BEND8")
@@ -58,6 +61,7 @@ class Setup:
     penalty: float = 1000.0
     slip: float = 0.005
     increments: int = 0
+    material: Material = STEEL
 
 
 @dataclass(frozen=True)
@@ -88,7 +92,7 @@ def model_of(setup: Setup) -> tuple[Model, list[Move]]:
     cell = setup.variant.cell
     body = mesh.strip(LENGTH, 1.0, THICKNESS, (setup.variant.cells(setup.intervals), 1), cell=cell)
     body = body.transformed(lambda X: X + np.array([0.0, 0.0, 0.5 * THICKNESS]))
-    model = Model(body, setup.variant.element, material=STEEL)
+    model = Model(body, setup.variant.element, material=setup.material)
     model.symmetry("x0", "x")
     model.fix(np.arange(len(body.points)), "y")
     die = model.tool("die", UDie(OPENING, 200.0, CORNER, CORNER))
@@ -134,27 +138,6 @@ def shape(model: Model) -> Floats:
     return np.array([x[section[np.abs(X[section, 0] - s) < 1e-6]].mean(axis=0)[[0, 2]] for s in places])
 
 
-def crossing(line: Floats, height: float) -> Floats:
-    """Where the wall is at a height above the bottom."""
-    z = line[:, 1] - line[0, 1]
-    k = int(np.argmax(z > height))
-    part = (height - z[k - 1]) / (z[k] - z[k - 1])
-    point: Floats = line[k - 1] + part * (line[k] - line[k - 1])
-    return point
-
-
-def angle_between(a: Floats, b: Floats) -> float:
-    """Degrees."""
-    return float(np.degrees(np.arccos(a @ b / (np.linalg.norm(a) * np.linalg.norm(b)))))
-
-
-def circle(a: Floats, b: Floats, c: Floats) -> float:
-    """Radius of the circle through three points."""
-    sides = [np.linalg.norm(q - p) for p, q in ((a, b), (b, c), (c, a))]
-    area = 0.5 * abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
-    return float(np.prod(sides) / (4.0 * max(area, 1e-12)))
-
-
 def u_bend(page: Page, setup: Setup, label: str) -> tuple[Measured, Floats, Result]:
     """Draw and release; the measures, the line of the part and the history of the stroke."""
     model, drawn = draw(page, setup, label)
@@ -165,16 +148,13 @@ def u_bend(page: Page, setup: Setup, label: str) -> tuple[Measured, Floats, Resu
 
 def measure(setup: Setup, drawn: Result, model: Model, draw_in: float) -> Measured:
     """Angles and radius of the released part; force and draw-in at the end of the stroke."""
-    line = shape(model)
-    low, middle, high = (crossing(line, height) for height in (15.0, 35.0, 55.0))
-    bottom = line[np.searchsorted(line[:, 0], 15.0)] - line[0]
-    flange = line[-1] - line[-1 - max(setup.intervals // 12, 2)]
+    found = u_bend_angles(shape(model), flange=max(setup.intervals // 12, 2))
     return Measured(
         force=abs(2.0 * float(drawn["punch_fz"][-1])),
         draw_in=draw_in,
-        theta1=angle_between(-bottom, middle - low),
-        theta2=angle_between(flange, low - middle),
-        radius=circle(low, middle, high),
+        theta1=found.theta1,
+        theta2=found.theta2,
+        radius=found.radius,
     )
 
 

@@ -1,10 +1,18 @@
 """Sheet metal: yield functions, hardening, and what they do to bending and springback."""
 
 from umform_book.case import Chapter
-from umform_book.material import cards
+from umform_book.material import bending, cards, elements, finite_strain, paths, u_bend, yield_functions
 
 CHAPTER = Chapter(
     "Material",
     "Laws of sheet metal at a point and in an element, and what they do to bending and springback.",
-    (cards.CASE,),
+    (
+        yield_functions.CASE,
+        paths.CASE,
+        finite_strain.CASE,
+        elements.CASE,
+        cards.CASE,
+        bending.CASE,
+        u_bend.CASE,
+    ),
 )

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
-from umform.materials import J2
+from umform.materials import J2, Material
 from umform.model import Model
 from umform.model.control import Prescribed
 from umform.run import Result
@@ -51,18 +51,18 @@ class Bent:
     result: Result
 
 
-def end_section(curvature: float, chords: int) -> tuple[float, float]:
+def end_section(curvature: float, chords: int, length: float = LENGTH) -> tuple[float, float]:
     """Horizontal displacements of the lower and of the upper edge; the mid-line is made of chords (0: an arc)."""
-    turn = 2.0 * np.arcsin(0.5 * curvature * LENGTH / chords) if chords else 0.0
-    angle = chords * turn if chords else curvature * LENGTH
+    turn = 2.0 * np.arcsin(0.5 * curvature * length / chords) if chords else 0.0
+    angle = chords * turn if chords else curvature * length
     # np.sinc(x / pi) is sin(x) / x
-    middle = np.cos((np.arange(chords) + 0.5) * turn).mean() * LENGTH if chords else np.sinc(angle / np.pi) * LENGTH
+    middle = np.cos((np.arange(chords) + 0.5) * turn).mean() * length if chords else np.sinc(angle / np.pi) * length
     half = 0.5 * THICKNESS * np.sin(angle)
-    return float(middle - half - LENGTH), float(middle + half - LENGTH)
+    return float(middle - half - length), float(middle + half - length)
 
 
 def model_of(
-    variant: Variant, cells: int, material: J2, points: int, rule: str
+    variant: Variant, cells: int, material: Material, points: int, rule: str
 ) -> tuple[Model, tuple[Prescribed, Prescribed]]:
     """The sheet in plane strain, and the controls of the lower and of the upper edge of its end section."""
     sheet = mesh.strip(LENGTH, WIDTH, THICKNESS, (cells, 1), cell=variant.cell)

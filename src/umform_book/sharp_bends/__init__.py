@@ -9,8 +9,10 @@ from umform_book.sharp_bends import (
     moment,
     over_cylinder,
     small_cylinders,
+    springback,
     stability,
     thickness_strains,
+    wide_strip,
 )
 
 CHAPTER = Chapter(
@@ -20,9 +22,11 @@ CHAPTER = Chapter(
         moment.CASE,
         thickness_strains.CASE,
         hinge_points.CASE,
+        springback.CASE,
         hinge.CASE,
         over_cylinder.CASE,
         small_cylinders.CASE,
+        wide_strip.CASE,
         meshes.CASE,
         elastic_accuracy.CASE,
         stability.CASE,

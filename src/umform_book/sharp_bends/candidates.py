@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform import mesh
-from umform.elements.technology import Element, Term
 from umform.materials import J2, Linear, Perfect
 from umform.model import Model
 from umform_book.variants import Variant
@@ -73,23 +72,6 @@ class Candidate:
         )
 
 
-@dataclass(frozen=True)
-class HigherOrder(Variant):
-    """An element of the catalogue with E_33 of an order that the catalogue does not offer, by modes of its own."""
-
-    order: int = 5
-    __hash__ = Variant.__hash__
-
-    @property
-    def element(self) -> Element:
-        """The element."""
-        known = super().element
-        modes = tuple((Term("33", c=p),) for p in range(known.thickness_order + 1, self.order + 1))
-        return replace(
-            known, name=f"{self.name}, order {self.order}", modes=known.modes + modes, thickness_order=self.order
-        )
-
-
 def of_order(name: str, order: int) -> Candidate:
     """An element with a thickness order: order 1 as in the literature, above it with E_33 tied."""
     kind = "8 nodes" if name == "ANS3DEAS" else "18 nodes"
@@ -103,5 +85,5 @@ def stack(name: str, layers: int, order: int, points: int = 4) -> Candidate:
     return Candidate(label, Variant(name, {"thickness_order": order, "tie_E33": True}), points, "gauss", layers)
 
 
-BEND8 = Candidate("BEND8", Variant("BEND8"))
-BEND18 = Candidate("BEND18", Variant("BEND18"))
+BEND8 = Candidate("BEND8", Variant("BEND8"), rule="graded")
+BEND18 = Candidate("BEND18", Variant("BEND18"), rule="graded")

@@ -170,3 +170,11 @@ def test_the_library_is_listed_and_shown():
     assert "0.895" not in shown.output
     assert 'library = "AA6016-T4", rolling = "x"' in shown.output
     assert "0.526" in shown.output
+
+
+def test_a_rate_factor_survives_in_the_deck_and_in_python():
+    law = uf.Metal(2e5, 0.3, hardening=uf.Swift(500.0, 0.01, 0.2), rate=uf.CowperSymonds(40.0, 5.0))
+    assert 'rate = { factor = "CowperSymonds", reference = 40.0, exponent = 5.0 }' in deck_block(law)
+    made: dict = {}
+    exec(python_code(law), made)
+    assert made["material"].rate == law.rate

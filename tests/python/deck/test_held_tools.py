@@ -7,6 +7,7 @@ import pytest
 
 from umform.deck import Deck
 from umform.deck.check import check
+from umform.deck.findings import Level
 from umform.errors import UmformError
 
 DRAWN = """
@@ -145,6 +146,20 @@ axis = "z"
     assert holder.presses[0].stops[0].at == -5.0
 
 
+def test_a_deck_keeps_a_gap():
+    """Rigid blocks between die and holder, and a rigid stop: no stiffness is given."""
+    gap = DRAWN.replace('direction = "z"\nstops', 'direction = "z"\ngap = { to = "die", least = 0.798 }\nstops')
+    result = built(gap).solve()
+    drawn = result["step"] == 2
+    np.testing.assert_allclose(result["hold_way"][drawn], -1.002, rtol=1e-12)
+    np.testing.assert_allclose(result["holder_fz"][drawn] + result["hold_stop"][drawn], [90.0, 100.0], rtol=1e-9)
+    assert result["hold_stop"][drawn].min() > 1.0
+    stop = built(DRAWN.replace("at = -5.0, stiffness = 1e4", "at = -5.0")).model.tools[1].presses[0].stops[0]
+    assert stop.rigid
+    with pytest.raises(UmformError, match="there is no contact of this name"):
+        built(gap.replace('to = "die"', 'to = "dye"'))
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
@@ -169,3 +184,22 @@ def test_a_deck_that_holds_tools_is_checked():
     findings = list(check(deck, deck.build()))
     assert not [finding for finding in findings if finding.level == "error"]
     assert "supports" in [finding.about for finding in findings]
+
+
+def test_a_deck_lets_a_loose_sheet_rest_on_springs():
+    """By itself, with a stiffness of its own, or not at all; a check says so."""
+    hovering = DRAWN.replace("translation = [0.0, 0.0, -0.4]", "translation = [0.0, 0.0, -1.0]")
+    deck = Deck.read(hovering)
+    problem = deck.build()
+    supports, effort = (
+        next(one for one in check(deck, problem) if one.about == about) for about in ("supports", "effort")
+    )
+    assert {supports.level, effort.level} == {Level.OK}
+    assert "rests on weak springs: translation z" in supports.text
+    assert not problem.model.others
+    result = problem.solve()
+    assert result["rest_acts"][[0, -1]].tolist() == [1.0, 0.0]
+    own = built(hovering + "\n[solution]\nrest = 1e-5\n").model
+    assert own.others[0].each * len(own.mesh.points) == pytest.approx(1e-5)
+    with pytest.raises(UmformError, match="rigid whole in 1 way"):
+        built(hovering + '\n[solution]\nrest = "off"\n').solve()

@@ -47,7 +47,8 @@ def test_each_tool_is_that_of_the_library_where_it_was_placed(shape, strip, rng)
     assert np.array_equal(part.build().gap(x)[0], tool.gap(x)[0])
     there = tool.moved((1, 2, 3), (0, np.pi / 6, 0))
     assert np.allclose(placed.contents.tools["it"].build().gap(x)[0], there.gap(x)[0], atol=1e-13)
-    assert smallest_radius(part) == pytest.approx(radius) if radius else smallest_radius(part) is None
+    found = smallest_radius(part, part.build())
+    assert found == pytest.approx(radius) if radius else found is None
 
 
 CURVES = {
@@ -189,6 +190,7 @@ def test_every_control_is_that_of_the_model(strip):
         {"penetration": 1e-3, "points": "auto"},
         {"augmented": True},
         {"cells": 4, "points": None},
+        {"cells": "auto", "ripple": 0.01, "points": None},
         {"penalty": 300.0, "penetration": 1e-3, "augmented": True},
     ],
     ids=str,
@@ -200,13 +202,18 @@ def test_contacts_are_those_of_the_model(keys, strip):
     contact = Deck.read(text).build().contacts["floor"]
     model = uf.Model(uf.mesh.strip(10.0, 2.0, 1.0, (4, 2)), material=uf.SVK(E=210e3, nu=0.3))
     same = model.contact("lower", uf.Plane((0, 0, -1)), **{"points": 3} | keys)
-    for name in ("penalty", "points", "cells", "allowed", "augmented"):
+    for name in ("penalty", "points", "cells", "ripple", "allowed", "augmented"):
         assert getattr(contact, name) == getattr(same, name)
 
 
 def test_points_and_cells_are_not_both_given(strip, errors):
     (told,) = errors((strip + CONTROLS).replace("penalty = 1e3", "penalty = 1e3\ncells = 3"))
     assert "points or cells, and not both" in told.what
+
+
+def test_a_ripple_is_wanted_of_cells_whose_number_follows_from_it(strip, errors):
+    (told,) = errors((strip + CONTROLS).replace("penalty = 1e3", "penalty = 1e3\nripple = 0.01"))
+    assert "with cells = auto only" in told.what
 
 
 def test_penalty_and_penetration_are_not_both_given(strip, errors):

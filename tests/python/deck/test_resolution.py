@@ -38,7 +38,7 @@ def test_element_size_is_measured_across_the_tool(texts, found):
 def test_thickness_order_and_points(texts, found):
     text = texts("air-bending")
     assert levels(found(text, "element")) == OK
-    (locks,) = found(text, "element", element__name="ANS3DEAS")
+    (locks,) = found(text, "element", element__name="ANS3DEAS", element__thickness_order=1)
     assert locks.level is Level.WARNING
     assert "33.3 %" in locks.text
     few = found(text, "element", element__thickness_points=5)
@@ -48,9 +48,9 @@ def test_thickness_order_and_points(texts, found):
 @pytest.mark.parametrize(
     ("element", "remedy"),
     [
-        ({"name": "ANS3DEAS"}, "name = 'BEND8', or thickness_order = 4 and tie_E33 = true"),
-        ({"name": "ANS3DEAS", "tie_E33": True}, "name = 'BEND8', or thickness_order = 4"),
-        ({"name": "MI9K3DEAS"}, "name = 'BEND18', or thickness_order = 4 and tie_E33 = true"),
+        ({"name": "ANS3DEAS", "thickness_order": 1}, "leave thickness_order out, or give 4 or more"),
+        ({"name": "DISP3D"}, "name = 'BEND8'"),
+        ({"name": "DISP9K3D"}, "name = 'BEND18'"),
     ],
 )
 def test_an_element_that_locks_is_told_what_it_lacks(element, remedy, texts, found):

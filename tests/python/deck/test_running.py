@@ -180,3 +180,19 @@ def test_demo_prints_its_deck(tmp_path):
     checked = umform("check", tmp_path / "deck.toml")
     assert checked.exit_code == 0
     assert "the radius 15 of cylinder" in checked.output
+
+
+def test_fields_of_forming(deck, tmp_path):
+    import h5py
+
+    limit = "output.forming_limit=[[-0.2, 0.5], [0.2, 0.4]]"
+    answer = umform("run", deck, "--out", tmp_path / "out", "--set", "steps.0.increments=2", "--set", limit)
+    assert answer.exit_code == 0, answer.output
+    with h5py.File(tmp_path / "out" / "fields.vtkhdf") as file:
+        assert {"major_lower", "minor_upper", "thinning", "limit_margin"} <= set(file["VTKHDF/CellData"])
+
+
+def test_a_forming_limit_that_is_not_sorted_is_refused(deck, tmp_path):
+    limit = "output.forming_limit=[[0.2, 0.5], [-0.2, 0.4]]"
+    answer = umform("run", deck, "--out", tmp_path / "out", "--set", limit)
+    assert answer.exit_code == 1 and "ascending" in answer.output

@@ -263,20 +263,20 @@ def test_number_of_enhanced_modes(name, options, modes):
 
 @pytest.mark.parametrize(("name", "base"), [("BEND8", "ANS3DEAS"), ("BEND18", "MI9K3DEAS")])
 def test_the_elements_for_bends_are_order_4_with_tying(name, base):
-    own = {"name": name, "plastic_points": (12, "split")}
-    assert element(name) == replace(element(base, thickness_order=4, tie_E33=True), **own)
-    assert element(name, thickness_order=1, tie_E33=False) == replace(element(base), **own)
+    assert element(name) == replace(element(base, thickness_order=4, tie_E33=True), name=name, complete=True)
+    assert element(name, thickness_order=1, tie_E33=False) == replace(element(base), name=name, complete=False)
 
 
 @pytest.mark.parametrize(
     ("name", "given", "through"),
     [
-        ("ANS3DEAS", {}, (5, "gauss")),
-        ("ANS3DEAS", {"thickness_rule": "lobatto"}, (5, "lobatto")),
-        ("BEND8", {}, (12, "split")),
+        ("DISP3D", {}, (5, "gauss")),
+        ("ANS3DEAS", {}, (12, "graded")),
+        ("ANS3DEAS", {"thickness_rule": "lobatto"}, (12, "lobatto")),
+        ("BEND8", {}, (12, "graded")),
         ("BEND8", {"thickness_points": 9}, (9, "gauss")),
         ("BEND8", {"thickness_rule": "gauss"}, (12, "gauss")),
-        ("BEND18", {}, (12, "split")),
+        ("BEND18", {}, (12, "graded")),
     ],
 )
 def test_points_through_the_thickness_that_a_plastic_law_gets(name, given, through):
@@ -284,6 +284,33 @@ def test_points_through_the_thickness_that_a_plastic_law_gets(name, given, throu
     steel = uf.J2(kappa=175e3, mu=80e3, hardening=uf.Perfect(160.0))
     model = uf.Model(uf.mesh.strip(2, 1, 1, (2, 1), cell=cell), name, material=steel, **given)
     assert (model.thickness_points, model.thickness_rule) == through
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "order"),
+    [
+        ("ANS3DEAS", {}, 11),
+        ("MI9K3DEAS", {}, 11),
+        ("EAS3DEAS", {"thickness_points": 5}, 4),
+        ("ANS3DEAS", {"thickness_order": 1}, 1),
+        ("BEND8", {"thickness_order": 4}, 4),
+        ("BEND8", {"thickness_points": 15}, 14),
+        ("DISP3D", {}, 0),
+    ],
+)
+def test_a_plastic_law_gets_the_complete_order(name, given, order):
+    steel = uf.J2(kappa=175e3, mu=80e3, hardening=uf.Perfect(160.0))
+    model = uf.Model(uf.mesh.strip(2, 1, 1, (2, 1), cell=element(name).cell), name, material=steel, **given)
+    orders = {term.c for mode in model.element.modes for term in mode if term.component == "33"}
+    assert orders == set(range(1, order + 1))
+    assert model.element.thickness_order == order
+
+
+@pytest.mark.parametrize("name", ["ANS3DEAS", "MINE"])
+def test_modes_of_ones_own_are_not_completed(name):
+    mine = replace(element("ANS3DEAS"), name=name, modes=elements.thickness_modes(1, 1))
+    steel = uf.J2(kappa=175e3, mu=80e3, hardening=uf.Perfect(160.0))
+    assert uf.Model(uf.mesh.strip(2, 1, 1, (2, 1)), mine, material=steel).element == mine
 
 
 def test_elastic_laws_need_no_more_points_than_the_order_asks_for():
@@ -343,7 +370,7 @@ def test_unknown_numbers_of_modes_of_higher_order_are_refused(order_modes):
     [
         ("DISP3D", {"thickness_order": 3}),
         ("DISP9K3D", {"thickness_modes": 4}),
-        ("ANS3DEAS", {"thickness_order": 5}),
+        ("ANS3DEAS", {"thickness_order": 15}),
         ("ANS3DEAS", {"thickness_order": 0}),
         ("ANS3DEAS", {"thickness_modes": 3}),
         ("ANS3DEAS", {"membrane_modes": 4}),
@@ -452,7 +479,19 @@ def test_thickness_rules_integrate_as_far_as_they_promise(rule, points):
         assert w @ np.abs(t) == pytest.approx(1.0, abs=1e-14)
 
 
-@pytest.mark.parametrize(("points", "rule"), [(1, "gauss"), (16, "gauss"), (4, "simpson")])
+@pytest.mark.parametrize("points", [8, 10, 12])
+def test_graded_points_are_exact_on_each_half_and_dense_at_the_faces(points):
+    t, w = thickness_rule(points, "graded")
+    assert (np.diff(t) > 0).all()
+    assert (w > 0).all()
+    np.testing.assert_array_equal(t, -t[::-1])
+    for k in range(points // 2):
+        assert w[points // 2 :] @ t[points // 2 :] ** k == pytest.approx(1 / (k + 1), abs=1e-14)
+    half = np.diff(t[points // 2 :])
+    assert (np.diff(half[1:]) < 0).all()
+
+
+@pytest.mark.parametrize(("points", "rule"), [(1, "gauss"), (16, "gauss"), (4, "simpson"), (11, "graded")])
 def test_thickness_rules_out_of_range_are_refused(points, rule):
     with pytest.raises(InvalidValue):
         thickness_rule(points, rule)

@@ -92,11 +92,14 @@ def increments(count, size, seed=0):
     return size * steps / np.linalg.norm(steps, axis=1)[:, None]
 
 
-def differences(law, E, state, step):
+def differences(law, E, state, step, time=0.0):
     """Tangent by differences of fourth order."""
     columns = []
     for e in np.eye(6):
-        one, two = (law.respond(E + k * step * e, state)[0] - law.respond(E - k * step * e, state)[0] for k in (1, 2))
+        one, two = (
+            law.respond(E + k * step * e, state, step=time)[0] - law.respond(E - k * step * e, state, step=time)[0]
+            for k in (1, 2)
+        )
         columns.append((8 * one - two) / (12 * step))
     return np.stack(columns, axis=2)
 

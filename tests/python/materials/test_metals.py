@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import math
 from pathlib import Path
@@ -12,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 import umform as uf
 from umform import materials as mt
+from umform._core import staged_returns
 from umform.errors import InvalidValue
 from umform_book.newton_order import measure
 
@@ -112,3 +114,34 @@ def test_directions_ask_for_the_rolling_direction():
     with pytest.raises(InvalidValue, match="rolling direction"):
         uf.Model(mesh, "ANS3DEAS", material=cards.CARDS["hill48, voce, fixed"])
     uf.Model(mesh, "ANS3DEAS", material=cards.CARDS["hosford, voce, fixed"])  # isotropic
+
+
+def test_return_maps_in_stages_are_counted(rng):
+    """A hardening curve with a step, at which Newton's method stalls; a smooth one needs no stages."""
+    strains = rng.normal(size=(400, 6))
+    strains *= 0.004 / np.linalg.norm(strains, axis=1)[:, None]
+    step = mt.Table([0.0, 0.001, 0.0010001, 0.01], [100.0, 100.0, 400.0, 400.0])
+    counted = []
+    for curve in (step, mt.Voce(100.0, 300.0, 12.0)):
+        law = mt.Metal(E=210e3, nu=0.3, hardening=curve, yield_function=mt.Hosford(20)).law()
+        before = staged_returns()
+        for strain in strains:
+            with contextlib.suppress(ValueError, InvalidValue, RuntimeError):  # stages fail at the step, too
+                law.respond(strain[None], law.initial()[None])
+        counted.append(staged_returns() - before)
+    assert 0 < counted[0] <= len(strains)
+    assert counted[1] == 0
+
+
+def test_a_run_tells_of_return_maps_in_stages(monkeypatch, caplog):
+    """With each increment in the log, once as a warning, in all in the attempts."""
+    numbers = iter([10, 10, 13, 13, 15, 15])  # as the run begins, and behind each of five increments
+    monkeypatch.setattr("umform.steps.loop.staged_returns", lambda: next(numbers))
+    metal = mt.Metal(E=210e3, nu=0.3, hardening=mt.Voce(100.0, 300.0, 12.0), yield_function=mt.Hosford(8))
+    with caplog.at_level("INFO", logger="umform.steps"):
+        _, result = pulled(metal)
+    assert result.timing.attempts.staged == result.timing.attempts.record()["staged"] == 5
+    assert caplog.text.count("return maps in stages at") == 2
+    told = [warning for warning in result.warnings if "stages of a shrinking yield surface at 3 points" in warning]
+    assert len(told) == 1
+    assert told[0].startswith("step 1, time 0.4")

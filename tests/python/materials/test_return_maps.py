@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from umform import materials as mt
+
 _SPEC = importlib.util.spec_from_file_location("cards", Path(__file__).with_name("cards.py"))
 cards = importlib.util.module_from_spec(_SPEC)
 _SPEC.loader.exec_module(cards)
@@ -52,6 +54,31 @@ def test_no_increment_up_to_ten_per_cent_fails(card):
         assert np.isfinite(state).all()
     E = E + cards.increments(count, 0.1, seed=9)
     law.respond(E, state)
+
+
+@pytest.mark.parametrize("function", cards.FUNCTIONS)
+def test_no_increment_fails_in_any_combination(function):
+    """Every yield function with every curve and every back stress, with a falling modulus in turn; and two surfaces."""
+    rng, count, rounds = np.random.default_rng(7), 400, 4
+    sizes = np.exp(rng.uniform(math.log(1e-4), math.log(0.1), size=(rounds, count, 1)))
+    sizes[-1] = 0.1
+    changes = [size * cards.increments(count, 1.0, seed=number) for number, size in enumerate(sizes)]
+    parts = [*itertools.product(cards.CURVES.values(), cards.BACK.values()), *[(mt.Perfect(124.0), cards.SPCC)] * 2]
+    for number, (curve, back) in enumerate(parts):
+        falling = cards.FALLING if number % 2 else None
+        metal = mt.Metal(
+            **cards.ALUMINIUM,
+            hardening=curve,
+            yield_function=cards.FUNCTIONS[function],
+            back_stress=back,
+            modulus=falling,
+        )
+        law = metal.small_strain_law()
+        state, h = np.tile(law.initial(), (count, 1)), np.zeros((count, 6))
+        for change in changes:
+            h = h + change
+            T, C, state = law.respond(h, state)  # raises where a point has no answer
+        assert all(np.isfinite(values).all() for values in (T, C, state))
 
 
 @pytest.mark.parametrize("card", cards.CARDS)

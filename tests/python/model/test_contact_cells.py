@@ -104,7 +104,7 @@ def test_the_tangent_is_exact_with_multipliers(tool, rng):
     assert_exact_tangent(block, mesh, waved(mesh, rng), rng)
 
 
-@pytest.mark.parametrize("way", [1e-4, 4e-3, 0.2], ids=["stick", "both", "slip"])
+@pytest.mark.parametrize("way", [1e-4, 3.7e-3, 0.2], ids=["stick", "both", "slip"])
 @pytest.mark.parametrize("tool", TOOLS)
 def test_the_tangent_is_exact_with_friction(tool, way, rng):
     """The bound of a cell is mu times its mean pressure, whose derivative is not that of a point."""
@@ -121,7 +121,9 @@ def test_the_tangent_is_exact_with_friction(tool, way, rng):
     status = block.found().active
     assert (status > 0).sum() > 5
     if tool != "ellipsoid":
-        assert {1e-4: (status == 1).sum() > 5, 4e-3: len(set(status) & {1, 2}) == 2, 0.2: (status == 2).sum() > 5}[way]
+        assert {1e-4: (status == 1).sum() > 5, 3.7e-3: len(set(status) & {1, 2}) == 2, 0.2: (status == 2).sum() > 5}[
+            way
+        ]
     assert_exact_tangent(block, mesh, u, rng)
 
 
@@ -164,7 +166,7 @@ def test_a_uniform_pressure_gives_its_consistent_forces_on_any_faces(cell, cells
 
 
 def parabola(x0):
-    """A tool with the gap z + (x - x0)^2 / 20 - 0.01: tangents of neighbouring cells meet on their common side."""
+    """A tool with the gap z + (x - x0)^2 / 20 - 0.01, whose slope in the middle of a cell is that of its chord."""
 
     def gap(x):
         zero, one = np.zeros(len(x)), np.ones(len(x))
@@ -176,18 +178,21 @@ def parabola(x0):
     return UserSurface(gap)
 
 
+@pytest.mark.parametrize("graded", [False, True], ids=["equal", "graded"])
 @pytest.mark.parametrize(("round_", "exact"), [(True, 1e-5), (False, 1e-12)], ids=["cylinder", "parabola"])
-def test_the_resultant_of_equal_cells_is_where_the_tool_touches(round_, exact):
+def test_the_resultant_of_cells_is_where_the_tool_touches(round_, exact, graded):
     """However coarse they are, and wherever the edges of contact lie in them; that of points is not."""
     mesh = strip(8.0, 1.0, 1.0, (8, 1))
     mesh.points[:, 2] += 0.5
+    if graded:
+        mesh.points[:, 0] = 8.0 * (mesh.points[:, 0] / 8.0) ** 1.5
     u = np.zeros(mesh.points.size)
     errors = {"cells": [], "points": []}
     for x in np.linspace(3.0, 4.0, 11):
-        tool = Cylinder((x, 0.0, -9.99), "y", 10.0) if round_ else parabola(x)
+        tool = Cylinder((x, 0.0, -9.95), "y", 10.0) if round_ else parabola(x)
         law = _core.penalty_law(PENALTY)
         blocks = {
-            "cells": block_over(mesh, tool, 2),
+            "cells": block_over(mesh, tool, 3),
             "points": _core.contact_block(mesh.facets("lower"), mesh.points, 2, False, tool.kernel(), law),
         }
         for name, block in blocks.items():
@@ -197,6 +202,23 @@ def test_the_resultant_of_equal_cells_is_where_the_tool_touches(round_, exact):
             errors[name].append(np.hypot(force[0], moment[1] / 10.0 + x * force[2] / 10.0) / abs(force[2]))
     assert max(errors["cells"]) < exact
     assert max(errors["points"]) > 1e-3
+
+
+def test_the_resultant_on_distorted_faces_is_nearer_to_where_the_tool_touches_than_that_of_as_many_points():
+    mesh = plate(cells=(6, 3), amount=0.08)
+    u = np.zeros(mesh.points.size)
+    errors = {"cells": [], "points": []}
+    for x in np.linspace(1.2, 1.8, 11):
+        tool, law = Cylinder((x, 0.0, -4.98), "y", 5.0), _core.penalty_law(PENALTY)
+        blocks = {
+            "cells": block_over(mesh, tool, 3),
+            "points": _core.contact_block(mesh.facets("lower"), mesh.points, 5, False, tool.kernel(), law),
+        }
+        for name, block in blocks.items():
+            respond(block, u)
+            force = block.found().force.sum(axis=0)
+            errors[name].append(abs(force[0] / force[2]))
+    assert max(errors["cells"]) < 0.1 * max(errors["points"])
 
 
 def test_the_force_has_no_stairs():
@@ -228,7 +250,7 @@ def test_many_cells_converge_to_the_integral():
     for cells in (2, 4, 8):
         force = -respond(block_over(mesh, tool, cells), np.zeros(mesh.points.size))[2::3].sum()
         errors.append(force / exact - 1.0)
-    assert errors[0] > errors[1] > errors[2] > 0.0  # stiffer than the penalty says, and less so with the square
+    assert errors[0] < errors[1] < errors[2] < 0.0  # chords: softer than the penalty says, and less so with the square
     assert errors[0] / errors[2] == pytest.approx(16.0, rel=0.3)
 
 
@@ -249,7 +271,7 @@ def test_what_was_found_is_that_of_the_forces(rng):
     assert block.penetration == found.penetration
     assert ((found.share > 0.0) & (found.share <= 1.0)).all()
     assert found.contact_work > 0.0
-    assert block.state.shape == (block.points, 6)
+    assert block.state.shape == (block.points, 5)
     assert not block.symmetric
     assert block.law.symmetric
 
@@ -376,7 +398,7 @@ def test_a_tool_that_is_pressed_finds_its_force(friction):
 
     model = Model(strip(20.0, 4.0, 1.0, (10, 1)), "ANS3DEAS", material=mt.SVK(E=1000.0, nu=0.3))
     model.fix("x0")
-    tool = Cylinder((16.3, 0.0, 5.5), "y", 5.0)
+    tool = Cylinder((16.3, 0.0, 5.48), "y", 5.0)  # inside: a tool that just touches holds no corner of a cell
     contact = model.contact("upper", tool, penalty=200.0, cells=3, friction=friction, name="punch")
     force = model.press(contact, "z", name="force")
     result = uf.solve(model, uf.Move(force, to=-0.5, steps=4))
@@ -388,6 +410,61 @@ def test_cells_or_points():
     model, contact, _ = bent(steps=2)
     assert (contact.cells, contact.points, contact.symmetric) == (3, 3, False)
     assert contact.block.points == 9 * 10
-    for options in ({"cells": 0}, {"cells": 21}, {"cells": True}, {"cells": "3"}, {"cells": 3, "points": 2}):
-        with pytest.raises(InvalidValue, match="cells"):
+    wrong = [{"cells": n} for n in (0, 21, True, "3")] + [{"cells": 3, "points": 2}, {"cells": "auto", "points": 2}]
+    wrong += [{"cells": 3, "ripple": 0.01}, {"cells": "auto", "ripple": 0.0}, {"ripple": 0.01}]
+    for options in wrong:
+        with pytest.raises(InvalidValue, match=r"cells|ripple"):
             model.contact("lower", Plane((0, 0, -9.0)), name="other", **options)
+
+
+# How many ---------------------------------------------------------------------------------------------------
+
+
+def plastic(steps=60, **rule):
+    """A plastic strip over a cylinder, its contact and the force over the way."""
+    import umform as uf
+    from umform import materials as mt
+
+    law = mt.J2(E=2e5, nu=0.3, hardening=mt.Perfect(200.0))
+    model = Model(strip(24.0, 1.0, 1.0, (12, 1)), "ANS3DEAS", material=law)
+    model.symmetry("x0", normal="x")
+    model.fix(np.arange(len(model.mesh.points)), "y")
+    punch = model.prescribe("x0_lower", "z", name="punch")
+    contact = model.contact("lower", Cylinder((14.0, 0.0, -6.5), "y", 6.0), name="tool", penalty=2000.0, **rule)
+    result = uf.solve(model, uf.Move(punch, to=-5.0, steps=steps), frames=0)
+    return contact, result["punch"], result["punch_force"], result
+
+
+def ripple_over_force(force, finest, way):
+    """Difference of two curves less a cubic polynomial, root mean square over the force."""
+    difference = force - finest
+    difference = difference - np.polynomial.Polynomial.fit(way, difference, 3)(way)
+    return np.sqrt(np.mean(difference**2) / np.mean(finest**2))
+
+
+def test_the_ripple_that_is_measured_is_below_the_one_expected():
+    _, way, finest, _ = plastic(cells=20)
+    for rule in ({"cells": 3}, {"cells": "auto", "ripple": 0.004}):
+        contact, _, force, result = plastic(**rule)
+        measured = ripple_over_force(force, finest, way)
+        assert 0.05 * contact.ripple < measured < contact.ripple
+        assert f"contact tool: {contact.cells} x {contact.cells} cells a face, ripple" in "".join(result.events)
+
+
+def test_the_number_of_cells_follows_from_the_ripple_and_the_contact():
+    def contact(length=20.0, **options):
+        import umform as uf
+
+        steel = uf.J2(E=2e5, nu=0.3, hardening=uf.materials.Perfect(200.0))
+        model = Model(strip(length, 2.0, 1.0, (10, 1)), "ANS3DEAS", material=steel)
+        return model.contact("lower", Cylinder((10.0, 0.0, -6.0), "y", 5.5), cells="auto", **options)
+
+    plain = contact()
+    assert plain.cells == 8  # 2 / sqrt(12 * 0.001 * 5.5 * 1)
+    assert plain.points == 8
+    assert plain.ripple == pytest.approx((2.0 / 8.0) ** 2 / (12.0 * 5.5), rel=1e-6)
+    assert contact(length=40.0).cells == 16
+    assert contact(length=400.0).cells == 20
+    assert contact(ripple=0.9, penalty=1.0).cells == 3
+    short = contact(ripple=0.9, penetration=1e-3)
+    assert short.cells == int(np.ceil(2.0 / (2.0 * np.sqrt(2.0 * 5.5 * 1e-3))))  # by the length that touches

@@ -53,15 +53,15 @@ def test_a_sheet_is_bent_in_a_v_die_and_springs_back(name):
     assert result["iterations"][1:].mean() < (12 if name in ("multipliers", "stiff") else 9)
     np.testing.assert_allclose(result["stroke_force"], result["punch_fz"] * -1.0, atol=1e-9)
     assert result["die_fz"][-1] == pytest.approx(-result["punch_fz"][-1], rel=1e-9)
-    assert 80.0 < result["punch_fz"][-1] < 86.0
+    assert result["punch_fz"][-1] == pytest.approx(47.3, rel=0.02)  # eight layers of EAS3DEAS, order 2, 48 along
     assert not any("chatter" in warning for warning in result.warnings)
     loaded = model.u.copy()
     released = solve(model, Release(stroke), frames=0)
     assert "the force is zero" in released.events[-1] or "lifted off" in released.events[-1]
     assert abs(released["stroke_force"][-1]) <= 1e-6 * abs(released["stroke_force"][0])
-    assert 3.7 < stroke.value < 3.9
+    assert 3.8 < stroke.value < 3.95
     tip = (model.u - loaded).reshape(-1, 3)[model.mesh.nodes("x1")]
-    assert (tip[:, 0] > 0.15).all()  # the leg swings outwards
+    assert (tip[:, 0] > 0.05).all()  # the leg swings outwards
 
 
 def test_each_pair_of_two_tools_has_its_own_rule():

@@ -19,7 +19,7 @@ from umform.model.contact.friction import friction_kernel
 from umform.run import solve
 from umform.solution.options import NewtonOptions
 from umform.steps import Move
-from umform.surfaces import Arc, Cylinder, Extruded, Line, Plane, Profile, Sphere, Torus, UserSurface
+from umform.surfaces import Arc, Cylinder, Extruded, Line, Plane, Profile, Sphere, Torus, Triangulated, UserSurface
 
 ELASTIC = mt.NeoHooke(E=1000.0, nu=0.3)
 ELEMENT = {"hex8": "ANS3DEAS", "hex18": "MI9K3DEAS"}
@@ -58,6 +58,7 @@ TOOLS = {
     "bowl": Sphere((0.0, 0.0, 6.0), 6.0, inside=True),
     "torus": Torus((0.0, 0.0, -1.0), (0.0, 0.0, 1.0), 2.0, 1.0),
     "user": UserSurface(egg),
+    "triangles": Triangulated(Sphere((0.0, 0.0, -3.0), 3.0).triangles(((-4, -4, -7), (4, 4, 1)), 0.05)),
 }
 
 

@@ -84,7 +84,7 @@ def size_of(value):
 
 def pieces(cut, model, kind):
     """Of the parcels the pieces of some things of the model, by kind: a list over the ranks for each of them."""
-    kinds = ("bodies", "controls", "tools", "contacts", "others")
+    kinds = ("bodies", "controls", "tools", "contacts", "others", "holders")
     first = sum(len(getattr(model, before)) for before in kinds[: kinds.index(kind)])
     assert len(cut[0].pieces) == sum(len(getattr(model, name)) for name in kinds)
     return [[one.pieces[first + k] for one in cut] for k in range(len(getattr(model, kind)))]

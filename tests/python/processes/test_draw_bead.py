@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,8 +14,11 @@ import umform as uf
 from umform.cli import app
 from umform.errors import InvalidValue
 from umform.processes.draw_bead import DrawBead, drawn_through
+from umform.processes.draw_bead.case import limits_of
 from umform.processes.draw_bead.equivalent import in_deck, in_python
 from umform.processes.draw_bead.files import FILES, write_files
+from umform.processes.draw_bead.limit import Limit
+from umform.processes.draw_bead.words import summary
 
 MILD = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(520.0, 0.004, 0.22))
 SMALL = {"thickness": 1.0, "radius": 4.0, "height": 3.0, "groove_radius": 3.0, "elements": 5.0}
@@ -101,6 +105,21 @@ def test_files(drawn, tmp_path):
 def test_parameters_that_make_no_sense_are_refused(wrong, said):
     with pytest.raises(InvalidValue, match=said):
         DrawBead(**{"material": MILD} | SMALL | wrong)
+
+
+def test_the_limit_of_an_error_that_falls_with_the_square_is_exact():
+    limit = Limit.of(50.0 + 3.0 / 0.7**2, 53.0, 1.0 / 0.7)
+    assert limit.value == pytest.approx(50.0, rel=1e-12)
+    assert limit.off == pytest.approx(0.06, rel=1e-12)
+
+
+def test_two_meshes_give_the_forces_of_the_equivalent_bead(drawn, tmp_path):
+    coarse = replace(drawn, case=replace(drawn.case, elements=3.5), restraint=drawn.restraint + 2.0, uplift=90.0)
+    both = replace(drawn, limits=limits_of(coarse, drawn))
+    limit = drawn.restraint - 2.0 / (1.0 / 0.49 - 1.0)
+    assert both.limits.restraint.value == pytest.approx(limit, rel=1e-9)
+    assert tomllib.loads(in_deck(both))["beads"]["NAME"]["restraint"] == pytest.approx(limit, rel=1e-3)
+    assert [row[1] for row in summary(both)][-4] == f"{limit:.1f}"
 
 
 def test_a_shallow_bead_has_no_walls_and_a_high_one_has():

@@ -147,13 +147,36 @@ def test_frames_hold_reactions_and_fields(build):
     assert (free == 0).all()
 
 
-def test_von_mises_stress_is_that_of_the_deviator(rotation):
-    stress = np.random.default_rng(3).normal(size=(5, 4, 6))
+def von_mises(stress):
     sigma = stress[..., [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
     deviator = sigma - np.trace(sigma, axis1=-2, axis2=-1)[..., None, None] / 3 * np.eye(3)
-    expected = np.sqrt(1.5 * (deviator**2).sum(axis=(-2, -1)))
-    np.testing.assert_allclose(fields.von_mises(stress), expected, rtol=1e-13)
-    np.testing.assert_allclose(fields.von_mises(np.array([7.0, 7.0, 7.0, 0.0, 0.0, 0.0])), 0.0, atol=1e-13)
+    return np.sqrt(1.5 * (deviator**2).sum(axis=(-2, -1)))
+
+
+@pytest.mark.parametrize(("element", "rolling"), [("ANS3DEAS", None), ("MI9K3DEAS", (0.6, 0.8, 0.0))])
+def test_fields_of_cells_are_means_and_largest_values_of_their_points(build, element, rolling):
+    """Seven cells, which fill no register, unevenly plastic."""
+    cell = "hex18" if "9K" in element else "hex8"
+    made = build.jittered(strip(7.0, 1.0, 0.5, (7, 1), cell=cell), 0.1)
+    model = Model(made, element, material=mt.J2(E=210e3, nu=0.3, hardening=mt.Linear(160.0, 500.0)), rolling=rolling)
+    model.fix("x0")
+    end = model.prescribe("x1_lower", "z", name="end")
+    cells = solve(model, Move(end, to=1.0, steps=4), frames=1).frames[-1].cells
+    at = fields.point_fields(model)
+    eqps = at.eqps
+    assert (eqps.max(axis=1) > 0).any() and np.ptp(eqps, axis=1).max() > 1e-4
+    expected = {
+        "stress_cauchy": at.cell_average(at.stress()),
+        "stress_cauchy_local": at.cell_average(at.stress(frame="local")),
+        "stress_pk2": at.cell_average(at.stress("pk2")),
+        "stress_pk2_local": at.cell_average(at.stress("pk2", "local")),
+        "stress_von_mises": von_mises(at.stress()).max(axis=1),
+        "plastic_strain_mean": at.cell_average(eqps),
+        "plastic_strain_max": eqps.max(axis=1),
+    }
+    assert list(cells) == [*expected, *(["rolling"] if rolling else [])]
+    for name, values in expected.items():
+        np.testing.assert_allclose(cells[name], values, rtol=1e-12, atol=1e-12 * np.abs(values).max(), err_msg=name)
 
 
 def test_a_plastic_frame_has_the_yield_stress_as_its_von_mises_stress(build):

@@ -19,7 +19,7 @@ from umform import materials as mt
 from umform.io.atomic import PendingFile
 from umform.io.trees import read_tree, write_tree
 from umform.mesh import strip
-from umform.model import Model
+from umform.model import Body, Model
 from umform.run import Result, resume, solve
 from umform.run.checkpoint import Checkpoints
 from umform.solution.newton import Newton
@@ -150,6 +150,29 @@ def pressed():
     return model, [Move(pressure, 0.1, steps=3), Move([ram, pressure], [-0.2, 0.12], steps=3)], {"frames": 2}
 
 
+def metals():
+    """Metals with back stresses, a modulus that falls, a rate over the time of the step, and with two surfaces."""
+    steel, hill = {"E": 206e3, "nu": 0.3}, mt.Hill48(1.8, 1.5, 2.2)
+    dull = mt.Metal(
+        **steel,
+        hardening=mt.Voce(180.0, 330.0, 14.0),
+        yield_function=hill,
+        back_stress=mt.Chaboche([(4000.0, 80.0), (600.0, 6.0)]),
+        modulus=mt.FallingModulus(saturated=160e3, rate=30.0),
+        rate=mt.CowperSymonds(reference=40.0, exponent=5.0),
+    )
+    surfaces = mt.YoshidaUemori(C=500.0, B=168.0, growth=190.0, b=9.0, m=12.0, h=0.5)
+    bounded = mt.Metal(**steel, hardening=mt.Perfect(124.0), yield_function=hill, back_stress=surfaces)
+    bodies = [
+        Body(material=dull, cells=lambda x, y, z: x < 4.0, name="dull", rolling=(1.0, 0.5, 0.0)),
+        Body(material=bounded, cells=lambda x, y, z: x > 4.0, name="bounded", rolling=(0.0, 1.0, 0.0)),
+    ]
+    model = Model(strip(8.0, 4.0, 1.0, (4, 1)), bodies=bodies)
+    model.fix("x0")
+    tip = model.prescribe("x1", "z", "tip")
+    return model, [Move(tip, 0.8, steps=4, time=0.01), Move(tip, 0.2, steps=3, time=2.0)], {"frames": 3}
+
+
 @pytest.fixture
 def assert_the_same(same_state):
     """Bit by bit, but for the seconds."""
@@ -198,7 +221,7 @@ def copies(monkeypatch, tmp_path):
 # The same bits ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("build", [bending, moves, cut, bar, block, arch, pressed, rubbed, celled, beaded])
+@pytest.mark.parametrize("build", [bending, moves, cut, bar, block, arch, pressed, rubbed, celled, beaded, metals])
 def test_a_run_goes_on_from_any_place_to_the_same_bits(build, copies, tmp_path, assert_the_same):
     model, steps, options = build()
     expected = solve(model, steps, **options)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import weakref
+
 import numpy as np
 import pytest
 
@@ -57,3 +59,22 @@ def test_a_step_that_is_not_linear_ends_where_the_consistent_one_does(evaluation
     lean, full = run(5.0, force=0.5, steps=3, element="EAS3DEAS"), run(0.0, force=0.5, steps=3, element="EAS3DEAS")
     np.testing.assert_allclose(lean.model.u, full.model.u, atol=1e-7 * np.abs(full.model.u).max())
     np.testing.assert_allclose(lean["elastic_energy"], full["elastic_energy"], rtol=1e-6)
+
+
+@pytest.mark.parametrize("factor_cost", [0.0, 5.0])
+def test_no_tangent_is_kept_while_the_next_one_is_evaluated(monkeypatch, factor_cost):
+    """With Cholesky's factors nothing asks for the matrix again."""
+    kept, most, evaluate = [], [], Model.evaluate
+
+    def watched(self, *arguments, **options):
+        most.append(sum(array() is not None for array in kept))
+        evaluation = evaluate(self, *arguments, **options)
+        if evaluation.values.size:
+            kept.append(weakref.ref(evaluation.values))
+        return evaluation
+
+    monkeypatch.setattr(Model, "evaluate", watched)
+    result = run(factor_cost, force=0.5, steps=3, element="EAS3DEAS")
+    assert result.solver == "multifrontal"
+    assert len(kept) > 3
+    assert max(most) == 0

@@ -14,6 +14,13 @@ from umform.solution.options import NewtonOptions
 from umform.solvers import Pattern
 
 
+class Evaluated(SimpleNamespace):
+    """An evaluation that gives its tangent away."""
+
+    def without_tangent(self):
+        return Evaluated(**vars(self) | {"values": np.empty(0)})
+
+
 class Given:
     """A system of one unknown with slope 1 whose n-th evaluation has a given residual and active set."""
 
@@ -40,7 +47,7 @@ class Given:
     def evaluate(self, u, du=None, *, tangent=True):
         self.count += 1
         residual = np.array([self.residuals[min(self.count, len(self.residuals)) - 1]])
-        return SimpleNamespace(
+        return Evaluated(
             x=u, residual=residual, values=np.ones(1), predictor=np.zeros(1), border=SimpleNamespace(unknowns=()),
             force_scale=1.0, failed=-1, round_off=0.0, flowing=np.zeros(0, dtype=np.uint8),
             status=np.array(self.active[min(self.count, len(self.active)) - 1], dtype=np.uint8),

@@ -224,6 +224,13 @@ def test_line_search_of_a_thin_strip_does_not_creep():
     np.testing.assert_allclose(searched, plain, atol=1e-7)
 
 
+class Evaluated(SimpleNamespace):
+    """An evaluation that gives its tangent away."""
+
+    def without_tangent(self):
+        return Evaluated(**vars(self) | {"values": np.empty(0)})
+
+
 class Scalar:
     """A system of one unknown: residual and slope are functions of x, the active set a function of x."""
 
@@ -256,7 +263,7 @@ class Scalar:
     def evaluate(self, x, du=None, *, tangent=True):
         at = float(x[0])
         self.calls.append("evaluate" if tangent else "forces")
-        return SimpleNamespace(
+        return Evaluated(
             x=x, residual=np.array([self.residual(at)]), values=np.array([self.slope(at)]), predictor=np.zeros(1),
             force_scale=self.scale, failed=4 if abs(at) > 1e6 else -1, failure="is out of its domain", round_off=0.0,
             status=np.array(self.active(at), dtype=np.uint8), flowing=np.zeros(0, dtype=np.uint8),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from umform import Close, Move, Plane, resume, solve
+from umform import Close, Cylinder, Move, Plane, resume, solve
 from umform import materials as mt
 from umform.errors import InvalidValue, RigidBodyMotion
 from umform.mesh import strip
@@ -63,13 +63,58 @@ def test_springs_with_too_much_energy_are_a_warning():
     assert any("smaller stiffness" in warning for warning in result.warnings)
 
 
-def test_without_springs_a_loose_sheet_is_refused():
+def test_a_loose_sheet_that_tools_will_hold_rests_on_springs_by_itself():
+    """As with a call of rest(), to the last bit; the run says so, and for what."""
+    model, hold = loose(0.2, supported=False)
+    by_itself = solve(model, Close(hold, force=-200.0))
+    assert "lies loosely" in by_itself.events[0]
+    assert "translation z" in by_itself.events[0]
+    assert by_itself["rest_acts"][[0, -1]].tolist() == [1.0, 0.0]
+    assert 0.0 < by_itself["rest_energy"][-1] < 1e-6 * by_itself["external_work"][-1]
+    assert not by_itself.warnings
+    other, hold = loose(0.2, supported=False)
+    other.rest()
+    np.testing.assert_array_equal(solve(other, Close(hold, force=-200.0))["holder_fz"], by_itself["holder_fz"])
+    again = solve(model, Move(model.controls[0], -250.0, steps=1))  # the tools hold it now
+    assert [term.name for term in model.others] == ["rest"]
+    assert again["rest_acts"][-1] == 0.0
+
+
+def test_where_no_tool_will_hold_a_loose_sheet_it_is_refused():
+    """Two frictionless planes leave three motions; a holder that does not move leaves all; a model may be strict."""
+    model, hold = loose(supported=False)
+    with pytest.raises(RigidBodyMotion, match=r"in 6 ways(.|\n)*leave free rotation about z"):
+        solve(model, Close(hold, force=-200.0))
+    model, _ = loose()
+    with pytest.raises(RigidBodyMotion, match=r"translation z(.|\n)*no step moves"):
+        solve(model, Move(model.force("upper", (1.0, 0.0, 0.0), "pull"), 1.0, steps=1))
     model, hold = loose()
-    with pytest.raises(RigidBodyMotion, match="translation z"):
+    model.carries_loose_sheet = False
+    with pytest.raises(RigidBodyMotion, match=r"translation z(.|\n)*switched off"):
         solve(model, Close(hold, force=-200.0))
     for stiffness in (0.0, -1.0, np.nan):
         with pytest.raises(InvalidValue, match="spring"):
             model.rest(stiffness)
+
+
+@pytest.mark.parametrize("below", [None, 1e3])
+def test_a_tool_that_loses_the_sheet_is_told(below):
+    """A pad on a stop below the end of a strip that is lifted off it: told once, with what holds it now."""
+    model = Model(strip(20.0, 2.0, 0.8, (10, 1)), material=STEEL)
+    model.fix("x0")
+    pad = model.contact("lower", Cylinder((18.0, 0.0, -20.39), "y", 20.0), penalty=2e3, name="pad")
+    push = model.press(pad, "z", "push") if below else model.spring(pad, "z", 50.0, 5.0, "push")
+    if below:
+        model.stop(push, at=0.05, stiffness=below)
+    tip = model.prescribe("x1_lower", "z", "tip")
+    start = Move([push, tip], [5.0, 0.0], steps=1) if below else Move(tip, -0.01, steps=1)
+    result = solve(model, [start, Move(tip, 3.0, steps=3), Move(tip, 3.5, steps=1)], progress=False)
+    told = [warning for warning in result.warnings if "lost the sheet" in warning]
+    assert result["pad_active"][-1] == 0
+    assert len(told) == 1
+    assert told[0].startswith("step 2, time ")
+    assert ("a stop holds it" if below else "a spring holds it") in told[0]
+    assert "push_way" in told[0]
 
 
 @pytest.mark.parametrize("stop", [4, 17])

@@ -62,7 +62,7 @@ def starts(monkeypatch):
 
 
 def bent(build, order, *steps):
-    case = build.free_bending((8, 1))
+    case = build.free_bending((8, 1), thickness_order=1, thickness_points=5)
     options = NewtonOptions(residual=1e-12, extrapolate=order)
     moves = [Move(case.punch, to, steps=count) for to, count in steps]
     return solve(case.model, moves, options=options, frames=0)

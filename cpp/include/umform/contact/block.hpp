@@ -36,9 +36,9 @@ class ContactBlock {
     const std::vector<double>& areas() const { return area_; }
 
     /// At all contact points, those of far facets too, which are located now.
-    virtual const std::vector<Vec3>& positions() = 0;
-    virtual const std::vector<double>& gaps() = 0;
-    virtual const std::vector<Vec3>& normals() = 0;
+    virtual std::vector<Vec3> positions() = 0;
+    virtual std::vector<double> gaps() = 0;
+    virtual std::vector<Vec3> normals() = 0;
 
     /// Tractions of the tool on the sheet at all points, as they are (not times area).
     virtual std::vector<Reaction> reactions() = 0;
@@ -124,7 +124,9 @@ class ContactBlockOf final : public ContactBlock {
 
     std::vector<double> shape_values() const override {
         std::vector<double> values;
-        for (const Values& N : rule_.N) values.insert(values.end(), N.begin(), N.end());
+        for (std::size_t i = 0; i < rule_.N.size(); ++i)
+            if (static_cast<int>(i % rule_.places()) < rule_.count())
+                values.insert(values.end(), rule_.N[i].begin(), rule_.N[i].end());
         return values;
     }
 
@@ -132,9 +134,9 @@ class ContactBlockOf final : public ContactBlock {
         locator_.move(u, pose, thread_count(), [this](int e) { return reach(e); });
     }
 
-    const std::vector<Vec3>& positions() override { return complete().positions(); }
-    const std::vector<double>& gaps() override { return complete().gaps(); }
-    const std::vector<Vec3>& normals() override { return complete().normals(); }
+    std::vector<Vec3> positions() override { return of_points(complete().positions()); }
+    std::vector<double> gaps() override { return of_points(complete().gaps()); }
+    std::vector<Vec3> normals() override { return of_points(complete().normals()); }
 
     /// f_a = -int N_a t dA, K_ab = int N_a N_b (-dt/dx) dA with the traction t of the law at the points. eqs. (4.9), (4.10), (4.87)
     Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) override {
@@ -168,7 +170,7 @@ class ContactBlockOf final : public ContactBlock {
             found.contact_work += area_[q] * rule_.contact_work(history + of_law_);
             if (!reaction.held) return;
             round_off.add(e, weight_of_errors(q), values_at(e, q));
-            const Vec3 &x = locator_.positions()[q], &n = locator_.normals()[q];
+            const Vec3 &x = locator_.positions()[at(q)], &n = locator_.normals()[at(q)];
             found.active[q] = reaction.slipping ? 2 : 1;
             found.points.push_back(q);
             found.x.push_back(x), found.normal.push_back(n);
@@ -190,24 +192,36 @@ class ContactBlockOf final : public ContactBlock {
     }
 
     std::vector<double> row(const Vec3& w, const Vec3& omega, const Vec3& p) override {
+        // v = sum N_a v_a with v_a = w + omega x (x_a - p): the sum is that of -f_a . v_a, and dv_a/du_a = omega x.
         std::vector<double> row(dofs(), 0.0);
-        for_each_held([&](int e, int q, const Reaction& reaction, const Workspace& workspace) {
-            const Vec3 &x = locator_.positions()[q], t = reaction.traction(locator_.normals()[q]);
-            const Vec3 turned = cross(omega, {x[0] - p[0], x[1] - p[1], x[2] - p[2]}), turning = cross(t, omega);
-            const Spread<Nodes>* spread = rule_.spread(workspace, q - e * per_facet());
+        if (open) return row;
+        locator_.settle([this](int e) { return reach(e); });
+        Element element;
+        for (int e = 0; e < connectivity().size(); ++e) {
+            if (locator_.far(e)) continue;
+            std::vector<double> trial(history_.trial(e), history_.trial(e) + history_.stride());
+            if (!form(e, trial.data(), own_workspace(), true, element)) continue;
             const std::int32_t* ids = connectivity()[e];
-            for (int l = 0; l < 3; ++l) {
-                double value = turning[l], spread_value = 0.0;
-                for (int k = 0; k < 3; ++k) {
-                    const bool stored = !symmetric() || k <= l;
-                    value -= (w[k] + turned[k]) * (stored ? reaction.K[k][l] : reaction.K[l][k]);
-                    if (spread != nullptr) spread_value -= (w[k] + turned[k]) * spread->S(k, l);
-                }
-                for (int a = 0; a < Nodes; ++a) row[3 * ids[a] + l] += area_[q] * values_at(e, q)[a] * value;
-                for (int a = 0; spread != nullptr && a < Nodes; ++a)
-                    row[3 * ids[a] + l] += area_[q] * spread->c[a] * spread_value;
+            std::array<double, size> way;
+            for (int a = 0; a < Nodes; ++a) {
+                const Vec3& x = locator_.node(e, a);
+                const Vec3 turned = cross(omega, {x[0] - p[0], x[1] - p[1], x[2] - p[2]});
+                for (int k = 0; k < 3; ++k) way[k * Nodes + a] = w[k] + turned[k];
             }
-        });
+            for (int b = 0; b < Nodes; ++b) {
+                const Vec3 turning = cross({element.f[b], element.f[Nodes + b], element.f[2 * Nodes + b]}, omega);
+                for (int l = 0; l < 3; ++l) {
+                    double value = -turning[l];
+                    for (int k = 0; k < 3; ++k)
+                        for (int a = 0; a < Nodes; ++a) {
+                            const int i = k * Nodes + a, j = l * Nodes + b;
+                            const bool stored = !symmetric() || k <= l;
+                            value -= way[i] * element.K[stored ? i * size + j : j * size + i];
+                        }
+                    row[3 * ids[b] + l] += value;
+                }
+            }
+        }
         return row;
     }
 
@@ -238,8 +252,7 @@ class ContactBlockOf final : public ContactBlock {
     void augment(const Vec3* tractions) override {
         if (!law_->follows_places()) return;
         for_each_held([&](int e, int q, const Reaction&, const Workspace&) {
-            const Place place{locator_.gaps()[q], locator_.positions()[q], locator_.normals()[q],
-                              locator_.hessians()[q], locator_.pose()};
+            const Place place = locator_.places(e)[q % per_facet()];
             law_->augment(place, tractions[q], history_.state(e) + history_.size() * (q % per_facet()),
                           history_.point(q));
         });
@@ -274,6 +287,12 @@ class ContactBlockOf final : public ContactBlock {
         double sum_ = 0.0;
     };
 
+    /// K and f of a facet, [direction][node].
+    struct Element {
+        alignas(64) std::array<double, static_cast<std::size_t>(size) * size> K;
+        std::array<double, size> f;
+    };
+
     bool remembers() const { return FaceRule::remembers || law_->follows_places(); }
 
     /// What the points of a facet remember that nothing holds: what the law does, and the rule.
@@ -287,6 +306,7 @@ class ContactBlockOf final : public ContactBlock {
                 law_->leave(locator_.in_tool(e, q), state, of_point);
         }
     }
+
     void leave(int e, double* trial) const {
         leave_law(e, trial);
         for (int q = 0; FaceRule::remembers && q < per_facet(); ++q) {
@@ -311,12 +331,21 @@ class ContactBlockOf final : public ContactBlock {
         }
     }
 
+    /// Number of a point among the places of the locator.
+    std::size_t at(int q) const {
+        return static_cast<std::size_t>(q / per_facet()) * locator_.points() + q % per_facet();
+    }
+    /// Of values at all places those of the points.
+    template <class T>
+    std::vector<T> of_points(const std::vector<T>& values) const {
+        std::vector<T> found(points());
+        for (int q = 0; q < points(); ++q) found[q] = values[at(q)];
+        return found;
+    }
     double weight_of_errors(int q) const { return law_->stiffness() * area_[q] * largest_length(q); }
     const Values& values_at(int e, int q) const { return locator_.shapes(e)[q - e * per_facet()]; }
 
-    double reach(int e) const {
-        return law_->reach(per_facet(), history_.trial(e), history_.size()) + rule_.reach(locator_, e);
-    }
+    double reach(int e) const { return law_->reach(per_facet(), history_.trial(e), history_.size()); }
 
     const Locator<Nodes>& complete() {
         locator_.complete(thread_count());
@@ -354,58 +383,46 @@ class ContactBlockOf final : public ContactBlock {
         });
     }
 
+    /// Workspace of what only one thread asks for.
+    Workspace& own_workspace() {
+        if (workspaces_.empty()) workspaces_.emplace_back(per_facet());
+        return workspaces_.front();
+    }
+
+    /// Forces and, where wanted, the tangent of a facet; whether the tool holds it anywhere.
+    bool form(int e, double* trial, Workspace& workspace, bool tangent, Element& element) const {
+        const double* areas = area_.data() + static_cast<std::size_t>(e) * per_facet();
+        respond(e, areas, trial, workspace);
+        bool active = false;
+        for (const Reaction& reaction : workspace.reactions) active = active || reaction.held;
+        if (!active) return false;
+        element.f.fill(0.0);
+        if (tangent) element.K.fill(0.0);
+        for (int q = 0; q < per_facet(); ++q)
+            if (workspace.reactions[q].held)
+                rule_.add(*law_, locator_, e, q, workspace, tangent, element.K.data(), element.f.data());
+        return true;
+    }
+
     void add_facet(int e, const Scatter& scatter, const Target& target, Workspace& workspace) {
         scale_[e] = 0.0;
         if (open || locator_.far(e)) {
             if (remembers()) leave(e, history_.trial(e));
             return;
         }
-        const std::vector<Reaction>& reactions = workspace.reactions;
-        respond(e, area_.data() + static_cast<std::size_t>(e) * per_facet(), history_.trial(e), workspace);
-        bool active = false;
-        for (const Reaction& reaction : reactions) active = active || reaction.held;
-        if (!active) return;
-        alignas(64) std::array<double, static_cast<std::size_t>(size) * size> K{};
-        std::array<double, size> f{};
-        for (int q = 0; q < per_facet(); ++q)
-            if (reactions[q].held)
-                add_point(reactions[q], rule_.spread(workspace, q), locator_.normals()[e * per_facet() + q],
-                          locator_.shapes(e)[q], target.wants_tangent(), K.data(), f.data());
-        for (const double value : f) scale_[e] += value * value;
-        scatter_element<Nodes>(connectivity(), scatter, e, K.data(), f.data(), target, !symmetric());
-    }
-
-    /// Of a symmetric law what is on and above the diagonal of K, and the diagonal blocks.
-    void add_point(const Reaction& reaction, const Spread<Nodes>* spread, const Vec3& n, const Values& N, bool tangent,
-                   double* K, double* f) const {
-        const Vec3 t = reaction.traction(n);
-        for (int k = 0; k < 3; ++k)
-            for (int a = 0; a < Nodes; ++a) f[k * Nodes + a] -= t[k] * N[a];
-        if (!tangent) return;
-        for (int k = 0; k < 3; ++k)
-            for (int l = symmetric() ? k : 0; l < 3; ++l) {
-                const double stiffness = reaction.K[k][l];
-                for (int a = 0; a < Nodes; ++a)
-                    for (int b = 0; b < Nodes; ++b)
-                        K[(k * Nodes + a) * size + l * Nodes + b] += stiffness * N[a] * N[b];
-            }
-        if (spread == nullptr) return;
-        for (int k = 0; k < 3; ++k)
-            for (int l = 0; l < 3; ++l)
-                for (int a = 0; a < Nodes; ++a) {
-                    const double stiffness = spread->S(k, l) * N[a];
-                    for (int b = 0; b < Nodes; ++b)
-                        K[(k * Nodes + a) * size + l * Nodes + b] += stiffness * spread->c[b];
-                }
+        Element element;
+        if (!form(e, history_.trial(e), workspace, target.wants_tangent(), element)) return;
+        for (const double value : element.f) scale_[e] += value * value;
+        scatter_element<Nodes>(connectivity(), scatter, e, element.K.data(), element.f.data(), target, !symmetric());
     }
 
     /// Length of the largest number that the gap of point q is a difference of: the position in space, that of the tool,
     /// or the distance from the centre of curvature, 1/|H|. eq. (5.35)
     double largest_length(int q) const {
-        const Vec3 &x = locator_.positions()[q], &c = locator_.pose().c;
+        const Vec3 &x = locator_.positions()[at(q)], &c = locator_.pose().c;
         const double place = std::sqrt(dot(x, x)) + std::sqrt(dot(c, c));
         double curvature = 0.0;
-        for (const double value : locator_.hessians()[q].a) curvature += value * value;
+        for (const double value : locator_.hessians()[at(q)].a) curvature += value * value;
         curvature = std::sqrt(curvature);
         return curvature * flattest * place > 1.0 ? place + 1.0 / curvature : place;
     }

@@ -46,6 +46,7 @@ struct FacetPoints {
     }
 
     int count() const { return static_cast<int>(N.size()); }
+    int places() const { return count(); }
 
     /// How far a point can move at most when no node moves farther than by one: the largest sum of |N|.
     double largest_motion() const {

@@ -19,10 +19,10 @@ class Locator {
   public:
     using Values = std::array<double, Nodes>;
 
-    /// Facet is a rule: shape functions N, [point] or [facet][point] where facets differ.
+    /// Facet is a rule: shape functions N at its places, [place] or [facet][place] where facets differ.
     template <class Facet>
     Locator(Connectivity part, std::vector<double> X, const Facet& facet, std::shared_ptr<const Surface> surface)
-        : part_(std::move(part)), X_(std::move(X)), N_(facet.N), points_(facet.count()),
+        : part_(std::move(part)), X_(std::move(X)), N_(facet.N), points_(facet.places()),
           own_shapes_(static_cast<int>(N_.size()) > points_), largest_motion_(facet.largest_motion()),
           surface_(std::move(surface)), culls_(surface_->is_distance()) {
         number_nodes();

@@ -7,19 +7,34 @@ namespace umform {
 
 /// Integrals of min(G, 0) over the square |xi|, |eta| <= 1/2 with G = g + p xi + q eta. eqs. (4.83), (4.84)
 struct Overlap {
-    double gap = 0.0;                // int min(G, 0)
-    double half_square = 0.0;        // int min(G, 0)^2 / 2
-    double share = 0.0;              // m00: area where G <= 0, zero where the tool does not hold the cell
-    double m_xi = 0.0, m_eta = 0.0;  // m10, m01: its first moments
+    double gap = 0.0;                   // int min(G, 0)
+    double half_square = 0.0;           // int min(G, 0)^2 / 2
+    double share = 0.0;                 // m00: area where G <= 0, zero where the tool does not hold the cell
+    double m_xi = 0.0, m_eta = 0.0;     // m10, m01: its first moments
+    std::array<double, 4> by_corner{};  // derivatives of the first with respect to the values at the corners
 };
 
-/// Overlap of a cell: the square is cut with the line G = 0. No step divides by p or q, so that a cell along the tool is no
+/// Overlap of a cell from values at its corners: G is the plane next to them, and the square is cut with the line G = 0. No step divides by p or q, so that a cell along the tool is no
 /// special case.
 class Cut {
   public:
     Overlap overlap;
 
-    Cut(double g, double p, double q) {
+    explicit Cut(const std::array<double, 4>& G) {
+        const double g = 0.25 * (G[0] + G[1] + G[2] + G[3]);
+        const double p = 0.5 * (G[1] + G[2] - G[0] - G[3]), q = 0.5 * (G[2] + G[3] - G[0] - G[1]);
+        cut(g, p, q);
+        const double half_xi = 0.5 * overlap.m_xi, half_eta = 0.5 * overlap.m_eta, quarter = 0.25 * overlap.share;
+        overlap.by_corner = {quarter - half_xi - half_eta, quarter + half_xi - half_eta, quarter + half_xi + half_eta,
+                             quarter - half_xi + half_eta};
+    }
+
+  private:
+    struct Vertex {
+        double xi, eta, G;
+    };
+
+    void cut(double g, double p, double q) {
         constexpr std::array<std::array<double, 2>, 4> corners{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
         std::array<Vertex, 5> inside;
         int count = 0, held = 0;
@@ -37,11 +52,6 @@ class Cut {
         }
         for (int i = 2; i < count; ++i) add(inside[0], inside[i - 1], inside[i]);
     }
-
-  private:
-    struct Vertex {
-        double xi, eta, G;
-    };
 
     /// Where G vanishes between a vertex inside and one outside.
     static Vertex between(const Vertex& a, const Vertex& b) {

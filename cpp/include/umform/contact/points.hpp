@@ -11,6 +11,8 @@ template <int Nodes>
 class AtPoints : public FacetPoints<Nodes> {
   public:
     using Setting = ContactRule;
+    using Values = std::array<double, Nodes>;
+    static constexpr int size = 3 * Nodes;
     static constexpr bool symmetric = true, remembers = false;
     static std::vector<Quantity> quantities() { return {}; }
 
@@ -21,12 +23,29 @@ class AtPoints : public FacetPoints<Nodes> {
 
     using FacetPoints<Nodes>::FacetPoints;
 
-    double reach(const Locator<Nodes>&, int) const { return 0.0; }
     void respond(const ContactLaw& law, const Locator<Nodes>& locator, int e, const double* weights,
                  const HistoryRows& rows, Workspace& work) const {
         law.respond(this->count(), locator.places(e), weights, rows, work.reactions.data());
     }
-    static constexpr const Spread<Nodes>* spread(const Workspace&, int) { return nullptr; }
+
+    /// Of a symmetric law what is on and above the diagonal of K, and the diagonal blocks. eqs. (4.9), (4.10)
+    void add(const ContactLaw& law, const Locator<Nodes>& locator, int e, int q, const Workspace& work, bool tangent,
+             double* K, double* f) const {
+        const Values& N = locator.shapes(e)[q];
+        const Reaction& reaction = work.reactions[q];
+        const Vec3 t = reaction.traction(locator.places(e).n[q]);
+        for (int k = 0; k < 3; ++k)
+            for (int a = 0; a < Nodes; ++a) f[k * Nodes + a] -= t[k] * N[a];
+        if (!tangent) return;
+        const bool symmetric = law.symmetric();
+        for (int k = 0; k < 3; ++k)
+            for (int l = symmetric ? k : 0; l < 3; ++l) {
+                const double stiffness = reaction.K[k][l];
+                for (int a = 0; a < Nodes; ++a)
+                    for (int b = 0; b < Nodes; ++b)
+                        K[(k * Nodes + a) * size + l * Nodes + b] += stiffness * N[a] * N[b];
+            }
+    }
 
     double gap(const ContactLaw&, const Locator<Nodes>& locator, int e, int q, const Workspace&, const double*) const {
         return locator.places(e).gap[q];

@@ -107,7 +107,9 @@ class ShellBlockOf final : public ShellBlock {
     void forget_blocks() override { from_kept_ = keeps_ = false; }
 
     void element(int e, const double* u, double* K, double* f) override;
+    std::pair<int, Voigt> failing_point(int e, const double* u) override;
     void fields(const double* u, const PointFields& out) override;
+    void fields(const double* u, const CellFields& out) override;
     Energy energy(const double* u) override;
 
   private:
@@ -179,20 +181,24 @@ class ShellBlockOf final : public ShellBlock {
         return trial;
     }
 
-    /// Asks the material at the points of the `wanted` elements; `trial` takes the new history.
-    LaneMask respond(const Batch& batch, LaneMask wanted, const LaneTrials& trial, Workspace& w) const {
-        LaneStates state;
+    /// What the material sees of the points of the elements in the lanes.
+    LanePoints seen(const Batch& batch, double time, Workspace& w) const {
         LanePoints points;
-        for (int lane = 0; lane < lane_count; ++lane) {
-            state[lane] = history_.state(batch.element[lane]);
-            points.cell[lane] = number_of(batch.element[lane]);
-        }
+        points.step = time;
+        for (int lane = 0; lane < lane_count; ++lane) points.cell[lane] = number_of(batch.element[lane]);
         if (material_->sees_points()) {
             element_.axes(rolling(w), w.shell, w.axes);
             points.axes = w.axes.data();
             points.size = element_.length(w.shell);
-            points.step = step;
         }
+        return points;
+    }
+
+    /// Asks the material at the points of the `wanted` elements after an increment of time; `trial` takes the new history.
+    LaneMask respond(const Batch& batch, LaneMask wanted, const LaneTrials& trial, double time, Workspace& w) const {
+        LaneStates state;
+        for (int lane = 0; lane < lane_count; ++lane) state[lane] = history_.state(batch.element[lane]);
+        const LanePoints points = seen(batch, time, w);
         const auto ask = [&](LaneMask mask, const Vec<Lanes, 6>* E) {
             return material_->respond(element_.points(), mask, E, state, w.shell.S.data(), w.shell.CC.data(), trial,
                                       points);
@@ -241,7 +247,7 @@ class ShellBlockOf final : public ShellBlock {
         Failures failures{};
         LaneMask good = strains(batch, u, alpha_, w);
         mark(good, Failure::Inverted, failures);
-        good = respond(batch, good, trial, w);
+        good = respond(batch, good, trial, step, w);
         mark(good | !batch.filled(), Failure::Law, failures);
         if (!any(good)) return failures;
         const bool corrected = tangent && !correction.empty();  // only the geometric stiffness knows the correction
@@ -285,8 +291,12 @@ class ShellBlockOf final : public ShellBlock {
     /// Refuses a rolling direction that stands on the sheet.
     void check_rolling();
 
+    /// Calls write(batch, good, workspace) with strains and stresses at u, and refuses elements that have none.
+    template <class Write>
+    void for_each_response(const double* u, const Write& write);
     /// Fields of the element in a lane.
     void write_fields(int e, int lane, const Workspace& w, const PointFields& out) const;
+    void write_fields(const Batch& batch, LaneMask good, const Workspace& w, const CellFields& out) const;
     /// Local frame and compatible deformation gradient F = g_m (x) G^m of the element in a lane at point q.
     void write_base(int q, int lane, const Workspace& w, double* frame, double* F) const;
 

@@ -1,7 +1,10 @@
 // What a block of elements gives beside residual and tangent: one element, fields, energies. For the files that instantiate it.
 #pragma once
 
+#include <utility>
+
 #include "umform/elements/block.hpp"
+#include "umform/elements/cauchy.hpp"
 
 namespace umform {
 
@@ -26,7 +29,32 @@ void ShellBlockOf<Nodes>::element(int e, const double* u, double* K, double* f) 
 }
 
 template <int Nodes>
-void ShellBlockOf<Nodes>::fields(const double* u, const PointFields& out) {
+std::pair<int, Voigt> ShellBlockOf<Nodes>::failing_point(int e, const double* u) {
+    prepare_workspaces(1);
+    Workspace& w = workspaces_[0];
+    const Batch batch = alone(e);
+    std::vector<double> scratch(history_.stride());
+    const LaneTrials trial = filled(scratch.data());
+    if (!strains(batch, u, alpha_, w)[0]) return {-1, {}};
+    LanePoints here = seen(batch, step, w);
+    LaneMask first = false;
+    first.set(0, true);
+    for (int q = 0; q < points(); ++q) {
+        LaneStates state;
+        state.fill(history_.state(e) + static_cast<std::ptrdiff_t>(q) * state_size());
+        if (!material_->respond(1, first, &w.shell.E[q], state, &w.shell.S[q], &w.shell.CC[q], trial, here)[0]) {
+            Voigt E;
+            for (int p = 0; p < 6; ++p) E[p] = w.shell.E[q][p][0];
+            return {q, E};
+        }
+        if (here.axes != nullptr) ++here.axes;
+    }
+    return {-1, {}};
+}
+
+template <int Nodes>
+template <class Write>
+void ShellBlockOf<Nodes>::for_each_response(const double* u, const Write& write) {
     for_each_batch([&](int b, Workspace& w) {
         const Batch& batch = batches_.all[b];
         Failures failures{};
@@ -35,14 +63,30 @@ void ShellBlockOf<Nodes>::fields(const double* u, const PointFields& out) {
         w.scratch.resize(lane_count * history_.stride());  // the trial history stays as it is
         LaneTrials scratch;
         for (int lane = 0; lane < lane_count; ++lane) scratch[lane] = w.scratch.data() + lane * history_.stride();
-        good = respond(batch, good, scratch, w);
+        good = respond(batch, good, scratch, 0.0, w);  // no time passes at a converged state
         mark(good | !batch.filled(), Failure::Law, failures);
+        LaneMask known = false;
         for (int lane = 0; lane < batch.count; ++lane) {
             failed_[batch.element[lane]] = failures[lane];
-            if (failures[lane] == Failure::None) write_fields(batch.element[lane], lane, w, out);
+            known.set(lane, failures[lane] == Failure::None);
         }
+        write(batch, known, w);
     });
     for (int e = 0; e < part_.size(); ++e) require(e, failed_[e]);
+}
+
+template <int Nodes>
+void ShellBlockOf<Nodes>::fields(const double* u, const PointFields& out) {
+    for_each_response(u, [&](const Batch& batch, LaneMask known, const Workspace& w) {
+        for (int lane = 0; lane < batch.count; ++lane)
+            if (known[lane]) write_fields(batch.element[lane], lane, w, out);
+    });
+}
+
+template <int Nodes>
+void ShellBlockOf<Nodes>::fields(const double* u, const CellFields& out) {
+    for_each_response(
+        u, [&](const Batch& batch, LaneMask known, const Workspace& w) { write_fields(batch, known, w, out); });
 }
 
 template <int Nodes>
@@ -55,6 +99,45 @@ void ShellBlockOf<Nodes>::write_fields(int e, int lane, const Workspace& w, cons
         }
         write_base(q, lane, w, out.frame + 9 * at, out.F + 9 * at);
         out.dV[at] = w.shell.dV[q][lane];
+    }
+}
+
+template <int Nodes>
+void ShellBlockOf<Nodes>::write_fields(const Batch& batch, LaneMask good, const Workspace& w,
+                                       const CellFields& out) const {
+    std::array<Vec<Lanes, 6>, 4> sums{};
+    Lanes volume = 0.0, mises = 0.0;
+    for (int q = 0; q < points(); ++q) {
+        Mat<Lanes, 3, 3> frame, F;
+        for (int lane = 0; lane < lane_count; ++lane) {
+            Mat3 frame_of, F_of;
+            write_base(q, lane, w, frame_of.a.data(), F_of.a.data());
+            for (int i = 0; i < 9; ++i) frame.a[i].set(lane, frame_of.a[i]), F.a[i].set(lane, F_of.a[i]);
+        }
+        const Stresses<Lanes> at = stresses<Lanes>(w.shell.E[q], w.shell.S[q], frame, F);
+        const std::array<const Vec<Lanes, 6>*, 4> kinds{&at.cauchy, &at.cauchy_local, &at.pk2, &w.shell.S[q]};
+        for (int kind = 0; kind < 4; ++kind)
+            for (int p = 0; p < 6; ++p) sums[kind][p] += w.shell.dV[q] * (*kinds[kind])[p];
+        volume += w.shell.dV[q];
+        const Lanes here = von_mises(at.cauchy_local);
+        mises = select(here > mises, here, mises);
+    }
+    for (int lane = 0; lane < batch.count; ++lane) {
+        if (!good[lane]) continue;
+        const std::size_t e = batch.element[lane];
+        for (int kind = 0; kind < 4; ++kind)
+            for (int p = 0; p < 6; ++p) out.stresses[kind][6 * e + p] = sums[kind][p][lane] / volume[lane];
+        out.von_mises[e] = mises[lane];
+        if (out.scalar < 0) continue;
+        const double* history = history_.state(batch.element[lane]) + out.scalar;
+        double sum = 0.0, largest = history[0];
+        for (int q = 0; q < points(); ++q) {
+            const double value = history[static_cast<std::size_t>(q) * history_.size()];
+            sum += value * w.shell.dV[q][lane];
+            largest = std::max(largest, value);
+        }
+        out.mean[e] = sum / volume[lane];
+        out.largest[e] = largest;
     }
 }
 

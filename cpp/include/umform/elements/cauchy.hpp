@@ -38,6 +38,14 @@ Vec<Real, 6> to_voigt(const Mat<Real, 3, 3>& T) {
     return voigt;
 }
 
+/// Equivalent stress of von Mises.
+template <class Real>
+Real von_mises(const Vec<Real, 6>& stress) {
+    const Real a = stress[0] - stress[1], b = stress[1] - stress[2], c = stress[2] - stress[0];
+    return sqrt(0.5 * (a * a + b * b + c * c)
+                + 3.0 * (stress[3] * stress[3] + stress[4] * stress[4] + stress[5] * stress[5]));
+}
+
 template <class Real>
 struct Stresses {
     Vec<Real, 6> cauchy_local, cauchy, pk2;  // but for the first in global axes

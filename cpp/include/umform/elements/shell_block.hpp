@@ -1,6 +1,7 @@
 // A block of solid-shells as Python sees it, whatever its number of nodes: history, enhanced parameters, evaluation.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "umform/assembly/history.hpp"
@@ -17,6 +18,15 @@ struct PointFields {
     double* dV;     // reference volume
 };
 
+/// Fields of all elements, for output: means over the reference volume, and largest values of all Gauss points. Arrays
+/// [element][...].
+struct CellFields {
+    std::array<double*, 4> stresses;  // [6] Cauchy stress in global and in local axes, S in global and in local axes
+    double* von_mises;                // largest
+    double *mean = nullptr, *largest = nullptr;  // of a scalar of the history, if one is asked for
+    int scalar = -1;                             // its place in the history of a point
+};
+
 /// The elements as Python sees them. `evaluate` is pure in the history: it reads the converged state and writes the
 /// trial state and, with a tangent, the condensed blocks; `recover`, `commit` and `revert` are explicit.
 class ShellBlock {
@@ -30,11 +40,14 @@ class ShellBlock {
     virtual bool symmetric() const = 0;  // whether the tangent is
     virtual Outcome evaluate(const double* u, const Scatter& scatter, const Target& target) = 0;
     virtual void fields(const double* u, const PointFields& fields) = 0;
+    virtual void fields(const double* u, const CellFields& fields) = 0;
     /// Energies over the whole block with the converged history and parameters, which belong to u; the trial history stays
     /// as it is. NaN where the law does not know them. eq. (5.30)
     virtual Energy energy(const double* u) = 0;
     /// K, f of one element before its scatter, condensed; for tests and eigenvalues.
     virtual void element(int e, const double* u, double* K, double* f) = 0;
+    /// The first point of an element at which its law has no answer, and the strain there; -1 if it has one everywhere.
+    virtual std::pair<int, Voigt> failing_point(int e, const double* u) = 0;
 
     /// alpha -= Kaa^-1 (ra + Kad du) with the blocks of the last `evaluate` with a tangent, or with those of the converged state
     /// if there was none since `commit` or `revert`. eq. (2.19) If `mixed`, the evaluations that follow take the geometric stiffness from the stress that the

@@ -11,6 +11,7 @@
 
 #include "umform/assembly/history.hpp"
 #include "umform/materials/point.hpp"
+#include "umform/materials/staged_returns.hpp"
 
 namespace umform {
 
@@ -34,6 +35,8 @@ concept MaterialLaw =
             { law.respond(E, state, S, CC, trial) } -> std::same_as<LaneMask>;
         } || requires {
             { law.respond(E, state, S, CC, trial, point) } -> std::same_as<LaneMask>;
+        } || requires {
+            { law.respond(E, state, S, CC, trial, point.step) } -> std::same_as<LaneMask>;
         };
         { law.initial(history) } -> std::same_as<void>;
         { law.energy(strain, history) } -> std::same_as<Energy>;
@@ -44,6 +47,12 @@ template <class L>
 concept SeesPoint =
     requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
              Lanes* trial, const Point<Lanes>& point) { law.respond(E, state, S, CC, trial, point); };
+
+/// A law that takes the increment of time as a last argument.
+template <class L>
+concept SeesStep =
+    requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
+             Lanes* trial, double step) { law.respond(E, state, S, CC, trial, step); };
 
 /// A law whose tangent is not symmetric says so by a member function `symmetric`.
 template <class L>
@@ -93,6 +102,7 @@ class Material {
     virtual void energy(int n, const Voigt* E, const double* state, Energy* energies, std::int32_t cell) const = 0;
 };
 
+/// A law at all points of elements. If its return map may go through stages, it says so by a static member `has_stages`.
 template <MaterialLaw Law>
 class MaterialOf final : public Material {
   public:
@@ -107,14 +117,18 @@ class MaterialOf final : public Material {
                      Mat<Lanes, 6, 6>* CC, const LaneTrials& trial, const LanePoints& points) const override {
         std::array<Lanes, state_limit<Law>()> before, after;
         const int size = law_.state_size;
+        [[maybe_unused]] const LaneMask asked = wanted;
         for (int q = 0; q < n; ++q) {
             for (int k = 0; k < size; ++k) before[k] = by_lane([&](int lane) { return state[lane][q * size + k]; });
             if constexpr (SeesPoint<Law>)
                 wanted = wanted
                          & law_.respond(E[q], before.data(), S[q], CC[q], after.data(),
                                         Point<Lanes>{points.axes[q], points.size, points.step});
+            else if constexpr (SeesStep<Law>)
+                wanted = wanted & law_.respond(E[q], before.data(), S[q], CC[q], after.data(), points.step);
             else
                 wanted = wanted & law_.respond(E[q], before.data(), S[q], CC[q], after.data());
+            if constexpr (requires { Law::has_stages; }) count_stages(asked);
             for (int lane = 0; lane < lane_count; ++lane)
                 for (int k = 0; k < size; ++k) trial[lane][q * size + k] = after[k][lane];
         }
@@ -138,7 +152,9 @@ class MaterialOf final : public Material {
                 before[lane] = state + point(lane) * law_.state_size;
                 after[lane] = trial + point(lane) * law_.state_size;
             }
-            const LaneMask answered = respond(1, true, &strain, before, &stress, &tangent, after, points);
+            LaneMask asked = false;
+            for (int lane = 0; lane < std::min(lane_count, n - first); ++lane) asked.set(lane, true);
+            const LaneMask answered = respond(1, asked, &strain, before, &stress, &tangent, after, points);
             for (int q = first; q < std::min(first + lane_count, n); ++q) {
                 if (!answered[q - first]) return q;
                 for (int p = 0; p < 6; ++p) S[q][p] = stress[p][q - first];

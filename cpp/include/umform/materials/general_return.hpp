@@ -3,6 +3,7 @@
 #pragma once
 
 #include "umform/materials/plastic_increment.hpp"
+#include "umform/materials/staged_returns.hpp"
 
 namespace umform {
 
@@ -86,6 +87,7 @@ GeneralReturn<Real> solve_stage(const MetalParts& metal, const Yield& yield, con
                                 Real stage, Deviator<Real>& xi, Real& dp, Mask<Real>& open) {
     constexpr int most_evaluations = 60;
     constexpr double least_fall = 1e-4;  // of the residual, as a share of what the step promises
+    const bool rated = metal.rate.active();
     GeneralReturn<Real> at(metal, yield, start, xi, dp, stage);
     const Real size = at.shear * at.shear * dot(start.e, start.e) + at.y.value * at.y.value;
     const Real solved = 1e-28 * size;
@@ -103,14 +105,23 @@ GeneralReturn<Real> solve_stage(const MetalParts& metal, const Yield& yield, con
         const Deviator<Real> by_R = factors.solve(at.R), by_v = factors.solve(at.v);
         const Real step = (at.f - dot(at.n, by_R)) / (stage * at.y.slope + dot(at.n, by_v));
         for (int i = 0; i < 5; ++i) toward[i] = select(moved, -by_R[i] - step * by_v[i], toward[i]);
-        change = select(moved, select(dp + step < 0.0, -0.5 * dp, step), change);  // never back to a negative increment
+        // Never back to a negative increment.
+        change = select(moved, rated ? step : select(dp + step < 0.0, -0.5 * dp, step), change);
         part = select(moved, 1.0, 0.5 * part);
         Deviator<Real> next;
         for (int i = 0; i < 5; ++i) next[i] = xi[i] + select(open, part * toward[i], 0.0);
-        at = GeneralReturn<Real>(metal, yield, start, next, dp + select(open, part * change, 0.0), stage);
+        const Real way = select(open, part * change, 0.0);
+        at = GeneralReturn<Real>(metal, yield, start, next, rated ? step_positive(dp, way) : dp + way, stage);
         accepted = (at.merit <= (1.0 - 2.0 * least_fall * part) * merit) | (at.merit <= solved);
     }
     return at;
+}
+
+/// Where the increment of a metal with a rate starts: below what elasticity allows, and what its factor does. eq. (3.123)
+template <class Real>
+Real rated_start(const MetalParts& metal, const PlasticStart<Real>& start, Real over, Real elastic) {
+    const Real excess = select(over > 1.0, over - 1.0, 0.0), most = metal.rate.reach(excess, start.step);
+    return select(most < elastic, most, elastic);
 }
 
 /// Newton from the point of the surface on the ray to the trial stress; where that fails, in stages from the surface through the
@@ -119,25 +130,34 @@ template <class Real, class Yield>
 PlasticFlow<Real> general_return_map(const MetalParts& metal, const Yield& yield, const PlasticStart<Real>& start,
                                      Mask<Real> plastic) {
     constexpr double shrink = 0.7;
+    const bool rated = metal.rate.active();
     Deviator<Real> xi, n;
-    Real dp, over;  // trial stress over yield stress
+    Real dp, elastic, over;  // elastic: the increment without a rate; over: trial stress over yield stress
     {
         const PlasticIncrement<Real> none(metal, start, 0.0);
         Mat<Real, 5, 5> N;
         for (int i = 0; i < 5; ++i) xi[i] = none.b[i] - start.inner[i];
         yield.derivatives(xi, over, n, N);
-        dp = select(plastic, (over - none.y.value) / (none.y.slope + none.shear * dot(n, n)), 0.0);
+        const Real slope = rated ? 0.0 : none.y.slope;  // that of a rate is infinite
+        dp = elastic = select(plastic, (over - none.y.value) / (slope + none.shear * dot(n, n)), 0.0);
         over = select(plastic, over / none.y.value, 1.0);
-        for (int i = 0; i < 5; ++i) xi[i] = xi[i] / over;
+        Real first = 1.0 / over;
+        if (rated) {
+            dp = rated_start<Real>(metal, start, over, dp);
+            first = first * metal.rate(dp, start.step).value;
+            first = select(first < 1.0, first, 1.0);
+        }
+        for (int i = 0; i < 5; ++i) xi[i] = first * xi[i];
     }
     Mask<Real> open = plastic;
     GeneralReturn<Real> at = solve_stage<Real>(metal, yield, start, 1.0, xi, dp, open);
     Mask<Real> found = !open;
     if (any(open)) {
         Mask<Real> staged = open;
+        note_stages(staged);
         const PlasticIncrement<Real> none(metal, start, 0.0);
         for (int i = 0; i < 5; ++i) xi[i] = select(staged, none.b[i] - start.inner[i], xi[i]);
-        dp = select(staged, 0.0, dp);
+        dp = select(staged, rated ? rated_start<Real>(metal, start, 1.0 / shrink, elastic) : Real(0.0), dp);
         Real stage = select(staged, over, 1.0);
         while (any(staged)) {
             stage = select(shrink * stage > 1.0, shrink * stage, 1.0);

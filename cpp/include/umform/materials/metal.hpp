@@ -16,6 +16,7 @@ struct Metal {
     Yield yield;
     int state_size;
 
+    static constexpr bool has_stages = true;
     static constexpr int surface_size = 14;  // alpha*, R, q, r
     static constexpr int state_limit = 8 + 6 * Chaboche::largest + surface_size;
 
@@ -37,18 +38,19 @@ struct Metal {
     void initial(double* state) const { std::fill_n(state, state_size, 0.0); }
     bool symmetric() const { return parts.modulus.fall == 0.0 && !parts.back_stress.recalls(); }
 
-    /// T and C = dT/dh at the strain h. eqs. (3.73)-(3.82)
+    /// T and C = dT/dh at the strain h after an increment of time. eqs. (3.73)-(3.82)
     template <class Real>
-    Mask<Real> respond(const Vec<Real, 6>& h, const Real* state, Vec<Real, 6>& T, Mat<Real, 6, 6>& C,
-                       Real* trial) const {
+    Mask<Real> respond(const Vec<Real, 6>& h, const Real* state, Vec<Real, 6>& T, Mat<Real, 6, 6>& C, Real* trial,
+                       double step) const {
         Vec<Real, 6> elastic;
         for (int p = 0; p < 6; ++p) elastic[p] = h[p] - state[p];
         const Real volume = elastic[0] + elastic[1] + elastic[2];
-        const PlasticStart<Real> start = begin(elastic, state);
+        const PlasticStart<Real> start = begin(elastic, state, step);
         const PlasticIncrement<Real> none(parts, start, 0.0);
         Deviator<Real> xi;
         for (int i = 0; i < 5; ++i) xi[i] = none.b[i] - start.inner[i];
-        const Mask<Real> plastic = !(yield.value(xi) <= none.y.value * (1.0 + plastic_margin));
+        Mask<Real> plastic = !(yield.value(xi) <= none.y.value * (1.0 + plastic_margin));
+        if (parts.rate.active() && !(step > 0.0)) plastic = false;  // no time to flow
 
         std::copy_n(state, state_size, trial);
         PlasticFlow<Real> flow;
@@ -108,8 +110,9 @@ struct Metal {
     }
 
     template <class Real>
-    PlasticStart<Real> begin(const Vec<Real, 6>& elastic, const Real* state) const {
+    PlasticStart<Real> begin(const Vec<Real, 6>& elastic, const Real* state, double step) const {
         PlasticStart<Real> start{yield.basis.components(elastic, 0.5), state[6], {}};
+        start.step = step;
         const auto deviator = [&](int at) {
             Vec<Real, 6> stress;
             std::copy_n(state + at, 6, stress.begin());
@@ -181,6 +184,8 @@ struct Metal {
             trial[place + 6] = select(flow.plastic, stagnation.grown, trial[place + 6]);
             trial[place + 13] = select(flow.plastic, stagnation.radius, trial[place + 13]);
         }
+        if (parts.rate.active())
+            work += at.y.value - yield_stress(parts.hardening, start.eqps + flow.dp).value;  // eq. (3.125)
         trial[7] += lost * square + work * flow.dp;
     }
 };

@@ -46,7 +46,13 @@ PlasticFlow<Real> quadratic_return_map(const MetalParts& metal, const QuadraticY
     for (int part = 0; part < metal.back_stress.count(); ++part) reach += yield.value(start.back_stress[part]);
     Real low = 0.0, high = reach * (0.5 / least);
     Mask<Real> open = plastic;
+    const bool rated = metal.rate.active();
+    if (rated) {  // eqs. (3.123), (3.124)
+        const Real over = select(plastic, at.phi / at.y.value - 1.0, 1.0), most = metal.rate.reach(over, start.step);
+        dp = select(plastic, select(most < high, most, high), 0.0);
+    }
     const Real tolerance = 1e-15 * select(at.phi > at.y.value, at.phi / at.y.value, 1.0);
+    if (rated) at = QuadraticReturn<Real>(metal, yield, start, dp);
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
         const Real phi = select(at.phi > 0.0, at.phi, 1e-300);
         const Real r = at.y.value / phi - 1.0;
@@ -55,8 +61,9 @@ PlasticFlow<Real> quadratic_return_map(const MetalParts& metal, const QuadraticY
         open = open & !(abs(r) <= tolerance);
         if (!any(open)) break;
         const Real slope = (at.y.slope - at.y.value * at.dphi / phi) / phi;
-        Real next = dp - r / slope;
-        next = select((next > low) & (next < high), next, 0.5 * (low + high));
+        Real next = rated ? step_positive(dp, -r / slope) : dp - r / slope;
+        const Real middle = rated ? sqrt(select(low > 0.0, low, 1e-3 * high) * high) : 0.5 * (low + high);
+        next = select((next > low) & (next < high), next, middle);
         open = open & !((next == dp) & (r == r));  // nothing is left between the ends of the bracket
         dp = select(open, next, dp);
         at = QuadraticReturn<Real>(metal, yield, start, dp);

@@ -15,6 +15,7 @@
 #include "schedule.hpp"
 #include "storage.hpp"
 #include "unsymmetric.hpp"
+#include "updates.hpp"
 
 namespace umform {
 
@@ -32,7 +33,8 @@ struct Eliminated {
     int pivots = 0, size = 0, done = 0;  // with those that the children have left; of them eliminated
     double* a = nullptr;                 // columns of the factor, `size` rows each; rows of the other one follow
     Block own;                           // where they are longer than planned
-    double* update = nullptr;            // square matrix for the parent: rows that are left, then those of ancestors
+    double* update = nullptr;            // for the parent: rows that are left, then those of ancestors
+    UpdateLayout layout;
     Block own_update;
     bool stacked = false;
     std::vector<std::int32_t> rows, columns;  // places of the pivots in their order of elimination; empty if as planned
@@ -41,6 +43,8 @@ struct Eliminated {
     int left() const { return pivots - done; }
     int order() const { return size - done; }
     double* b() const { return a + static_cast<std::ptrdiff_t>(size) * pivots; }
+    /// Row 0 of a column of the update, of which the lower triangle is there if it is symmetric.
+    double* update_column(int j) const { return update + layout.column(j); }
 };
 
 /// Numeric factors of matrices with one pattern.
@@ -198,22 +202,18 @@ class Factors {
 
     void add_entries(int f, Eliminated& front) {
         const Front& planned = plan_.fronts[f];
-        const std::int64_t end = plan_.end_of_entries(f);
-        const std::int32_t *source = plan_.source.data(), *target = plan_.target.data();
-        if (front.pivots == planned.pivots) {
-            for (std::int64_t k = planned.entries; k < end; ++k) front.a[target[k]] += values_[source[k]];
-            return;
-        }
         const int delayed = front.pivots - planned.pivots, p = planned.pivots, m = planned.size;
-        for (std::int64_t k = planned.entries; k < end; ++k) {
-            if (target[k] < p * m) {
-                const int row = target[k] % m, column = target[k] / m;
+        plan_.entries.for_each(f, m, [&](int source, int target) {
+            if (delayed == 0) {
+                front.a[target] += values_[source];
+            } else if (target < p * m) {
+                const int row = target % m, column = target / m;
                 front.a[(row < p ? row : row + delayed) + static_cast<std::ptrdiff_t>(column) * front.size] +=
-                    values_[source[k]];
+                    values_[source];
             } else {
-                front.b()[target[k] - p * m] += values_[source[k]];
+                front.b()[target - p * m] += values_[source];
             }
-        }
+        });
     }
 
     /// Scales the entries of the matrix, before anything else is added to them.
@@ -238,17 +238,16 @@ class Factors {
 
     /// Adds the columns of an update that are pivots of the front, and rows that are.
     void add_pivots(const Child& child, Eliminated& front) {
-        const double* from = child.front->update;
         if (!child.sorted) return add_unsorted(child, front, true);
         for (int j = 0; j < child.split; ++j) {
-            const double* column = from + static_cast<std::ptrdiff_t>(j) * child.order;
+            const double* column = child.front->update_column(j);
             double* to = front.a + static_cast<std::ptrdiff_t>(child.seat[j]) * front.size;
             add_column(child, column, to, kind_ == Kind::Unsymmetric ? 0 : j);
         }
         if (kind_ != Kind::Unsymmetric) return;
         const int beyond = front.size - front.pivots;
         for (int j = child.split; j < child.order; ++j) {
-            const double* column = from + static_cast<std::ptrdiff_t>(j) * child.order;
+            const double* column = child.front->update_column(j);
             double* to = front.b() + child.seat[j] - front.pivots;
             for (int i = 0; i < child.split; ++i) to[static_cast<std::ptrdiff_t>(child.seat[i]) * beyond] += column[i];
         }
@@ -266,15 +265,15 @@ class Factors {
 
     /// Adds an update with seats in any order: its part in the columns of the front, or that in its update.
     void add_unsorted(const Child& child, Eliminated& front, bool pivots) {
-        const int p = front.pivots, order = front.order(), shift = front.left() - p, beyond = front.size - p;
+        const int p = front.pivots, shift = front.left() - p, beyond = front.size - p;
         for (int j = 0; j < child.order; ++j)
             for (int i = kind_ == Kind::Unsymmetric ? 0 : j; i < child.order; ++i) {
-                const double value = child.front->update[i + static_cast<std::ptrdiff_t>(j) * child.order];
+                const double value = child.front->update_column(j)[i];
                 int row = child.seat[i], column = child.seat[j];
                 if (kind_ != Kind::Unsymmetric && row < column) std::swap(row, column);
                 if ((std::min(row, column) < p) != pivots) continue;
                 if (!pivots)
-                    front.update[row + shift + static_cast<std::ptrdiff_t>(column + shift) * order] += value;
+                    front.update_column(column + shift)[row + shift] += value;
                 else if (column < p)
                     front.a[row + static_cast<std::ptrdiff_t>(column) * front.size] += value;
                 else
@@ -312,16 +311,17 @@ class Factors {
 
     /// What is left for the parent.
     void make_update(int f, Eliminated& front, Worker& worker, bool stack) {
-        const std::size_t order = front.order(), left = front.left();
+        const int left = front.left();
+        front.layout = UpdateLayout(front.order(), left, kind_ != Kind::Unsymmetric);
         front.stacked = stack && left == 0 && front.pivots == plan_.fronts[f].pivots;
         if (front.stacked) {
-            front.update = worker.stacks.push(schedule_.depth[f], order * order);
+            front.update = worker.stacks.push(schedule_.depth[f], front.layout.size());
         } else {
-            front.own_update = pool_.take(order * order);
+            front.own_update = pool_.take(front.layout.size());
             front.update = front.own_update.data();
         }
         if (left > 0) copy_left(front);
-        const int beyond = front.size - front.pivots, width = block_of(beyond), blocks = (beyond + width - 1) / width;
+        const int beyond = front.size - front.pivots, width = block_of(front), blocks = (beyond + width - 1) / width;
         const std::span<const Child> children = worker.children;
         share(blocks, beyond >= kLarge, [&](int k) {
             const int first = k * width, last = std::min(beyond, first + width);
@@ -333,49 +333,51 @@ class Factors {
             if (!child.sorted) add_unsorted(child, front, false);
     }
 
-    /// Columns of a block of an update. What a block of a symmetric update has above the diagonal is wasted: few columns are
-    /// best in small updates. They depend on the update alone, so that its bits do.
-    int block_of(int beyond) const { return kind_ == Kind::Unsymmetric ? 192 : beyond < 400 ? 48 : 96; }
+    /// Columns of an update that are worked on at a time.
+    static int block_of(const Eliminated& front) {
+        return front.layout.width == 0 ? 192 : static_cast<int>(front.layout.width);
+    }
 
     /// Rows and columns that could not be eliminated.
     void copy_left(Eliminated& front) {
         const int order = front.order(), left = front.left(), beyond = order - left;
         for (int j = 0; j < left; ++j) {
             const double* column = front.a + static_cast<std::ptrdiff_t>(front.done + j) * front.size + front.done;
-            std::copy_n(column, order, front.update + static_cast<std::ptrdiff_t>(j) * order);
+            std::copy_n(column, order, front.update_column(j));
             if (kind_ != Kind::Unsymmetric) continue;
             const double* row = front.b() + static_cast<std::ptrdiff_t>(front.done + j) * beyond;
-            for (int i = 0; i < beyond; ++i) front.update[j + static_cast<std::ptrdiff_t>(left + i) * order] = row[i];
+            for (int i = 0; i < beyond; ++i) front.update_column(left + i)[j] = row[i];
         }
     }
 
     /// Columns of the update: - L21 L21^T, - L21 D L21^T or - L21 U12.
     void multiply(Eliminated& front, int first, int last) {
-        const int p = front.pivots, m = front.size, order = front.order(), left = front.left(), q = front.done;
-        double* c = front.update + left + static_cast<std::ptrdiff_t>(left + first) * order;
+        const int p = front.pivots, m = front.size, left = front.left(), q = front.done;
+        const int stride = static_cast<int>(front.layout.stride(left + first));
+        double* c = front.update_column(left + first) + left;
         const double* a = front.a + p;
         if (kind_ == Kind::Positive) {
             blas().gemm('N', 'T', m - p - first, last - first, q, -1.0, a + first, m, a + first, m, 0.0, c + first,
-                        order);
+                        stride);
         } else if (kind_ == Kind::Symmetric) {
             std::vector<std::int32_t> none;
             std::vector<double> scaled;
             Indefinite(front.a, m, p, front.below, none).scale_rows(0, q, p + first, last - first, scaled);
             blas().gemm('N', 'T', m - p - first, last - first, q, -1.0, a + first, m, scaled.data(), last - first, 0.0,
-                        c + first, order);
+                        c + first, stride);
         } else {
-            blas().gemm('N', 'T', m - p, last - first, q, -1.0, a, m, front.b() + first, m - p, 0.0, c, order);
+            blas().gemm('N', 'T', m - p, last - first, q, -1.0, a, m, front.b() + first, m - p, 0.0, c, stride);
         }
     }
 
     /// Adds columns of the update of a child to those of the front.
     void add_beyond(const Child& child, Eliminated& front, int first, int last) {
-        const int shift = front.left() - front.pivots, order = front.order();
+        const int shift = front.left() - front.pivots;
         const auto* end = child.seat + child.order;
         int j = static_cast<int>(std::lower_bound(child.seat + child.split, end, front.pivots + first) - child.seat);
         for (; j < child.order && child.seat[j] < front.pivots + last; ++j) {
-            const double* column = child.front->update + static_cast<std::ptrdiff_t>(j) * child.order;
-            double* to = front.update + static_cast<std::ptrdiff_t>(child.seat[j] + shift) * order + shift;
+            const double* column = child.front->update_column(j);
+            double* to = front.update_column(child.seat[j] + shift) + shift;
             add_column(child, column, to, kind_ == Kind::Unsymmetric ? child.split : j);
         }
     }
@@ -384,8 +386,7 @@ class Factors {
         Eliminated& front = fronts_[f];
         if (front.order() == 0) return;
         if (front.stacked) {
-            const std::size_t order = front.order();
-            worker.stacks.pop(schedule_.depth[f], order * order);
+            worker.stacks.pop(schedule_.depth[f], front.layout.size());
         } else {
             pool_.give(std::move(front.own_update));
             front.own_update = Block();

@@ -7,6 +7,7 @@
 #include <new>
 #include <vector>
 
+#include "entries.hpp"
 #include "structure.hpp"
 #include "supernodes.hpp"
 #include "umform/ordering/quotient.hpp"
@@ -18,10 +19,9 @@ namespace umform {
 struct Front {
     int first = 0, pivots = 0, size = 0;  // place of the first pivot; rows that may be eliminated, all rows
     int parent = -1;
-    std::int64_t rows = 0;     // begin of the places of the other rows in Plan::rows, and in Plan::seat
-    std::int64_t entries = 0;  // begin of the entries of the matrix in Plan::source
-    std::int64_t factor = 0;   // begin of the columns of the factor
-    std::int64_t work = 0;     // multiplications of the subtree that ends here
+    std::int64_t rows = 0;    // begin of the places of the other rows in Plan::rows, and in Plan::seat
+    std::int64_t factor = 0;  // begin of the columns of the factor
+    std::int64_t work = 0;    // multiplications of the subtree that ends here
     int updates() const { return size - pivots; }
 };
 
@@ -35,10 +35,10 @@ struct Plan {
     std::vector<std::int32_t> place, equation;           // [equation] -> place, [place] -> equation
     std::vector<Front> fronts;                           // children before parents, subtrees together
     std::vector<std::int32_t> children_start, children;  // fronts of which the parent is front f
-    std::vector<std::int32_t> rows, seat;      // place of each row of an update; its row in the front of the parent
-    std::vector<std::int32_t> source, target;  // entry of the matrix, place in the columns of its front
-    std::int64_t factor_size = 0;              // numbers that are stored
-    std::int64_t fill = 0;                     // entries of the factors: without the upper triangles of L
+    std::vector<std::int32_t> rows, seat;  // place of each row of an update; its row in the front of the parent
+    EntryRuns entries;                     // of the matrix, with their places in the columns of the fronts
+    std::int64_t factor_size = 0;          // numbers that are stored
+    std::int64_t fill = 0;                 // entries of the factors: without the upper triangles of L
 
     Plan(const Rows& matrix, bool is_symmetric, const Quotient& quotient, const Supernodes& tree)
         : n(matrix.n), symmetric(is_symmetric), place(matrix.n), equation(matrix.n) {
@@ -53,20 +53,24 @@ struct Plan {
     }
 
     /// Finds the way of the entries into the fronts.
-    void map_entries(const Rows& matrix, const Columns& columns) {
-        source.reserve(matrix.indptr[n]), target.reserve(matrix.indptr[n]);
-        std::vector<std::int32_t> local(n, 0);
-        for (Front& front : fronts) {
-            front.entries = static_cast<std::int64_t>(source.size());
-            for (int k = 0; k < front.pivots; ++k) local[front.first + k] = k;
-            for (int k = front.pivots; k < front.size; ++k) local[rows[front.rows + k - front.pivots]] = k;
-            for (int c = 0; c < front.pivots; ++c) map_pivot(front, c, matrix, columns, local);
+    void map_entries(const Rows& matrix) {
+        std::vector<std::int32_t> owner(n), local(n, 0);
+        for (std::size_t f = 0; f < fronts.size(); ++f)
+            std::fill_n(owner.begin() + fronts[f].first, fronts[f].pivots, static_cast<std::int32_t>(f));
+        entries = EntryRuns(matrix, place, owner, fronts.size());
+        for (std::size_t f = 0; f < fronts.size(); ++f) {
+            const Front& front = fronts[f];
+            const int m = front.size, p = front.pivots;
+            for (int k = 0; k < p; ++k) local[front.first + k] = k;
+            for (int k = p; k < m; ++k) local[rows[front.rows + k - p]] = k;
+            entries.locate(static_cast<int>(f), [&](int row, int entry, bool& across) {
+                const int mine = place[row], there = place[matrix.indices[entry]];
+                const int i = local[mine], j = local[there];
+                across = there < mine || (!symmetric && j < p);
+                if (there < mine || symmetric) return std::min(i, j) * m + std::max(i, j);
+                return j < p ? j * m + i : p * m + i * (m - p) + j - p;
+            });
         }
-    }
-
-    std::int64_t end_of_entries(int f) const {
-        return f + 1 < static_cast<int>(fronts.size()) ? fronts[f + 1].entries
-                                                       : static_cast<std::int64_t>(source.size());
     }
 
   private:
@@ -134,28 +138,6 @@ struct Plan {
                 while (rows[there] != rows[k]) ++there;
                 seat[k] = parent.pivots + static_cast<int>(there - parent.rows);
             }
-        }
-    }
-
-    /// Entries of the row and of the column of a pivot that meet no earlier one.
-    void map_pivot(const Front& front, int c, const Rows& matrix, const Columns& columns,
-                   const std::vector<std::int32_t>& local) {
-        const int i = equation[front.first + c], m = front.size, p = front.pivots;
-        for (int k = matrix.indptr[i]; k < matrix.indptr[i + 1]; ++k) {
-            const int there = place[matrix.indices[k]];
-            if (there < front.first + c) continue;
-            const int r = local[there];
-            source.push_back(k);
-            if (symmetric)
-                target.push_back(c * m + r);
-            else
-                target.push_back(r < p ? r * m + c : p * m + c * (m - p) + r - p);
-        }
-        for (int k = columns.start[i]; k < columns.start[i + 1]; ++k) {
-            const int there = place[columns.row[k]];
-            if (there <= front.first + c) continue;
-            source.push_back(columns.entry[k]);
-            target.push_back(c * m + local[there]);
         }
     }
 };

@@ -8,6 +8,7 @@
 
 #include "plan.hpp"
 #include "umform/assembly/threads.hpp"
+#include "updates.hpp"
 
 namespace umform {
 
@@ -85,29 +86,26 @@ class Schedule {
 
     void find_peak(const Plan& plan) {
         std::size_t held = 0;
-        const auto square = [&](int f) {
-            return static_cast<std::size_t>(plan.fronts[f].updates()) * plan.fronts[f].updates();
-        };
         for (std::size_t f = 0; f < plan.fronts.size(); ++f) {
-            held += square(static_cast<int>(f));
+            held += update_size(plan, static_cast<int>(f));
             peak = std::max(peak, held);
-            for (int k = plan.children_start[f]; k < plan.children_start[f + 1]; ++k) held -= square(plan.children[k]);
+            for (int k = plan.children_start[f]; k < plan.children_start[f + 1]; ++k)
+                held -= update_size(plan, plan.children[k]);
         }
+    }
+
+    static std::size_t update_size(const Plan& plan, int f) {
+        return UpdateLayout(plan.fronts[f].updates(), 0, plan.symmetric).size();
     }
 
     /// What the stacks of a unit hold at most.
     void measure(const Plan& plan, const Unit& unit) {
         std::size_t held[2] = {0, 0};
         for (int f = unit.begin; f <= unit.root; ++f) {
-            if (f < unit.root) {
-                const std::size_t order = plan.fronts[f].updates();
-                held[depth[f]] += order * order;
-            }
+            if (f < unit.root) held[depth[f]] += update_size(plan, f);
             even = std::max(even, held[0]), odd = std::max(odd, held[1]);
-            for (int k = plan.children_start[f]; k < plan.children_start[f + 1]; ++k) {
-                const std::size_t order = plan.fronts[plan.children[k]].updates();
-                held[depth[f] ^ 1U] -= order * order;
-            }
+            for (int k = plan.children_start[f]; k < plan.children_start[f + 1]; ++k)
+                held[depth[f] ^ 1U] -= update_size(plan, plan.children[k]);
         }
     }
 };

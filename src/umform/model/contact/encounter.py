@@ -15,6 +15,7 @@ from umform import _core
 from umform.errors import InvalidPenalty, UmformError
 from umform.materials import Material
 from umform.mesh import Ids, Mesh
+from umform.mesh.numbers import common, median, unique
 
 Floats = NDArray[np.float64]
 
@@ -69,11 +70,11 @@ def sheet_thickness(mesh: Mesh) -> float:
     """Thickness of the sheet: the median over its cells, times the layers that lie on each other."""
     half = mesh.connectivity.shape[1] // 2
     lower, upper = mesh.connectivity[:, :half], mesh.connectivity[:, half:]
-    cell = float(np.median(np.linalg.norm(mesh.points[upper] - mesh.points[lower], axis=-1)))
-    layers, above = 1, np.unique(upper)
-    while len(above := np.intersect1d(above, lower)):  # nodes with one more cell on top
+    cell = median(np.linalg.norm(mesh.points[upper] - mesh.points[lower], axis=-1))
+    layers, above = 1, unique(upper)
+    while len(above := common(above, lower)):  # nodes with one more cell on top
         layers += 1
-        above = np.unique(upper[np.isin(lower, above).all(axis=1)])
+        above = unique(upper[np.isin(lower, above).all(axis=1)])
     return layers * cell
 
 

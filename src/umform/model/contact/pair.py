@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.errors import ModelError
 from umform.mesh import Mesh
+from umform.mesh.numbers import unique
 from umform.model.contact.face_basis import in_face_basis
 from umform.model.contact.found import ContactFound, ContactPoints
 from umform.model.contact.points import PairPoints, hat_functions
@@ -42,6 +43,8 @@ class Contact(PairPoints):
 
     timed_as = "contact"
     within_bodies = True
+    #: Whether a pass of the multipliers has failed in the last increment, so that they stayed what they were.
+    multipliers_stay = False
 
     # Term ----------------------------------------------------------------------------------------------------
 
@@ -143,6 +146,8 @@ class Contact(PairPoints):
                 f"{self.name}_elastic_slip": ranks.max(elastic),
                 f"{self.name}_friction_work": ranks.sum(found.friction_work),
             }
+        if self.augmented:
+            columns[f"{self.name}_multipliers_stay"] = float(self.multipliers_stay)
         if self.cells is not None:
             columns[f"{self.name}_contact_work"] = ranks.sum(float(found.held.contact_work))
         return columns
@@ -150,8 +155,9 @@ class Contact(PairPoints):
     def column_names(self) -> Iterable[str]:
         """Largest penetration, number of points that are held; of friction and cells what they add."""
         of_friction = [] if self.friction is None else ["slipping", "elastic_slip", "friction_work"]
+        of_multipliers = ["multipliers_stay"] if self.augmented else []
         of_cells = [] if self.cells is None else ["contact_work"]
-        return [f"{self.name}_{what}" for what in ["penetration", "active", *of_friction, *of_cells]]
+        return [f"{self.name}_{what}" for what in ["penetration", "active", *of_friction, *of_multipliers, *of_cells]]
 
     def energies(self, found: Found, u: Floats) -> Energies:
         """What penalty and multipliers hold, and the work of friction. eqs. (4.32), (4.49)"""
@@ -263,7 +269,7 @@ class Contact(PairPoints):
         self, at: ContactFound, u: Floats, mesh: Mesh, add: Callable[[Floats], Floats] = lambda shares: shares
     ) -> tuple[Floats, Floats]:
         """The same of any evaluation at ``u``."""
-        count, nodes = len(mesh.points), np.unique(self.facets)
+        count, nodes = len(mesh.points), unique(self.facets)
         shares = np.zeros((count, 2))  # gap, and how many know it
         shares[nodes, 0], shares[nodes, 1] = self.gap((mesh.points + u.reshape(-1, 3))[nodes], self.pose), 1.0
         pressure = self._mean_at_nodes(at.pressure[:, None], at.area, count, add)[:, 0]

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.errors import ModelError
 from umform.mesh import FACE_NODES, Ids, Mesh, Selector
+from umform.mesh.numbers import unique
 from umform.model.contact.found import ContactFound
 from umform.model.contact.friction import AnyFriction, friction_kernel
 from umform.model.contact.settings import ContactSettings
@@ -45,7 +46,7 @@ class PairPoints(Term):
         self.faces: Ids = faces
         self.facets: Ids = mesh.facets_of(faces)
         #: Nodes of all cells that bear a facet, those of the far face too.
-        self.nodes: Ids = np.unique(mesh.connectivity[faces[:, 0]])
+        self.nodes: Ids = unique(mesh.connectivity[faces[:, 0]])
         self._mesh_points = mesh.points
 
     # Settings ------------------------------------------------------------------------------------------------
@@ -63,6 +64,11 @@ class PairPoints(Term):
     def cells(self) -> int | None:
         """Cells per direction and facet that the pressure is integrated over; None at points."""
         return self._settings.cells
+
+    @property
+    def ripple(self) -> float | None:
+        """Ripple of the force to expect of cells, as a part of it; None at points. eq. (4.121)"""
+        return self._settings.ripple
 
     @property
     def allowed(self) -> float | None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import logging
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -12,6 +14,7 @@ from umform import _core
 from umform.errors import InvalidFriction, InvalidPenalty, InvalidValue
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
+from umform.model.contact.cells import RIPPLE, cells_for, checked_cells, ripple_of
 from umform.model.contact.encounter import Encounter, sheet_thickness
 from umform.model.contact.friction import AnyFriction, friction_kernel
 from umform.surfaces import Surface
@@ -29,8 +32,8 @@ _STIFFEST = 10.0
 #: Contact points that the expected contact length should hold, and the most points per direction. Where the force is a
 #: third of what is expected, as late in air bending, the contact is 0.7 times as long and still holds four.
 _WITHIN, _MOST = 6.0, 10
-#: Points per direction where nothing is said, and the most cells.
-_POINTS, _MOST_CELLS = 2, 20
+#: Points per direction where nothing is said.
+_POINTS = 2
 
 
 @dataclass(frozen=True)
@@ -55,6 +58,8 @@ class ContactSettings:
         Tangential stiffness over the penalty, so that the pressure that is expected slips at that elastic slip.
     cells : int, optional
         Cells per direction and facet; None at points.
+    ripple : float, optional
+        Ripple of the force to expect of cells, as a part of it; None at points, and where the law tells nothing.
     """
 
     penalty: float
@@ -65,6 +70,7 @@ class ContactSettings:
     slip: float = 0.0
     ratio: float = 0.0
     cells: int | None = None
+    ripple: float | None = None
 
 
 def contact_settings(
@@ -76,13 +82,14 @@ def contact_settings(
     penalty: float | None = None,
     penetration: float | None = None,
     points: int | str | None = None,
-    cells: int | None = None,
+    cells: int | str | None = None,
+    ripple: float | None = None,
     augmented: bool = False,
     friction: AnyFriction | None = None,
     slip: float | None = None,
     where: str = "contact",
 ) -> ContactSettings:
-    """Settings from what is given, the rest from mesh, tool and law. eqs. (4.29), (4.31)
+    """Settings from what is given, the rest from mesh, tool and law. eqs. (4.29), (4.31), (4.122)
 
     Raises
     ------
@@ -90,15 +97,19 @@ def contact_settings(
         If a number is out of range, or two say the same thing.
     """
     _check(penalty, penetration, augmented, tool, where)
-    points = _places(points, cells, where)
+    cells = checked_cells(cells, ripple, where)
+    points, over_cells = _places(points, cells, where), cells is not None
     law = _friction_law(friction, slip, where)
     estimated, given = penalty is None or points == "auto", penalty is not None
     allowed = penetration
     if allowed is None and (penalty is None or augmented):
         allowed = _PENETRATION * sheet_thickness(mesh)
+    met = None
     if estimated:
         met = Encounter.of(mesh, mesh.facets(faces), tool.kernel(), material, where)
-        if points == "auto":
+        if points == "auto" and over_cells:
+            points = _cells(met, penalty, allowed, ripple)
+        elif points == "auto":
             points = _points(met, penalty, allowed, 2 if mesh.cell == "hex8" else 3)
         if penalty is None:
             assert allowed is not None
@@ -110,15 +121,20 @@ def contact_settings(
     assert penalty is not None
     points = "nodes" if points == "nodes" else int(points)
     allowed = None if allowed is None else float(allowed)
+    number = int(points) if over_cells else None
+    expected = None
+    if number is not None:
+        meet = partial(Encounter.of, mesh, mesh.facets(faces), tool.kernel(), material, where)
+        expected = _ripple(met, meet, number, allowed)
     if law is None:
-        return ContactSettings(float(penalty), points, allowed, bool(augmented), cells=cells)
+        return ContactSettings(float(penalty), points, allowed, bool(augmented), cells=number, ripple=expected)
     slip = _SLIP * sheet_thickness(mesh) if slip is None else float(slip)
     if given or allowed is None:
         pressure = _pressure(mesh, faces, tool, material, penalty, points)
     else:
         pressure = penalty * allowed
     ratio = _tangential_stiffness(law, pressure, slip) / penalty
-    return ContactSettings(float(penalty), points, allowed, bool(augmented), friction, slip, ratio, cells)
+    return ContactSettings(float(penalty), points, allowed, bool(augmented), friction, slip, ratio, number, expected)
 
 
 def _friction_law(friction: AnyFriction | None, slip: float | None, where: str) -> _core.FrictionLaw | None:
@@ -179,16 +195,40 @@ def _penalty(met: Encounter, allowed: float, points: int | str) -> float:
 
 def _points(met: Encounter, penalty: float | None, allowed: float | None, least: int) -> int:
     """Points per direction, so that four lie within the length that touches, in wide dies too. eq. (4.31)"""
-    if penalty is None:
-        assert allowed is not None
-        length = _length_at(met, allowed)
-    else:
-        length = contact_length(met.radius, met.line_force, penalty)
+    length = _length(met, penalty, allowed)
     wanted = _WITHIN * met.length / length if length > 0.0 else _MOST
     return min(max(math.ceil(wanted), least), _MOST)
 
 
-def _places(points: int | str | None, cells: int | None, where: str) -> int | str:
+def _length(met: Encounter, penalty: float | None, allowed: float | None) -> float:
+    """Length that touches, by the penalty or at the penetration that is allowed."""
+    if penalty is not None:
+        return contact_length(met.radius, met.line_force, penalty)
+    assert allowed is not None
+    return _length_at(met, allowed)
+
+
+def _ripple(met: Encounter | None, meet: Callable[[], Encounter], cells: int, allowed: float | None) -> float | None:
+    """Ripple of the force to expect of cells; None where the law tells nothing. eq. (4.121)"""
+    try:
+        met = meet() if met is None else met
+    except InvalidPenalty:
+        return None
+    return ripple_of(met, cells, _default(met) if allowed is None else allowed)
+
+
+def _cells(met: Encounter, penalty: float | None, allowed: float | None, ripple: float | None) -> int:
+    """Cells per direction. eq. (4.122)"""
+    allowed = _default(met) if allowed is None else allowed
+    return cells_for(met, RIPPLE if ripple is None else ripple, _length(met, penalty, allowed), allowed)
+
+
+def _default(met: Encounter) -> float:
+    """Penetration that is allowed by default."""
+    return _PENETRATION * met.thickness
+
+
+def _places(points: int | str | None, cells: int | str | None, where: str) -> int | str:
     """Points or cells per direction, checked."""
     if cells is None:
         points = _POINTS if points is None else points
@@ -205,15 +245,7 @@ def _places(points: int | str | None, cells: int | None, where: str) -> int | st
             cause="cells take the place of points",
             remedy="leave one of them away",
         )
-    if isinstance(cells, bool | str) or cells not in range(1, _MOST_CELLS + 1):
-        raise InvalidValue(
-            f"cells per direction of a face must be 1 to {_MOST_CELLS}",
-            where=where,
-            value=cells,
-            cause="a number of cells in all, or a word",
-            remedy="3 on 4-node and 5 on 9-node faces to begin with",
-        )
-    return int(cells)
+    return cells
 
 
 def _check(penalty: float | None, penetration: float | None, augmented: bool, tool: Surface, where: str) -> None:

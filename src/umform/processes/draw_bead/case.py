@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from umform.elements import rolling_at
 from umform.model import Model
+from umform.processes.draw_bead.limit import Limit, Limits
 from umform.processes.draw_bead.measures import Drawn
 from umform.processes.draw_bead.parameters import DrawBead
 from umform.run import solve
 from umform.steps import Move, Step
 
+#: Elements of the coarser mesh over those of the finer one.
+_COARSER = 0.7
 #: States that each step keeps for pictures.
 FRAMES = 12
 
@@ -28,6 +33,31 @@ def build(case: DrawBead) -> tuple[Model, list[Step]]:
     model.contact("lower", lower, name="below", **given)  # type: ignore[arg-type]
     model.contact("upper", upper, name="above", **given)  # type: ignore[arg-type]
     return model, [Move(down, to=case.closing), Move(pull, to=case.way)]
+
+
+def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", progress: bool | None = None) -> Drawn:
+    """Draw a strip through a bead on two meshes, the one of the case and one with 0.7 times as many elements.
+
+    Parameters
+    ----------
+    case, frames, solver, progress
+        See :func:`drawn_through`.
+
+    Returns
+    -------
+    Drawn
+        That of the finer mesh, with its limits.
+    """
+    coarser = replace(case, elements=_COARSER * case.elements)
+    coarse = drawn_through(coarser, frames=0, solver=solver, progress=progress)
+    fine = drawn_through(case, frames=frames, solver=solver, progress=progress)
+    return replace(fine, limits=limits_of(coarse, fine))
+
+
+def limits_of(coarse: Drawn, fine: Drawn) -> Limits:
+    """Both forces with elements of no length, from two meshes."""
+    refined = fine.case.elements / coarse.case.elements
+    return Limits(Limit.of(coarse.restraint, fine.restraint, refined), Limit.of(coarse.uplift, fine.uplift, refined))
 
 
 def drawn_through(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", progress: bool | None = None) -> Drawn:

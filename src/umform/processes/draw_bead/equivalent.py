@@ -7,15 +7,24 @@ from umform.processes.draw_bead.measures import Drawn
 
 def in_python(drawn: Drawn) -> str:
     """Call of :meth:`umform.Model.bead`."""
-    forces = f"restraint={drawn.restraint:.4g}, uplift={drawn.uplift:.4g}, width={width(drawn):.4g}"
+    restraint, uplift = _forces(drawn)
+    forces = f"restraint={restraint:.4g}, uplift={uplift:.4g}, width={width(drawn):.4g}"
     return f"model.bead(faces, tool, curve=[...], {forces})"
 
 
 def in_deck(drawn: Drawn) -> str:
     """Table of a deck."""
-    keys = {"restraint": drawn.restraint, "uplift": drawn.uplift, "width": width(drawn)}
+    restraint, uplift = _forces(drawn)
+    keys = {"restraint": restraint, "uplift": uplift, "width": width(drawn)}
     lines = ["[beads.NAME]", 'contact = "..."', "curve = [[0, 0, 0], [100, 0, 0]]"]
     return "\n".join([*lines, *(f"{key} = {value:.4g}" for key, value in keys.items())]) + "\n"
+
+
+def _forces(drawn: Drawn) -> tuple[float, float]:
+    """Restraint and uplift, with elements of no length where that is known."""
+    if drawn.limits is None:
+        return drawn.restraint, drawn.uplift
+    return drawn.limits.restraint.value, drawn.limits.uplift.value
 
 
 def width(drawn: Drawn) -> float:

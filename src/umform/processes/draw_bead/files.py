@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -61,6 +62,7 @@ def record(drawn: Drawn) -> dict[str, Any]:
     return {
         "parameters": parameters(drawn),
         "measures": {name: getattr(drawn, name) for name in QUANTITIES},
+        "limits": None if drawn.limits is None else asdict(drawn.limits),
         "equivalent": in_python(drawn),
         "increments": len(drawn.result) - 1,
         "iterations": int(drawn.result["iterations"].sum()),

@@ -8,6 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.processes.draw_bead.limit import Limits
 from umform.processes.draw_bead.parameters import DrawBead
 from umform.results import fields
 from umform.run import Result
@@ -53,6 +54,8 @@ class Drawn:
         Work of the force less what plastic flow, friction and elastic strains took of it, over the work, in per cent.
     result : Result
         History, frames and iterations.
+    limits : Limits, optional
+        Both forces with elements of no length, where two meshes have been drawn.
     """
 
     case: DrawBead
@@ -68,6 +71,7 @@ class Drawn:
     friction_share: float
     balance: float
     result: Result
+    limits: Limits | None = None
 
     @classmethod
     def of(cls, case: DrawBead, result: Result) -> Self:

@@ -1,0 +1,238 @@
+// Smooth surface through the corners of triangles: signed distance to quartic patches with common tangent planes.
+#pragma once
+
+#include "umform/surfaces/box_tree.hpp"
+#include "umform/surfaces/concept.hpp"
+#include "umform/surfaces/patch_foot.hpp"
+
+namespace umform {
+
+/// What the surface does across the edge of a triangle: goes on with one tangent plane, has an edge, or ends.
+enum class Across : std::uint8_t { Smooth, Sharp, Rim };
+
+/// A third of a triangle: the edge a b lies on that of the triangle, c inside of it.
+struct Third {
+    QuarticPatch patch;
+    Across across;
+    int neighbour;            // the third on the other side of a b, -1 at a rim
+    std::array<int, 2> ends;  // corners a and b of the triangulation
+    int face;                 // the exact surface that the patch stands for, -1 for none
+};
+
+/// Surfaces that patches stand for. They count where their distance differs from that to the patch by no more than `trust`.
+struct ExactFaces {
+    std::vector<std::shared_ptr<const Surface>> surfaces;
+    double trust = 0.0;
+};
+
+/// A corner of the triangulation: the sum of the normals around it, and the sharpest that meets there.
+struct Corner {
+    Vec3 normal;
+    Across across;
+};
+
+class Triangulated final : public Surface {
+  public:
+    Triangulated(const std::vector<Third>& thirds, std::vector<Corner> corners, ExactFaces exact)
+        : tree_(boxes(thirds)), corners_(std::move(corners)), exact_(std::move(exact)) {
+        const std::vector<int>& order = tree_.order();
+        std::vector<int> place(order.size());
+        for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<int>(i);
+        for (const int i : order) {
+            thirds_.push_back(thirds[i]);
+            bulge_.push_back(bulge(thirds[i].patch));
+            lift_.push_back(lift(thirds[i].patch));
+            int& neighbour = thirds_.back().neighbour;
+            if (neighbour >= 0) neighbour = place[neighbour];
+        }
+    }
+
+    bool is_distance() const override { return true; }
+    bool is_concurrent() const override { return true; }
+
+    /// The foot of the point before bounds the distance of the next one; it changes the way of the search only.
+    void gap(int count, const double* x, double* g, double* n, double* H) const override {
+        Vec3 last = thirds_.front().patch.control[0];
+        for (int q = 0; q < count; ++q) {
+            const Found found = nearest({x[3 * q], x[3 * q + 1], x[3 * q + 2]}, last);
+            const Gap at = gap_at({x[3 * q], x[3 * q + 1], x[3 * q + 2]}, found);
+            last = found.foot.at.S;
+            g[q] = at.g;
+            std::copy(at.n.begin(), at.n.end(), n + 3 * q);
+            std::copy(at.H.a.begin(), at.H.a.end(), H + 9 * q);
+        }
+    }
+
+  private:
+    struct Found {
+        int third;
+        PatchFoot foot;
+    };
+
+    /// What the flat triangle of a third says: the least distance that its patch may have, and where to look for its foot.
+    struct Candidate {
+        int third;
+        double least;
+        PatchParameter start;
+    };
+
+    /// First the flat triangles, whose distances bound those of their patches from both sides, then the few patches that may
+    /// be nearest. Of equally near ones the first counts, so that the answer does not depend on where the search began.
+    /// eq. (4.170)
+    Found nearest(const Vec3& x, const Vec3& last) const {
+        const Vec3 d = difference(x, last);
+        double bound = std::sqrt(dot(d, d)) * (1.0 + 1e-9);
+        Found best{-1, {}};
+        best.foot.square = std::numeric_limits<double>::infinity();
+        std::array<Candidate, 64> candidates;
+        std::size_t count = 0;
+        tree_.near_first(x, bound * bound, [&](int i) {
+            const FlatFoot flat = foot_on_flat(thirds_[i].patch, x);
+            const double distance = std::sqrt(flat.square), least = distance * (1.0 - 1e-12) - bulge_[i];
+            if (least <= bound) {
+                if (count == candidates.size()) settle(x, candidates, count, bound, best);
+                candidates[count++] = {i, least, flat.p};
+                bound = std::min(bound, (distance + lift_[i]) * (1.0 + 1e-9));
+            }
+            return bound * bound;
+        });
+        settle(x, candidates, count, bound, best);
+        return best;
+    }
+
+    /// Feet on the candidates, those that may lie nearest first.
+    void settle(const Vec3& x, std::array<Candidate, 64>& candidates, std::size_t& count, double& bound,
+                Found& best) const {
+        while (count > 0) {
+            const auto end = candidates.begin() + count;
+            const auto next = std::min_element(
+                candidates.begin(), end, [](const Candidate& a, const Candidate& b) { return a.least < b.least; });
+            const Candidate candidate = *next;
+            *next = candidates[--count];
+            if (candidate.least > bound) continue;
+            const PatchFoot foot = FootSearch(thirds_[candidate.third].patch, x).from(candidate.start);
+            if (foot.square < best.foot.square || (foot.square == best.foot.square && candidate.third < best.third))
+                best = {candidate.third, foot};
+            bound = std::min(bound, std::sqrt(best.foot.square) * (1.0 + 1e-12));
+        }
+    }
+
+    Gap gap_at(const Vec3& x, const Found& found) const {
+        const Third& third = thirds_[found.third];
+        const auto& [u, v] = found.foot.p;
+        const Vec3 r = difference(x, found.foot.at.S);
+        if (v == 0.0 && (u == 0.0 || u == 1.0)) {
+            const Corner& corner = corners_[third.ends[u == 1.0 ? 1 : 0]];
+            if (corner.across != Across::Smooth) return from_corner(r, corner.normal, corner.across);
+        } else if (v == 0.0 && third.across != Across::Smooth) {
+            return from_edge(r, found);
+        }
+        const Gap smooth = from_face(r, found.foot.at);
+        return third.face < 0 ? smooth : exact(x, *exact_.surfaces[third.face], smooth);
+    }
+
+    /// The exact surface goes on beyond its face: it is taken where the patch says the same. eq. (4.173)
+    Gap exact(const Vec3& x, const Surface& surface, const Gap& smooth) const {
+        Gap gap;
+        surface.gap(1, x.data(), &gap.g, gap.n.data(), gap.H.a.data());
+        return std::abs(gap.g - smooth.g) <= exact_.trust && dot(gap.n, smooth.n) > 0.9 ? gap : smooth;
+    }
+
+    /// g = (x - y) . n, H = - a_d a^dc b_ca M^ab a_b with M = a - g b. eq. (4.167)
+    static Gap from_face(const Vec3& r, const PatchPoint& at) {
+        const Vec3 n = normalised(cross(at.Su, at.Sv));
+        Gap gap{dot(r, n), n, {}};
+        const double auu = dot(at.Su, at.Su), auv = dot(at.Su, at.Sv), avv = dot(at.Sv, at.Sv);
+        const double buu = dot(n, at.Suu), buv = dot(n, at.Suv), bvv = dot(n, at.Svv);
+        const double a = auu * avv - auv * auv;
+        // a^-1 b
+        const double c11 = (avv * buu - auv * buv) / a, c12 = (avv * buv - auv * bvv) / a;
+        const double c21 = (auu * buv - auv * buu) / a, c22 = (auu * bvv - auv * buv) / a;
+        const double muu = auu - gap.g * buu, muv = auv - gap.g * buv, mvv = avv - gap.g * bvv;
+        const double m = muu * mvv - muv * muv;
+        // -a^-1 b M^-1, symmetric
+        const double h11 = -(c11 * mvv - c12 * muv) / m, h22 = -(c22 * muu - c21 * muv) / m;
+        const double h12 = -0.5 * (c12 * muu - c11 * muv + c21 * mvv - c22 * muv) / m;
+        for (int i = 0; i < 3; ++i)
+            for (int k = i; k < 3; ++k)
+                gap.H(i, k) = gap.H(k, i) = h11 * at.Su[i] * at.Su[k] + h22 * at.Sv[i] * at.Sv[k]
+                                            + h12 * (at.Su[i] * at.Sv[k] + at.Sv[i] * at.Su[k]);
+        return gap;
+    }
+
+    /// The nearest point goes along the edge as x does. eq. (4.168)
+    Gap from_edge(const Vec3& r, const Found& found) const {
+        const Vec3 &t = found.foot.at.Su, &k = found.foot.at.Suu;
+        Gap gap = from_corner(r, normal_across(found), thirds_[found.third].across);
+        if (gap.g == 0.0) return gap;
+        const double stretch = dot(t, t) - dot(r, k);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) gap.H(i, j) -= t[i] * t[j] / (stretch * gap.g);
+        return gap;
+    }
+
+    /// Sum of the normals on both sides of an edge.
+    Vec3 normal_across(const Found& found) const {
+        const Third& third = thirds_[found.third];
+        Vec3 sum = normalised(cross(found.foot.at.Su, found.foot.at.Sv));
+        if (third.neighbour < 0) return sum;
+        const PatchPoint other = thirds_[third.neighbour].patch.at({1.0 - found.foot.p.u, 0.0});
+        const Vec3 n = normalised(cross(other.Su, other.Sv));
+        for (int k = 0; k < 3; ++k) sum[k] += n[k];
+        return sum;
+    }
+
+    /// Distance to a point, negative where the normals there look away; beside a rim all is outside. eq. (4.169)
+    static Gap from_corner(const Vec3& r, const Vec3& normal, Across across) {
+        const double rho = std::sqrt(dot(r, r));
+        const double side = across == Across::Sharp && dot(r, normal) < 0.0 ? -1.0 : 1.0;
+        if (rho == 0.0) return {0.0, normalised(normal), {}};
+        Gap gap{side * rho, {side * r[0] / rho, side * r[1] / rho, side * r[2] / rho}, {}};
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) gap.H(i, k) = ((i == k ? 1.0 : 0.0) - gap.n[i] * gap.n[k]) / gap.g;
+        return gap;
+    }
+
+    /// A patch lies in the hull of its points, and so does its box.
+    static std::vector<Box> boxes(const std::vector<Third>& thirds) {
+        std::vector<Box> boxes(thirds.size(), Box::empty());
+        for (std::size_t i = 0; i < thirds.size(); ++i)
+            for (const Vec3& x : thirds[i].patch.control) boxes[i].take_in(x);
+        return boxes;
+    }
+
+    static FlatFoot foot_on_flat(const QuarticPatch& patch, const Vec3& x) {
+        return foot_on_triangle(x, patch.control[QuarticPatch::a], patch.control[QuarticPatch::b],
+                                patch.control[QuarticPatch::c]);
+    }
+
+    /// No point of a patch is farther from the flat triangle of its corners: the distance to a convex set is convex.
+    static double bulge(const QuarticPatch& patch) {
+        double square = 0.0;
+        for (const Vec3& x : patch.control) square = std::max(square, foot_on_flat(patch, x).square);
+        return std::sqrt(square) * (1.0 + 1e-12);
+    }
+
+    /// No point of a patch is farther from the point of the flat triangle with the same parameters.
+    static double lift(const QuarticPatch& patch) {
+        const Vec3 &a = patch.control[QuarticPatch::a], &b = patch.control[QuarticPatch::b];
+        const Vec3& c = patch.control[QuarticPatch::c];
+        double square = 0.0;
+        for (int row = 0, k = 0; row < 5; ++row)
+            for (int i = 0; i < 5 - row; ++i, ++k) {
+                Vec3 d;
+                for (int j = 0; j < 3; ++j)
+                    d[j] = patch.control[k][j] - 0.25 * ((4 - row - i) * a[j] + i * b[j] + row * c[j]);
+                square = std::max(square, dot(d, d));
+            }
+        return std::sqrt(square) * (1.0 + 1e-12);
+    }
+
+    BoxTree tree_;
+    std::vector<Third> thirds_;  // in the order of the tree
+    std::vector<double> bulge_, lift_;
+    std::vector<Corner> corners_;
+    ExactFaces exact_;
+};
+
+}  // namespace umform

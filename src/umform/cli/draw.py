@@ -1,0 +1,245 @@
+"""``umform draw``: a round cup, and a U-bend, drawn and taken out of their tools."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from umform.cli.metal import law_of
+from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.timing import Timed, show_timing
+from umform.cli.warnings import echo_warnings, print_warnings_once
+
+if TYPE_CHECKING:
+    from umform.processes.draw.cup import Cup
+    from umform.processes.draw.drawn import Drawn
+    from umform.processes.draw.u_bend import UBend
+
+_TOOLS, _SHEET, _SOLUTION = "Tools (mm, N)", "Sheet (mm, MPa)", "Solution"
+
+group = typer.Typer(no_args_is_help=True, help="Draw a part, and take it out of its tools: `umform draw cup`.")
+app.add_typer(group, name="draw")
+
+
+def _option(help_text: str, panel: str) -> Any:
+    return typer.Option(help=help_text, rich_help_panel=panel)
+
+
+Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
+Material = Annotated[str | None, _option("Name in the library of sheet metals: `umform metal list`.", _SHEET)]
+Young = Annotated[float | None, _option("Young's modulus.", _SHEET)]
+Poisson = Annotated[float | None, _option("Poisson's ratio.", _SHEET)]
+Yield = Annotated[float | None, _option("Yield stress, for linear hardening.", _SHEET)]
+Modulus = Annotated[float | None, _option("Hardening modulus; default 0.", _SHEET)]
+SwiftCurve = Annotated[str | None, _option("Swift hardening K,e0,n, as 520,0.004,0.22.", _SHEET)]
+FlowCurve = Annotated[Path | None, _option("Measured hardening: a CSV file of plastic strain and true stress.", _SHEET)]
+LimitCurve = Annotated[Path | None, _option("Forming limit: a CSV file of minor and major logarithmic strain.", _SHEET)]
+Stroke = Annotated[float | None, _option("Way of the punch; default: the usual one.", _TOOLS)]
+Coarse = Annotated[bool, typer.Option("--coarse", help="A coarse mesh: a first look in seconds.")]
+Turn = Annotated[float | None, _option("Largest angle in degrees that an element turns over a radius.", _SOLUTION)]
+Layers = Annotated[int, _option("Elements through the thickness.", _SOLUTION)]
+ThicknessPoints = Annotated[int | None, _option("Points through the thickness of a layer.", _SOLUTION)]
+
+
+@group.command()
+def cup(
+    out: Out = None,
+    coarse: Coarse = False,
+    punch: Annotated[float, _option("Diameter of the punch.", _TOOLS)] = 60.0,
+    punch_edge: Annotated[float, _option("Radius of its edge.", _TOOLS)] = 5.0,
+    opening: Annotated[float, _option("Diameter of the opening of the die.", _TOOLS)] = 62.4,
+    die_edge: Annotated[float, _option("Radius of its edge.", _TOOLS)] = 10.0,
+    holder_force: Annotated[float, _option("Force of the holder; 0: it keeps its distance.", _TOOLS)] = 40e3,
+    holder_gap: Annotated[float | None, _option("Least distance of holder and die; default 1.04 t.", _TOOLS)] = None,
+    friction: Annotated[float, _option("Coefficient of friction.", _TOOLS)] = 0.09,
+    stroke: Stroke = None,
+    blank: Annotated[float, _option("Diameter of the blank.", _SHEET)] = 107.5,
+    thickness: Annotated[float, _option("Thickness of the sheet.", _SHEET)] = 1.0,
+    material: Material = None,
+    young: Young = None,
+    poisson: Poisson = None,
+    yield_stress: Yield = None,
+    hardening_modulus: Modulus = None,
+    swift: SwiftCurve = None,
+    flow_curve: FlowCurve = None,
+    limit_curve: LimitCurve = None,
+    element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "ANS3DEAS",
+    turn: Turn = None,
+    around: Annotated[int | None, _option("Elements on a quarter of the rim.", _SOLUTION)] = None,
+    layers: Layers = 1,
+    thickness_points: ThicknessPoints = None,
+    contact_points: Annotated[int, _option("Contact points per direction and facet.", _SOLUTION)] = 2,
+    penalty: Annotated[float | None, _option("Contact pressure per penetration.", _SOLUTION)] = None,
+    overwrite: Overwrite = False,
+    timing: Timed = False,
+    verbose: Verbose = 0,
+    debug: Debug = False,
+) -> None:
+    """Draw a round cup from a disc: forces, ears, thickness, strains and limits, springback.
+
+    The defaults are the tools of the ESAFORM benchmark 2021. Each number is defined in docs/forming-results.md.
+    """
+    from umform.processes.draw.cup import Cup
+
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    case = Cup(
+        thickness=thickness,
+        blank_radius=0.5 * blank,
+        material=law,
+        punch_radius=0.5 * punch,
+        punch_edge=punch_edge,
+        die_radius=0.5 * opening,
+        die_edge=die_edge,
+        holder_force=holder_force or None,
+        holder_gap=holder_gap,
+        friction=friction,
+        stroke=stroke,
+        element=element,
+        turn=_chosen(turn, coarse, 30.0, 15.0),
+        around=_chosen(around, coarse, 8, 12),
+        layers=layers,
+        thickness_points=thickness_points,
+        contact_points=contact_points,
+        penalty=_chosen(penalty, coarse, 1e4, 3e4),
+    )
+    _run(case, out, "cup", note, limit_curve, overwrite=overwrite, timing=timing)
+
+
+@group.command()
+def u(
+    out: Out = None,
+    coarse: Coarse = False,
+    punch: Annotated[float, _option("Width of the punch.", _TOOLS)] = 50.0,
+    punch_edge: Annotated[float, _option("Radius of its edges.", _TOOLS)] = 5.0,
+    opening: Annotated[float, _option("Opening of the die.", _TOOLS)] = 52.0,
+    die_edge: Annotated[float, _option("Radius of its edges.", _TOOLS)] = 5.0,
+    holder_force: Annotated[float, _option("Force of the holder.", _TOOLS)] = 2450.0,
+    friction: Annotated[float, _option("Coefficient of friction.", _TOOLS)] = 0.144,
+    stroke: Stroke = None,
+    length: Annotated[float, _option("Length of the blank.", _SHEET)] = 350.0,
+    width: Annotated[float, _option("Width of the blank.", _SHEET)] = 35.0,
+    thickness: Annotated[float, _option("Thickness of the sheet.", _SHEET)] = 0.78,
+    material: Material = None,
+    young: Young = None,
+    poisson: Poisson = None,
+    yield_stress: Yield = None,
+    hardening_modulus: Modulus = None,
+    swift: SwiftCurve = None,
+    flow_curve: FlowCurve = None,
+    limit_curve: LimitCurve = None,
+    element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "BEND8",
+    turn: Turn = None,
+    layers: Layers = 1,
+    thickness_points: ThicknessPoints = None,
+    contact_points: Annotated[int, _option("Contact points per direction and facet.", _SOLUTION)] = 3,
+    penalty: Annotated[float, _option("Contact pressure per penetration.", _SOLUTION)] = 1000.0,
+    overwrite: Overwrite = False,
+    timing: Timed = False,
+    verbose: Verbose = 0,
+    debug: Debug = False,
+) -> None:
+    """Draw a U-bend from a strip in plane strain: forces, springback angles, strains and limits.
+
+    The defaults are the tools of the NUMISHEET benchmark 93. Each number is defined in docs/forming-results.md.
+    """
+    from umform.processes.draw.u_bend import UBend
+
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    case = UBend(
+        thickness=thickness,
+        length=length,
+        width=width,
+        material=law,
+        punch_width=punch,
+        punch_edge=punch_edge,
+        opening=opening,
+        die_edge=die_edge,
+        holder_force=holder_force,
+        friction=friction,
+        stroke=stroke,
+        element=element,
+        turn=_chosen(turn, coarse, 20.0, 13.0),
+        layers=layers,
+        thickness_points=thickness_points,
+        contact_points=contact_points,
+        penalty=penalty,
+    )
+    _run(case, out, "u-bend", note, limit_curve, overwrite=overwrite, timing=timing)
+
+
+def _chosen(given: Any, coarse: bool, first: Any, usual: Any) -> Any:
+    """What is given, or the value for a coarse or the usual mesh."""
+    return given if given is not None else first if coarse else usual
+
+
+def _limit(file: Path | None) -> Any:
+    if file is None:
+        return None
+    import numpy as np
+
+    from umform.errors import FileProblem
+    from umform.results.forming import LimitTable
+
+    try:
+        rows = np.genfromtxt(file, delimiter=",", comments="#")
+    except (OSError, ValueError) as error:
+        raise FileProblem(
+            "the forming limit cannot be read",
+            where=str(file),
+            cause=str(error),
+            remedy="a CSV file with two columns: minor and major logarithmic strain",
+        ) from error
+    rows = rows[np.isfinite(rows).all(axis=-1)] if rows.ndim == 2 else rows
+    return LimitTable(*(rows.T if rows.ndim == 2 and rows.shape[1] == 2 else (rows, rows)))
+
+
+def _run(
+    case: Cup | UBend, out: str | None, name: str, note: str, limit: Path | None, *, overwrite: bool, timing: bool
+) -> None:
+    """Draw, print, write."""
+    from umform.io.folders import folder_for
+    from umform.io.staging import staging
+    from umform.processes.draw.case import draw
+    from umform.processes.draw.files import FILES, write_files
+    from umform.processes.draw.words import before_the_run
+
+    print_warnings_once()
+    curve = _limit(limit)
+    say = partial(typer.echo, err=True)
+    place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    say(f"umform: {before_the_run(case)}")
+    with staging(place, FILES):
+        drawn = draw(case, limit=curve)
+        try:
+            with printing(f"the files of the part are in {place}"):
+                _show(drawn, note)
+        finally:  # also if nobody reads the table
+            with drawn.result.timing.files:
+                files = write_files(place, drawn, note)
+    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+    if timing:
+        show_timing(drawn.result.timing)
+    if drawn.ending is not None and drawn.ending.early:
+        raise typer.Exit(1)
+
+
+def _show(drawn: Drawn, note: str) -> None:
+    """Print the measures."""
+    from rich import box
+    from rich.table import Table
+
+    from umform.processes.draw.words import summary, title
+
+    table = Table("quantity", title=title(drawn), box=box.SIMPLE_HEAD)
+    table.add_column("value", justify="right")
+    table.add_column("unit")
+    for row in summary(drawn):
+        table.add_row(*row)
+    screen = console()
+    screen.print(table)
+    if note:
+        screen.print(note, soft_wrap=True)
+    echo_warnings(drawn.warnings)

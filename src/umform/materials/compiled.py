@@ -1,0 +1,164 @@
+"""Compiled laws: C functions of a shared library, of numba or of ctypes."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from os import PathLike
+from typing import Any, Literal
+
+from umform import _core
+from umform.errors import InvalidValue
+from umform.materials.checks import check_finite
+from umform.materials.library import address, content, named_state, numbers
+from umform.materials.user_law import Floats, named_parts
+
+
+@dataclass(frozen=True)
+class CompiledLaw:
+    """A law that is a C function, called without Python's lock for the points of one cell at a time.
+
+    ::
+
+        int law(int points, const double* strain, const double* state, const double* properties, const double* axes,
+                double length, double step, double* stress, double* tangent, double* new_state)
+
+    Arrays are those of the points one after the other: strain (6), state (size), axes (3, 3), stress (6), tangent
+    (6, 6) by rows, new state (size); Voigt order 11 22 33 12 23 13, engineering shears, in the axes of the sheet. The
+    old state must not be changed. It returns 0; with any other number there is no answer, and the increment is cut.
+
+    Parameters
+    ----------
+    function : str, int or object
+        Name of the function in ``library``; or its address, a cfunc of numba or a function of ctypes.
+    library : str or path-like, optional
+        Shared library.
+    state : int or mapping of str to int
+        Number of state variables, or their names and sizes, by which fields go; ``eqps`` is the accumulated plastic
+        strain. They begin at ``initial``, by default at zero.
+    properties : sequence of float
+        Constants of the law, handed on as they are.
+    energy : str, int or object, optional
+        A function ``int energy(int points, const double* strain, const double* state, const double* properties, double*
+        energies)`` that fills elastic energy and plastic work (2) of each point, with the state that belongs to the
+        strain. Without it the energies of a run are not known, and are NaN.
+    strain : {"logarithmic", "green-lagrange"}
+        What it is asked with: logarithmic strains, which make a small-strain law one of finite strain, or E.
+    symmetric : bool
+        Whether the tangent is symmetric at any strain; one that is not is then refused.
+    parallel : bool
+        Whether several threads may call it at once: it has no memory of its own.
+    sees_points : bool
+        Whether it wants axes and length of the cell; else they are null and 0.
+    directional : bool
+        Whether it has directions, so that a model must say the rolling direction.
+    name : str
+        For messages and fingerprints of runs: another name for another function without a library.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> law = uf.CompiledLaw("law", "law.so", state={"eqps": 1}, properties=(210e3, 0.3))  # doctest: +SKIP
+    """
+
+    function: Any = field(compare=False)
+    library: str | PathLike[str] | None = field(default=None, compare=False)
+    state: int | Mapping[str, int] = field(default=0, hash=False)
+    properties: Sequence[float] = ()
+    initial: Sequence[float] = ()
+    energy: Any = field(default=None, compare=False)
+    strain: Literal["logarithmic", "green-lagrange"] = "logarithmic"
+    symmetric: bool = True
+    parallel: bool = True
+    sees_points: bool = False
+    directional: bool = False
+    thickness_points: int = 5
+    name: str = "compiled law"
+    content: str = field(default="", init=False)
+
+    def __post_init__(self) -> None:
+        where, put = self.name, object.__setattr__
+        put(self, "state", named_state(where, self.state))
+        put(self, "properties", numbers(where, "properties", self.properties))
+        put(self, "initial", initial_state(where, self.state, self.initial))
+        if self.strain not in ("logarithmic", "green-lagrange"):
+            raise InvalidValue(
+                "a law is asked with logarithmic or Green-Lagrange strains",
+                where=where,
+                value=self.strain,
+                cause="another word",
+                remedy='strain="logarithmic" or strain="green-lagrange"',
+            )
+        if self.library is not None:
+            functions = [name for name in (self.function, self.energy) if name is not None]
+            put(self, "content", f"{content(self.library, where)} {' '.join(map(str, functions))}")
+        for function in (self.function, self.energy):
+            self._address(function)
+
+    def shown(self, history: Mapping[str, Floats]) -> dict[str, Floats]:
+        """What fields show of the history: the state variables by their names."""
+        assert isinstance(self.state, Mapping)
+        return named_parts(history, self.state)
+
+    def law(self) -> _core.Material:
+        """The law as the kernels take it."""
+        small = self.small_strain_law()
+        return small if self.strain == "green-lagrange" else _core.logarithmic_space(small)
+
+    def small_strain_law(self) -> _core.Material:
+        """The law itself."""
+        assert isinstance(self.state, Mapping)
+        return _core.compiled_law(
+            self._address(self.function),
+            self._address(self.energy),
+            self.name,
+            list(self.properties),
+            list(self.state.items()),
+            list(self.initial),
+            self.symmetric,
+            self.parallel,
+            self.sees_points,
+        )
+
+    def _address(self, function: Any) -> int:
+        """Address of a function; 0 for none."""
+        if function is None:
+            return 0
+        if isinstance(function, str) and self.library is not None:
+            return address(self.library, [function], self.name)
+        found = getattr(function, "address", function)  # numba has it
+        if callable(found):
+            with suppress(ctypes.ArgumentError):  # a function of ctypes has an address, one of Python has none
+                found = ctypes.cast(found, ctypes.c_void_p).value
+        if not isinstance(found, int) or isinstance(found, bool) or found <= 0:
+            raise InvalidValue(
+                "a compiled law needs a C function",
+                where=self.name,
+                value=function,
+                cause="a function of Python, or a name without the library that has it",
+                remedy='CompiledLaw("law", "law.so"), a numba.cfunc or a function of ctypes; UserLaw takes Python',
+            )
+        return found
+
+
+def initial_state(where: str, state: int | Mapping[str, int], initial: Sequence[float]) -> tuple[float, ...]:
+    """State of the virgin material: what is given, or zeros.
+
+    Raises
+    ------
+    InvalidValue
+        If it has another size than the state.
+    """
+    values, size = numbers(where, "initial", initial), sum(named_state(where, state).values())
+    check_finite(where, **{f"initial[{number}]": value for number, value in enumerate(values)})
+    if values and len(values) != size:
+        raise InvalidValue(
+            "the initial state must have the size of the state",
+            where=where,
+            value=f"{size} state variables, {len(values)} initial values",
+            cause="a part is missing, or a symmetric tensor was counted as nine numbers",
+            remedy="one number for each, or leave initial away for zeros",
+        )
+    return values or (0.0,) * size

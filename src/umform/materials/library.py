@@ -1,0 +1,120 @@
+"""Functions of shared libraries, found by their names."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+from collections.abc import Mapping, Sequence
+from functools import cache
+from os import PathLike
+from pathlib import Path
+
+from umform.errors import FileProblem, InvalidValue
+
+
+def address(library: str | PathLike[str], symbols: Sequence[str], where: str) -> int:
+    """Address of the first of some functions that a library has.
+
+    Parameters
+    ----------
+    library : str or path-like
+        The file.
+    symbols : sequence of str
+        Names, one of which is there.
+    where : str
+        For messages.
+
+    Raises
+    ------
+    FileProblem
+        If the file is missing, is no shared library, or has none of the functions.
+    """
+    loaded = _load(str(_file(library, where).resolve()), where)
+    for symbol in symbols:
+        try:
+            found = ctypes.cast(loaded[symbol], ctypes.c_void_p).value
+        except AttributeError:
+            continue
+        if found:
+            return found
+    raise FileProblem(
+        "the library does not have the function",
+        where=f"{where}, {library}",
+        value=" or ".join(symbols),
+        cause="another name, a name that a C++ compiler has decorated, or a function that is not exported",
+        remedy=f'nm -D {library} lists the names; in C++ the function is extern "C"',
+    )
+
+
+def content(library: str | PathLike[str], where: str) -> str:
+    """Digest of the file, by which runs with other code are told apart."""
+    return hashlib.sha256(_file(library, where).read_bytes()).hexdigest()[:32]
+
+
+def _file(library: str | PathLike[str], where: str) -> Path:
+    path = Path(library)
+    if not path.is_file():
+        raise FileProblem(
+            "the library of a law is not there",
+            where=where,
+            value=str(library),
+            cause="another folder, or it has not been compiled",
+            remedy="its path; gfortran -O2 -shared -fPIC -o umat.so umat.f makes one, gcc that of a C file",
+        )
+    return path
+
+
+@cache
+def _load(path: str, where: str) -> ctypes.CDLL:
+    try:
+        return ctypes.CDLL(path)
+    except OSError as error:
+        raise FileProblem(
+            "the library of a law cannot be loaded",
+            where=where,
+            value=path,
+            cause=str(error),
+            remedy="compile it with -shared -fPIC for this machine; utility routines of other programs that it calls "
+            "(SINV, SPRINC, XIT) must be in it",
+        ) from error
+
+
+def named_state(where: str, state: int | Mapping[str, int]) -> dict[str, int]:
+    """Parts of a history by name and size: those that are given, or one of so many numbers.
+
+    Raises
+    ------
+    InvalidValue
+        If a size is no whole number.
+    """
+    names = dict(state) if isinstance(state, Mapping) else {"state": state}
+    least = 1 if isinstance(state, Mapping) else 0
+    if any(isinstance(size, bool) or not isinstance(size, int) or size < least for size in names.values()):
+        raise InvalidValue(
+            "the state of a law is a number of variables, or their names and sizes",
+            where=where,
+            value=state,
+            cause="a size that is no whole number",
+            remedy='state=13, or state={"back_stress": 6, "plastic_strain": 6, "eqps": 1}',
+        )
+    return {name: size for name, size in names.items() if size}
+
+
+def numbers(where: str, name: str, values: Sequence[float]) -> tuple[float, ...]:
+    """Finite numbers as a tuple.
+
+    Raises
+    ------
+    InvalidValue
+        If they are no numbers.
+    """
+    try:
+        return tuple(float(value) for value in values)
+    except (TypeError, ValueError) as error:
+        raise InvalidValue(
+            f"{name} must be numbers",
+            where=where,
+            value=values,
+            cause="a single number without a list, or a name",
+            remedy=f"{name}=[210e3, 0.3]",
+        ) from error

@@ -1,0 +1,100 @@
+"""User subroutines UMAT, with the interface of Abaqus, as laws of finite strain."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from os import PathLike
+
+from umform import _core
+from umform.materials.compiled import initial_state
+from umform.materials.library import address, content, named_state, numbers
+from umform.materials.user_law import Floats, named_parts
+
+#: Names that Fortran compilers, C and Windows give the subroutine.
+_SYMBOLS = ("umat_", "umat", "UMAT", "umat__")
+
+
+@dataclass(frozen=True)
+class Umat:
+    """A UMAT for three-dimensional small strains, asked in logarithmic space in the axes of the sheet (theory, 3.15).
+
+    STRAN and DSTRAN are logarithmic strains, STRESS is their conjugate: F, and the coordinates of the point, are not
+    known to it (DFGRD0, DFGRD1 and DROT are the identity, COORDS and TEMP are zero). NDI = NSHR = 3. TIME counts from
+    0 over the whole run, KSTEP is 1, KINC is 1 in the first increment and 2 later, NOEL is the number of the cell
+    plus one, CELENT its length. PNEWDT below 1 cuts the increment in half.
+
+    Parameters
+    ----------
+    library : str or path-like
+        Shared library: ``gfortran -O2 -shared -fPIC -o umat.so umat.f``.
+    state : int or mapping of str to int
+        Number of state variables, or their names and sizes in their order, by which fields go: ``eqps`` is the
+        accumulated plastic strain. They begin at ``initial``, by default at zero.
+    properties : sequence of float
+        PROPS.
+    symmetric : bool
+        Whether DDSDDE is symmetric at any strain; one that is not is then refused.
+    energies : bool
+        Whether it fills SSE, SPD and SCD, which go into the balance; else the energies of a run are NaN.
+    parallel : bool
+        Whether several threads may call it at once: no SAVE, no COMMON, no files. Ranks call it at once in any case.
+    directional : bool
+        Whether it has directions, so that a model must say the rolling direction; False for an isotropic one.
+    symbol : str, optional
+        Name of the function; default what compilers make of UMAT.
+    name : str
+        CMNAME, and for messages.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> law = uf.Umat("umat.so", state=7, properties=(210e3, 0.3, 200.0))  # doctest: +SKIP
+    """
+
+    library: str | PathLike[str] = field(compare=False)
+    state: int | Mapping[str, int] = field(default=0, hash=False)
+    properties: Sequence[float] = ()
+    initial: Sequence[float] = ()
+    symmetric: bool = True
+    energies: bool = False
+    parallel: bool = False
+    directional: bool = True
+    thickness_points: int = 5
+    symbol: str | None = None
+    name: str = "UMAT"
+    content: str = field(default="", init=False)
+
+    def __post_init__(self) -> None:
+        where, put = self.name, object.__setattr__
+        put(self, "state", named_state(where, self.state))
+        put(self, "properties", numbers(where, "properties", self.properties))
+        put(self, "initial", initial_state(where, self.state, self.initial))
+        put(self, "content", content(self.library, where))
+        self._address()
+
+    def shown(self, history: Mapping[str, Floats]) -> dict[str, Floats]:
+        """What fields show of the history: the state variables by their names."""
+        assert isinstance(self.state, Mapping)
+        return named_parts(history, self.state)
+
+    def law(self) -> _core.Material:
+        """The law as the kernels take it."""
+        return _core.logarithmic_space(self.small_strain_law())
+
+    def small_strain_law(self) -> _core.Material:
+        """The law that is asked with logarithmic strains."""
+        assert isinstance(self.state, Mapping)
+        return _core.umat_law(
+            self._address(),
+            self.energies,
+            self.name,
+            list(self.properties),
+            list(self.state.items()),
+            list(self.initial),
+            self.symmetric,
+            self.parallel,
+        )
+
+    def _address(self) -> int:
+        return address(self.library, [self.symbol] if self.symbol else _SYMBOLS, self.name)

@@ -1,0 +1,107 @@
+"""Sizes of elements where tools will bend the sheet: none turns more than an angle over a radius."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Bent:
+    """A part of the undeformed sheet that goes over a radius of a tool.
+
+    Attributes
+    ----------
+    start, end : float
+        Where it lies along the sheet.
+    radius : float
+        Of the middle of the sheet on the tool: that of the tool and half of the thickness.
+    name : str
+        Of the radius, for what is printed.
+    """
+
+    start: float
+    end: float
+    radius: float
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """Ends of the elements along a line of the sheet.
+
+    Attributes
+    ----------
+    ends : ndarray, shape (n + 1,)
+        Ascending.
+    bent : tuple of Bent
+        The radii that they follow.
+    """
+
+    ends: Floats
+    bent: tuple[Bent, ...]
+
+    def largest_turn(self, part: Bent) -> float:
+        """Largest angle in degrees that an element turns over a radius."""
+        inside = (self.ends[1:] > part.start + 1e-9) & (self.ends[:-1] < part.end - 1e-9)
+        return float(np.degrees(np.diff(self.ends)[inside].max(initial=0.0) / part.radius))
+
+    def __str__(self) -> str:
+        turns = [f"{self.largest_turn(part):.3g} degrees over {part.name or f'{part.radius:g}'}" for part in self.bent]
+        return f"{len(self.ends) - 1} elements, which turn by up to {', '.join(turns)}"
+
+
+def bending_sizes(
+    start: float, end: float, bent: Sequence[Bent], *, turn: float, largest: float, growth: float = 1.5
+) -> Sizes:
+    """Ends of elements between two places; none turns more than an angle over a radius that it goes over. eq. (5.69)
+
+    Parameters
+    ----------
+    start, end : float
+        Ends of the line.
+    bent : sequence of Bent
+        Parts of it that go over radii.
+    turn : float
+        Largest angle in degrees.
+    largest : float
+        Largest size of an element.
+    growth : float
+        Largest ratio of the sizes of neighbours.
+
+    Returns
+    -------
+    Sizes
+
+    Raises
+    ------
+    InvalidValue
+        If a number is out of range.
+    """
+    if not (start < end and 0.0 < turn <= 90.0 and largest > 0.0 and growth > 1.0):
+        raise InvalidValue(
+            "sizes need a line, an angle of up to 90 degrees, a largest size, and a growth of more than one",
+            where="bending_sizes",
+            value=f"{start:g} to {end:g}, turn {turn:g}, largest {largest:g}, growth {growth:g}",
+            cause="a sign, radians in place of degrees, or the ends exchanged",
+            remedy="turn=15, growth=1.5",
+        )
+    at = np.linspace(start, end, 2001)
+    size = np.full(at.shape, largest)
+    for part in bent:
+        allowed = math.radians(turn) * part.radius
+        away = np.maximum(np.maximum(part.start - at, at - part.end), 0.0)
+        size = np.minimum(size, allowed + math.log(growth) * away)
+    number = np.concatenate([[0.0], np.cumsum(np.diff(at) * 0.5 * (1.0 / size[1:] + 1.0 / size[:-1]))])
+    count = max(math.ceil(number[-1] - 1e-9), 1)
+    ends = np.interp(np.linspace(0.0, number[-1], count + 1), number, at)
+    ends[[0, -1]] = start, end
+    return Sizes(ends, tuple(bent))

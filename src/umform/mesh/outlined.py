@@ -1,0 +1,193 @@
+"""Flat blanks of any outline of lines and arcs, with holes: quadrilaterals by gmsh (the extra ``mesh``)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from itertools import pairwise
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue, MeshError
+from umform.mesh.blanks import order_of, stacked
+from umform.mesh.mesh import Floats, Mesh
+from umform.mesh.neighbours import Whole
+
+#: Types of quadrilaterals and of triangles in gmsh, by the order of the nodes.
+_QUADS, _TRIANGLES = {1: 3, 2: 10}, (2, 9)
+_Point = tuple[float, float]
+
+
+class Closed(Protocol):
+    """A closed curve: :class:`umform.surfaces.Profile`."""
+
+    @property
+    def segments(self) -> Sequence[Any]:
+        """Lines and arcs, each starting where the one before has ended."""
+
+    @property
+    def closed(self) -> bool:
+        """Whether the last one ends where the first one starts."""
+
+
+def blank(
+    outline: Closed,
+    thickness: float,
+    size: float | Callable[[float, float], float],
+    *,
+    holes: Sequence[Closed] = (),
+    cell: str = "hex8",
+    layers: int = 1,
+) -> Mesh:
+    """Flat blank of any outline, mid-surface at z = 0.
+
+    Parameters
+    ----------
+    outline : Profile
+        Closed curve of lines and arcs in x and y.
+    thickness : float
+        Of the sheet.
+    size : float or callable
+        Length of the sides of elements, or a function (x, y) -> length.
+    holes : sequence of Profile
+        Closed curves inside of it.
+    cell : {"hex8", "hex18"}
+        Cell type.
+    layers : int
+        Elements stacked through the thickness.
+
+    Returns
+    -------
+    Mesh
+        With face sets ``lower`` and ``upper``, and node sets ``rim`` (the outline), ``edge_0``, ``edge_1``, ... (its
+        segments), ``hole_0``, ...; each also with ``_lower`` and ``_upper``.
+
+    Raises
+    ------
+    InvalidValue
+        If a curve is not closed, a number is out of range, or gmsh is not there.
+    MeshError
+        If gmsh finds no mesh of quadrilaterals.
+    """
+    if not (math.isfinite(thickness) and thickness > 0 and layers >= 1):
+        raise InvalidValue("a blank has a positive thickness and a layer at least", value=f"{thickness}, {layers}")
+    if not callable(size) and not (math.isfinite(size) and size > 0):
+        raise InvalidValue("the size of elements must be positive", where="blank, size", value=size)
+    for curve in (outline, *holes):
+        if not curve.closed:
+            raise InvalidValue("the outline of a blank is closed", where="blank", remedy="Profile(..., closed=True)")
+    order = order_of(cell)
+    with _gmsh() as gmsh:
+        edges = [_loop(gmsh, curve) for curve in (outline, *holes)]
+        gmsh.model.geo.addPlaneSurface([loop for loop, _ in edges])
+        gmsh.model.geo.synchronize()
+        points, quads, ids = _meshed(gmsh, size, order)
+        on = {f"edge_{k}": _nodes_on(gmsh, tags, ids) for k, tags in enumerate(edges[0][1])}
+        on["rim"] = np.any(list(on.values()), axis=0)
+        for k, (_, tags) in enumerate(edges[1:]):
+            on[f"hole_{k}"] = np.any([_nodes_on(gmsh, part, ids) for part in tags], axis=0)
+    return stacked(points, quads, thickness, layers, on, cell)
+
+
+@contextmanager
+def _gmsh() -> Iterator[Any]:
+    """The library with an empty model; one thread, so that the mesh is the same each time."""
+    try:
+        import gmsh
+    except (ImportError, OSError) as error:
+        raise InvalidValue(
+            "a blank of any outline needs gmsh",
+            where="blank",
+            cause=str(error),
+            remedy="pip install 'umform[mesh]'; or disc, ring, strip, which need nothing",
+        ) from error
+    gmsh.initialize(["gmsh", "-noenv"], readConfigFiles=False, interruptible=False)
+    try:
+        for name, value in {
+            "General.Terminal": 0,
+            "General.NumThreads": 1,
+            "Mesh.Algorithm": 8,  # triangles that pair well
+            "Mesh.RecombineAll": 1,
+            "Mesh.RecombinationAlgorithm": 3,  # nothing but quadrilaterals
+            "Mesh.MeshSizeExtendFromBoundary": 0,
+            "Mesh.SecondOrderIncomplete": 0,
+        }.items():
+            gmsh.option.setNumber(name, value)
+        gmsh.model.add("blank")
+        yield gmsh
+    finally:
+        gmsh.finalize()
+
+
+def _loop(gmsh: Any, curve: Closed) -> tuple[int, list[list[int]]]:
+    """A closed curve, and the lines of gmsh of each of its segments; arcs go in parts of less than half a turn."""
+    geo, corners, tags = gmsh.model.geo, dict[tuple[float, float], int](), list[list[int]]()
+
+    def corner(p: Floats | _Point) -> int:
+        key = (round(float(p[0]), 9), round(float(p[1]), 9))
+        if key not in corners:
+            corners[key] = geo.addPoint(*key, 0.0)
+        return corners[key]
+
+    for segment in curve.segments:
+        centre = getattr(segment, "centre", None)
+        if centre is None:
+            tags.append([geo.addLine(corner(segment.start), corner(segment.end))])
+            continue
+        middle = geo.addPoint(*centre, 0.0)
+        ends = _parts(segment)
+        tags.append([geo.addCircleArc(corner(a), middle, corner(b)) for a, b in pairwise(ends)])
+    return geo.addCurveLoop([tag for parts in tags for tag in parts]), tags
+
+
+def _parts(arc: Any) -> list[Floats]:
+    """Ends of the parts of an arc, each of a third of a turn at most."""
+    centre, start = np.asarray(arc.centre, dtype=float), np.asarray(arc.start, dtype=float)
+    count = math.ceil(arc.angle / (2.0 * math.pi / 3.0) - 1e-9)
+    angles = math.atan2(*(start - centre)[::-1]) + arc.turn * arc.angle * np.arange(1, count) / count
+    between = [centre + arc.radius * np.array([math.cos(a), math.sin(a)]) for a in angles]
+    return [start, *between, np.asarray(arc.end, dtype=float)]
+
+
+def _meshed(gmsh: Any, size: float | Callable[[float, float], float], order: int) -> tuple[Floats, Whole, Whole]:
+    """Points (n, 2), quadrilaterals, and the number of each node of gmsh."""
+
+    def length(dimension: int, tag: int, x: float, y: float, z: float, before: float) -> float:
+        del dimension, tag, z, before
+        return float(size(x, y)) if callable(size) else size
+
+    gmsh.model.mesh.setSizeCallback(length)
+    try:
+        gmsh.model.mesh.generate(2)
+        gmsh.model.mesh.setOrder(order)
+    except Exception as error:  # gmsh raises nothing more special
+        raise MeshError(
+            "gmsh finds no mesh of the blank", where="blank", cause=str(error), remedy="an outline without crossings"
+        ) from error
+    if any(len(gmsh.model.mesh.getElementsByType(kind)[0]) for kind in _TRIANGLES):
+        raise MeshError("gmsh leaves triangles in the blank", where="blank", remedy="smaller elements")
+    tags, coordinates, _ = gmsh.model.mesh.getNodes()
+    _, corners = gmsh.model.mesh.getElementsByType(_QUADS[order])
+    ids = np.full(int(tags.max()) + 1, -1, dtype=np.int64)
+    raw = np.asarray(corners, dtype=np.int64).reshape(-1, 4 if order == 1 else 9)
+    used = np.unique(raw)
+    ids[used] = np.arange(len(used))
+    place = np.empty((len(ids), 2))
+    place[np.asarray(tags, dtype=np.int64)] = np.asarray(coordinates).reshape(-1, 3)[:, :2]
+    points, quads = place[used], ids[raw]
+    a, b, c, d = (points[quads[:, k]] for k in range(4))
+    area = (c - a)[:, 0] * (d - b)[:, 1] - (c - a)[:, 1] * (d - b)[:, 0]
+    turned = [0, 3, 2, 1] if order == 1 else [0, 3, 2, 1, 7, 6, 5, 4, 8]
+    return points, np.where(area[:, None] < 0.0, quads[:, turned], quads), ids
+
+
+def _nodes_on(gmsh: Any, tags: Sequence[int], ids: Whole) -> NDArray[np.bool_]:
+    """Which nodes lie on some lines of gmsh, their ends among them."""
+    on = np.zeros(int(ids.max()) + 1, dtype=bool)
+    for tag in tags:
+        nodes = np.asarray(gmsh.model.mesh.getNodes(1, tag, includeBoundary=True)[0], dtype=np.int64)
+        on[ids[nodes][ids[nodes] >= 0]] = True
+    return on

@@ -1,0 +1,65 @@
+"""Rigid stops of pressed tools: where one bears its tool, the equation of the way is that it stands there.
+
+Which holds is decided in each iteration from the signs, as an active set; eqs. (4.140), (4.141).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from umform.model.into import At, Into
+from umform.model.press import Press
+from umform.model.term import Found
+from umform.model.tool_controls import ToolWay
+
+
+@dataclass(frozen=True)
+class ToolFound(Found):
+    """What came out of the evaluation of a tool.
+
+    Attributes
+    ----------
+    borne : dict of str to float
+        Force of the rigid stop that bears it along its way, by the name of the control of its press.
+    """
+
+    borne: Mapping[str, float] = field(default_factory=dict)
+
+
+def bear(press: Press, at: At, into: Into) -> float | None:
+    """Put the equation of a rigid stop in the place of the balance of a press, if one bears the tool.
+
+    Parameters
+    ----------
+    press : Press
+        A press with rigid stops.
+    at : At
+        Where it is evaluated.
+    into : Into
+        Has what the other forces leave as the residual of the press.
+
+    Returns
+    -------
+    float or None
+        Force of the stop on the tool along its way.
+    """
+    border = into.border
+    k, way = border.number(press.unknown), press.way
+    rest = float(border.residual[k])
+    measure = into.ranks.sum(sum(_stiffness(way, tool, at, into.found) for tool in way.tools)) or 1.0
+    stop = press.bearing(at.values[way], rest, measure)
+    if stop is None:
+        return None
+    border.residual[k], border.corner[k, k] = measure * (at.values[way] - stop), measure
+    return rest
+
+
+def _stiffness(way: ToolWay, tool: Any, at: At, found: Mapping[Any, Any]) -> float:
+    """Force per way of a tool against which all points of this rank press with their penalty."""
+    share = 0.0
+    for pair in tool.pairs:
+        velocity = way.velocity(found[pair].x, tool, at)
+        share += pair.penalty * float(found[pair].area @ (velocity**2).sum(axis=1))
+    return share

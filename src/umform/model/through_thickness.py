@@ -1,0 +1,26 @@
+"""What an element gets through its thickness from a law: points and their rule, and the order of E_33."""
+
+from __future__ import annotations
+
+from umform.elements import at_order
+from umform.elements.technology import Element
+from umform.materials.material import Material
+
+
+def points_through(element: Element, material: Material, points: int | None, rule: str | None) -> tuple[int, str]:
+    """Points through the thickness and their rule: what is given, else what law and element want."""
+    wanted, wanted_rule = element.plastic_points if _plastic(material) else (2, "gauss")
+    if points is not None:
+        return points, rule or "gauss"
+    return max(wanted, material.thickness_points, element.thickness_order + 1), rule or wanted_rule
+
+
+def completed(element: Element, material: Material, points: int) -> Element:
+    """The element with the complete order of E_33 where a plastic law asks for it. eq. (2.46)"""
+    if not (_plastic(material) and element.complete) or points <= element.thickness_order + 1:
+        return element
+    return at_order(element, points - 1)
+
+
+def _plastic(material: Material) -> bool:
+    return material.thickness_points > 2

@@ -1,0 +1,83 @@
+"""Draw a part: close, draw, open."""
+
+from __future__ import annotations
+
+from umform.errors import NoConvergence
+from umform.processes.draw.cup import Cup
+from umform.processes.draw.drawn import Drawn
+from umform.processes.draw.endings import Ending, ending_of
+from umform.processes.draw.u_bend import UBend
+from umform.results.forming import FormingLimit, KeelerBrazier, add_forming_fields
+from umform.run import Result, solve
+
+#: States that each step keeps for pictures.
+FRAMES = 20
+
+
+def draw(
+    case: Cup | UBend,
+    *,
+    limit: FormingLimit | None = None,
+    frames: int = FRAMES,
+    solver: str = "auto",
+    progress: bool | None = None,
+) -> Drawn:
+    """Draw a part and take it out of its tools.
+
+    A run that cannot be continued ends with what it has: ``ending`` of what is returned says why.
+
+    Parameters
+    ----------
+    case : Cup or UBend
+        The parameters.
+    limit : callable, optional
+        Forming limit: largest major strain over the minor one. Default: Keeler and Brazier with the thickness and the
+        hardening of the sheet.
+    frames : int
+        States that each step keeps for pictures.
+    solver : str
+        Sparse solver.
+    progress : bool, optional
+        Show a progress bar; default: only on a terminal.
+
+    Returns
+    -------
+    Drawn
+    """
+    model, press = case.build()
+    limit = limit or KeelerBrazier(case.thickness, uniform_strain(case))
+    released: Result | None = None
+    failure: NoConvergence | None = None
+    try:
+        result = solve(model, press.closing(), frames=frames, solver=solver, progress=progress)
+    except NoConvergence as error:
+        failure, result = error, _reached(error)
+    add_forming_fields(result, limit)
+    u = model.u.copy()
+    ending: Ending | None = ending_of(case, result, limit, failure)
+    if failure is None:
+        try:
+            released = solve(model, press.opening(model), frames=2, solver=solver, progress=progress)
+        except NoConvergence as error:
+            ending = Ending("release", f"the part could not be taken out of the tools: {error}")
+        else:
+            add_forming_fields(released, limit)
+    return Drawn(case, limit, result, u, released, ending)
+
+
+def _reached(error: NoConvergence) -> Result:
+    result = getattr(error, "result", None)
+    if not isinstance(result, Result):
+        raise error
+    return result
+
+
+def uniform_strain(case: Cup | UBend) -> float:
+    """Hardening exponent: true plastic strain at which a tensile bar necks, where slope and stress are equal."""
+    curve = case.material.hardening.curve()
+    low, high = 1e-6, 1.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        stress, slope = curve(middle)
+        low, high = (middle, high) if slope > stress else (low, middle)
+    return max(low, 1e-3)

@@ -1,0 +1,180 @@
+"""What comes out of a drawing operation: forces, shapes, ears or angles, before and after the tools open."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import InvalidValue
+from umform.processes.draw.cup import Cup
+from umform.processes.draw.endings import Ending
+from umform.processes.draw.u_bend import UBend
+from umform.results.forming import (
+    EarProfile,
+    FormingLimit,
+    Laid,
+    Outline,
+    Section,
+    UBendAngles,
+    distance_from,
+    draw_in,
+    ear_profile,
+    forming_fields,
+    lay_by_best_fit,
+    section,
+    u_bend_angles,
+)
+from umform.run import Result
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A drawn part.
+
+    Attributes
+    ----------
+    case : Cup or UBend
+        The parameters.
+    limit : callable
+        Forming limit.
+    result : Result
+        From the open tools to the end of the stroke.
+    u : ndarray, shape (3 n,)
+        Displacement at the end of the stroke.
+    released : Result, optional
+        The opening of the tools; none if the run ended before.
+    ending : Ending, optional
+        What went wrong.
+    """
+
+    case: Cup | UBend
+    limit: FormingLimit
+    result: Result
+    u: Floats
+    released: Result | None
+    ending: Ending | None
+
+    @property
+    def u_free(self) -> Floats:
+        """Displacement of the part out of its tools; at the end of the stroke if it was not released."""
+        return self.u if self.released is None else self.released.model.u
+
+    @cached_property
+    def stroke(self) -> Floats:
+        """Way of the punch, increment by increment."""
+        return self.result["stroke"]
+
+    @cached_property
+    def forces(self) -> dict[str, Floats]:
+        """Force along the stroke on punch, holder and die of the whole part, increment by increment."""
+        parts = self.case.parts
+        return {name: parts * np.abs(self.result[f"{name}_fz"]) for name in ("punch", "holder", "die")}
+
+    @cached_property
+    def fields(self) -> dict[str, Floats]:
+        """Fields of the cells of the part, see :func:`umform.results.forming.forming_fields`."""
+        return forming_fields(self.result.model.mesh, self.u_free, self.limit)
+
+    @cached_property
+    def outline(self) -> Outline:
+        """The edge of the blank before and at the end of the stroke."""
+        return draw_in(self.result.model.mesh, self.u, self.case.edge)
+
+    @cached_property
+    def ears(self) -> EarProfile:
+        """Ears of a cup."""
+        if not isinstance(self.case, Cup):
+            raise InvalidValue("a U-bend has no ears", where="ears")
+        return ear_profile(self.result.model.mesh, self.u_free)
+
+    @cached_property
+    def sections(self) -> dict[str, Section]:
+        """Section at y = 0 at the end of the stroke and out of the tools."""
+        mesh = self.result.model.mesh
+        return {"drawn": section(mesh, self.u), "released": section(mesh, self.u_free)}
+
+    @cached_property
+    def angles(self) -> UBendAngles | None:
+        """Angles and radius of a U-bend; None where its wall is too short."""
+        if not isinstance(self.case, UBend) or self.case.heights is None:
+            return None
+        line = self.sections["released"].middle[:, [0, 2]]
+        try:
+            return u_bend_angles(line, self.case.heights, flange=max(len(line) // 12, 2))
+        except InvalidValue:
+            return None
+
+    @cached_property
+    def punch_distance(self) -> Floats:
+        """Distance of the upper face of the part from the punch at the end of its stroke, at the nodes; shape (n,)."""
+        model = self.result.model
+        punch = next(tool for tool in model.tools if tool.name == "punch")
+        distance = distance_from(punch, model.mesh.points + self.u_free.reshape(-1, 3))
+        cells = model.mesh.connectivity
+        half = cells.shape[1] // 2
+        distance[cells[:, :half]] = distance[cells[:, half:]]
+        return distance
+
+    @cached_property
+    def springback(self) -> Laid:
+        """The part, laid by the best fit into the shape that it had at the end of the stroke."""
+        X = self.result.model.mesh.points
+        return lay_by_best_fit(X + self.u_free.reshape(-1, 3), X + self.u.reshape(-1, 3))
+
+    @property
+    def friction_share(self) -> float:
+        """Work of friction over the external work, in per cent."""
+        return 100.0 * float(self.result["friction_work"][-1] / self.result["external_work"][-1])
+
+    @property
+    def iterations(self) -> int:
+        """Newton iterations of both stages."""
+        stages = [self.result] if self.released is None else [self.result, self.released]
+        return int(sum(stage["iterations"].sum() for stage in stages))
+
+    @property
+    def seconds(self) -> float:
+        """Time of both stages."""
+        return self.result.seconds + (0.0 if self.released is None else self.released.seconds)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What to look at."""
+        own = [] if self.ending is None else [self.ending.text]
+        more = [] if self.released is None else self.released.warnings
+        return list(dict.fromkeys([*own, *self.result.warnings, *more]))
+
+    def measures(self) -> dict[str, tuple[float, str]]:
+        """Numbers of the part with their units, by name."""
+        found = self.fields
+        rows: dict[str, tuple[float, str]] = {
+            "largest punch force": (float(self.forces["punch"].max()) / 1000.0, "kN"),
+            "largest holder force": (float(self.forces["holder"].max()) / 1000.0, "kN"),
+            "draw-in, mean": (float(self.outline.draw_in.mean()), "mm"),
+            "largest thinning": (float(found["thinning"].max()), "%"),
+            "largest thickening": (float(-found["thinning"].min()), "%"),
+            "largest major strain": (float(found["major_middle"].max()), ""),
+            "margin to the forming limit": (float(found["limit_margin"].min()), ""),
+            "work of friction": (self.friction_share, "%"),
+            "springback, largest way": (self.springback.largest, "mm"),
+        }
+        if isinstance(self.case, Cup):
+            ears = self.ears
+            rows |= {
+                "height, mean": (ears.mean, "mm"),
+                "height, lowest": (float(ears.height.min()), "mm"),
+                "height, highest": (float(ears.height.max()), "mm"),
+                "number of ears": (float(len(ears.ears())), ""),
+            }
+        elif self.angles is not None:
+            rows |= {
+                "theta1": (self.angles.theta1, "degrees"),
+                "theta2": (self.angles.theta2, "degrees"),
+                "radius of the wall": (self.angles.radius, "mm"),
+            }
+        return rows

@@ -1,0 +1,124 @@
+"""How a drawing operation ended: tears, wrinkles, a holder that is too strong, a punch that bottoms."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from umform.errors import NoConvergence
+from umform.results.forming import FormingLimit, distance_from, forming_fields
+from umform.run import Result
+
+if TYPE_CHECKING:
+    from umform.processes.draw.cup import Cup
+    from umform.processes.draw.u_bend import UBend
+
+#: Thinning in per cent beyond which a sheet that has not converged is taken for torn.
+_TORN = 30.0
+#: Air in thicknesses between the sheet and both the die and the holder, beyond that at the start, that is a wrinkle.
+_WRINKLED = 0.5
+#: Growth of the force over its largest value before, in the last hundredth of the stroke, of a punch that bottoms.
+_BOTTOMED = 3.0
+
+
+@dataclass(frozen=True)
+class Ending:
+    """Why an operation ended before its time, or what is wrong with the part.
+
+    Attributes
+    ----------
+    kind : str
+        "torn", "wrinkled", "held", "bottomed", "release" or "solver".
+    text : str
+        In words.
+    early : bool
+        Whether the run ended before the end of the stroke.
+    """
+
+    kind: str
+    text: str
+    early: bool = False
+
+
+def ending_of(case: Cup | UBend, result: Result, limit: FormingLimit, failure: NoConvergence | None) -> Ending | None:
+    """What an operation ended with; None where all is well.
+
+    Parameters
+    ----------
+    case : Cup or UBend
+        The parameters.
+    result : Result
+        What was reached.
+    limit : callable
+        Forming limit.
+    failure : NoConvergence, optional
+        What ended it early.
+    """
+    model = result.model
+    found = forming_fields(model.mesh, model.u, limit)
+    worst = int(np.argmin(found["limit_margin"]))
+    margin, thinnest = float(found["limit_margin"][worst]), float(found["thinning"].max())
+    place = model.mesh.points[model.mesh.connectivity[worst]].mean(axis=0)
+    where = f"at ({place[0]:.3g}, {place[1]:.3g}) of the blank"
+    stroke = float(result["stroke"][-1])
+    early = failure is not None
+    reached = f" at a stroke of {stroke:.4g} of {case.way:.4g}" if early else ""
+    if margin < 0.0 or (early and thinnest > _TORN):
+        beyond = int((found["limit_margin"] < 0.0).sum())
+        still = early and _drawn_in(case, result) < 0.02 * case.way
+        what = "the holder is too strong: the sheet does not flow in and tears" if still else "the sheet tears"
+        text = f"{what}{reached}: {beyond} elements are beyond the forming limit, by {max(-margin, 0.0):.3g} {where}; "
+        remedy = "less holder force or friction, larger radii, a smaller blank"
+        return Ending("held" if still else "torn", f"{text}thinning up to {thinnest:.3g} %; {remedy}", early)
+    air = wrinkle(result, case.thickness)
+    if air > _WRINKLED * case.thickness:
+        text = f"the sheet wrinkles under the holder{reached}: it stands off both tools by {air:.3g}; a stronger holder"
+        return Ending("wrinkled", text, early)
+    if early and _bottomed(result):
+        return Ending("bottomed", f"the punch bottoms{reached}: its force grows without bound; a shorter stroke", True)
+    if early:
+        return Ending("solver", f"the run cannot be continued{reached}: {failure}", True)
+    return None
+
+
+def wrinkle(result: Result, thickness: float) -> float:
+    """Largest distance of the flange from both die and holder: where it stands off both of them, it wrinkles.
+
+    Parameters
+    ----------
+    result : Result
+        A run with tools called die and holder; its last state counts.
+    thickness : float
+        Of the sheet: the flange is where the holder is no more than three times as far from the flat of the die.
+    """
+    model = result.model
+    tools = {tool.name: tool for tool in model.tools}
+    if not {"die", "holder"} <= tools.keys():
+        return 0.0
+    x = model.mesh.points + model.u.reshape(-1, 3)
+    cells = model.mesh.connectivity
+    half = cells.shape[1] // 2
+    lower, upper = x[cells[:, :half].ravel()], x[cells[:, half:].ravel()]
+    below, above = distance_from(tools["die"], lower), distance_from(tools["holder"], upper)
+    rotation, shift = tools["die"].pose_now
+    normal = tools["die"].surface.kernel().gap(np.ascontiguousarray((lower - shift) @ rotation))[1] @ rotation.T
+    foot = lower - below[:, None] * normal
+    flat = (normal[:, 2] > 1.0 - 1e-9) & (distance_from(tools["holder"], foot) < 3.0 * thickness)
+    return float(np.minimum(below, above)[flat].max(initial=0.0))
+
+
+def _drawn_in(case: Cup | UBend, result: Result) -> float:
+    """Mean way of the edge of the blank towards the inside."""
+    model = result.model
+    ids = model.mesh.nodes(case.edge)
+    X, u = model.mesh.points[ids, :2], model.u.reshape(-1, 3)[ids, :2]
+    return float(-(u * X).sum(axis=1).mean() / np.linalg.norm(X, axis=1).mean())
+
+
+def _bottomed(result: Result) -> bool:
+    """Whether the force of the punch has grown beyond all measure in the last increments."""
+    force = np.abs(result["punch_fz"])
+    count = max(len(force) // 20, 2)
+    return len(force) > 2 * count and bool(force[-1] > _BOTTOMED * force[:-count].max())

@@ -1,0 +1,97 @@
+"""The files of a drawn part: curve, measures, fields, profiles, pictures, report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from umform.io.staging import staging
+from umform.io.tables import write_csv, write_json
+from umform.processes.draw.cup import Cup
+from umform.processes.draw.drawn import Drawn
+from umform.processes.draw.words import parameters
+from umform.report.versions import versions
+
+_PICTURES = (
+    "curve", "thinning", "major_middle", "limit_margin", "wrinkling", "punch_distance", "limits", "outline", "section",
+    "ears",
+)  # fmt: skip
+_DATA = (
+    "curve.csv", "fields.csv", "outline.csv", "section.csv", "ears.csv", "part.json", "draw.vtkhdf", "release.vtkhdf",
+)  # fmt: skip
+_PAGE = (*(f"{name}.png" for name in _PICTURES), "report.html")
+#: Files of a part, which also mark a folder as that of one.
+FILES = (*_DATA, *_PAGE)
+
+
+def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
+    """Write all that is known of a part.
+
+    Parameters
+    ----------
+    out : str or Path
+        Folder for tables (.csv), part.json, the fields of both stages (.vtkhdf), pictures (.png), report.html.
+    drawn : Drawn
+        The part.
+    note : str, optional
+        Where the material comes from, for the report.
+
+    Returns
+    -------
+    list of Path
+        The files.
+    """
+    from umform.plotting import save
+    from umform.processes.draw.page import write_page
+    from umform.processes.draw.pictures import pictures
+
+    with staging(out, FILES) as stage:
+        here = stage.waiting
+        _write_tables(here, drawn)
+        write_json(here / "part.json", record(drawn))
+        drawn.result.write(here / "draw.vtkhdf")
+        if drawn.released is not None:
+            drawn.released.write(here / "release.vtkhdf")
+        files = stage.commit(_DATA)  # a picture that fails does not take the numbers along
+        figures = pictures(drawn)
+        for name, figure in figures.items():
+            save(figure, here / f"{name}.png", dpi=120)
+        write_page(here / "report.html", drawn, figures, note)
+        return [*files, *stage.commit(_PAGE)]
+
+
+def _write_tables(here: Path, drawn: Drawn) -> None:
+    result = drawn.result
+    forces = {f"{name}_force": values for name, values in drawn.forces.items()}
+    work = {name: drawn.case.parts * result[name] for name in ("external_work", "plastic_work", "friction_work")}
+    write_csv(here / "curve.csv", {"stroke": drawn.stroke, **forces, **work})
+    mesh = result.model.mesh
+    middle = mesh.points[mesh.connectivity].mean(axis=1)
+    write_csv(here / "fields.csv", {"x": middle[:, 0], "y": middle[:, 1], **drawn.fields})
+    edge = drawn.outline
+    columns = np.concatenate([edge.before, edge.after, edge.draw_in[:, None]], axis=1).T
+    write_csv(here / "outline.csv", dict(zip(("x_before", "y_before", "x", "y", "draw_in"), columns, strict=True)))
+    both = {"s": drawn.sections["drawn"].s}
+    for name, cut in drawn.sections.items():
+        both |= {f"{name}_{side}_{axis}": getattr(cut, side)[:, k]
+                 for side in ("lower", "upper") for k, axis in enumerate("xyz")}  # fmt: skip
+    write_csv(here / "section.csv", both)
+    if isinstance(drawn.case, Cup):
+        write_csv(here / "ears.csv", {"angle": drawn.ears.angle, "height": drawn.ears.height})
+
+
+def record(drawn: Drawn) -> dict[str, Any]:
+    """Parameters and measures in a form that JSON can hold."""
+    return {
+        "parameters": parameters(drawn.case),
+        "measures": {name: value for name, (value, _) in drawn.measures().items()},
+        "ending": None if drawn.ending is None else drawn.ending.text,
+        "elements": len(drawn.result.model.mesh.connectivity),
+        "increments": len(drawn.result) - 1,
+        "iterations": drawn.iterations,
+        "seconds": drawn.seconds,
+        "warnings": drawn.warnings,
+        "versions": versions(),
+    }

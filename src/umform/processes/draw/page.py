@@ -1,0 +1,69 @@
+"""The report of a drawn part: measures, pictures, parameters, settings, versions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from umform.processes.draw.drawn import Drawn
+from umform.processes.draw.words import before_the_run, parameters, summary, title
+from umform.report import parts
+from umform.report.materials import material_text
+from umform.report.page import settings, time_spent
+from umform.report.repeats import counted
+from umform.report.versions import versions
+
+_CAPTIONS = {
+    "curve": "Forces of the tools on the whole part over the stroke.",
+    "thinning": "Thinning of the part out of its tools.",
+    "major_middle": "Major strain in the middle of the sheet.",
+    "limit_margin": "Strain that is left up to the forming limit; below zero the sheet tears.",
+    "wrinkling": "Thickening: where it is large and no tools hold both faces, the sheet wrinkles.",
+    "punch_distance": "Distance of the upper face of the part from the punch at the end of its stroke.",
+    "limits": "Forming limit diagram: strains of all elements on both skins and in the middle.",
+    "outline": "Edge of the blank before and at the end of the stroke.",
+    "section": "Section at y = 0, at the end of the stroke and out of the tools.",
+    "ears": "Height of the cup over the angle to the rolling direction.",
+}
+
+
+def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: str = "") -> Path:
+    """Write the report of a part.
+
+    Parameters
+    ----------
+    path : Path
+        The page, ending in .html.
+    drawn : Drawn
+        The part.
+    figures : mapping of str to Figure
+        Pictures by their names.
+    note : str
+        Where the material comes from; may be empty.
+    """
+    elements = len(drawn.result.model.mesh.connectivity)
+    lead = f"{elements} elements; {drawn.iterations} Newton iterations in {drawn.seconds:.1f} s"
+    return parts.write_html(path, title(drawn), lead, _parts(drawn, figures, note))
+
+
+def _parts(drawn: Drawn, figures: Mapping[str, Figure], note: str) -> Iterator[str]:
+    for message in counted(drawn.warnings):
+        yield parts.note(message, bad=True)
+    yield parts.heading("Measures")
+    yield parts.table(["quantity", "value", "unit"], summary(drawn))
+    for name, figure in figures.items():
+        yield parts.figure(figure, _CAPTIONS[name])
+    yield parts.heading("Parameters")
+    if note:
+        yield parts.paragraph(note)
+    told = parameters(drawn.case) | {"material": material_text(drawn.case.material)}
+    yield parts.pairs({name.replace("_", " "): value for name, value in told.items()})
+    yield parts.paragraph(before_the_run(drawn.case))
+    yield parts.heading("Model")
+    yield parts.pairs(settings(drawn.result))
+    yield parts.heading("Where the time went")
+    yield time_spent(drawn.result)
+    yield parts.heading("Versions")
+    yield parts.pairs(versions())

@@ -1,0 +1,132 @@
+"""Pictures of a drawn part: forces, shape, thinning, forming limits, ears, outline, sections."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from umform.plotting import COLOURS, INK, Picture, draw_shape, house_style
+from umform.processes.draw.cup import Cup
+from umform.processes.draw.drawn import Drawn
+from umform.results.shape import Shape
+
+_SIZE = (6.6, 4.2)
+#: Fields that get a picture of their own, with what is written beside the colours.
+FIELDS: Mapping[str, str] = {
+    "thinning": "thinning in %",
+    "major_middle": "major strain, logarithmic",
+    "limit_margin": "margin to the forming limit",
+    "wrinkling": "thickening, logarithmic",
+    "punch_distance": "distance of the upper face from the punch in mm",
+}
+
+
+def pictures(drawn: Drawn) -> dict[str, Figure]:
+    """All pictures by their names, in the order of the report."""
+    made = {"curve": curve(drawn)}
+    shape = part(drawn)
+    made |= {name: coloured(shape, name, label) for name, label in FIELDS.items()}
+    made |= {"limits": limits(drawn), "outline": outline(drawn), "section": sections(drawn)}
+    if isinstance(drawn.case, Cup):
+        made["ears"] = ears(drawn)
+    return made
+
+
+def curve(drawn: Drawn) -> Figure:
+    """Forces of the tools over the stroke."""
+    with house_style():
+        figure, axes = _axes("stroke in mm", "force in kN")
+        for name, force in drawn.forces.items():
+            axes.plot(drawn.stroke, force / 1000.0, label=name)
+        axes.set_ylim(0.0, None)
+        axes.legend()
+    return figure
+
+
+def part(drawn: Drawn) -> Shape:
+    """The whole part out of its tools, with the fields of forming on its faces."""
+    from umform.results.shape import outer_quads
+
+    mesh = drawn.result.model.mesh
+    quads, owners = outer_quads(mesh.connectivity.astype(np.int64))
+    values = {name: drawn.fields[name][owners] for name in FIELDS if name in drawn.fields}
+    values["punch_distance"] = drawn.punch_distance[quads].mean(axis=1)
+    shape = Shape(mesh.points + drawn.u_free.reshape(-1, 3), quads, values)
+    if not isinstance(drawn.case, Cup):
+        stretched = shape.points * np.array([1.0, 0.5 * drawn.case.width, 1.0])
+        return replace(shape, points=stretched).mirrored(0)
+    return shape.mirrored(0).mirrored(1)
+
+
+def coloured(shape: Shape, name: str, label: str) -> Figure:
+    """The part, coloured by a field."""
+    with house_style():
+        figure = Picture(figsize=_SIZE, layout="compressed")
+        drawn = draw_shape(figure.add_subplot(), shape, name, (-70.0, -25.0))
+        bar = figure.colorbar(drawn, ax=figure.axes, shrink=0.75, aspect=25, pad=0.02)
+        bar.set_label(label)
+        bar.outline.set_visible(False)
+    return figure
+
+
+def limits(drawn: Drawn) -> Figure:
+    """Forming limit diagram: strains of all elements on both skins and in the middle, and the limit."""
+    found = drawn.fields
+    with house_style():
+        figure, axes = _axes("minor strain, logarithmic", "major strain, logarithmic")
+        for name, colour in zip(("lower", "upper", "middle"), (COLOURS[5], COLOURS[4], COLOURS[0]), strict=True):
+            axes.plot(found[f"minor_{name}"], found[f"major_{name}"], ".", color=colour, markersize=2.5, label=name)
+        low, high = axes.get_xlim()
+        minor = np.linspace(min(low, -0.1), max(high, 0.1), 200)
+        axes.plot(minor, drawn.limit(minor), color=COLOURS[1], label="forming limit")
+        axes.plot([0.0, min(low, 0.0)], [0.0, max(-low, 0.0)], color="#999999", linewidth=0.8, label="no thinning")
+        axes.legend()
+    return figure
+
+
+def outline(drawn: Drawn) -> Figure:
+    """Edge of the blank before and at the end of the stroke."""
+    edge = drawn.outline
+    with house_style():
+        figure, axes = _axes("x in mm", "y in mm")
+        for label, points, line in (("blank", edge.before, "--"), ("end of the stroke", edge.after, "-")):
+            axes.plot(*points.T, line, marker=".", markersize=3, label=label)
+        if isinstance(drawn.case, Cup):
+            axes.set_aspect("equal")
+        axes.legend()
+    return figure
+
+
+def sections(drawn: Drawn) -> Figure:
+    """Section of the part at the end of the stroke and out of its tools."""
+    with house_style():
+        figure, axes = _axes("x in mm", "z in mm")
+        for (name, cut), colour, line in zip(drawn.sections.items(), COLOURS, ("--", "-"), strict=False):
+            axes.plot(*cut.lower[:, [0, 2]].T, line, color=colour, label=name)
+            axes.plot(*cut.upper[:, [0, 2]].T, line, color=colour)
+        axes.set_aspect("equal")
+        axes.legend()
+    return figure
+
+
+def ears(drawn: Drawn) -> Figure:
+    """Height of the cup over the angle to the rolling direction."""
+    whole = drawn.ears.whole()
+    with house_style():
+        figure, axes = _axes("angle to the rolling direction in degrees", "height of the cup in mm")
+        axes.plot(whole.angle, whole.height)
+        axes.axhline(drawn.ears.mean, color=INK, linewidth=0.8, linestyle=":")
+        axes.annotate(f"mean {drawn.ears.mean:.2f}", (2.0, drawn.ears.mean), va="bottom", fontsize=8)
+        axes.set_xticks(np.arange(0, 361, 45))
+    return figure
+
+
+def _axes(x: str, y: str) -> tuple[Figure, Axes]:
+    figure = Picture(figsize=_SIZE, layout="constrained")
+    axes = figure.add_subplot()
+    axes.set(xlabel=x, ylabel=y)
+    return figure, axes

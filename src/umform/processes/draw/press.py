@@ -1,0 +1,83 @@
+"""The press: a holder on distance blocks, a stroke, and the opening of all tools."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from umform.errors import InvalidValue
+from umform.model import Model, Tool
+from umform.model.support import Support
+from umform.model.tool_controls import ToolForce, ToolMotion
+from umform.steps import Close, Free, Move, Step
+
+#: Stiffness of the distance blocks over the force on them, per mm.
+_BLOCKS = 200.0
+#: Way of the holder at which the blocks begin to carry, mm: at once.
+_AT_ONCE = 1e-5
+
+
+@dataclass(frozen=True)
+class Hold:
+    """A holder that a force presses.
+
+    Attributes
+    ----------
+    control : ToolForce
+        What presses it.
+    force : float
+        With how much.
+    on_blocks : bool
+        Whether it lies on distance blocks at the start, or has to be closed.
+    """
+
+    control: ToolForce
+    force: float
+    on_blocks: bool
+
+    def step(self) -> Step:
+        """The step that puts the force on."""
+        if self.on_blocks:
+            return Move(self.control, to=-self.force, steps=1)
+        return Close(self.control, force=-self.force)
+
+
+@dataclass(frozen=True)
+class Press:
+    """What a press does: hold, draw, open.
+
+    Attributes
+    ----------
+    hold : Hold, optional
+        How the holder is pressed; none for one that keeps its distance.
+    stroke : ToolMotion
+        The way of the punch.
+    way : float
+        Its length.
+    gauge : Support
+        What holds the part when the tools have opened.
+    """
+
+    hold: Hold | None
+    stroke: ToolMotion
+    way: float
+    gauge: Support
+
+    def closing(self) -> list[Step]:
+        """Steps from the open tools to the end of the stroke."""
+        return [*([] if self.hold is None else [self.hold.step()]), Move(self.stroke, to=self.way)]
+
+    def opening(self, model: Model) -> Step:
+        """The step that opens all tools at once, so that the part springs back."""
+        return Free(list(model.tools), steps=6, on=self.gauge)
+
+
+def held_by(model: Model, holder: Tool, force: float | None, *, blocks: bool = True) -> Hold | None:
+    """Press a holder with a force; on distance blocks it cannot come nearer than it stands now."""
+    if force is None:
+        return None
+    if not force > 0.0:
+        raise InvalidValue("the force of the holder must be positive", where="holder_force", value=force)
+    control = model.press(holder, "z", name="hold")
+    if blocks:
+        model.stop(control, at=_AT_ONCE, stiffness=_BLOCKS * force, below=True)
+    return Hold(control, force, blocks)

@@ -1,0 +1,172 @@
+"""A U-bend in plane strain: parameters, strip, tools, model and steps."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+
+from umform.elements import element
+from umform.errors import InvalidValue
+from umform.materials.j2 import Plastic
+from umform.mesh import Bent, Mesh, Sizes, bending_sizes, grid
+from umform.model import Model
+from umform.processes.draw.press import Press, held_by
+from umform.processes.draw.rules import COMMON
+from umform.processes.rules import check_rules, length
+from umform.results.forming.u_bend import HEIGHTS
+from umform.surfaces import Box, Plane, UDie
+
+_RULES = COMMON | {
+    "length": length("the length of the blank", "in mm, such as 350"),
+    "punch_width": length("the width of the punch", "in mm, such as 50"),
+    "opening": length("the opening of the die", "in mm, such as 52"),
+    "width": length("the width of the blank", "in mm, such as 35; forces are those on it"),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class UBend:
+    r"""Parameters of a U-bend in mm, N and MPa; half of it is computed, in plane strain. ::
+
+                    | punch |            punch_width, punch_edge
+        holder      |       |     holder
+        =========   |       |   ========
+        -------------------------------- blank: length, width, thickness
+        ---------.  punch_edge  .-------
+           die    |            |         opening, die_edge
+
+    Parameters
+    ----------
+    thickness, length, width : float
+        The blank.
+    material : J2 or Metal
+        Law of the sheet.
+    punch_width, punch_edge, opening, die_edge : float
+        Widths of the punch and of the opening of the die, and the radii of their edges.
+    holder_force : float
+        Force on the whole holder.
+    friction : float
+        Coefficient of friction on all tools.
+    stroke : float, optional
+        Way of the punch; default a fifth of the length of the blank.
+    element : str
+        Name in the catalogue.
+    turn : float
+        Largest angle in degrees that an element turns over the edge of the punch or of the die.
+    layers, thickness_points, contact_points, penalty
+        As for :class:`Cup`.
+    """
+
+    kind: ClassVar[str] = "u-bend"
+    thickness: float
+    length: float
+    width: float
+    material: Plastic
+    punch_width: float
+    punch_edge: float
+    opening: float
+    die_edge: float
+    holder_force: float
+    friction: float = 0.144
+    stroke: float | None = None
+    element: str = "BEND8"
+    turn: float = 15.0
+    layers: int = 1
+    thickness_points: int | None = None
+    contact_points: int = 3
+    penalty: float = 1000.0
+
+    def __post_init__(self) -> None:
+        values = self.record()
+        check_rules({name: values[name] for name in _RULES}, _RULES)
+        if self.holder_force is None:
+            raise InvalidValue("a U-bend has a holder that is pressed", where="holder_force", remedy="a force in N")
+        air = 0.5 * (self.opening - self.punch_width)
+        if not 0.5 * self.thickness < air < 20.0 * self.thickness:
+            raise InvalidValue(
+                "between punch and die there is no room for the sheet, or much too much",
+                where="opening",
+                value=self.opening,
+                cause=f"a gap of {air:.4g} beside the punch for a sheet of {self.thickness:g}",
+                remedy=f"about {self.punch_width + 2.2 * self.thickness:.4g}",
+            )
+        if not 0.5 * self.length > 0.5 * self.opening + self.die_edge + self.way:
+            raise InvalidValue(
+                "the blank is drawn off the die before the end of the stroke",
+                where="stroke",
+                value=self.way,
+                cause=f"half of the blank is {0.5 * self.length:.4g}, {0.5 * self.opening + self.die_edge:.4g} of it "
+                "over the opening",
+                remedy="a shorter stroke, or a longer blank",
+            )
+
+    def record(self) -> dict[str, Any]:
+        """All parameters by name."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @property
+    def way(self) -> float:
+        """Way of the punch."""
+        return 0.2 * self.length if self.stroke is None else self.stroke
+
+    @property
+    def heights(self) -> tuple[float, float, float] | None:
+        """Heights at which the wall is measured: those of NUMISHEET 93 where it is long enough; None without a wall."""
+        low, high = self.punch_edge + self.thickness, self.way - self.die_edge - self.thickness
+        if low < HEIGHTS[0] and HEIGHTS[2] < high:
+            return HEIGHTS
+        if high - low < 5.0 * self.thickness:
+            return None
+        return (low + 0.15 * (high - low), 0.5 * (low + high), high - 0.15 * (high - low))
+
+    @cached_property
+    def sizes(self) -> Sizes:
+        """Ends of the elements along half of the blank, which follow the radii of the tools."""
+        half = 0.5 * self.thickness
+        flat = 0.5 * self.punch_width - self.punch_edge
+        nose, edge = self.punch_edge + half, self.die_edge + half
+        bent = (
+            Bent(flat, flat + 0.5 * math.pi * nose, nose, "the edge of the punch"),
+            Bent(0.5 * self.opening, 0.5 * self.opening + self.die_edge + self.way, edge, "the edge of the die"),
+        )
+        largest = max(3.0 * math.radians(self.turn) * edge, 2.0 * self.thickness)
+        return bending_sizes(0.0, 0.5 * self.length, bent, turn=self.turn, largest=largest)
+
+    def blank(self) -> Mesh:
+        """Half of a strip of the width one, its lower face at z = 0."""
+        heights = np.linspace(0.0, self.thickness, self.layers + 1)
+        return grid(self.sizes.ends, (0.0, 1.0), heights, element(self.element).cell)
+
+    def build(self) -> tuple[Model, Press]:
+        """Model of half of the blank, and what the press does."""
+        t = self.thickness
+        points = {} if self.thickness_points is None else {"thickness_points": self.thickness_points}
+        rolling = {"rolling": (1.0, 0.0, 0.0)} if getattr(self.material, "directional", False) else {}
+        model = Model(self.blank(), self.element, material=self.material, **points, **rolling)  # type: ignore[arg-type]
+        model.symmetry("x0", "x")
+        model.fix(np.arange(len(model.mesh.points)), "y")
+        deep = 2.0 * self.way + 20.0 * t
+        rule: dict[str, Any] = {"points": self.contact_points, "friction": self.friction, "slip": 0.005 * t}
+        die = model.tool("die", UDie(self.opening, deep, self.die_edge, self.die_edge))
+        model.contact("lower", die, name="on_die", penalty=self.penalty, **rule)
+        holder = model.tool("holder", Plane((0.0, 0.0, t), (0.0, 0.0, -1.0)))
+        hold = held_by(model, holder, 0.5 * self.holder_force / self.width, blocks=False)
+        model.contact("upper", holder, name="under_holder", penalty=0.06 * self.penalty, **rule)
+        punch = Box((0.0, 0.0, t + deep), (self.punch_width, 10.0 * t + 100.0, 2.0 * deep), self.punch_edge)
+        ram = model.tool("punch", punch)
+        model.contact("upper", ram, name="under_punch", penalty=self.penalty, **rule)
+        stroke = model.drive(ram, "-z", name="stroke")
+        gauge = model.hold_rigid(lambda x, y, z: x < 1e-9, name="gauge")
+        return model, Press(hold, stroke, self.way, gauge)
+
+    @property
+    def parts(self) -> float:
+        """The whole blank over what is computed: both halves, and its width."""
+        return 2.0 * self.width
+
+    #: Node set of the edge of the blank.
+    edge: ClassVar[str] = "x1"

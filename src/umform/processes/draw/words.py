@@ -1,0 +1,36 @@
+"""Parameters and measures of a drawn part in words: for the terminal, the report and files."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from umform.elements import element
+from umform.processes.draw.cup import Cup
+from umform.processes.draw.drawn import Drawn
+from umform.processes.draw.u_bend import UBend
+
+
+def parameters(case: Cup | UBend) -> dict[str, Any]:
+    """Parameters with what follows where they were left out; the material in words."""
+    found: dict[str, Any] = {"stroke": case.way}
+    if isinstance(case, Cup):
+        found["holder_gap"] = case.gap
+    return case.record() | found | {"element": element(case.element).name, "material": repr(case.material)}
+
+
+def title(drawn: Drawn) -> str:
+    """Heading of the report."""
+    case = drawn.case
+    if isinstance(case, Cup):
+        return f"Cup: punch of {2.0 * case.punch_radius:g} mm, {case.thickness:g} mm sheet"
+    return f"U-bend: punch of {case.punch_width:g} mm, {case.thickness:g} mm sheet"
+
+
+def summary(drawn: Drawn) -> list[list[str]]:
+    """Rows of all measures: name, value, unit."""
+    return [[name, f"{value:.4g}", unit] for name, (value, unit) in drawn.measures().items()]
+
+
+def before_the_run(case: Cup | UBend) -> str:
+    """What is said of the mesh before the run."""
+    return f"along the section: {case.sizes}"

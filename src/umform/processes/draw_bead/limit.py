@@ -1,0 +1,36 @@
+"""What two meshes say of the forces with elements of no length, and how far the finer mesh is from that."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Self
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A number with elements of no length, its error falling with the square of their length.
+
+    Attributes
+    ----------
+    value : float
+        The limit.
+    off : float
+        Distance of the finer mesh from it, over the limit: the estimate of its error.
+    """
+
+    value: float
+    off: float
+
+    @classmethod
+    def of(cls, coarse: float, fine: float, refined: float) -> Self:
+        """From the numbers of two meshes and the ratio of the lengths of their elements, above 1."""
+        value = fine + (fine - coarse) / (refined**2 - 1.0)
+        return cls(value, fine / value - 1.0)
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Both forces of a bead with elements of no length."""
+
+    restraint: Limit
+    uplift: Limit

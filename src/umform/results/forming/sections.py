@@ -1,0 +1,113 @@
+"""Sections of the sheet: where a plane cuts the undeformed blank, and where these places are in the part."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform.errors import InvalidValue
+from umform.mesh import Mesh
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Section:
+    """A section of the sheet, from one end to the other; arrays of shape (n,) and (n, 3).
+
+    Attributes
+    ----------
+    s : ndarray
+        Way along the section in the undeformed sheet.
+    lower, upper : ndarray
+        Both skins now.
+    """
+
+    s: Floats
+    lower: Floats
+    upper: Floats
+
+    @property
+    def middle(self) -> Floats:
+        """Half-way between the skins."""
+        return 0.5 * (self.lower + self.upper)
+
+
+def section(mesh: Mesh, u: Floats, point: ArrayLike = (0.0, 0.0, 0.0), normal: ArrayLike = (0.0, 1.0, 0.0)) -> Section:
+    """Cut the undeformed sheet by a plane, and follow the section into the part.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Undeformed mesh.
+    u : ndarray, shape (n, 3) or (3 n,)
+        Displacement of the nodes.
+    point, normal : array_like, shape (3,)
+        Plane of the section in the undeformed sheet; it cuts the sheet through its thickness.
+
+    Returns
+    -------
+    Section
+
+    Raises
+    ------
+    InvalidValue
+        If the plane does not cut the sheet.
+    """
+    n = np.asarray(normal, dtype=float)
+    n = n / np.linalg.norm(n)
+    X, x = mesh.points, mesh.points + u.reshape(-1, 3)
+    cells = mesh.connectivity
+    half = cells.shape[1] // 2
+    ends = _edges(cells[:, :half]), _edges(cells[:, half:])
+    scale = np.ptp(X, axis=0).max()
+    height = (X - np.asarray(point, dtype=float)) @ n
+    height[np.abs(height) < 1e-9 * scale] = 0.0
+    a, b = (height[ends[0][:, k]] for k in (0, 1))
+    cut = (a * b < 0.0) | (a == 0.0)
+    if not cut.any():
+        raise InvalidValue(
+            "the plane of a section does not cut the sheet",
+            where="section",
+            value=f"point {point!r}, normal {normal!r}",
+            remedy="a point of the undeformed sheet, and a normal in its plane",
+        )
+    part = np.where(a == b, 0.0, a / np.where(a == b, 1.0, a - b))[cut, None]
+    lower, upper, start = (
+        (1.0 - part) * y[of[cut, 0]] + part * y[of[cut, 1]] for y, of in ((x, ends[0]), (x, ends[1]), (X, ends[0]))
+    )
+    return _in_order(start, lower, upper, np.cross(n, _facing(start, n)), scale)
+
+
+def _edges(quads: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Ends of the straight pieces of the sides of facets of 4 or 9 nodes, both ways round."""
+    if quads.shape[1] == 4:
+        sides = [(0, 1), (1, 2), (2, 3), (3, 0)]
+    else:
+        sides = [(0, 4), (4, 1), (1, 5), (5, 2), (2, 6), (6, 3), (3, 7), (7, 0), (7, 8), (8, 5), (4, 8), (8, 6)]
+    both = sides + [(b, a) for a, b in sides]
+    return np.concatenate([quads[:, list(pair)] for pair in both])
+
+
+def _facing(points: Floats, n: Floats) -> Floats:
+    """Direction across a section: the least extent of its points that is normal to the plane's normal."""
+    _, _, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=True)
+    along = axes[0] - (axes[0] @ n) * n
+    along /= np.linalg.norm(along)
+    if along[np.argmax(np.abs(along))] < 0.0:
+        along = -along
+    facing: Floats = np.cross(along, n)
+    return facing
+
+
+def _in_order(start: Floats, lower: Floats, upper: Floats, along: Floats, scale: float) -> Section:
+    """Places in their order along the section, each once; of stacked layers the outermost skins."""
+    s = start @ along
+    rounded, first, same = np.unique(np.round(s / (1e-7 * scale)), return_index=True, return_inverse=True)
+    order = np.argsort(start[:, 2], kind="stable")
+    low, high = np.zeros(len(rounded), dtype=int), np.zeros(len(rounded), dtype=int)
+    high[same.ravel()[order]] = order  # the last one stays: the highest layer
+    low[same.ravel()[order[::-1]]] = order[::-1]
+    return Section(s[first] - s[first].min(), lower[low], upper[high])

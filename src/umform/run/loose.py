@@ -1,0 +1,84 @@
+"""A sheet that lies loosely at first: a run lets it rest on springs by itself where its steps bring tools to it.
+
+docs/theory, 4.18
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from itertools import chain, count
+
+from umform.errors import ModelError
+from umform.model import Model
+from umform.model.checks import free_in_touch, free_now
+from umform.model.control import OnDofs
+from umform.model.rest import Rest
+from umform.model.tool_controls import ToolForce, ToolWay
+from umform.results.history import History
+from umform.steps import Close, Move, Release, Step
+
+
+def carry_loose_sheet(model: Model, steps: Sequence[Step]) -> Rest | None:
+    """Let a sheet rest on springs if it can move as a rigid whole now and tools will hold it.
+
+    Parameters
+    ----------
+    model : Model
+        The model before the first step.
+    steps : sequence of Step
+        What will happen to it.
+
+    Returns
+    -------
+    Rest or None
+        The springs, where any were needed.
+    """
+    motions = carried_motions(model, steps)
+    if not motions:
+        return None
+    taken = {name for term in model.others for name in term.column_names()}
+    free = (name for name in chain(["rest"], (f"rest{k}" for k in count(2))) if f"{name}_acts" not in taken)
+    return model.rest(name=next(free), motions="; ".join(motions))
+
+
+@contextmanager
+def carried(model: Model, steps: Sequence[Step]) -> Iterator[None]:
+    """Let a loose sheet rest on springs for a while."""
+    springs = carry_loose_sheet(model, steps)
+    try:
+        yield
+    finally:
+        if springs is not None:
+            model.others.remove(springs)
+            model.forget_assembly()
+
+
+def carried_motions(model: Model, steps: Sequence[Step]) -> list[str]:
+    """Rigid-body motions that are free now and that tools will take away, in words; none if others stay free."""
+    if not model.carries_loose_sheet or not model.contacts or not _brings_tools(model, steps):
+        return []
+    try:
+        free = free_now(model)
+    except ModelError:  # the check of the model says more about it
+        return []
+    return free if free and not free_in_touch(model) else []
+
+
+def note_springs(model: Model, result: History) -> None:
+    """Say that a run has let the sheet rest on springs by itself."""
+    for term in model.others:
+        if isinstance(term, Rest) and term.motions and term.acts(model.ranks):
+            result.note(
+                f"{term.name}: the sheet lies loosely, free: {term.motions}; it rests on weak springs until tools hold "
+                f"it (columns {term.name}_acts, {term.name}_energy)"
+            )
+
+
+def _brings_tools(model: Model, steps: Sequence[Step]) -> bool:
+    """Whether a step moves a tool, or nodes of the sheet to one."""
+    if any(tool.motion is not None for tool in model.tools):
+        return True
+    moved = [control for step in steps if isinstance(step, Move | Close) for control in step.moved()]
+    moved += [step.control for step in steps if isinstance(step, Release)]
+    return any(isinstance(control, ToolWay | ToolForce | OnDofs) for control in moved)

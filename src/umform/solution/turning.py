@@ -1,0 +1,66 @@
+"""Refuse an increment in which a sheet turns so far on a tool that chords of its slip say nothing of friction."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model import Evaluation, Model
+from umform.model.contact import Contact
+from umform.solution.records import Cause, Converged, Failed
+
+Floats = NDArray[np.float64]
+
+#: Chord over radius up to which a chord is the arc but for a hundredth.
+_LONGEST = 0.5
+
+
+def follows(model: Model, last: Evaluation, converged: Converged) -> Converged:
+    """The equilibrium, if the sheet turned on no tool with friction by more than half a radian. eq. (4.152)
+
+    The slip of an increment is measured along its chord. A free sheet that turned on its tool by half a turn would
+    feel friction towards its middle alone, and rest there: a false place, which increments of many degrees may find.
+
+    Parameters
+    ----------
+    model : Model
+        At ``converged``, not yet committed.
+    last : Evaluation
+        Of the last converged state.
+    converged : Converged
+        The increment.
+
+    Raises
+    ------
+    Failed
+        If it has; the model is reverted.
+    """
+    for pair in model.contacts:
+        if pair.friction is None or pair.tool.open:
+            continue
+        chord = _chord(model, pair, last, converged.evaluation)
+        if chord > _LONGEST:
+            model.revert()
+            angle = np.degrees(2.0 * np.arcsin(min(0.5 * chord, 1.0)))
+            reason = f"the sheet turns on {pair.name} by {angle:.0f} degrees, too far for the direction of its slip"
+            raise Failed(reason, converged.iterations, Cause.TURN)
+    return converged
+
+
+def _chord(model: Model, pair: Contact, last: Evaluation, now: Evaluation) -> float:
+    """Way of the points that touch before and behind, less their mean way, over their distance from their mean."""
+    both = last.found[pair].active & now.found[pair].active
+    before, behind = (_in_frame_of_tool(pair, evaluation)[both] for evaluation in (last, now))
+    sums = model.ranks.sum(np.concatenate([[float(both.sum())], before.sum(axis=0), behind.sum(axis=0)]))
+    if sums[0] == 0.0:
+        return 0.0
+    arms, ways = before - sums[1:4] / sums[0], behind - before - (sums[4:] - sums[1:4]) / sums[0]
+    squares = model.ranks.sum(np.array([(ways**2).sum(), (arms**2).sum()]))
+    return float(np.sqrt(squares[0] / squares[1])) if squares[1] > 0.0 else 0.0
+
+
+def _in_frame_of_tool(pair: Contact, evaluation: Evaluation) -> Floats:
+    """Places of the contact points as the tool sees them, shape (points, 3)."""
+    rotation, shift = pair.tool.pose(evaluation.controls, evaluation.time)
+    places: Floats = (evaluation.found[pair].x - shift) @ rotation
+    return places

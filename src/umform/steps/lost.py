@@ -1,0 +1,39 @@
+"""Tools under forces or springs that have let go of the sheet in an increment, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from umform.model import Model
+from umform.model.press import Press
+
+#: A row of the history.
+Row = Mapping[str, float]
+
+
+def lost_tools(model: Model, before: Row, now: Row) -> list[str]:
+    """Messages about the tools that touched the sheet in one row of the history and do not in the next one.
+
+    Parameters
+    ----------
+    model : Model
+        The model at the state of the second row.
+    before, now : mapping of str to float
+        Two rows that follow each other.
+    """
+    presses = [press for tool in model.tools for press in tool.presses if not press.held]
+    return [_message(press) for press in presses if _points(press, before) > 0.0 == _points(press, now)]
+
+
+def _points(press: Press, row: Row) -> float:
+    """Points at which the tools of a press touch."""
+    return sum(row[f"{pair.name}_active"] for tool in press.way.tools for pair in tool.pairs)
+
+
+def _message(press: Press) -> str:
+    what = f"{press.force.name} = {press.force.value:.6g}"
+    held = "a spring holds it" if press.stiffness else "a stop holds it" if press.stops else "nothing else holds it"
+    return (
+        f"tool {press.way.tool.name}, pressed with {what}, has lost the sheet; {held} at {press.way.name} = "
+        f"{press.way.value:.6g}: more force, a stop or a spring that follows the sheet, or Close() to fetch it again"
+    )

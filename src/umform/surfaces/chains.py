@@ -1,0 +1,144 @@
+"""Loose lines and arcs of a drawing joined to one curve."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from umform.errors import OpenSection
+from umform.surfaces.segments import Arc, Floats, Ids, Line, Point2, Segment
+
+#: How many places a message names.
+_PLACES = 4
+
+
+def chain(segments: Sequence[Segment], tolerance: float, where: str) -> tuple[list[Segment], bool]:
+    """One curve of lines and arcs whose ends meet within a distance, in any order and direction.
+
+    Parameters
+    ----------
+    segments : sequence of Line or Arc
+        As they were drawn.
+    tolerance : float
+        Ends nearer than this are one point, their mean; what is shorter is left out.
+    where : str
+        For messages.
+
+    Returns
+    -------
+    segments : list of Line or Arc
+        In the order of a walk along the curve.
+    closed : bool
+        Whether it comes back to where it began.
+
+    Raises
+    ------
+    OpenSection
+        If there is nothing, a gap, a branch, or more than one curve; the message has the coordinates.
+    """
+    segments = [s for s in segments if s.start == s.end or math.dist(s.start, s.end) > tolerance]
+    if not segments:
+        raise OpenSection(
+            "there is no line and no arc",
+            where=where,
+            cause="another layer, a block, or only texts and dimensions",
+            remedy="name the layer with the section; lines, arcs, circles, polylines, ellipses and splines are read",
+        )
+    points, ends = _points(segments, tolerance)
+    degree = np.bincount(ends.ravel(), minlength=len(points))
+    if (degree > 2).any():
+        raise OpenSection(
+            "more than two ends meet in a point",
+            where=where,
+            value=_places(points[degree > 2]),
+            cause="a line drawn twice, or a centre line that meets the section",
+            remedy="put the section on a layer of its own",
+        )
+    graph = coo_matrix((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(len(points), len(points)))
+    count, label = connected_components(graph, directed=False)
+    if count > 1:
+        _refuse_many(segments, points, label, degree, ends, where)
+    return _walked(segments, points, ends, degree)
+
+
+def _points(segments: Sequence[Segment], tolerance: float) -> tuple[Floats, Ids]:
+    """Points, and those at the start and the end of each segment."""
+    at = np.array([end for segment in segments for end in (segment.start, segment.end)])
+    pairs = cKDTree(at).query_pairs(tolerance, output_type="ndarray")
+    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(at), len(at)))
+    count, label = connected_components(graph, directed=False)
+    times = np.bincount(label, minlength=count)
+    points = np.stack([np.bincount(label, at[:, k], count) / times for k in range(2)], axis=1)
+    return points, label.reshape(-1, 2).astype(np.int64)
+
+
+def _walked(segments: Sequence[Segment], points: Floats, ends: Ids, degree: Ids) -> tuple[list[Segment], bool]:
+    """Segments in the order of a walk from a free end, or from the first one."""
+    free = np.flatnonzero(degree == 1)
+    at = int(free[0]) if len(free) else int(ends[0, 0])
+    left, walk = set(range(len(segments))), []
+    while left:
+        i = min(k for k in left if at in ends[k])
+        left.remove(i)
+        forward = ends[i, 0] == at
+        segment = segments[i] if forward else segments[i].reversed()
+        following = int(ends[i, 1] if forward else ends[i, 0])
+        walk.append(_between(segment, points[at], points[following], closed=at == following))
+        at = following
+    return walk, not len(free)
+
+
+def _between(segment: Segment, start: Floats, end: Floats, *, closed: bool) -> Segment:
+    """The segment with its ends moved to two points: an arc keeps its angle."""
+    p, q = (float(start[0]), float(start[1])), (float(end[0]), float(end[1]))
+    if isinstance(segment, Line):
+        return Line(p, q)
+    if closed:
+        return segment
+    half = 0.5 * segment.turn * segment.angle
+    d = end - start
+    centre = 0.5 * (start + end) + 0.5 / math.tan(half) * np.array([-d[1], d[0]])
+    return Arc(p, q, (float(centre[0]), float(centre[1])), segment.clockwise)
+
+
+def _refuse_many(segments: Sequence[Segment], points: Floats, label: Ids, degree: Ids, ends: Ids, where: str) -> None:
+    """Gaps if some curve is open, else several loops."""
+    free = points[degree == 1]
+    if len(free):
+        near = cKDTree(free).query(free, k=2)[0][:, 1]
+        order = np.argsort(near, kind="stable")
+        gaps = f"{len(free)} free ends, the nearest pair {near[order[0]]:.3g} apart: " if len(free) > 2 else ""
+        raise OpenSection(
+            "the lines and arcs do not make one curve",
+            where=where,
+            value=gaps + _places(free[order]),
+            cause="ends that miss each other, or parts that do not belong to the section",
+            remedy="a larger tolerance if these ends should meet, or the section on a layer of its own",
+        )
+    loops = []
+    for k in range(int(label.max()) + 1):
+        own, first = points[label == k], segments[int(np.flatnonzero(label[ends[:, 0]] == k)[0])]
+        if isinstance(first, Arc) and first.start == first.end:
+            loops.append(f"a circle around {_point(first.centre)}, radius {first.radius:.6g}")
+        else:
+            loops.append(f"one from {_point(own.min(axis=0))} to {_point(own.max(axis=0))}")
+    raise OpenSection(
+        f"there are {len(loops)} closed curves",
+        where=where,
+        value="; ".join(loops[:_PLACES]) + ("; ..." if len(loops) > _PLACES else ""),
+        cause="holes, or several views in one drawing",
+        remedy="put the section on a layer of its own and name it",
+    )
+
+
+def _places(at: Floats) -> str:
+    return ", ".join(_point(x) for x in at[:_PLACES]) + (", ..." if len(at) > _PLACES else "")
+
+
+def _point(x: Floats | Point2) -> str:
+    return f"({x[0]:.6g}, {x[1]:.6g})"

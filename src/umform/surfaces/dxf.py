@@ -1,0 +1,188 @@
+"""Lines and arcs of a DXF drawing."""
+
+from __future__ import annotations
+
+import importlib
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from umform.errors import FileProblem, InvalidValue, OpenSection
+from umform.surfaces.biarcs import Curve, as_arcs
+from umform.surfaces.segments import Arc, Floats, Line, Point2, Segment
+
+#: What may stand in a drawing beside the section.
+_IGNORED = {"TEXT", "MTEXT", "DIMENSION", "LEADER", "MULTILEADER", "MLEADER", "POINT", "HATCH", "ATTDEF", "VIEWPORT"}
+#: Names of the units of a drawing, by their number in the header.
+_UNITS = {"in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6, "um": 13}
+#: A direction across the drawing plane.
+_UPRIGHT = 1e-9
+
+
+def read_dxf(path: str | Path, layer: str | None, unit: str, curve_error: float) -> list[Segment]:
+    """Lines and arcs of the model space of a drawing, as they were drawn.
+
+    Parameters
+    ----------
+    path : str or Path
+        The drawing.
+    layer : str, optional
+        The only layer that counts, large and small letters alike.
+    unit : str
+        Unit of the result, mm, cm, m, um, in or ft; a drawing that does not say its unit is taken as it is.
+    curve_error : float
+        Largest distance of the arcs from ellipses and splines, in this unit.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read.
+    InvalidValue
+        If there is no such layer, or no such unit.
+    OpenSection
+        If there is something that is no plane curve.
+    """
+    ezdxf = _ezdxf()
+    path = Path(path)
+    if unit not in _UNITS:
+        raise InvalidValue(
+            "a unit is one of " + ", ".join(_UNITS),
+            where="from_dxf",
+            value=unit,
+            cause="another name of the unit",
+            remedy="the unit of the model: unit='mm'",
+        )
+    try:
+        drawing = ezdxf.readfile(str(path))
+    except (OSError, ezdxf.DXFError) as error:
+        missing = not path.exists()
+        raise FileProblem(
+            "there is no such file" if missing else "this is no DXF drawing that can be read",
+            where=str(path),
+            cause="another name or folder" if missing else " ".join(str(error).split()),
+            remedy="give the path of a DXF file" if missing else "save it as DXF (text or binary) again, not as DWG",
+        ) from error
+    factor = ezdxf.units.conversion_factor(drawing.units, _UNITS[unit]) if drawing.units else 1.0
+    chosen = [entity for entity in _flat(drawing.modelspace()) if _on(entity, layer)]
+    if layer is not None and not chosen:
+        raise InvalidValue(
+            "there is nothing on this layer",
+            where=str(path),
+            value=layer,
+            cause="another name, or the section in a paper space",
+            remedy="layers with something on them: " + ", ".join(sorted({e.dxf.layer for e in drawing.modelspace()})),
+        )
+    segments = [s for entity in chosen for s in _segments(entity, curve_error / factor, str(path))]
+    return [_scaled(segment, factor) for segment in segments]
+
+
+def _ezdxf() -> Any:
+    try:
+        importlib.import_module("ezdxf.units")
+        return importlib.import_module("ezdxf")
+    except ImportError as error:
+        raise FileProblem(
+            "reading DXF drawings needs ezdxf",
+            where="from_dxf",
+            cause=str(error),
+            remedy='pip install "umform[cad]"',
+        ) from error
+
+
+def _flat(entities: Any) -> Iterator[Any]:
+    """Entities, those of blocks and polylines among them."""
+    for entity in entities:
+        kind = entity.dxftype()
+        if kind in ("INSERT", "LWPOLYLINE") or (kind == "POLYLINE" and entity.is_2d_polyline):
+            yield from _flat(entity.virtual_entities())
+        else:
+            yield entity
+
+
+def _on(entity: Any, layer: str | None) -> bool:
+    return layer is None or str(entity.dxf.layer).lower() == layer.lower()
+
+
+def _segments(entity: Any, curve_error: float, where: str) -> list[Segment]:
+    """Lines and arcs of one entity."""
+    kind = entity.dxftype()
+    if kind in _IGNORED:
+        return []
+    if kind == "LINE":
+        start, end = _pair(entity.dxf.start), _pair(entity.dxf.end)
+        return [Line(start, end)] if start != end else []
+    if kind in ("ARC", "CIRCLE", "ELLIPSE") and abs(abs(entity.dxf.extrusion[2]) - 1.0) > _UPRIGHT:
+        raise OpenSection(
+            f"this {kind.lower()} does not lie in the plane of the drawing",
+            where=where,
+            value=f"its normal is {tuple(entity.dxf.extrusion)}",
+            cause="a drawing in space",
+            remedy="draw the section in the xy-plane",
+        )
+    if kind == "ARC":
+        centre = _pair(entity.ocs().to_wcs(entity.dxf.center))
+        return [_arc(_pair(entity.start_point), _pair(entity.end_point), centre, entity.dxf.extrusion[2] < 0.0)]
+    if kind == "CIRCLE":
+        centre = _pair(entity.ocs().to_wcs(entity.dxf.center))
+        start = (centre[0] + entity.dxf.radius, centre[1])
+        return [Arc(start, start, centre)]
+    if kind == "SPLINE":
+        return _of_spline(entity.construction_tool(), curve_error)
+    if kind == "ELLIPSE":
+        return _of_ellipse(entity, curve_error)
+    raise OpenSection(
+        "only lines, arcs, circles, polylines, ellipses and splines can be a section",
+        where=where,
+        value=f"{kind} on the layer {entity.dxf.layer}",
+        cause="a solid, a mesh or a picture in the drawing",
+        remedy="put the section on a layer of its own and name it",
+    )
+
+
+def _arc(start: Point2, end: Point2, centre: Point2, clockwise: bool) -> Arc:
+    """Its centre moved so that both ends are at one distance to the last digit."""
+    p, q, c = np.array(start), np.array(end), np.array(centre)
+    d = q - p
+    c = c - ((c - 0.5 * (p + q)) @ d) / (d @ d) * d if d.any() else c
+    return Arc(start, end, _pair(c), clockwise)
+
+
+def _of_spline(spline: Any, curve_error: float) -> list[Segment]:
+    """Cut at the knots, where the curvature of a cubic one has a kink."""
+    low, high = spline.knots()[spline.order - 1], spline.knots()[spline.count]
+    knots = sorted({float(t) for t in spline.knots() if low <= t <= high})
+
+    def at(t: float) -> tuple[Floats, Floats]:
+        inside = min(max(t, low), high - 1e-12 * (high - low))
+        x, d = spline.derivative(inside, 1)
+        return np.array(_pair(x)), np.array(_pair(d))
+
+    return as_arcs(at, knots, curve_error)
+
+
+def _of_ellipse(entity: Any, curve_error: float) -> list[Segment]:
+    centre, major, minor = (np.array(_pair(v)) for v in (entity.dxf.center, entity.dxf.major_axis, entity.minor_axis))
+    first, last = float(entity.dxf.start_param), float(entity.dxf.end_param)
+    last += 2.0 * math.pi if last <= first else 0.0
+
+    def at(t: float) -> tuple[Floats, Floats]:
+        return centre + math.cos(t) * major + math.sin(t) * minor, math.cos(t) * minor - math.sin(t) * major
+
+    curve: Curve = at
+    return as_arcs(curve, [float(t) for t in np.linspace(first, last, 5)], curve_error)
+
+
+def _scaled(segment: Segment, factor: float) -> Segment:
+    def scaled(p: Point2) -> Point2:
+        return factor * p[0], factor * p[1]
+
+    if isinstance(segment, Line):
+        return Line(scaled(segment.start), scaled(segment.end))
+    return Arc(scaled(segment.start), scaled(segment.end), scaled(segment.centre), segment.clockwise)
+
+
+def _pair(v: Any) -> Point2:
+    return float(v[0]), float(v[1])

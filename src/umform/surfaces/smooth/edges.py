@@ -1,0 +1,135 @@
+"""How triangles hang together: what lies on the other side of each edge; holes and turned triangles are refused."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from umform.errors import HoleInSurface, TurnedNormals, UnfitTriangles
+from umform.surfaces.triangles import Floats, Ids, Triangles
+
+#: How many places a message names.
+_PLACES = 4
+#: A triangle that is lower than this part of its longest edge is a line.
+_FLAT = 1e-9
+
+
+@dataclass(frozen=True)
+class Edges:
+    """Edges of triangles, seen from each of them: edge e of triangle t has the number 3 t + e, from its corner e on.
+
+    Attributes
+    ----------
+    start, end : ndarray of int, shape (3 m,)
+        Points.
+    mate : ndarray of int, shape (3 m,)
+        The same edge seen from the other triangle, -1 at a rim.
+    """
+
+    start: Ids
+    end: Ids
+    mate: Ids
+
+
+def connected(surface: Triangles, where: str, *, rims: bool = False) -> Edges:
+    """Neighbours over the edges of triangles.
+
+    Parameters
+    ----------
+    surface : Triangles
+        Points and triangles; points that coincide must be one.
+    where : str
+        For messages.
+    rims : bool
+        Edges with a triangle on one side only are allowed.
+
+    Raises
+    ------
+    UnfitTriangles
+        If a triangle has no area, or more than two meet in an edge.
+    TurnedNormals
+        If two neighbours have their normals on different sides.
+    HoleInSurface
+        If the surface has a rim.
+    """
+    _refuse_lines(surface, where)
+    start = surface.triangles.ravel()
+    end = np.roll(surface.triangles, -1, axis=1).ravel()
+    count = len(surface.points)
+    keys = np.minimum(start, end) * count + np.maximum(start, end)
+    order = np.argsort(keys, kind="stable")
+    _, first, times = np.unique(keys[order], return_index=True, return_counts=True)
+    middles = 0.5 * (surface.points[start] + surface.points[end])
+    if times.max() > 2:
+        at = order[first[times > 2]]
+        raise UnfitTriangles(
+            "more than two triangles meet in an edge",
+            where=where,
+            value=_places(middles[at], "edge"),
+            cause="faces inside of the solid, or the same face twice",
+            remedy="export the outer faces only, each of them once",
+        )
+    one, other = order[first[times == 2]], order[first[times == 2] + 1]
+    turned = start[one] == start[other]
+    if turned.any():
+        raise TurnedNormals(
+            "triangles beside each other have their normals on different sides",
+            where=where,
+            value=_places(middles[one[turned]], "edge"),
+            cause="faces whose normals were not unified before the export",
+            remedy="unify the normals in the program that wrote the file: out of the tool, towards the sheet",
+        )
+    mate = np.full(len(start), -1)
+    mate[one], mate[other] = other, one
+    if not rims and (mate < 0).any():
+        _refuse_holes(surface.points, start[mate < 0], end[mate < 0], where)
+    return Edges(start, end, mate)
+
+
+def _refuse_lines(surface: Triangles, where: str) -> None:
+    """Refuse triangles without area."""
+    corners = surface.corners
+    longest = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1)
+    flat = 2.0 * np.linalg.norm(surface.area_vectors, axis=1) <= _FLAT * longest**2
+    if flat.any():
+        raise UnfitTriangles(
+            "a triangle has no area",
+            where=where,
+            value=_places(corners[flat].mean(axis=1), "triangle"),
+            cause="needles of a tessellation, or points that coincide",
+            remedy="export again with a smaller chord error, or repair the triangles",
+        )
+
+
+def _refuse_holes(points: Floats, start: Ids, end: Ids, where: str) -> None:
+    """Refuse rims, with the place and the length of each."""
+    used, ids = np.unique(np.concatenate([start, end]), return_inverse=True)
+    one, other = ids[: len(start)], ids[len(start) :]
+    graph = coo_matrix((np.ones(len(one)), (one, other)), shape=(len(used), len(used)))
+    rims, label = connected_components(graph, directed=False)
+    length = np.bincount(label[one], np.linalg.norm(points[end] - points[start], axis=1), rims)
+    sums = np.stack([np.bincount(label, points[used, k], rims) for k in range(3)], axis=1)
+    middle = sums / np.bincount(label, minlength=rims)[:, None]
+    longest = np.argsort(-length, kind="stable")
+    named = [f"rim of length {length[i]:.6g} around {_point(middle[i])}" for i in longest[:_PLACES]]
+    more = f" and {rims - _PLACES} more" if rims > _PLACES else ""
+    raise HoleInSurface(
+        "the surface of a tool must be closed",
+        where=where,
+        value="; ".join(named) + more,
+        cause="a hole, a gap between faces, or a die face without the block below it",
+        remedy="close the surface, weld within a larger distance, or say open=True: the tool then ends at its rims",
+    )
+
+
+def _places(at: Floats, what: str) -> str:
+    """The first places of a list, and how many there are."""
+    named = ", ".join(_point(x) for x in at[:_PLACES])
+    return f"{len(at)} {what}{'s' if len(at) > 1 else ''}, at {named}{', ...' if len(at) > _PLACES else ''}"
+
+
+def _point(x: Floats) -> str:
+    return "(" + ", ".join(f"{c:.6g}" for c in x) + ")"

@@ -1,0 +1,115 @@
+"""Triangles of an STL file, welded."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from umform.errors import FileProblem, UnfitTriangles
+from umform.surfaces.directions import not_negative
+from umform.surfaces.triangles import Floats, Ids, Triangles
+
+#: Part of the size of a surface within which corners are one point: single precision keeps seven digits.
+_WELD = 1e-6
+
+
+def read_stl(path: str | Path, weld: float = 0.0, scale: float = 1.0) -> Triangles:
+    """Triangles of a file, their corners welded.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file, binary or text, read by meshio.
+    weld : float
+        Corners nearer than this are one point; 0 stands for 1e-6 of the size of the surface.
+    scale : float
+        Factor on all coordinates.
+
+    Returns
+    -------
+    Triangles
+        Those that are no lines after the welding.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read.
+    UnfitTriangles
+        If there is no triangle in it.
+    """
+    path = Path(path)
+    points, triangles = _read(path)
+    points = points * scale
+    if not np.isfinite(points).all():
+        raise UnfitTriangles(
+            "a coordinate is not finite",
+            where=str(path),
+            cause="a file that was cut off, or a program that has failed",
+            remedy="export the surface again",
+        )
+    size = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
+    near = not_negative(weld, "from_stl", "weld distance") or _WELD * size
+    surface = welded(points, triangles, near)[0] if len(triangles) else Triangles(points, triangles)
+    if not len(surface.triangles):
+        raise UnfitTriangles(
+            "there is no triangle",
+            where=str(path),
+            value=f"{len(triangles)} before welding within {near:.3g}",
+            cause="an empty file, or a weld distance above the size of the triangles",
+            remedy="export the surface again, or a smaller weld distance",
+        )
+    return surface
+
+
+def _read(path: Path) -> tuple[Floats, Ids]:
+    import meshio  # slow to import
+
+    if not path.exists():
+        raise FileProblem(
+            "there is no such file",
+            where=str(path),
+            cause="another name or folder; in a deck the path begins at its folder",
+            remedy="give the path of an STL file",
+        )
+    try:
+        with np.errstate(over="ignore"), contextlib.redirect_stdout(io.StringIO()):  # it prints warnings
+            made = meshio.read(path, file_format="stl")
+        triangles = [block.data for block in made.cells if block.type == "triangle"]
+    except (Exception, SystemExit) as error:  # meshio raises what it comes across, and may exit
+        raise FileProblem(
+            "this is no STL file that can be read",
+            where=str(path),
+            cause=f"{type(error).__name__}: {' '.join(str(error).split())}",
+            remedy="export the surface as binary STL again",
+        ) from error
+    ids = np.vstack(triangles).astype(np.int64) if triangles else np.empty((0, 3), dtype=np.int64)
+    return np.asarray(made.points, dtype=float), ids
+
+
+def welded(points: Floats, triangles: Ids, near: float) -> tuple[Triangles, NDArray[np.bool_]]:
+    """Points nearer to each other than a distance made one.
+
+    Returns
+    -------
+    surface : Triangles
+        The means of such points, and the triangles that have three corners still.
+    kept : ndarray of bool, shape (m,)
+        Which ones these are.
+    """
+    pairs = cKDTree(points).query_pairs(near, output_type="ndarray")
+    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
+    count, label = connected_components(graph, directed=False)
+    times = np.bincount(label, minlength=count)
+    means = np.stack([np.bincount(label, points[:, k], count) / times for k in range(3)], axis=1)
+    ids = label[triangles].astype(np.int64)
+    a, b, c = ids.T
+    kept = (a != b) & (b != c) & (c != a)
+    used, ids = np.unique(ids[kept], return_inverse=True)
+    return Triangles(means[used], ids.reshape(-1, 3).astype(np.int64)), kept

@@ -1,0 +1,112 @@
+"""Cups of this chapter: drawn, released, and their ears."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.errors import NoConvergence
+from umform.materials import Metal, Yld2004
+from umform.materials.j2 import Plastic
+from umform.processes.draw import Cup
+from umform.results.forming import EarProfile, ear_profile, forming_fields
+from umform.run import Result
+from umform.sheet_metals import get
+from umform_book.page import Page
+
+Floats = NDArray[np.float64]
+
+
+def aa6016(card: str = "", exponent: float | None = None) -> Metal:
+    """AA6016-T4 of the library: a card of Yld2004, or with Hill48 and the same hardening; perhaps another exponent."""
+    law, function = get("AA6016-T4").law, get(f"AA6016-T4 {card}".strip()).law.yield_function  # type: ignore[union-attr]
+    if card == "Postech":
+        law = get("AA6016-T4 Postech").law
+    if exponent is not None and isinstance(function, Yld2004):
+        function = replace(function, exponent=exponent)
+    return Metal(law.E, law.nu, hardening=law.hardening, yield_function=function)
+
+
+def esaform(material: Plastic | None = None, **changes: object) -> Cup:
+    """The cup of the ESAFORM benchmark 2021."""
+    given: dict[str, object] = {
+        "thickness": 1.0,
+        "blank_radius": 53.75,
+        "punch_radius": 30.0,
+        "punch_edge": 5.0,
+        "die_radius": 31.2,
+        "die_edge": 10.0,
+        "holder_force": 40e3,
+    }
+    return Cup(material=aa6016() if material is None else material, **(given | changes))  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
+class Made:
+    """A cup out of its tools.
+
+    Attributes
+    ----------
+    ears : EarProfile
+        Its rim.
+    flange : EarProfile
+        Radius of the rim over the angle at the stroke FLANGE or before, while it is on the flange.
+    force : float
+        Largest force of the punch on the whole cup, kN.
+    thinning : float
+        Largest thinning in per cent.
+    elements : int
+        Of the quarter.
+    """
+
+    ears: EarProfile
+    flange: EarProfile
+    force: float
+    thinning: float
+    elements: int
+
+    def row(self) -> tuple[int, float, float, float, float, float, float]:
+        """What tables show of it."""
+        low, high = float(self.ears.height.min()), float(self.ears.height.max())
+        return self.elements, self.ears.mean, low, high, fourth(self.ears)[0], self.force, self.thinning
+
+
+#: Stroke in mm at which the rim is still on the flat of the die.
+FLANGE = 20.0
+#: Columns of such a table.
+COLUMNS = ("", "elements", "mean height", "lowest", "highest", "fourth harmonic", "punch force, kN", "thinning, %")
+
+
+def make(page: Page, label: str, case: Cup) -> Made | None:
+    """Hold, draw, open; None for a run that ends before, which the page says."""
+    model, press = case.build()
+    try:
+        drawn = page.solve(label, model, press.closing(), frames=50)
+    except NoConvergence as error:
+        page.text(f"{label}: the run ends before the end of the stroke. {error.where}; {error.cause}.")
+        return None
+    force = 4e-3 * float(np.abs(drawn["punch_fz"]).max())
+    page.solve(f"{label}: released", model, press.opening(model))
+    thinning = float(forming_fields(model.mesh, model.u)["thinning"].max())
+    return Made(ear_profile(model.mesh, model.u), _flange(drawn), force, thinning, len(model.mesh.connectivity))
+
+
+def _flange(drawn: Result) -> EarProfile:
+    """Radius of the rim over the angle while it is on the flange."""
+    stroke = np.array([drawn.rows[frame.number]["stroke"] for frame in drawn.frames])
+    frame = drawn.frames[int(np.flatnonzero(stroke <= FLANGE)[-1])]
+    mesh = drawn.model.mesh
+    ids = mesh.nodes("rim_lower")
+    x, y = (mesh.points + frame.points["displacement"])[ids, :2].T
+    order = np.argsort(np.arctan2(y, x))
+    return EarProfile(np.degrees(np.arctan2(y, x))[order], np.hypot(x, y)[order])
+
+
+def fourth(ears: EarProfile) -> tuple[float, float]:
+    """Size of the fourth harmonic of the height, and the angle in degrees at which it is highest, from -45 to 45."""
+    angle = np.arange(0.0, 360.0, 0.5)
+    height = ears.at(angle)
+    both = 2.0 * np.mean((height - height.mean()) * np.exp(4j * np.radians(angle)))
+    return float(abs(both)), float(np.degrees(np.angle(both)) / 4.0)

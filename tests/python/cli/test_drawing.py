@@ -1,0 +1,30 @@
+import subprocess
+import sys
+
+COUNT = """
+import sys
+from umform.cli.drawing import without_help_texts
+if sys.argv[1] == "command":
+    without_help_texts()
+import matplotlib.artist as artist
+counted, text_of = [], artist.kwdoc
+artist.kwdoc = lambda artist: (counted.append(artist), text_of(artist))[1]
+from umform.plotting import Figure, save
+figure = Figure(figsize=(2, 1))
+figure.add_subplot().plot([0, 1], [1, 0], label="line")
+save(figure, sys.argv[2])
+print(len(counted))
+"""
+
+
+def help_texts(kind, picture):
+    """Help texts that matplotlib writes until a picture is saved, and the picture."""
+    run = subprocess.run([sys.executable, "-c", COUNT, kind, str(picture)], capture_output=True, text=True, check=True)
+    return int(run.stdout), picture.read_bytes()
+
+
+def test_a_command_draws_the_same_without_help_texts(tmp_path):
+    few, quick = help_texts("command", tmp_path / "quick.png")
+    many, usual = help_texts("library", tmp_path / "usual.png")
+    assert few < many / 2
+    assert quick == usual

@@ -1,0 +1,74 @@
+"""Blanks of any outline, with holes."""
+
+import numpy as np
+import pytest
+
+import umform as uf
+from umform.errors import InvalidValue, WrongCellType
+from umform.surfaces import Arc, Line
+
+pytest.importorskip("gmsh", reason="the extra mesh is not installed", exc_type=(ImportError, OSError))
+
+#: A rectangle of 40 x 20 with one round end, and a round hole in it.
+OUTLINE = uf.Profile(
+    [
+        Line((0.0, 0.0), (40.0, 0.0)),
+        Arc((40.0, 0.0), (40.0, 20.0), (40.0, 10.0)),
+        Line((40.0, 20.0), (0.0, 20.0)),
+        Line((0.0, 20.0), (0.0, 0.0)),
+    ]
+)
+HOLE = uf.Profile([Arc((25.0, 10.0), (25.0, 10.0), (20.0, 10.0))])
+
+
+def _area(mesh):
+    half = mesh.connectivity.shape[1] // 2
+    a, b, c, d = (mesh.points[mesh.connectivity[:, k], :2] for k in range(4))
+    assert half in (4, 9)
+    return 0.5 * ((c - a)[:, 0] * (d - b)[:, 1] - (c - a)[:, 1] * (d - b)[:, 0])
+
+
+@pytest.mark.parametrize("cell", ["hex8", "hex18"])
+def test_outline_with_a_hole(cell):
+    blank = uf.mesh.blank(OUTLINE, 1.0, 2.0, holes=[HOLE], cell=cell, layers=2)
+    area = _area(blank)
+    assert area.min() > 0.2
+    assert area.sum() / 2 == pytest.approx(800 + 50 * np.pi - 25 * np.pi, rel=0.01)
+    around = blank.points[blank.nodes("hole_0"), :2] - [20.0, 10.0]
+    np.testing.assert_allclose(np.hypot(*around.T), 5.0, rtol=1e-6)
+    end = blank.points[blank.nodes("edge_1"), :2] - [40.0, 10.0]
+    np.testing.assert_allclose(np.hypot(*end.T), 10.0, rtol=1e-6)
+    assert np.abs(blank.points[blank.nodes("edge_3"), 0]).max() < 1e-9
+    assert set(blank.nodes("edge_0")) <= set(blank.nodes("rim"))
+
+
+def test_sizes_follow_a_function_and_the_mesh_is_the_same_each_time():
+    fine = uf.mesh.blank(OUTLINE, 1.0, lambda x, y: 1.0 if x > 30 else 4.0)
+    again = uf.mesh.blank(OUTLINE, 1.0, lambda x, y: 1.0 if x > 30 else 4.0)
+    assert np.array_equal(fine.points, again.points) and np.array_equal(fine.connectivity, again.connectivity)
+    where = fine.points[fine.connectivity].mean(axis=1)[:, 0]
+    area = _area(fine)
+    assert np.median(area[where > 35]) < 0.25 * np.median(area[where < 15])
+
+
+def test_a_blank_can_be_drawn_on():
+    blank = uf.mesh.blank(OUTLINE, 1.0, 4.0, holes=[HOLE])
+    model = uf.Model(blank, material=uf.SVK(E=210e3, nu=0.3))
+    model.fix("edge_3")
+    pull = model.prescribe("edge_1", "x", "pull")
+    result = uf.solve(model, uf.Move(pull, 0.01, steps=1), progress=False)
+    assert result["pull_force"][-1] > 0
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"thickness": 0.0},
+        {"size": -1.0},
+        {"outline": uf.Profile([Line((0.0, 0.0), (1.0, 0.0))], closed=False)},
+        {"cell": "tet4"},
+    ],
+)
+def test_what_is_no_blank_is_refused(wrong):
+    with pytest.raises((InvalidValue, WrongCellType)):
+        uf.mesh.blank(**({"outline": OUTLINE, "thickness": 1.0, "size": 2.0} | wrong))

@@ -1,0 +1,150 @@
+"""Cups and U-bends: parameters, sizes, tools, a run, its files, and how it may end."""
+
+import json
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+import umform as uf
+from umform.errors import InvalidValue
+from umform.processes.draw import Cup, UBend, draw, write_files
+from umform.results.forming import ear_profile
+
+STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(565.3, 0.0071, 0.259))
+CUP = Cup(
+    thickness=1.0,
+    blank_radius=40.0,
+    material=STEEL,
+    punch_radius=25.0,
+    punch_edge=6.0,
+    die_radius=26.4,
+    die_edge=6.0,
+    holder_force=20e3,
+    stroke=6.0,
+    turn=45.0,
+    around=4,
+    penalty=3e3,
+)
+U = UBend(
+    thickness=0.78,
+    length=200.0,
+    width=35.0,
+    material=STEEL,
+    punch_width=50.0,
+    punch_edge=5.0,
+    opening=52.0,
+    die_edge=5.0,
+    holder_force=2450.0,
+    stroke=20.0,
+    turn=30.0,
+)
+
+
+@cache
+def cup():
+    return draw(CUP, frames=3, progress=False)
+
+
+def test_a_cup_is_symmetric_and_in_balance():
+    drawn = cup()
+    assert drawn.ending is None
+    model, result = drawn.result.model, drawn.result
+    x = model.mesh.points + drawn.u.reshape(-1, 3)
+    order = {tuple(np.round(p, 6)): k for k, p in enumerate(model.mesh.points)}
+    mirrored = [order[tuple(np.round(p, 6))] for p in model.mesh.points[:, [1, 0, 2]]]
+    np.testing.assert_allclose(x[mirrored][:, [1, 0, 2]], x, atol=1e-6)
+    forces = result["punch_fz"] + result["die_fz"] + result["holder_fz"]
+    assert abs(forces).max() < 1e-5 * abs(result["die_fz"]).max()
+    assert abs(result.balance().drift[-1]) < 0.02
+    assert drawn.forces["holder"][-1] == pytest.approx(20e3, rel=1e-6)
+
+
+def test_measures_of_a_cup():
+    drawn = cup()
+    rows = drawn.measures()
+    loaded = ear_profile(drawn.result.model.mesh, drawn.u)
+    assert 7.0 < loaded.mean < 8.0  # stroke and thickness, and the bottom bulges away from the flat of the punch
+    assert 0 < rows["draw-in, mean"][0] < 3
+    assert rows["margin to the forming limit"][0] > 0
+    assert drawn.released is not None
+    assert abs(drawn.released["die_fz"][-1]) < 1e-9
+    assert 0 < drawn.springback.largest < 0.5
+    assert "major_middle" in drawn.result.frames[-1].cells
+
+
+def test_files_of_a_cup(tmp_path):
+    files = {file.name for file in write_files(tmp_path, cup())}
+    assert {"report.html", "ears.csv", "ears.png", "limits.png", "curve.csv", "draw.vtkhdf", "release.vtkhdf"} <= files
+    assert json.loads((tmp_path / "part.json").read_text())["ending"] is None
+    page = (tmp_path / "report.html").read_text()
+    assert "Forming limit diagram" in page and "Height of the cup" in page
+
+
+def test_a_short_u_bend():
+    drawn = draw(replace(U, stroke=8.0), frames=0, progress=False)
+    assert drawn.ending is None and drawn.released is not None
+    assert drawn.angles is None  # there is no wall yet
+    assert drawn.forces["holder"][-1] == pytest.approx(2450.0, rel=1e-6)
+    assert abs(drawn.released["punch_fz"][-1]) < 1e-9
+    assert drawn.outline.draw_in[0] > 1.0
+
+
+@pytest.mark.long
+def test_a_u_bend_springs_back():
+    drawn = draw(replace(U, length=350.0, stroke=70.0, turn=20.0), frames=0, progress=False)
+    assert drawn.ending is None and drawn.angles is not None
+    assert 92 < drawn.angles.theta1 < 105 and 70 < drawn.angles.theta2 < 88
+    assert 100 < drawn.angles.radius < 400
+
+
+def test_a_sheet_beyond_its_limit_is_named():
+    drawn = draw(replace(CUP, stroke=4.0), limit=lambda minor: 0.0 * minor + 0.001, frames=0, progress=False)
+    assert drawn.ending is not None and drawn.ending.kind == "torn" and not drawn.ending.early
+    assert "beyond the forming limit" in drawn.warnings[0]
+
+
+def test_a_holder_that_is_too_strong_tears_the_sheet():
+    drawn = draw(replace(CUP, holder_force=500e3, stroke=25.0, friction=0.2), frames=0, progress=False)
+    assert drawn.ending is not None and drawn.ending.early and drawn.ending.kind in ("torn", "held")
+    assert 5.0 < drawn.result["stroke"][-1] < 25.0 and drawn.released is None
+    assert drawn.fields["limit_margin"].min() < 0.0
+
+
+def test_a_loose_holder_lets_the_flange_wrinkle():
+    drawn = draw(replace(CUP, holder_force=3e3, holder_gap=3.0, stroke=12.0), frames=0, progress=False)
+    assert drawn.ending is not None and drawn.ending.kind == "wrinkled" and not drawn.ending.early
+    assert "stands off both tools" in drawn.warnings[0]
+
+
+def test_no_element_turns_more_than_asked():
+    for case in (CUP, replace(CUP, turn=10.0), U):
+        for part in case.sizes.bent:
+            assert case.sizes.largest_turn(part) < 1.15 * case.turn
+    assert "degrees over the edge of the punch" in str(CUP.sizes)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"die_radius": 25.2},
+        {"die_radius": 52.8},
+        {"punch_edge": 25.0},
+        {"blank_radius": 20.0},
+        {"holder_gap": 0.8},
+        {"around": 5},
+        {"friction": 9.0},
+        {"thickness": -1.0},
+        {"material": uf.SVK(E=1.0, nu=0.3)},
+    ],
+)
+def test_a_cup_that_cannot_be_drawn_is_refused(wrong):
+    with pytest.raises(InvalidValue):
+        replace(CUP, **wrong)
+
+
+@pytest.mark.parametrize("wrong", [{"opening": 50.1}, {"stroke": 90.0}, {"holder_force": None}, {"width": 0.0}])
+def test_a_u_bend_that_cannot_be_drawn_is_refused(wrong):
+    with pytest.raises(InvalidValue):
+        replace(U, **wrong)

@@ -1,0 +1,105 @@
+"""Ears, draw-in, sections, angles of a U-bend, gauges."""
+
+import numpy as np
+import pytest
+
+import umform as uf
+from umform.errors import InvalidValue
+from umform.results.forming import (
+    distance_from,
+    draw_in,
+    ear_profile,
+    lay_by_best_fit,
+    lay_on_three_points,
+    section,
+    u_bend_angles,
+)
+
+
+def _cup(part):
+    """A cup with four ears of 2 mm about a mean height of 20 mm."""
+    blank = uf.mesh.disc(10.0, 1.0, (8, 3), part=part)
+    r, angle = np.hypot(*blank.points[:, :2].T), np.arctan2(blank.points[:, 1], blank.points[:, 0])
+    height = np.where(r > 9.999, 20.0 + np.cos(4 * angle), 0.0)
+    u = np.zeros_like(blank.points)
+    u[:, 2] = np.where(r > 9.999, height - blank.points[:, 2], -blank.points[:, 2])
+    return blank, u
+
+
+@pytest.mark.parametrize("part", ["quarter", "half", "whole"])
+def test_ears(part):
+    ears = ear_profile(*_cup(part))
+    assert ears.mean == pytest.approx(20.0, abs=0.02)
+    assert ears.amplitude == pytest.approx(2.0, abs=1e-9)
+    np.testing.assert_allclose(ears.ears(), [0, 90, 180, 270], atol=1e-6)
+    np.testing.assert_allclose(ears.valleys(), [45, 135, 225, 315], atol=1e-6)
+    np.testing.assert_allclose(ears.at(np.array([0.0, 135.0, 270.0])), [21, 19, 21], atol=1e-6)
+
+
+def test_ears_of_a_cup_that_opens_downwards():
+    blank, u = _cup("quarter")
+    u[:, 2] = -2 * blank.points[:, 2] - u[:, 2]
+    assert ear_profile(blank, u).mean == pytest.approx(20.0, abs=0.02)
+
+
+def test_draw_in():
+    blank = uf.mesh.disc(10.0, 1.0, (4, 3), part="quarter")
+    edge = draw_in(blank, -0.1 * blank.points)
+    np.testing.assert_allclose(edge.draw_in[1:-1], 1.0, rtol=5e-3)
+    assert (np.diff(np.arctan2(edge.before[:, 1], edge.before[:, 0])) > 0).all()
+
+
+@pytest.mark.parametrize("cell", ["hex8", "hex18"])
+@pytest.mark.parametrize("layers", [1, 2])
+def test_section(cell, layers):
+    strip = uf.mesh.strip(6.0, 2.0, 0.5, (6, 3), cell=cell, layers=layers)
+    u = np.zeros_like(strip.points)
+    u[:, 2] = 0.1 * strip.points[:, 0]
+    cut = section(strip, u, point=(0.0, 0.9, 0.0))
+    np.testing.assert_allclose(cut.s[[0, -1]], [0.0, 6.0])
+    np.testing.assert_allclose(cut.middle, np.column_stack([cut.s, np.full(len(cut.s), 0.9), 0.1 * cut.s]), atol=1e-12)
+    np.testing.assert_allclose(cut.upper[:, 2] - cut.lower[:, 2], 0.5)
+    with pytest.raises(InvalidValue, match="does not cut"):
+        section(strip, u, point=(0.0, 5.0, 0.0))
+
+
+def test_u_bend_without_springback_and_with_a_round_wall():
+    s = np.linspace(0, 1, 101)[1:]
+    bottom, wall, flange = (
+        np.column_stack([25 * s, 0 * s]),
+        np.column_stack([25 + 0 * s, 70 * s]),
+        np.column_stack([25 + 60 * s, 70 + 0 * s]),
+    )
+    line = np.concatenate([[[0.0, 0.0]], bottom, wall, flange])
+    found = u_bend_angles(line)
+    assert found.theta1 == pytest.approx(90) and found.theta2 == pytest.approx(90) and found.radius > 1e6
+    R = 200.0
+    wall = np.column_stack([25 + R - R * np.cos(70 * s / R), R * np.sin(70 * s / R)])
+    assert u_bend_angles(np.concatenate([[[0.0, 0.0]], bottom, wall])).radius == pytest.approx(R, rel=1e-3)
+    with pytest.raises(InvalidValue, match="does not reach"):
+        u_bend_angles(line, heights=(15, 35, 80))
+
+
+def test_a_part_in_its_gauge():
+    rng = np.random.default_rng(3)
+    gauge = rng.normal(size=(20, 3))
+    turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
+    part = gauge @ turn.T + [1.0, 2.0, 3.0]
+    for laid in (lay_by_best_fit(part, gauge), lay_on_three_points(part, gauge, (0, 5, 9))):
+        np.testing.assert_allclose(laid.points, gauge, atol=1e-12)
+        assert np.linalg.det(laid.rotation) == pytest.approx(1.0)
+    part[7] += [0.3, 0.0, 0.0]
+    fitted = lay_by_best_fit(part, gauge)
+    assert (fitted.distance**2).sum() < (lay_on_three_points(part, gauge, (0, 5, 9)).distance ** 2).sum()
+    assert lay_on_three_points(part, gauge, (0, 5, 9)).largest == pytest.approx(0.3)
+    with pytest.raises(InvalidValue):
+        lay_on_three_points(part, gauge, (0, 0, 9))
+
+
+def test_distance_from_a_tool_where_it_stands():
+    strip = uf.mesh.strip(6.0, 2.0, 0.5, (6, 1))
+    model = uf.Model(strip, material=uf.SVK(E=1.0, nu=0.3))
+    ball = model.tool("ball", uf.Sphere((0.0, 0.0, 5.0), 2.0))
+    way = model.drive(ball, "z")
+    way.value = 1.0
+    assert distance_from(ball, np.array([[0.0, 0.0, 0.0]]))[0] == pytest.approx(4.0)
