@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 
 from umform import _core
+from umform.elements.legendre import legendre
 from umform.errors import InvalidValue
 
 #: Most points through the thickness.
@@ -48,7 +48,6 @@ def _graded(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     if points not in _GRADED:
         raise InvalidValue("the graded rule has 8, 10 or 12 points", value=points, remedy="take 12")
     half = np.array(_GRADED[points])
-    integrals = np.zeros(len(half))
-    integrals[0] = 1.0
-    weights = np.linalg.solve(legvander(2.0 * half - 1.0, len(half) - 1).T, integrals)
+    values = np.stack([legendre(order, 2.0 * half - 1.0) for order in range(len(half))])
+    weights = np.linalg.solve(values, np.eye(len(half))[0])  # all polynomials but the constant have no mean
     return np.concatenate([-half[::-1], half]), np.concatenate([weights[::-1], weights])
