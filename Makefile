@@ -28,7 +28,7 @@ unexport PYTHONPATH PYTHONHOME
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
 .PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-stubs lint-format lint-cpp stubs \
-        format bench dome robust ubend cup compare peers clean
+        format docs wheel bench dome robust ubend cup compare peers clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -150,6 +150,43 @@ verification: pardiso  ## run the whole verification book and write docs/verific
 instructions: env  ## instructions of the kernels against the stored counts (skipped without valgrind)
 	$(SAY) 'Counting the instructions of the kernels'
 	@$(BIN)/python benchmarks/instructions.py $(ARGS)
+
+# ---- documentation ----
+
+DOCS    := build/docs
+VERSION  = $(shell $(BIN)/python -c 'import umform; print(umform.__version__)')
+NETWORK := <(script|link|img|iframe|source)[^>]* (src|href)="(https?:)?//
+
+$(VENV)/.docs: $(VENV)/.tools
+	$(SAY) 'Fetching the tools of the site from PyPI'
+	@$(BIN)/python tools/requirements.py docs > $@.new
+	@$(PIP) install -r $@.new
+	@mv $@.new $@
+
+docs: env $(VENV)/.docs  ## the documentation as a site in build/docs; every warning is an error
+	$(SAY) 'Making the site in $(DOCS)/$(VERSION) (some 40 s of CPU)'
+	@rm -rf docs/site/api/generated
+	@$(BIN)/sphinx-build -q -W --keep-going -c docs/site -d build/docs-cache docs $(DOCS)/$(VERSION) $(ARGS)
+	@! grep -rlE --include='*.html' '$(NETWORK)' $(DOCS)/$(VERSION) || { echo 'these pages load something from a network'; exit 1; }
+	@! grep -rlE --include='*.css' 'url\(["'"'"']?(https?:)?//' $(DOCS)/$(VERSION) || { echo 'these styles load something from a network'; exit 1; }
+	@echo 'Look at it with: python3 -m http.server -d $(DOCS)'
+
+# ---- wheel ----
+
+$(VENV)/.wheel: $(VENV)/.tools
+	$(SAY) 'Fetching the tools of wheels from PyPI'
+	@$(BIN)/python tools/requirements.py wheel > $@.new
+	@$(PIP) install -r $@.new
+	@mv $@.new $@
+
+wheel: env $(VENV)/.wheel  ## a wheel in dist, repaired, and tested in an environment without a compiler
+	$(SAY) 'Making the wheel'
+	@rm -rf build/wheel
+	@$(PIP) wheel --no-deps --no-build-isolation --config-settings=build-dir=$(BUILD) -w build/wheel .
+	@PATH="$(abspath $(BIN)):$$PATH" $(BIN)/auditwheel repair -w dist build/wheel/*.whl > build/wheel/repair.log 2>&1 \
+	    || { cat build/wheel/repair.log; exit 1; }
+	$(SAY) 'Testing it in build/wheel/env, whose PATH has no compiler'
+	@bash tools/test_wheel.sh $(PYTHON) "$$(ls -t dist/umform-*.whl | head -1)" build/wheel/env
 
 # ---- style ----
 

@@ -6,7 +6,23 @@
     #define UMFORM_BUILD "unknown"  // CMake says it; tools that parse this file alone do not
 #endif
 
+namespace {
+
+/// Kernels are compiled for an instruction set; this file alone is not, so that a processor without it gets a sentence.
+void require_instructions() {
+#if defined(UMFORM_X86_64_V3) && defined(__x86_64__)
+    __builtin_cpu_init();
+    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+        throw std::runtime_error(
+            "this umform is built for processors with AVX2 and FMA (x86-64-v3), which this one lacks; "
+            "build it from source with: pip install --no-binary umform umform -C cmake.define.UMFORM_ARCH=");
+#endif
+}
+
+}  // namespace
+
 NB_MODULE(_core, m) {
+    require_instructions();
     nb::set_leak_warnings(false);  // functions of users may close over the model: a cycle that ends with the process
     m.doc() = "Kernels of umform: elements, materials, surfaces, contact, sparse patterns.";
     bind_quadrature(m);

@@ -22,6 +22,15 @@ class UmformError(Exception):
         The likely cause.
     remedy : str, optional
         What to do about it.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> try:
+    ...     uf.Perfect(-160.0)
+    ... except uf.UmformError as error:
+    ...     print(type(error).__name__)
+    InvalidValue
     """
 
     id = "umform"

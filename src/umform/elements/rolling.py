@@ -38,6 +38,7 @@ def rolling_at(angle: float, line: ArrayLike = (0.0, 1.0, 0.0), normal: ArrayLik
 
     Examples
     --------
+    >>> from umform import rolling_at
     >>> rolling_at(0.0)
     (0.0, 1.0, 0.0)
     """

@@ -21,6 +21,12 @@ class Tying:
 
     The covariant component is sampled on the grid ``r`` x ``s`` and interpolated with the Lagrange polynomials of the
     abscissae, at the mid-surface (t = 0) or, with ``at_layer``, at the t of the Gauss point.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> transverse_shear = uf.Tying("13", r=(0.0,), s=(-1.0, 1.0))
+    >>> element = uf.Element("tied", "hex8", tying=(transverse_shear, uf.Tying("23", r=(-1.0, 1.0), s=(0.0,))))
     """
 
     component: str
@@ -31,7 +37,13 @@ class Tying:
 
 @dataclass(frozen=True)
 class Term:
-    """The term ``factor * r**a * s**b * P_c(t)`` of an enhanced mode in one covariant component (P_c: Legendre)."""
+    """The term ``factor * r**a * s**b * P_c(t)`` of an enhanced mode in one covariant component (P_c: Legendre).
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> linear_in_thickness = uf.Term("33", c=1)
+    """
 
     component: str
     a: int = 0
@@ -77,6 +89,12 @@ class Element:
         Points through the thickness and their rule that a model takes with a plastic law if nothing is said.
     complete : bool
         Whether a plastic law raises the thickness order to the number of points less one, see :func:`at_order`.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> compatible = uf.Element("compatible", "hex8")
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), compatible, material=uf.SVK(E=210e3, nu=0.3))
     """
 
     name: str

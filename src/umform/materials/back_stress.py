@@ -22,6 +22,12 @@ class Chaboche:
     first, rate : float
         All moduli change with the plastic strain by f = 1 + (first - 1) exp(-rate p), from the share ``first`` of C
         to C; with 1 and 0 they stay.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> back = uf.Chaboche(((20e3, 200.0), (1e3, 0.0)))
+    >>> steel = uf.Metal(206e3, 0.3, hardening=uf.Perfect(150.0), back_stress=back)
     """
 
     parts: tuple[tuple[float, float], ...]
@@ -80,6 +86,12 @@ class YoshidaUemori:
         How fast it grows and moves.
     h : float
         How fast the surface of stagnation grows with it, 0 to 1.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> back = uf.YoshidaUemori(C=500.0, B=168.0, growth=190.0, b=9.0, m=12.0, h=0.5)
+    >>> steel = uf.Metal(206e3, 0.3, hardening=uf.Perfect(124.0), back_stress=back)
     """
 
     C: float

@@ -56,6 +56,11 @@ class CompiledLaw:
         Whether it has directions, so that a model must say the rolling direction.
     name : str
         For messages and fingerprints of runs: another name for another function without a library.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> law = uf.CompiledLaw("law", "law.so", state={"eqps": 1}, properties=(210e3, 0.3))  # doctest: +SKIP
     """
 
     function: Any = field(compare=False)

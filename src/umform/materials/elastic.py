@@ -84,7 +84,15 @@ class Elastic:
 
 
 class SVK(Elastic):
-    """St. Venant-Kirchhoff: S = lambda tr(E) 1 + 2 mu E. For small strains; it softens in strong compression."""
+    """Saint Venant-Kirchhoff: S = lambda tr(E) 1 + 2 mu E. For small strains; it softens in strong compression.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> steel = uf.SVK(E=210e3, nu=0.3)
+    >>> round(steel.mu)
+    80769
+    """
 
     thickness_points = 2
 
@@ -94,7 +102,15 @@ class SVK(Elastic):
 
 
 class NeoHooke(Elastic):
-    """Compressible neo-Hooke, logarithmic form: W = mu/2 (I1 - 3) - mu ln J + lambda/2 ln² J."""
+    """Compressible neo-Hooke, logarithmic form: W = mu/2 (I1 - 3) - mu ln J + lambda/2 ln² J.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> rubber = uf.NeoHooke(E=3.0, nu=0.45)
+    >>> uf.check_law(rubber, [[0.2, -0.1, 0.05, 0.1, 0.0, 0.05]]) < 1e-6
+    True
+    """
 
     thickness_points = 2
 
@@ -104,7 +120,15 @@ class NeoHooke(Elastic):
 
 
 class NeoHookePower(Elastic):
-    """Compressible neo-Hooke, power form: W = c (I1 - 3) + c/beta (I3^-beta - 1), c = mu/2, beta = nu/(1 - 2 nu)."""
+    """Compressible neo-Hooke, power form: W = c (I1 - 3) + c/beta (I3^-beta - 1), c = mu/2, beta = nu/(1 - 2 nu).
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> rubber = uf.NeoHookePower(E=3.0, nu=0.45)
+    >>> uf.check_law(rubber, [[0.2, -0.1, 0.05, 0.1, 0.0, 0.05]]) < 1e-6
+    True
+    """
 
     thickness_points = 2
 

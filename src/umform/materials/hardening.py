@@ -42,6 +42,12 @@ class LinearVoce:
         y_inf, not below y0.
     rate : float
         d, not negative.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> curve = uf.LinearVoce(yield_stress=125.0, modulus=100.0, saturation=290.0, rate=12.0)
+    >>> aluminium = uf.J2(E=70e3, nu=0.33, hardening=curve)
     """
 
     yield_stress: float
@@ -70,17 +76,35 @@ class LinearVoce:
 
 
 def Perfect(yield_stress: float) -> LinearVoce:
-    """Perfect plasticity: y = y0."""
+    """Perfect plasticity: y = y0.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> lead = uf.J2(E=16e3, nu=0.44, hardening=uf.Perfect(12.0))
+    """
     return LinearVoce(yield_stress, 0.0, yield_stress, 0.0)
 
 
 def Linear(yield_stress: float, modulus: float) -> LinearVoce:
-    """Linear hardening: y = y0 + H e."""
+    """Linear hardening: y = y0 + H e.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> steel = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
+    """
     return LinearVoce(yield_stress, modulus, yield_stress, 0.0)
 
 
 def Voce(yield_stress: float, saturation: float, rate: float) -> LinearVoce:
-    """Voce hardening: y = y_inf - (y_inf - y0) exp(-d e)."""
+    """Voce hardening: y = y_inf - (y_inf - y0) exp(-d e).
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> aluminium = uf.J2(E=70e3, nu=0.33, hardening=uf.Voce(yield_stress=125.0, saturation=290.0, rate=12.0))
+    """
     return LinearVoce(yield_stress, 0.0, saturation, rate)
 
 
@@ -96,6 +120,11 @@ class Swift:
         e0, positive.
     exponent : float
         n, between 0 and 1.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> steel = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(strength=520.0, offset=0.004, exponent=0.2))
     """
 
     strength: float
@@ -128,6 +157,12 @@ class Table:
         Plastic strains from 0, increasing.
     stress : tuple of float
         Yield stresses, not decreasing.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> curve = uf.Table(eqps=(0.0, 0.05, 0.2, 0.5), stress=(186.0, 275.0, 368.0, 442.0))
+    >>> steel = uf.J2(E=210e3, nu=0.3, hardening=curve)
     """
 
     eqps: tuple[float, ...]

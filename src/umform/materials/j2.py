@@ -48,7 +48,15 @@ class Plastic(Elastic):
 
 
 class J2(Plastic):
-    """Finite-strain J2 plasticity in logarithmic elastic strains, multiplicative split (docs/theory, chapter 3)."""
+    """Finite-strain J2 plasticity in logarithmic elastic strains, multiplicative split (docs/theory, chapter 3).
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> steel = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(strength=520.0, offset=0.004, exponent=0.2))
+    >>> round(uf.sheet_metals.tensile_test(steel).tensile_strength)
+    309
+    """
 
     def law(self) -> _core.Material:
         """The law as the kernels take it."""

@@ -32,6 +32,11 @@ class FallingModulus:
         What E falls to.
     rate : float
         How fast.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> steel = uf.Metal(206e3, 0.3, hardening=uf.Perfect(200.0), modulus=uf.FallingModulus(saturated=160e3, rate=40.0))
     """
 
     saturated: float
@@ -68,6 +73,19 @@ class Metal(Plastic):
     rate : CowperSymonds or JohnsonCook, optional
         Factor of the yield stress over the rate of the plastic strain, in the time of the steps. In no time nothing
         flows: a model that is evaluated without a step, at the time where it stands, answers elastically.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> mild = uf.Metal(
+    ...     206e3,
+    ...     0.3,
+    ...     hardening=uf.Swift(520.0, 0.004, 0.2),
+    ...     yield_function=uf.Hill48(r0=1.8, r45=1.4, r90=2.1),
+    ...     modulus=uf.FallingModulus(saturated=160e3, rate=40.0),
+    ... )
+    >>> along_x = uf.rolling_at(0.0)
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=mild, rolling=along_x)
     """
 
     yield_function: YieldFunction = field(default_factory=Mises)
@@ -225,6 +243,13 @@ class LogarithmicSpace:
     small : Material
         Any law, one of your own for instance: in place of the Green-Lagrange strain it is asked with ln(C)/2,
         engineering shears, in the axes of the sheet. SVK becomes Hencky's law.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> hencky = uf.LogarithmicSpace(uf.SVK(E=210e3, nu=0.3))
+    >>> uf.check_law(hencky, [[0.2, -0.1, 0.05, 0.1, 0.0, 0.05]]) < 1e-6
+    True
     """
 
     small: Material

@@ -27,6 +27,12 @@ class CowperSymonds:
         Plastic strain rate at which the yield stress is twice the static one, 1 / time.
     exponent : float
         1 to 20.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> rate = uf.CowperSymonds(reference=40.0, exponent=5.0)
+    >>> steel = uf.Metal(206e3, 0.3, hardening=uf.Swift(520.0, 0.004, 0.2), rate=rate)
     """
 
     reference: float
@@ -58,6 +64,12 @@ class JohnsonCook:
         Plastic strain rate of the hardening curve, 1 / time.
     strength : float
         C, 0.001 to 1.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> rate = uf.JohnsonCook(reference=1e-3, strength=0.02)
+    >>> steel = uf.Metal(206e3, 0.3, hardening=uf.Swift(520.0, 0.004, 0.2), rate=rate)
     """
 
     reference: float

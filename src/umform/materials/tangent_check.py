@@ -52,6 +52,13 @@ def check_law(material: Material, E: ArrayLike, state: ArrayLike | None = None, 
     -------
     TangentCheck
         The largest deviation from the differences relative to the largest entry, as a number; and ``asymmetry``.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> look = uf.check_law(uf.SVK(E=210e3, nu=0.3), [[1e-3, 0.0, 0.0, 2e-3, 0.0, 0.0]])
+    >>> look < 1e-8, look.asymmetry < 1e-12
+    (True, True)
     """
     if isinstance(material, UserLaw):
         material = replace(material, symmetric=False)  # to measure what an evaluation would refuse

@@ -45,6 +45,11 @@ class Umat:
         Name of the function; default what compilers make of UMAT.
     name : str
         CMNAME, and for messages.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> law = uf.Umat("umat.so", state=7, properties=(210e3, 0.3, 200.0))  # doctest: +SKIP
     """
 
     library: str | PathLike[str] = field(compare=False)

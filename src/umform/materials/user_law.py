@@ -84,6 +84,17 @@ class UserLaw:
     ------
     InvalidValue
         If the names do not have the size of the initial history.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import umform as uf
+    >>> C = np.diag([210.0, 210.0, 210.0, 105.0, 105.0, 105.0])
+    >>> def springs(E, state):
+    ...     return E @ C, np.broadcast_to(C, (len(E), 6, 6)), state
+    >>> law = uf.UserLaw(springs, name="springs")
+    >>> uf.check_law(law, np.full((1, 6), 1e-3)) < 1e-6
+    True
     """
 
     function: LawFunction

@@ -25,7 +25,15 @@ class YieldFunction(Protocol):
 
 @dataclass(frozen=True)
 class Mises:
-    """Von Mises: isotropic."""
+    """Von Mises: isotropic.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> stress, r = uf.sheet_metals.uniaxial(uf.Mises(), 45.0)
+    >>> round(float(stress), 6), round(float(r), 6)
+    (1.0, 1.0)
+    """
 
     directional = False
 
@@ -43,6 +51,13 @@ class Hill48:
     r0, r45, r90 : float
         Ratio of the plastic strains over the width and over the thickness in tension along, at 45 degrees to and across
         the rolling direction.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> stress, r = uf.sheet_metals.uniaxial(uf.Hill48(r0=1.8, r45=1.4, r90=2.1), 90.0)
+    >>> round(float(r), 6)
+    2.1
     """
 
     F: float
@@ -153,6 +168,12 @@ class Transformation:
 
     S_11 = -c12 s_22 - c13 s_33, S_22 = -c21 s_11 - c23 s_33, S_33 = -c31 s_11 - c32 s_22, and a factor for each shear.
     Printed tables have the shears as c44, c55, c66, which are 23, 13, 12: here they are called by their axes.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> softer_in_shear = uf.Transformation(shear12=0.9)
+    >>> function = uf.Yld2004(softer_in_shear, softer_in_shear, exponent=8)
     """
 
     c12: float = 1.0
@@ -176,7 +197,9 @@ class Transformation:
 
 @dataclass(frozen=True)
 class Yld2004:
-    """Yld2004-18p of Barlat et al. (2005): sum_ij |S'_i - S''_j|^a = 4 phi^a, principal values of two mapped stresses.
+    """Yld2004-18p of Barlat et al. (2005): ``sum_ij |S'_i - S''_j|^a = 4 phi^a``.
+
+    S' and S'' stand for the principal values of two mapped stresses.
 
     Parameters
     ----------
@@ -184,6 +207,12 @@ class Yld2004:
         S' and S''.
     exponent : float
         From 2 to 20: 6 for bcc metals, 8 for fcc metals. Even ones need no principal values and are faster.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> function = uf.Yld2004(uf.Transformation(c12=0.9), uf.Transformation(c21=1.1), exponent=8)
+    >>> aluminium = uf.Metal(70e3, 0.33, hardening=uf.Voce(125.0, 290.0, 12.0), yield_function=function)
     """
 
     first: Transformation
@@ -214,7 +243,13 @@ class Yld2004:
 
 
 def Hosford(exponent: float = 8) -> Yld2004:
-    """Hosford (1972): |s1 - s2|^a + |s2 - s3|^a + |s3 - s1|^a = 2 phi^a of principal stresses, isotropic."""
+    """Hosford (1972): ``|s1 - s2|^a + |s2 - s3|^a + |s3 - s1|^a = 2 phi^a`` of principal stresses, isotropic.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> aluminium = uf.Metal(70e3, 0.33, hardening=uf.Voce(125.0, 290.0, 12.0), yield_function=uf.Hosford(8))
+    """
     return Yld2004(Transformation(), Transformation(), exponent)
 
 
@@ -231,6 +266,13 @@ def Yld91(
         Factors of the shears 23, 13 and 12.
     exponent : float
         From 2 to 20.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> stress, r = uf.sheet_metals.uniaxial(uf.Yld91(1.0, 1.0, 1.0, exponent=8), 30.0)
+    >>> round(float(stress), 6), round(float(r), 6)
+    (1.0, 1.0)
     """
     check_finite("Yld91", a=a, b=b, c=c, f=f, g=g, h=h)
     c12, c13, c21, c23 = (b + 2 * c) / 3, (2 * b + c) / 3, (a + 2 * c) / 3, (2 * a + c) / 3

@@ -53,7 +53,7 @@ class Mesh:
     sets : mapping of str to array_like, optional
         Named sets of node ids.
     faces : mapping of str to array_like, shape (k, 2), optional
-        Named sets of faces, each row (cell, number of the face in :data:`FACES`).
+        Named sets of faces, each row (cell, number of the face in :data:`umform.mesh.FACES`).
 
     Raises
     ------
@@ -61,6 +61,13 @@ class Mesh:
         If the arrays make no mesh.
     InvertedElement, FoldedElement, WrongNodeOrder
         If a cell has no positive volume everywhere.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> strip = uf.mesh.strip(length=10.0, width=1.0, thickness=0.2, cells=(8, 1))
+    >>> len(strip.points), sorted(strip.faces)
+    (36, ['lower', 'upper', 'x0', 'x1', 'y0', 'y1'])
     """
 
     points: Floats
@@ -173,7 +180,7 @@ class Mesh:
         return ids
 
     def face_set(self, selector: Selector) -> Ids:
-        """Faces of a set as rows (cell, number of the face in :data:`FACES`).
+        """Faces of a set as rows (cell, number of the face in :data:`umform.mesh.FACES`).
 
         Parameters
         ----------
@@ -242,7 +249,7 @@ class Mesh:
         return np.ascontiguousarray(np.where(rows[:, 1:] == 0, lower[rows[:, 0]], upper[rows[:, 0]]))
 
     def face_centres(self) -> Floats:
-        """Mean of the corners of each face, in the order of :data:`FACES`; shape (m, 6, 3)."""
+        """Mean of the corners of each face, in the order of :data:`umform.mesh.FACES`; shape (m, 6, 3)."""
         corners, half = np.array(_nodes_of_faces("hex8")), self.connectivity.shape[1] // 2
         local = corners % 4 + half * (corners // 4)
         centres: Floats = self.points[self.connectivity[:, local]].mean(axis=2)

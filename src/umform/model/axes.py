@@ -138,6 +138,13 @@ def turned(x: Direction, y: Direction) -> Turned:
     ------
     InvalidValue
         If the vectors are parallel or have no length.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> axes = uf.turned((1, 1, 0), (-1, 1, 0))
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> clamp = model.hold_director("x0", "x", axes=axes)
     """
     first = np.array(unit_vector(x, "x of turned axes"))
     second = np.array(unit_vector(y, "y of turned axes"))

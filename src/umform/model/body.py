@@ -79,6 +79,14 @@ class Body(Term):
     ------
     InvalidValue
         If an option does not fit.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> strip = uf.mesh.strip(10.0, 1.0, 0.2, (8, 1))
+    >>> soft = uf.Body(material=uf.SVK(E=70e3, nu=0.3), cells=lambda x, y, z: x < 5.0, name="soft")
+    >>> stiff = uf.Body(material=uf.SVK(E=210e3, nu=0.3), cells=lambda x, y, z: x > 5.0, name="stiff")
+    >>> model = uf.Model(strip, bodies=[soft, stiff])
     """
 
     timed_as = "elements"

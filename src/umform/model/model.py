@@ -66,6 +66,17 @@ class Model(Standing):
     ----------
     carries_loose_sheet : bool
         Whether a run lets a sheet that nothing holds yet rest on springs until tools hold it, see :meth:`rest`.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> strip = uf.mesh.strip(length=60.0, width=10.0, thickness=1.0, cells=(24, 1))
+    >>> steel = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
+    >>> model = uf.Model(strip, element="ANS3DEAS", material=steel)
+    >>> middle = model.symmetry("x0", normal="x")
+    >>> punch = model.prescribe("x0_lower", "z", name="punch")
+    >>> cylinder = model.contact("lower", uf.Cylinder(centre=(25, 0, -20.5), axis="y", radius=20), name="cylinder")
+    >>> steps = [uf.Move(punch, to=-15.0, steps=60), uf.Release(punch)]  # for uf.solve
     """
 
     carries_loose_sheet = True

@@ -47,7 +47,7 @@ class Standing(Evaluated):
         Parameters
         ----------
         before : mapping of str to ndarray
-            :attr:`Term.before` of each term that had any, by its key.
+            ``Term.before`` of each term that had any, by its key.
 
         Returns
         -------

@@ -92,6 +92,16 @@ def solve(
     -----
     Any exception that ends the run, Ctrl-C too, carries all that was reached as its attribute ``result``. The first
     Ctrl-C ends the run after the present increment, the second one at once.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> clamp = model.fix("x0")
+    >>> tip = model.prescribe("x1_lower", "z", name="tip")
+    >>> result = uf.solve(model, uf.Move(tip, to=-0.1, steps=2))
+    >>> float(result["tip"][-1])
+    -0.1
     """
 
     def work(model: Model, steps: Sequence[Step]) -> Result:
@@ -145,6 +155,16 @@ def resume(
     Notes
     -----
     The bits are the same on the same machine with the same versions of Python's packages, see docs/long-runs.md.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> clamp = model.fix("x0")
+    >>> tip = model.prescribe("x1_lower", "z", name="tip")
+    >>> steps = uf.Move(tip, to=-0.1, steps=2)
+    >>> result = uf.solve(model, steps, checkpoint="run.h5")  # doctest: +SKIP
+    >>> result = uf.resume("run.h5", model, steps)  # doctest: +SKIP
     """
     from umform.run.checkpoint import take_up  # few runs need it
 

@@ -13,7 +13,19 @@ if TYPE_CHECKING:
 
 
 class Result(History):
-    """History of all converged increments, frames of some of them; see :class:`umform.results.history.History`."""
+    """History of all converged increments, frames of some of them; see :class:`umform.results.history.History`.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> clamp = model.fix("x0")
+    >>> tip = model.prescribe("x1_lower", "z", name="tip")
+    >>> result = uf.solve(model, uf.Move(tip, to=-0.1, steps=2))
+    >>> force = result["tip_force"]
+    >>> result.write("bending.vtkhdf")  # doctest: +SKIP
+    >>> result.plot("tip", "tip_force", "curve.png")  # doctest: +SKIP
+    """
 
     def write(self, path: str | Path, *, lagrange: bool = False) -> Path:
         """Write frames (``.vtkhdf``) or the history (``.csv``), whole or not at all.

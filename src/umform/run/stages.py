@@ -32,6 +32,15 @@ class Stage:
         For results and checkpoints: letters, digits, hyphens and underscores.
     build : callable
         Gets the result of the stage before, None for the first one, and returns the model and its steps.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> def press(before):
+    ...     model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    ...     model.fix("x0")
+    ...     return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-0.1, steps=2)
+    >>> first = uf.Stage("press", press)
     """
 
     name: str
@@ -113,6 +122,15 @@ def solve_stages(
     NoConvergence, FileProblem
         See :func:`umform.solve` and :func:`umform.resume`. An exception carries the results of the stages so far as its
         attribute ``stages``.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> def press(before):
+    ...     model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    ...     model.fix("x0")
+    ...     return model, uf.Move(model.prescribe("x1_lower", "z", name="tip"), to=-0.1, steps=2)
+    >>> result = uf.solve_stages([uf.Stage("press", press)])
     """
     names = [stage.name for stage in stages]
     if not names or len(set(names)) < len(names):

@@ -33,6 +33,15 @@ class NewtonOptions:
     mixed : bool, optional
         Take the geometric stiffness from the stress that the last increment foresaw, not from the present one: thin
         elastic sheets take larger steps and fewer iterations. eq. (5.39) Default: where no law has a history.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> clamp = model.fix("x0")
+    >>> tip = model.prescribe("x1_lower", "z", name="tip")
+    >>> options = uf.NewtonOptions(residual=1e-8, max_iterations=15)
+    >>> result = uf.solve(model, uf.Move(tip, to=-0.1, steps=2), options=options)
     """
 
     residual: float = 1e-9

@@ -48,6 +48,19 @@ class Close:
         Largest way (or angle) that it may go. Default: its distance from the sheet and the largest extent of the sheet.
     time : float
         What the step takes.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> support = model.fix("lower", "z")
+    >>> side = model.symmetry("x0", "x"), model.symmetry("y0", "y")
+    >>> plate = model.tool("plate", uf.Plane((0, 0, 0.3), (0, 0, -1)))
+    >>> pair = model.contact("upper", plate, penalty=1e4)
+    >>> press = model.press(plate, "z", "press")
+    >>> result = uf.solve(model, uf.Close(press, force=-5.0))
+    >>> round(float(result["press"][-1]), 6)
+    -5.0
     """
 
     control: ToolForce

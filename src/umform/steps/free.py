@@ -40,6 +40,14 @@ class Free:
         What ``hold_rigid`` of the model returned: it holds its nodes where they are when the step begins, from then on.
     time : float
         What the step takes.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> clamp, rest = model.fix("x0"), model.fix("x1_lower", "z")
+    >>> load = model.force("x1_upper", (0.0, 0.0, -0.1), "load")
+    >>> result = uf.solve(model, [uf.Move(load, to=1.0, steps=1), uf.Free(rest, steps=2)])
     """
 
     support: Support | Tool | Contact | Sequence[Support | Tool | Contact]

@@ -39,6 +39,14 @@ class Pace:
         Share of the contact points in touch that come and go.
     iterations : int
         Iterations of Newton's method at which the size is kept: with half of them it may double.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> clamp = model.fix("x0")
+    >>> tip = model.prescribe("x1_lower", "z", name="tip")
+    >>> result = uf.solve(model, uf.Move(tip, to=-0.1, steps=uf.Pace(turn=1.0)))
     """
 
     first: float = 0.01

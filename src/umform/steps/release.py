@@ -44,6 +44,16 @@ class Release:
         Force that counts as zero, relative to the force at the beginning.
     time : float
         What it would take to go back all the way to zero.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> clamp = model.fix("x0")
+    >>> tip = model.prescribe("x1_lower", "z", name="tip")
+    >>> result = uf.solve(model, [uf.Move(tip, to=-0.1, steps=2), uf.Release(tip)])
+    >>> bool(abs(result["tip_force"][-1]) < 1e-5 * abs(result["tip_force"]).max())
+    True
     """
 
     control: Control

@@ -45,6 +45,12 @@ def check_surface(surface: Surface, x: ArrayLike, step: float) -> SurfaceCheck:
         Points where to look, near the surface and away from its edges.
     step : float
         Step of the differences, about 1e-5 of the size of the tool.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> uf.check_surface(uf.Sphere((0, 0, 0), 5), [(0.0, 3.0, 4.5)], step=1e-4).ok(1e-6)
+    True
     """
     kernel = surface.kernel()
     x = np.ascontiguousarray(x, dtype=float)

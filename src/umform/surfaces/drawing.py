@@ -37,6 +37,12 @@ def read_tool(
         If the file cannot be read.
     DrawingError
         If it holds no surface that can be a tool; the message names places.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> die = uf.read_tool("die.step")  # doctest: +SKIP
+    >>> punch = uf.read_tool("punch.stl", scale=1000.0)  # doctest: +SKIP
     """
     if Path(path).suffix.lower() == ".stl":
         return Triangulated.from_stl(path, sharp=30.0 if sharp is None else sharp, open=open, scale=scale)

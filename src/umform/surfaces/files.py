@@ -37,6 +37,11 @@ def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> P
         If the end of the name is another one, or nothing of the tool lies in the box.
     FileProblem
         If the file cannot be written.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> uf.write_tool(uf.Sphere((0, 0, 0), 5), "ball.stl", ((-6, -6, -6), (6, 6, 6)))  # doctest: +SKIP
     """
     path = Path(path)
     if path.suffix not in _SUFFIXES:

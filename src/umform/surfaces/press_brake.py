@@ -44,7 +44,9 @@ class Section(Tool):
 
 @dataclass(frozen=True)
 class VDie(Section):
-    r"""Die with a V; its top is the plane z = 0, its middle x = 0. ::
+    r"""Die with a V; its top is the plane z = 0, its middle x = 0.
+
+    Its section::
 
                |<--- opening --->|
         --------.       +       .--------  z = 0
@@ -70,6 +72,13 @@ class VDie(Section):
         Middle of the V at the height of the top.
     x, y : str or tuple of float
         Directions across the die and upwards.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> die = uf.VDie(opening=16, angle=84, shoulder_radius=2)
+    >>> float(die.gap([(30.0, 0.0, 0.5)])[0][0])
+    0.5
     """
 
     opening: float
@@ -123,6 +132,13 @@ class UDie(Section):
         Middle of the channel at the height of the top.
     x, y : str or tuple of float
         Directions across the die and upwards.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> die = uf.UDie(opening=8, depth=6, shoulder_radius=2, bottom_radius=1.5)
+    >>> float(die.gap([(0.0, 0.0, -5.5)])[0][0])
+    0.5
     """
 
     opening: float
@@ -150,6 +166,13 @@ class WipingDie(Section):
         Where top and side, drawn on as planes, meet.
     x, y : str or tuple of float
         Directions out of the side and out of the top.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> die = uf.WipingDie(radius=2)
+    >>> float(die.gap([(-10.0, 0.0, 0.5)])[0][0])
+    0.5
     """
 
     radius: float
@@ -164,7 +187,9 @@ class WipingDie(Section):
 
 @dataclass(frozen=True)
 class Punch(Section):
-    r"""Punch for air bending; its lowest line is z = 0, x = 0. ::
+    r"""Punch for air bending; its lowest line is z = 0, x = 0.
+
+    Its section::
 
          |         |
          |<-width->|
@@ -184,6 +209,13 @@ class Punch(Section):
         Lowest line of the tip.
     x, y : str or tuple of float
         Directions across the punch and upwards.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> punch = uf.Punch(tip_radius=1.5, angle=84)
+    >>> round(float(punch.gap([(0.0, 0.0, -0.5)])[0][0]), 6)
+    0.5
     """
 
     tip_radius: float

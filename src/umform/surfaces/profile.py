@@ -38,6 +38,14 @@ class Profile:
     ------
     InvalidValue
         If segments do not meet, turn back, have no length, or if the curve meets itself.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> section = uf.Profile.from_corners([(0, 0), (20, 0), (20, 10), (0, 10)], [1, 1, 2, 2])
+    >>> block = uf.Extruded(section)
+    >>> float(block.gap([(10.0, 0.0, 10.5)])[0][0])
+    0.5
     """
 
     segments: Sequence[Segment]

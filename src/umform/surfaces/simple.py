@@ -22,6 +22,13 @@ class Plane(Tool):
         A point of the plane.
     normal : str or tuple of float
         Normal out of the tool, towards the sheet.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> floor = uf.Plane((0, 0, 0), (0, 0, 1))
+    >>> float(floor.gap([(5.0, 2.0, 0.5)])[0][0])
+    0.5
     """
 
     point: Point = (0.0, 0.0, 0.0)
@@ -50,6 +57,13 @@ class Cylinder(Tool):
         Radius.
     inside : bool
         The sheet lies inside of the bore.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> bar = uf.Cylinder(centre=(0, 0, 0), axis="y", radius=20)
+    >>> float(bar.gap([(0.0, 3.0, 20.5)])[0][0])
+    0.5
     """
 
     centre: Point
@@ -85,6 +99,13 @@ class Sphere(Tool):
         Radius.
     inside : bool
         The sheet lies inside of the sphere.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> ball = uf.Sphere((0, 0, 0), 5)
+    >>> float(ball.gap([(0.0, 0.0, 4.5)])[0][0])
+    -0.5
     """
 
     centre: Point

@@ -30,6 +30,13 @@ class Torus(Tool):
         Radius of the circle on which the section has its centre.
     minor : float
         Radius of the section, less than ``major``.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> ring = uf.Torus((0, 0, 0), "z", major=10, minor=2)
+    >>> float(ring.gap([(10.0, 0.0, 2.5)])[0][0])
+    0.5
     """
 
     centre: Point
@@ -72,6 +79,13 @@ class Box(Tool):
         Radius of edges and corners, at most half of the smallest length; 0 leaves them sharp.
     x, y : str or tuple of float
         Its first two directions, at right angles.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> block = uf.Box((0, 0, 0), (9, 6, 7), 1.2)
+    >>> round(float(block.gap([(0.0, 0.0, 4.5)])[0][0]), 6)
+    1.0
     """
 
     centre: Point

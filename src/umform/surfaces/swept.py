@@ -32,6 +32,14 @@ class Extruded(Tool):
     x, y : str or tuple of float
         The two directions of the profile, at right angles; by default it stands in the xz-plane and the tool goes
         along y.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> section = uf.Profile.from_corners([(0, 0), (20, 0), (20, 10), (0, 10)], [1, 1, 2, 2])
+    >>> rail = uf.Extruded(section, origin=(-10, 0, -10))
+    >>> float(rail.gap([(0.0, 7.0, 0.5)])[0][0])
+    0.5
     """
 
     profile: Profile
@@ -75,6 +83,14 @@ class Revolved(Tool):
         Where the origin of the profile lies.
     axis : str or tuple of float
         Direction of the axis.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> meridian = uf.Profile.from_corners([(0, -10), (10, -10), (10, 0), (0, 0)], [0, 2, 2, 0], closed=True)
+    >>> punch = uf.Revolved(meridian)
+    >>> float(punch.gap([(3.0, 4.0, 0.5)])[0][0])
+    0.5
     """
 
     profile: Profile

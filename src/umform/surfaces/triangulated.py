@@ -49,6 +49,14 @@ class Triangulated(Tool):
     ------
     UnfitTriangles, TurnedNormals, HoleInSurface
         If the triangles are no surface; the message names places.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> faces = uf.Sphere((0, 0, 0), 5).triangles(((-6, -6, -6), (6, 6, 6)), chord=0.05)
+    >>> ball = uf.Triangulated(faces)
+    >>> round(float(ball.gap([(0.0, 0.0, 5.5)])[0][0]), 2)
+    0.5
     """
 
     surface: Triangles

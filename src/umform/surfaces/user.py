@@ -33,6 +33,15 @@ class UserSurface(Tool):
         :func:`check_surface` compares normal and Hessian with differences.
     name : str
         For messages and reports.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import umform as uf
+    >>> def wall(x):
+    ...     return x[:, 0], np.tile([1.0, 0.0, 0.0], (len(x), 1)), np.zeros((len(x), 3, 3))
+    >>> uf.check_surface(uf.UserSurface(wall, name="wall"), [(0.3, 0.2, 0.1)], step=1e-4).ok(1e-6)
+    True
     """
 
     function: GapFunction

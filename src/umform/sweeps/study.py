@@ -38,6 +38,14 @@ class Sweep:
         One for each job: what is varied, ``outcome``, measures, ``warnings``, ``seconds``, ``reason``, ``folder``.
     files : list of Path
         Table and plot.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> rows = [{"thickness": t, "outcome": "done", "punch_force:peak": f} for t, f in ((0.8, 21.0), (1.0, 33.5))]
+    >>> found = uf.Sweep(["thickness"], ["punch_force:peak"], rows, [])
+    >>> found["punch_force:peak"]
+    [21.0, 33.5]
     """
 
     varied: list[str]

@@ -82,13 +82,15 @@ COLUMNS = ("", "elements", "mean height", "lowest", "highest", "fourth harmonic"
 def make(page: Page, label: str, case: Cup) -> Made | None:
     """Hold, draw, open; None for a run that ends before, which the page says."""
     model, press = case.build()
+    where = "the run ends before the end of the stroke"
     try:
         drawn = page.solve(label, model, press.closing(), frames=50)
+        where = "the press does not open"
+        page.solve(f"{label}: released", model, press.opening(model))
     except NoConvergence as error:
-        page.text(f"{label}: the run ends before the end of the stroke. {error.where}; {error.cause}.")
+        page.text(f"{label}: {where}. {error.where}; {error.cause}.")
         return None
     force = 4e-3 * float(np.abs(drawn["punch_fz"]).max())
-    page.solve(f"{label}: released", model, press.opening(model))
     thinning = float(forming_fields(model.mesh, model.u)["thinning"].max())
     return Made(ear_profile(model.mesh, model.u), _flange(drawn), force, thinning, len(model.mesh.connectivity))
 

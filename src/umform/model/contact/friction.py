@@ -118,6 +118,12 @@ class Region:
         Corners; infinite where the box has no end.
     friction : float, Friction or callable
         What holds there.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> dry = uf.Region(lower=(-5, -50, -50), upper=(5, 50, 50), friction=0.3)
+    >>> friction = uf.FrictionByRegion(0.1, [dry])
     """
 
     lower: ArrayLike
@@ -146,6 +152,14 @@ class FrictionByRegion:
         Outside of all regions.
     regions : sequence of Region
         Boxes in the frame of the tool, that is where it stood when the model was made.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> dry = uf.Region(lower=(-5, -50, -50), upper=(5, 50, 50), friction=0.3)
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> friction = uf.FrictionByRegion(0.1, [dry])
+    >>> pair = model.contact("lower", uf.Plane((0, 0, -0.1), (0, 0, 1)), friction=friction)
     """
 
     elsewhere: float | Friction | FrictionFunction

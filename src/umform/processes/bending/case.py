@@ -99,7 +99,7 @@ class Bending:
 
     @property
     def jump(self) -> float | None:
-        """Jump measure J: largest |dF|/F within any 0.1 mm (of a stroke of 15 mm) beyond the first mark."""
+        """Jump measure J: largest ``|dF|/F`` within any 0.1 mm (of a stroke of 15 mm) beyond the first mark."""
         return jump(*self.loading, self.case.marks[0], self.case.stroke * _WINDOW)
 
     @property

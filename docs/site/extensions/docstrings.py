@@ -1,0 +1,51 @@
+"""Docstrings in the site: a picture of the subject, and equations and pages that they cite as links."""
+
+from __future__ import annotations
+
+import re
+
+from sphinx.application import Sphinx
+
+#: What shows a public name best.
+PICTURES = {
+    "umform.Model": ("free_bending.png", "Force of a strip bent over a cylinder, by elements and contact points"),
+    "umform.model.tool.Tool": ("press_brake.png", "Section of a press brake: die, punch and sheet"),
+    "umform.model.contact.Contact": ("cells.png", "Forces of contact at points and over cells"),
+    "umform.J2": ("flow_curves.png", "Flow curves of sheet metals"),
+    "umform.Metal": ("rolling_angle.png", "Springback against the angle between bend line and rolling direction"),
+    "umform.VDie": ("press_brake.png", "Section of a press brake: die, punch and sheet"),
+    "umform.Punch": ("press_brake.png", "Section of a press brake: die, punch and sheet"),
+    "umform.surfaces.Surface": ("tools.png", "All tools as solids"),
+}
+CITED = re.compile(r"\b[Ee]qs?\.\s*\(\d\.\d+\)(?:\s*(?:,|and|to|-)\s*\(\d\.\d+\))*")
+NUMBER = re.compile(r"\((\d\.\d+)\)")
+ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
+PAGE = re.compile(r"(?<!`)\bdocs/([\w/-]+)\.md\b(?!`)")
+
+
+def cite(line: str) -> str:
+    """A line of a docstring with links to the equations and pages that it cites."""
+    line = CITED.sub(lambda match: NUMBER.sub(r":ref:`(\1) <eq-\1>`", match[0]), line)
+    return PAGE.sub(r":doc:`/\1`", line)
+
+
+def process(app: Sphinx, what: str, name: str, thing: object, options: object, lines: list[str]) -> None:
+    """Put links and the picture into a docstring."""
+    lines[:] = [line if ">>>" in line else cite(line) for line in lines]
+    if name in PICTURES:
+        file, words = PICTURES[name]
+        lines += ["", f".. image:: /images/{file}", f"   :alt: {words}", ""]
+
+
+def short_aliases(
+    app: Sphinx, what: str, name: str, thing: object, options: object, signature: str | None, result: str | None
+) -> tuple[str | None, str | None]:
+    """Names of the aliases of types in a signature as they are in the code."""
+    return tuple(text and ALIAS.sub(r"\1", text) for text in (signature, result))
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Register with Sphinx; after numpydoc, which reads the sections."""
+    app.connect("autodoc-process-docstring", process, priority=900)
+    app.connect("autodoc-process-signature", short_aliases)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
