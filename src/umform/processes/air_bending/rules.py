@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from umform.materials import J2, Metal
-from umform.processes.rules import ROLLING, Rule, length, number, positive, whole
+from umform.processes.rules import ROLLING, Rule, length, number, plastic_material, positive, whole
 
 #: The most contact points per direction, and the most layers.
 MOST_POINTS, MOST_LAYERS = 10, 8
@@ -46,12 +45,7 @@ RULES: dict[str, Rule] = {
     "punch_radius": length("the radius of the tip", "in mm, such as 1.5"),
     "width": length("the length of the bend", "in mm, such as 50; leave it out for plane strain").optional(),
     "stroke": length("the way of the punch", "in mm, downwards, such as 6").optional(),
-    "material": Rule(
-        lambda value: isinstance(value, J2 | Metal),
-        "air bending needs a plastic material",
-        "an elastic law, or the name of a metal",
-        "a J2 or a Metal; umform.sheet_metals.get('DC04').law for one",
-    ),
+    "material": plastic_material("air bending"),
     "rolling": ROLLING,
     "layers": _count("the number of layers", 1, MOST_LAYERS, "2"),
     "thickness_points": _count("the number of thickness points", 2, 15, "6"),
