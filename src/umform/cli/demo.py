@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 demos = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", help="Run an example and show what comes out.")
 app.add_typer(demos, name="demo")
 
-
 _RUNS, _STRIP, _MATERIAL, _SOLUTION = "Which runs", "Strip and tool (mm)", "Material (MPa)", "Solution"
 Default = FreeBending
 

@@ -9,7 +9,6 @@ from numbers import Integral, Real
 from typing import Any
 
 from umform.errors import InvalidValue, NotFinite
-from umform.materials.j2 import Plastic
 
 
 @dataclass(frozen=True)
@@ -78,6 +77,8 @@ def length(what: str, remedy: str) -> Rule:
 
 def plastic_material(what: str) -> Rule:
     """A plastic law; ``what`` says who needs it."""
+    from umform.materials.j2 import Plastic  # laws load NumPy, which the command line without numbers does without
+
     return Rule(
         lambda value: isinstance(value, Plastic),
         f"{what} needs a plastic material",
