@@ -6,11 +6,9 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from umform.errors import OpenSection
+from umform.surfaces.linked import linked, merged
 from umform.surfaces.segments import Arc, Floats, Ids, Line, Point2, Segment
 
 #: How many places a message names.
@@ -59,8 +57,7 @@ def chain(segments: Sequence[Segment], tolerance: float, where: str) -> tuple[li
             cause="a line drawn twice, or a centre line that meets the section",
             remedy="put the section on a layer of its own",
         )
-    graph = coo_matrix((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(len(points), len(points)))
-    count, label = connected_components(graph, directed=False)
+    count, label = linked(ends[:, 0], ends[:, 1], len(points))
     if count > 1:
         _refuse_many(segments, points, label, degree, ends, where)
     return _walked(segments, points, ends, degree)
@@ -69,12 +66,8 @@ def chain(segments: Sequence[Segment], tolerance: float, where: str) -> tuple[li
 def _points(segments: Sequence[Segment], tolerance: float) -> tuple[Floats, Ids]:
     """Points, and those at the start and the end of each segment."""
     at = np.array([end for segment in segments for end in (segment.start, segment.end)])
-    pairs = cKDTree(at).query_pairs(tolerance, output_type="ndarray")
-    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(at), len(at)))
-    count, label = connected_components(graph, directed=False)
-    times = np.bincount(label, minlength=count)
-    points = np.stack([np.bincount(label, at[:, k], count) / times for k in range(2)], axis=1)
-    return points, label.reshape(-1, 2).astype(np.int64)
+    points, label = merged(at, tolerance)
+    return points, label.reshape(-1, 2)
 
 
 def _walked(segments: Sequence[Segment], points: Floats, ends: Ids, degree: Ids) -> tuple[list[Segment], bool]:
@@ -110,6 +103,8 @@ def _refuse_many(segments: Sequence[Segment], points: Floats, label: Ids, degree
     """Gaps if some curve is open, else several loops."""
     free = points[degree == 1]
     if len(free):
+        from scipy.spatial import cKDTree
+
         near = cKDTree(free).query(free, k=2)[0][:, 1]
         order = np.argsort(near, kind="stable")
         gaps = f"{len(free)} free ends, the nearest pair {near[order[0]]:.3g} apart: " if len(free) > 2 else ""

@@ -8,12 +8,10 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from umform.errors import FileProblem, UnfitTriangles
 from umform.surfaces.directions import not_negative
+from umform.surfaces.linked import merged
 from umform.surfaces.triangles import Floats, Ids, Triangles
 
 #: Part of the size of a surface within which corners are one point: single precision keeps seven digits.
@@ -103,12 +101,8 @@ def welded(points: Floats, triangles: Ids, near: float) -> tuple[Triangles, NDAr
     kept : ndarray of bool, shape (m,)
         Which ones these are.
     """
-    pairs = cKDTree(points).query_pairs(near, output_type="ndarray")
-    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
-    count, label = connected_components(graph, directed=False)
-    times = np.bincount(label, minlength=count)
-    means = np.stack([np.bincount(label, points[:, k], count) / times for k in range(3)], axis=1)
-    ids = label[triangles].astype(np.int64)
+    means, label = merged(points, near)
+    ids = label[triangles]
     a, b, c = ids.T
     kept = (a != b) & (b != c) & (c != a)
     used, ids = np.unique(ids[kept], return_inverse=True)

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from umform.errors import TurnedNormals
+from umform.surfaces.linked import linked
 from umform.surfaces.smooth.edges import Edges
 from umform.surfaces.triangles import Floats, Ids, Triangles
 
@@ -75,8 +74,7 @@ def _small(surface: Triangles, edges: Edges, level: Bools, label: Ids) -> Bools:
     face: a tessellation makes triangles of one size where the curvature goes on.
     """
     triangle = np.flatnonzero(level) // 3
-    graph = coo_matrix((np.ones(len(triangle)), (triangle, edges.mate[level] // 3)), shape=(len(label) // 3,) * 2)
-    count, face = connected_components(graph, directed=False)
+    count, face = linked(triangle, edges.mate[level] // 3, len(label) // 3)
     area = np.bincount(face, np.linalg.norm(surface.area_vectors, axis=1), count)[face].repeat(3)
     largest = np.zeros(int(label.max()) + 1)
     np.maximum.at(largest, label, area)
@@ -102,8 +100,7 @@ def _groups(edges: Edges, joined: Bools) -> Ids:
     end = np.where(number % 3 == 2, number - 2, number + 1)
     j, mate = number[joined], edges.mate[joined]
     one, other = np.concatenate([j, end[j]]), np.concatenate([end[mate], mate])
-    graph = coo_matrix((np.ones(len(one)), (one, other)), shape=(len(number), len(number)))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
+    return linked(one, other, len(number))[1]
 
 
 def _averaged(surface: Triangles, edges: Edges, weighted: Floats, label: Ids, where: str) -> Normals:
