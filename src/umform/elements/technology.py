@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
+from umform.elements.through_thickness import legendre
 from umform.errors import InvalidValue
 
 #: Voigt order of the strain components.
@@ -40,7 +41,7 @@ class Term:
 
     def __call__(self, r: NDArray[np.float64], s: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
         """Value at natural coordinates."""
-        return self.factor * r**self.a * s**self.b * _legendre(self.c, t)
+        return self.factor * r**self.a * s**self.b * legendre(self.c, t)
 
     def mean(self) -> float:
         """Mean over the parent cube. eq. (2.12)"""
@@ -50,14 +51,6 @@ class Term:
 
 
 Mode = tuple[Term, ...]
-
-
-def _legendre(order: int, t: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Legendre polynomial by Bonnet's recursion; those of numpy take long to be imported."""
-    before, here = np.zeros_like(t), np.ones_like(t)
-    for n in range(order):
-        before, here = here, ((2 * n + 1) * t * here - n * before) / (n + 1)
-    return here
 
 
 @dataclass(frozen=True)

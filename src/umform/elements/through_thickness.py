@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 
 from umform import _core
@@ -17,6 +16,14 @@ _GRADED = {
     10: (0.0744, 0.3303, 0.6113, 0.8176, 0.9535),
     12: (0.0715, 0.3046, 0.5392, 0.7309, 0.8591, 0.9598),
 }
+
+
+def legendre(order: int, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Legendre polynomial by Bonnet's recursion; those of numpy take long to be imported."""
+    before, here = np.zeros_like(t), np.ones_like(t)
+    for n in range(order):
+        before, here = here, ((2 * n + 1) * t * here - n * before) / (n + 1)
+    return here
 
 
 def thickness_rule(points: int, rule: str = "gauss") -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -50,5 +57,6 @@ def _graded(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     half = np.array(_GRADED[points])
     integrals = np.zeros(len(half))
     integrals[0] = 1.0
-    weights = np.linalg.solve(legvander(2.0 * half - 1.0, len(half) - 1).T, integrals)
+    polynomials = np.stack([legendre(order, 2.0 * half - 1.0) for order in range(len(half))])
+    weights = np.linalg.solve(polynomials, integrals)
     return np.concatenate([-half[::-1], half]), np.concatenate([weights[::-1], weights])
