@@ -53,7 +53,7 @@ def bead(
     elements: Annotated[float, option("Elements on a quarter turn of the sharper radius.", SOLUTION)] = 20.0,
     contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 4,
     extrapolate: Annotated[
-        bool, option("A coarser mesh too: forces with elements of no length, and the error.", SOLUTION)
+        bool, option("Run a coarser mesh too: forces extrapolated to elements of zero length, and the error.", SOLUTION)
     ] = False,
     overwrite: Overwrite = False,
     timing: Timed = False,

@@ -1,4 +1,4 @@
-"""``umform draw``: a round cup, and a U-bend, drawn and taken out of their tools."""
+"""``umform draw``: a round cup, and a U-bend, drawn, released and measured."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 
 _TOOLS = "Tools (mm, N)"
 
-group = typer.Typer(no_args_is_help=True, help="Draw a part, and take it out of its tools: `umform draw cup`.")
+group = typer.Typer(no_args_is_help=True, help="Draw a part, open the tools and measure it: `umform draw cup`.")
 app.add_typer(group, name="draw")
 
 
 Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
 LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]
-Stroke = Annotated[float | None, option("Way of the punch; default: the usual one.", _TOOLS)]
+Stroke = Annotated[float | None, option("Way of the punch; default: a whole cup, a fifth of the blank of a U.", _TOOLS)]
 Coarse = Annotated[bool, typer.Option("--coarse", help="A coarse mesh: a first look in seconds.")]
 Turn = Annotated[float | None, option("Largest angle in degrees that an element turns over a radius.", SOLUTION)]
 Layers = Annotated[int, option("Elements through the thickness.", SOLUTION)]
@@ -42,7 +42,7 @@ def cup(
     punch_edge: Annotated[float, option("Radius of its edge.", _TOOLS)] = 5.0,
     opening: Annotated[float, option("Diameter of the opening of the die.", _TOOLS)] = 62.4,
     die_edge: Annotated[float, option("Radius of its edge.", _TOOLS)] = 10.0,
-    holder_force: Annotated[float, option("Force of the holder; 0: it keeps its distance.", _TOOLS)] = 40e3,
+    holder_force: Annotated[float, option("Force of the holder; 0: it keeps its gap.", _TOOLS)] = 40e3,
     holder_gap: Annotated[float | None, option("Least distance of holder and die; default 1.04 t.", _TOOLS)] = None,
     friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.09,
     stroke: Stroke = None,

@@ -34,7 +34,7 @@ class Solution(Part):
     mixed: bool | None = None
     """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets."""
     rest: Literal["auto", "off"] | Positive = "auto"
-    """Springs under a sheet that lies loosely at first: auto where needed, off, or their stiffness in all."""
+    """Springs under a sheet that is loose at first: auto where needed, off, or their stiffness in all."""
 
     def build(self) -> NewtonOptions:
         """Options of Newton's method."""

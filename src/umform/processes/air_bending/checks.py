@@ -143,7 +143,7 @@ def _check_rolling(case: Geometry) -> None:
 
 
 def _unfit(case: Geometry, name: str, what: str, cause: str, remedy: str) -> InvalidValue:
-    """Error for a parameter that does not go with the others."""
+    """Error for a parameter that does not fit the others."""
     return InvalidValue(what, where=name, value=getattr(case, name), cause=cause, remedy=remedy)
 
 
@@ -153,7 +153,7 @@ def _check_proportions(case: Geometry) -> None:
         raise _unfit(
             case,
             "opening",
-            "the opening of the die does not go with the thickness of the sheet",
+            "the opening of the die does not fit the thickness of the sheet",
             f"it is {case.opening / case.thickness:.3g} thicknesses; another unit, or the two exchanged",
             f"{_NARROWEST:g} to {_WIDEST:g} thicknesses; press brakes take 5 to 16",
         )

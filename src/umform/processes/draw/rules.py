@@ -17,7 +17,7 @@ COMMON: dict[str, Rule] = {
         "in N, such as 40e3; leave it out for a holder that keeps its distance",
     ).optional(),
     "friction": FRICTION,
-    "stroke": length("the stroke", "in mm; leave it out for the usual one").optional(),
+    "stroke": length("the stroke", "in mm; leave it out for a whole cup or the usual U-bend").optional(),
     "turn": Rule(
         lambda value: number(value) and 1.0 <= value <= 45.0,
         "the angle that an element turns over a radius lies between 1 and 45 degrees",

@@ -104,7 +104,7 @@ def check_geometry(case: Geometry) -> None:
         ratio = getattr(case, name) / case.thickness
         if not _SHARPEST <= ratio <= _ROUNDEST:
             raise InvalidValue(
-                "a radius of the bead does not go with the thickness of the sheet",
+                "a radius of the bead does not fit the thickness of the sheet",
                 where=name,
                 value=getattr(case, name),
                 cause=f"it is {ratio:.3g} thicknesses; another unit, or the two exchanged",
