@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
-from umform.elements.through_thickness import legendre
+from umform.elements.legendre import legendre
 from umform.errors import InvalidValue
 
 #: Voigt order of the strain components.

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform import _core
+from umform.elements.legendre import legendre
 from umform.errors import InvalidValue
 
 #: Most points through the thickness.
@@ -16,14 +17,6 @@ _GRADED = {
     10: (0.0744, 0.3303, 0.6113, 0.8176, 0.9535),
     12: (0.0715, 0.3046, 0.5392, 0.7309, 0.8591, 0.9598),
 }
-
-
-def legendre(order: int, t: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Legendre polynomial by Bonnet's recursion; those of numpy take long to be imported."""
-    before, here = np.zeros_like(t), np.ones_like(t)
-    for n in range(order):
-        before, here = here, ((2 * n + 1) * t * here - n * before) / (n + 1)
-    return here
 
 
 def thickness_rule(points: int, rule: str = "gauss") -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -55,8 +48,6 @@ def _graded(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     if points not in _GRADED:
         raise InvalidValue("the graded rule has 8, 10 or 12 points", value=points, remedy="take 12")
     half = np.array(_GRADED[points])
-    integrals = np.zeros(len(half))
-    integrals[0] = 1.0
-    polynomials = np.stack([legendre(order, 2.0 * half - 1.0) for order in range(len(half))])
-    weights = np.linalg.solve(polynomials, integrals)
+    values = np.stack([legendre(order, 2.0 * half - 1.0) for order in range(len(half))])
+    weights = np.linalg.solve(values, np.eye(len(half))[0])  # all polynomials but the constant have no mean
     return np.concatenate([-half[::-1], half]), np.concatenate([weights[::-1], weights])

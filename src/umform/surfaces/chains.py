@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from umform.errors import OpenSection
-from umform.surfaces.linked import linked, merged
+from umform.surfaces.joined import groups, merged
 from umform.surfaces.segments import Arc, Floats, Ids, Line, Point2, Segment
 
 #: How many places a message names.
@@ -57,7 +57,7 @@ def chain(segments: Sequence[Segment], tolerance: float, where: str) -> tuple[li
             cause="a line drawn twice, or a centre line that meets the section",
             remedy="put the section on a layer of its own",
         )
-    count, label = linked(ends[:, 0], ends[:, 1], len(points))
+    count, label = groups(ends[:, 0], ends[:, 1], len(points))
     if count > 1:
         _refuse_many(segments, points, label, degree, ends, where)
     return _walked(segments, points, ends, degree)
@@ -103,9 +103,9 @@ def _refuse_many(segments: Sequence[Segment], points: Floats, label: Ids, degree
     """Gaps if some curve is open, else several loops."""
     free = points[degree == 1]
     if len(free):
-        from scipy.spatial import cKDTree
-
-        near = cKDTree(free).query(free, k=2)[0][:, 1]
+        near = np.linalg.norm(free[:, None] - free, axis=2)
+        np.fill_diagonal(near, np.inf)
+        near = near.min(axis=1)
         order = np.argsort(near, kind="stable")
         gaps = f"{len(free)} free ends, the nearest pair {near[order[0]]:.3g} apart: " if len(free) > 2 else ""
         raise OpenSection(

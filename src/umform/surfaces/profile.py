@@ -9,11 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from umform.errors import InvalidValue
-from umform.surfaces.chains import chain
 from umform.surfaces.corners import rounded
 from umform.surfaces.crossings import refuse_crossings
 from umform.surfaces.directions import point, positive
-from umform.surfaces.dxf import read_dxf
 from umform.surfaces.segments import Arc, Floats, Point2, Segment
 
 
@@ -119,6 +117,9 @@ class Profile:
         OpenSection
             If lines and arcs do not make one curve; the message has the coordinates of gaps and branches.
         """
+        from umform.surfaces.chains import chain  # slow to import
+        from umform.surfaces.dxf import read_dxf
+
         segments, closed = chain(read_dxf(path, layer, unit, tolerance), tolerance, str(path))
         shift = tuple(-c for c in point(origin, "from_dxf.origin", 2))
         made = cls([segment.shifted((shift[0], shift[1])) for segment in segments], closed)

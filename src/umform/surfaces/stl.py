@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from umform.errors import FileProblem, UnfitTriangles
 from umform.surfaces.directions import not_negative
-from umform.surfaces.linked import merged
+from umform.surfaces.joined import merged
 from umform.surfaces.triangles import Floats, Ids, Triangles
 
 #: Part of the size of a surface within which corners are one point: single precision keeps seven digits.

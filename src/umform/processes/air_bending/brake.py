@@ -17,8 +17,8 @@ from umform.solution.options import NewtonOptions
 from umform.steps.release import Release
 
 #: Towards zero force the sheet rests on single rows of contact points, and plain Newton jumps between two rows. Angles
-#: are those of tight tolerances to 1e-5 degrees. The parabola saves a fourth of the evaluations.
-OPTIONS = NewtonOptions(residual=1e-5, increment=1e-3, line_search=True, extrapolate=2)
+#: are those of tight tolerances to 1e-6 degrees. The parabola saves a fourth of the evaluations.
+OPTIONS = NewtonOptions(residual=1e-6, increment=1e-4, line_search=True, extrapolate=2)
 #: Increments of a part of the loading.
 INCREMENTS = 5
 #: Force that counts as zero, as a part of the force before unloading: the angle is then off by about 0.001 degrees.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from umform.errors import HoleInSurface, TurnedNormals, UnfitTriangles
-from umform.surfaces.linked import linked
+from umform.surfaces.joined import groups
 from umform.surfaces.triangles import Floats, Ids, Triangles
 
 #: How many places a message names.
@@ -107,7 +107,7 @@ def _refuse_holes(points: Floats, start: Ids, end: Ids, where: str) -> None:
     """Refuse rims, with the place and the length of each."""
     used, ids = np.unique(np.concatenate([start, end]), return_inverse=True)
     one, other = ids[: len(start)], ids[len(start) :]
-    rims, label = linked(one, other, len(used))
+    rims, label = groups(one, other, len(used))
     length = np.bincount(label[one], np.linalg.norm(points[end] - points[start], axis=1), rims)
     sums = np.stack([np.bincount(label, points[used, k], rims) for k in range(3)], axis=1)
     middle = sums / np.bincount(label, minlength=rims)[:, None]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import TurnedNormals
-from umform.surfaces.linked import linked
+from umform.surfaces.joined import groups
 from umform.surfaces.smooth.edges import Edges
 from umform.surfaces.triangles import Floats, Ids, Triangles
 
@@ -74,7 +74,7 @@ def _small(surface: Triangles, edges: Edges, level: Bools, label: Ids) -> Bools:
     face: a tessellation makes triangles of one size where the curvature goes on.
     """
     triangle = np.flatnonzero(level) // 3
-    count, face = linked(triangle, edges.mate[level] // 3, len(label) // 3)
+    count, face = groups(triangle, edges.mate[level] // 3, len(label) // 3)
     area = np.bincount(face, np.linalg.norm(surface.area_vectors, axis=1), count)[face].repeat(3)
     largest = np.zeros(int(label.max()) + 1)
     np.maximum.at(largest, label, area)
@@ -100,7 +100,7 @@ def _groups(edges: Edges, joined: Bools) -> Ids:
     end = np.where(number % 3 == 2, number - 2, number + 1)
     j, mate = number[joined], edges.mate[joined]
     one, other = np.concatenate([j, end[j]]), np.concatenate([end[mate], mate])
-    return linked(one, other, len(number))[1]
+    return groups(one, other, len(number))[1]
 
 
 def _averaged(surface: Triangles, edges: Edges, weighted: Floats, label: Ids, where: str) -> Normals:
