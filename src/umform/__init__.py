@@ -69,6 +69,7 @@ if TYPE_CHECKING:
         read_tool,
         write_tool,
     )
+    from umform.sweeps import Sweep, sweep
 
 __version__ = "0.1.0"
 
@@ -132,6 +133,7 @@ _HOME = {
         "read_tool",
         "write_tool",
     ),
+    "umform.sweeps": ("Sweep", "sweep"),
 }
 _MODULES = {
     "elements": "umform.elements",
@@ -185,6 +187,7 @@ __all__ = [
     "Revolved",
     "Sphere",
     "Stage",
+    "Sweep",
     "Swift",
     "Table",
     "Term",
@@ -219,6 +222,7 @@ __all__ = [
     "solve",
     "solve_stages",
     "surfaces",
+    "sweep",
     "threads",
     "turned",
     "write_tool",

@@ -6,10 +6,10 @@ import logging
 import multiprocessing
 import os
 import signal
-from collections.abc import Callable, Generator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import closing
+import threading
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor, as_completed
+from contextlib import closing, contextmanager
 from functools import partial
 from typing import TypeVar
 
@@ -32,7 +32,9 @@ def run_all(
     *,
     on_failure: Callable[[Task, Exception], Answer],
     processes: int | None = None,
+    executor: Executor | None = None,
     tick: Callable[[float], None] = lambda fraction: None,
+    each: Callable[[Answer], None] = lambda answer: None,
 ) -> list[Answer]:
     """Apply a function to all tasks, the dearest ones first.
 
@@ -49,8 +51,12 @@ def run_all(
     processes : int, optional
         How many at a time; default: as many as this process may use processors, at most one a task. With one,
         everything happens here.
+    executor : concurrent.futures.Executor, optional
+        Runs the tasks in place of processes of this machine; it is not shut down.
     tick : callable
         Called with the part of the costs that is done.
+    each : callable
+        Called with each answer when it is there.
 
     Raises
     ------
@@ -62,24 +68,36 @@ def run_all(
     order = sorted(range(len(tasks)), key=lambda number: -costs[number])
     calls = {number: partial(function, tasks[number]) for number in order}
     answers: dict[int, Answer] = {}
-    with closing(_here(calls) if count <= 1 else _in_processes(calls, count)) as finished:
+    if executor is not None:
+        run = _in_executor(calls, executor)
+    else:
+        run = _here(calls) if count <= 1 else _in_processes(calls, count)
+    with closing(run) as finished:
         for number, answer in finished:
             try:
                 answers[number] = answer()
-            except BrokenProcessPool:  # it takes along all tasks that are not done
+            except BrokenExecutor:  # it takes along all tasks that are not done
                 answers[number] = on_failure(tasks[number], _died())
             except Exception as error:
                 answers[number] = on_failure(tasks[number], error)
+            each(answers[number])
             tick(sum(costs[done] for done in answers) / sum(costs))
     return [answers[number] for number in range(len(tasks))]
 
 
 def _here(calls: Mapping[int, Callable[[], Answer]]) -> _Answers[Answer]:
     """The calls, to be made in this process."""
+    with _one_thread():
+        yield from calls.items()
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """Let the kernels work with one thread in this block."""
     before = _core.threads()
     _core.set_threads(1)
     try:
-        yield from calls.items()
+        yield
     finally:
         _core.set_threads(before)
 
@@ -104,6 +122,25 @@ def _in_processes(calls: Mapping[int, Callable[[], Answer]], count: int) -> _Ans
             for name, value in before.items():
                 os.environ.pop(name, None)
                 os.environ.update({} if value is None else {name: value})
+
+
+def _in_executor(calls: Mapping[int, Callable[[], Answer]], executor: Executor) -> _Answers[Answer]:
+    """Calls that give the answers of an executor; what has not begun is cancelled if nobody waits any more."""
+    futures = {}
+    try:
+        for number, call in calls.items():
+            futures[executor.submit(_with_one_thread, call)] = number
+        for future in as_completed(futures):
+            yield futures[future], future.result
+    finally:
+        for future in futures:
+            future.cancel()
+
+
+def _with_one_thread(call: Callable[[], Answer]) -> Answer:
+    """Call a function with one kernel thread, wherever it is called."""
+    with _one_thread():
+        return call()
 
 
 def check_processes(processes: int | None) -> None:
@@ -139,10 +176,11 @@ def _processors() -> int:
 
 
 def _prepare(level: int) -> None:
-    """Make a new process ready: one kernel thread, the log of its parent; Ctrl-C and SIGTERM end it at once.
+    """Make a new process ready: one kernel thread, the log of its parent; Ctrl-C, SIGTERM and its death end it at once.
 
     Without a log, warnings come back with the answers and are not printed here too.
     """
+    threading.Thread(target=_end_with_parent, daemon=True).start()
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.signal(signal.SIGTERM, lambda number, frame: os._exit(128 + number))  # a run would end after its increment
     _core.set_threads(1)
@@ -150,3 +188,11 @@ def _prepare(level: int) -> None:
         log_to_stderr(level)
     else:
         logging.getLogger("umform").addHandler(logging.NullHandler())
+
+
+def _end_with_parent() -> None:
+    """Wait for the death of the parent, which may be killed, and end this process then: nobody takes its answers."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import concurrent.futures
 import multiprocessing
 import os
+import subprocess
+import sys
 import time
 
 import pytest
@@ -84,6 +87,50 @@ def test_an_interruption_ends_all_processes_at_once():
     while multiprocessing.active_children():
         assert time.monotonic() - start < 40.0
         time.sleep(0.05)
+
+
+class Executor(concurrent.futures.Executor):
+    """One of the user, which runs what it gets at once."""
+
+    def submit(self, function, /, *arguments):
+        future = concurrent.futures.Future()
+        try:
+            future.set_result(function(*arguments))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+
+def test_an_executor_of_the_user_takes_the_place_of_processes():
+    before, each = _core.threads(), []
+    options = {"on_failure": text, "executor": Executor(), "each": each.append}
+    assert run_all(double, [1, -2, 3], [1.0, 2.0, 1.0], **options) == [2, "-2: ValueError -2 is negative", 6]
+    assert sorted(each, key=str) == ["-2: ValueError -2 is negative", 2, 6]
+    _core.set_threads(2)
+    ((threads, _, pid),) = run_all(surroundings, [0], [1.0], **options)
+    assert (threads, pid, _core.threads()) == (1, os.getpid(), 2)
+    _core.set_threads(before)
+
+
+SCRIPT = """
+import time
+from umform.pool import run_all
+
+def tell_and_sleep(number):
+    print(number, flush=True)
+    time.sleep(300)
+
+if __name__ == "__main__":
+    run_all(tell_and_sleep, [0, 1], [1.0, 1.0], on_failure=print, processes=2)
+"""
+
+
+def test_processes_end_when_the_one_that_waits_for_them_is_killed(tmp_path):
+    (tmp_path / "script.py").write_text(SCRIPT)
+    parent = subprocess.Popen([sys.executable, tmp_path / "script.py"], stdout=subprocess.PIPE, text=True)
+    assert {parent.stdout.readline(), parent.stdout.readline()} == {"0\n", "1\n"}
+    parent.kill()
+    assert parent.communicate(timeout=60) == ("", None)  # the pipe is closed when all of them have ended
 
 
 def test_less_than_one_process_is_refused():

@@ -12,6 +12,7 @@ from umform.deck.problem import Problem
 from umform.errors import UmformError
 from umform.io.atomic import write_problem
 from umform.io.staging import Staging
+from umform.processes.decks import toml
 from umform.run import Result
 
 #: The deck as it was run, beside what came of it.
@@ -56,7 +57,7 @@ def _add_forming(result: Result, points: list[tuple[float, float]] | None) -> No
 
 def as_run(deck: Deck) -> str:
     """Text of a deck, after lines that say which keys had other values."""
-    changes = (f"# run with --set {key}={value}\n" for key, value in deck.source.changes.items())
+    changes = (f"# run with --set {key}={toml(value)}\n" for key, value in deck.source.changes.items())
     return "".join([*changes, deck.source.text])
 
 

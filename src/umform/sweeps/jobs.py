@@ -1,0 +1,205 @@
+"""Jobs of a sweep: a deck, a folder and a fingerprint each; and running one of them, wherever that is."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import umform
+from umform.deck import Deck, running
+from umform.deck.kept import Kept
+from umform.deck.results import CHECKPOINT
+from umform.errors import FileProblem, UmformError
+from umform.io.tables import write_json
+from umform.run import Result
+from umform.sweeps.measures import Function, Record, number_of, springback, stats
+
+#: What is kept of a job in its folder.
+RECORD = "job.json"
+#: What a job does not write unless it is asked for: files for the eye.
+_NUMBERS_ONLY = {"output.frames": 1, "output.vtkhdf": False, "output.report": False, "output.pictures": False}
+_UNLOADING = ("release", "free")
+
+
+@dataclass(frozen=True)
+class Job:
+    """A deck with other values of some of its keys.
+
+    Attributes
+    ----------
+    deck : Deck
+        The deck with its changes.
+    varied : dict of str to object
+        What is varied, by the names of the sweep.
+    folder : Path
+        Where its files go; its name follows from the values and from all that the deck says.
+    functions : tuple of callable
+        Measures of the user.
+    force : bool
+        Whether it runs in spite of numbers that cannot be meant.
+    """
+
+    deck: Deck
+    varied: Mapping[str, Any]
+    folder: Path
+    functions: tuple[Function, ...] = ()
+    force: bool = False
+
+    def record(self) -> Record | None:
+        """What is kept of the job, if it was finished with all the functions that are wanted."""
+        try:
+            kept: Record = json.loads((self.folder / RECORD).read_text(encoding="utf-8"))
+            missing = {function.__name__ for function in self.functions} - set(kept["functions"])
+        except (OSError, ValueError, KeyError, TypeError):
+            return None
+        return None if missing and kept["outcome"] == "done" else kept
+
+
+def job(
+    deck: Deck, changes: Mapping[str, Any], varied: Mapping[str, Any], folder: Path, *, files: bool, **options: Any
+) -> Job:
+    """The job of some values.
+
+    Parameters
+    ----------
+    deck : Deck
+        The deck that is varied.
+    changes : mapping of str to object
+        Other values of some of its keys.
+    varied : mapping of str to object
+        The same by the names of the sweep.
+    folder : Path
+        The folder of all jobs.
+    files : bool
+        Whether all files that the deck asks for are written.
+    **options
+        See :class:`Job`.
+
+    Raises
+    ------
+    DeckError
+        With all that is wrong with the deck.
+    """
+    source = deck.source
+    all_changes = {**source.changes, **changes, **({} if files else _NUMBERS_ONLY)}
+    changed = Deck.read(source.text, source.name, source.folder.resolve(), all_changes)
+    words = "_".join(f"{name.split('.')[-1]}-{_word(value)}" for name, value in varied.items())
+    name = f"{re.sub(r'[^A-Za-z0-9_.+-]+', '-', words)[:60]}-{_fingerprint(changed)}"
+    return Job(changed, varied, folder / name, **options)
+
+
+def run_numbered(task: tuple[int, Job]) -> tuple[int, Record]:
+    """Run a job that has a number."""
+    number, job = task
+    return number, run_job(job)
+
+
+def run_job(job: Job) -> Record:
+    """Run a job, or take it up where it was killed, and keep what came of it in its folder.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        At Ctrl-C; the checkpoint stays.
+    Exception
+        Anything unexpected, such as a full disk: then nothing is kept, and the job runs again next time.
+    """
+    start = time.perf_counter()
+    try:
+        outcome = _outcome(job)
+        if outcome.ended_by is not None and not isinstance(outcome.ended_by, UmformError):
+            raise outcome.ended_by
+        record = record_of("done", "") if outcome.ended_by is None else record_of("stopped", outcome.ended_by)
+        record |= _numbers(job, outcome.result) if outcome.ended_by is None else {}
+        record["warnings"] = len(outcome.result.warnings)
+    except FileProblem:
+        raise
+    except UmformError as error:
+        record = record_of("refused", error)
+    record["seconds"] = round(time.perf_counter() - start, 2)
+    job.folder.mkdir(parents=True, exist_ok=True)
+    write_json(job.folder / RECORD, record)
+    return record
+
+
+def record_of(outcome: str, reason: BaseException | str) -> dict[str, Any]:
+    """A record without numbers.
+
+    Parameters
+    ----------
+    outcome : str
+        done, stopped (no convergence), refused (an error of the deck or the model), failed (anything else), open.
+    reason : exception or str
+        Why it is not done.
+    """
+    if isinstance(reason, BaseException) and not isinstance(reason, UmformError):
+        reason = f"{type(reason).__name__}: {reason}"
+    text = " ".join(str(reason).split())
+    return {"outcome": outcome, "reason": text, "warnings": 0, "seconds": None, "functions": {}}
+
+
+def _outcome(job: Job) -> running.Outcome:
+    """What came of the run of a job, from its checkpoint on if there is one that can be used."""
+    checkpoint = job.folder / CHECKPOINT
+    if checkpoint.is_file():
+        try:
+            return running.resume(checkpoint, Kept.read(checkpoint), job.folder, progress=False, overwrite=True)
+        except FileProblem:  # a run from the start needs no checkpoint
+            checkpoint.unlink(missing_ok=True)
+    refuse = partial(running.refuse_implausible, job.deck, force=job.force)
+    problem = running.prepared(job.deck, job.deck.contents.solution.solver, refuse)
+    return running.run(job.deck, problem, job.folder, progress=False, overwrite=True)
+
+
+def _numbers(job: Job, result: Result) -> dict[str, Any]:
+    """All numbers of a finished job that a measure can be."""
+    steps = [step.kind for step in job.deck.contents.steps]
+    unloading = next((number for number, kind in enumerate(steps, 1) if kind in _UNLOADING), None)
+    return {
+        "controls": [control.name for control in result.model.controls],
+        "history": stats(result),
+        "springback": None if unloading is None else springback(result, unloading),
+        "functions": {function.__name__: number_of(function, result) for function in job.functions},
+    }
+
+
+def _word(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "-".join(map(_word, value.values()))
+    return f"{value:.10g}" if isinstance(value, float) else str(value)
+
+
+def _fingerprint(deck: Deck) -> str:
+    """Digest of all that the numbers of a deck follow from: its values, the files that it reads, the version."""
+    data = _without_whole_numbers({key: value for key, value in deck.source.data.items() if key != "title"})
+    check = hashlib.sha256(json.dumps([umform.__version__, data], sort_keys=True, default=str).encode())
+    for text in sorted(set(_texts(data))):
+        try:
+            check.update((deck.source.folder / text).read_bytes())
+        except (OSError, ValueError):  # no file
+            continue
+    return check.hexdigest()[:8]
+
+
+def _without_whole_numbers(data: Any) -> Any:
+    """Data whose whole numbers are floats: 1 and 1.0 are one value."""
+    if isinstance(data, Mapping):
+        return {key: _without_whole_numbers(entry) for key, entry in data.items()}
+    if isinstance(data, list | tuple):
+        return [_without_whole_numbers(entry) for entry in data]
+    return float(data) if isinstance(data, int) and not isinstance(data, bool) else data
+
+
+def _texts(data: Any) -> Iterator[str]:
+    if isinstance(data, str):
+        yield data
+    elif isinstance(data, Mapping | list):
+        for entry in data.values() if isinstance(data, Mapping) else data:
+            yield from _texts(entry)
