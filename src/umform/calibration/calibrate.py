@@ -26,7 +26,7 @@ HARDENINGS = ("auto", *CURVE_FITS)
 BACK_STRESSES = ("chaboche1", "chaboche2", "chaboche3", "chaboche4", "yoshida-uemori")
 #: Curves among which the best is taken.
 _CANDIDATES = ("swift", "voce", "linear-voce")
-#: Plastic strain below which a tension test says more of the extensometer than of the metal.
+#: Plastic strain below which a tension test depends more on the extensometer than on the metal.
 _FIRST_PLASTIC = 5e-4
 
 
@@ -37,7 +37,7 @@ class Calibration:
     Attributes
     ----------
     measurements : Measurements
-        What to.
+        The data.
     law : J2 or Metal or None
         The law; None if only values over the angle were given.
     yield_function : YieldFunction
@@ -97,11 +97,11 @@ def calibrate(
     ):
         if value not in known:
             raise InvalidValue(
-                f"this is no {name.replace('_', ' ')}", where=name, value=value, remedy=f"one of {', '.join(known)}"
+                f"unknown {name.replace('_', ' ')}", where=name, value=value, remedy=f"one of {', '.join(known)}"
             )
     if measurements == Measurements():
         raise InvalidValue(
-            "there is nothing to fit to",
+            "there are no measurements to fit",
             where="calibrate",
             cause="no file of measurements",
             remedy="values over the angle, a tension test, or cycles",
@@ -144,7 +144,7 @@ def _function(measurements: Measurements, kind: str, exponent: float) -> Fit[Hil
 
 def _too_few(name: str, count: int, remedy: str) -> InvalidValue:
     return InvalidValue(
-        f"these are too few measurements for {name}",
+        f"too few measurements for {name}",
         where="yield_function",
         value=f"{count} values",
         cause="more constants than measurements",
@@ -153,13 +153,13 @@ def _too_few(name: str, count: int, remedy: str) -> InvalidValue:
 
 
 def _curve(tension: Test, young: float, function: YieldFunction, kind: str) -> tuple[Fit[Hardening], dict[str, float]]:
-    """The hardening curve: stresses along the rolling direction over what the yield function says of it."""
+    """The hardening curve: stresses along the rolling direction over the value of the yield function there."""
     s0, _ = uniaxial(function, 0.0)
     eqps = (tension.strain - tension.stress / young) * s0  # equal plastic work
     flows = eqps >= _FIRST_PLASTIC
     if np.count_nonzero(flows) < 4:
         raise InvalidValue(
-            "the tension test hardly flows",
+            "the tension test has hardly any plastic strain",
             where="tension",
             value=f"{np.count_nonzero(flows)} measurements beyond a plastic strain of {_FIRST_PLASTIC:g}",
             cause="only the elastic part, per cent in place of fractions, or a modulus too small",

@@ -70,7 +70,7 @@ def number(path: str | PathLike[str], row: Row, column: str, *, empty: bool = Fa
     Raises
     ------
     FileProblem
-        If it is no number.
+        If it is not a number.
     """
     line, cells = row
     text = cells.get(column, "")
@@ -80,7 +80,7 @@ def number(path: str | PathLike[str], row: Row, column: str, *, empty: bool = Fa
         return float(text)
     except ValueError:
         raise FileProblem(
-            f"the {column} is no number",
+            f"the {column} is not a number",
             where=f"{path}, line {line}",
             value=repr(text),
             cause="an empty cell, a unit behind the number, or a decimal comma",

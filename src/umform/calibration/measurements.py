@@ -64,7 +64,7 @@ def read_directions(path: Path) -> Directions:
     Raises
     ------
     FileProblem, InvalidValue
-        If columns are missing, a cell is no number, an angle comes twice, or a value is not positive.
+        If columns are missing, a cell is not a number, an angle comes twice, or a value is not positive.
     """
     rows = read_rows(path, ("angle", "stress", "r"), "angle,stress,r / 0,1.0,0.21 / 45,0.81,1.58 / biaxial,1.03,0.67")
     stresses: dict[float, float] = {}
@@ -128,7 +128,7 @@ def read_tension(path: Path, young: float, *, engineering: bool = False, percent
     Raises
     ------
     FileProblem, InvalidValue
-        If columns are missing or the numbers cannot be what they are said to be.
+        If columns are missing or the numbers contradict their units or their kind.
     """
     plastic_given, strain, stress = _pairs(path, percent, empty=False)
     if engineering:

@@ -1,4 +1,4 @@
-"""What a calibration says of its numbers: each with its uncertainty, and what the measurements do not tell."""
+"""Constants of a calibration with their uncertainties, and those that the measurements do not determine."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ def remarks(found: Calibration) -> Iterator[str]:
             yield f"{name}: only a combination of {first} and {second} is determined (correlation {correlation:.3f})"
         if len(tied) > _PAIRS:
             yield (
-                f"{name}: so it is of {len(tied) - _PAIRS} pairs more: other constants make the same function where it "
-                "was measured"
+                f"{name}: the same holds for {len(tied) - _PAIRS} more pairs: other constants give the same function "
+                "at the measured points"
             )
     if len(found.others) > 1:
         tried = ", ".join(f"{name} {misfit:.3g}" for name, misfit in found.others.items())

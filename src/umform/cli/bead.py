@@ -6,12 +6,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from umform.cli.drawing import without_help_texts
 from umform.cli.metal import law_of
+from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import echo_warnings, print_warnings_once
@@ -21,11 +22,7 @@ if TYPE_CHECKING:
     from umform.processes.draw_bead.measures import Drawn
 
 
-def _option(help_text: str, panel: str) -> Any:
-    return typer.Option(help=help_text, rich_help_panel=panel)
-
-
-_TOOLS, _SHEET, _SOLUTION = "Tools (mm)", "Sheet (mm, MPa)", "Solution"
+_TOOLS = "Tools (mm)"
 
 
 @app.command()
@@ -34,31 +31,29 @@ def bead(
         str | None,
         typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/bead."),
     ] = None,
-    radius: Annotated[float, _option("Radius of the tip of the bead.", _TOOLS)] = 5.5,
-    height: Annotated[float, _option("Height of the bead above its flat.", _TOOLS)] = 6.0,
-    groove_radius: Annotated[float, _option("Radius of the edges of the groove.", _TOOLS)] = 5.0,
-    groove: Annotated[float | None, _option("Width of the groove; default: bead, sheet and 10 % air.", _TOOLS)] = None,
-    gap: Annotated[float | None, _option("Air beside the sheet between the flats; default 5 %.", _TOOLS)] = None,
-    friction: Annotated[float, _option("Coefficient of friction.", _TOOLS)] = 0.1,
-    thickness: Annotated[float, _option("Thickness of the sheet.", _SHEET)] = 0.8,
-    material: Annotated[str | None, _option("Name in the library: `umform metal list`.", _SHEET)] = None,
+    radius: Annotated[float, option("Radius of the tip of the bead.", _TOOLS)] = 5.5,
+    height: Annotated[float, option("Height of the bead above its flat.", _TOOLS)] = 6.0,
+    groove_radius: Annotated[float, option("Radius of the edges of the groove.", _TOOLS)] = 5.0,
+    groove: Annotated[float | None, option("Width of the groove; default: bead, sheet and 10 % air.", _TOOLS)] = None,
+    gap: Annotated[float | None, option("Air beside the sheet between the flats; default 5 %.", _TOOLS)] = None,
+    friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.1,
+    thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 0.8,
+    material: Material = None,
     rolling: Annotated[
-        float | None, _option("Degrees from the line of the bead to the rolling direction: 90 across it.", _SHEET)
+        float | None, option("Degrees from the line of the bead to the rolling direction: 90 across it.", SHEET)
     ] = None,
-    young: Annotated[float | None, _option("Young's modulus.", _SHEET)] = None,
-    poisson: Annotated[float | None, _option("Poisson's ratio.", _SHEET)] = None,
-    yield_stress: Annotated[float | None, _option("Yield stress, for linear hardening.", _SHEET)] = None,
-    hardening_modulus: Annotated[float | None, _option("Hardening modulus; default 0.", _SHEET)] = None,
-    swift: Annotated[str | None, _option("Swift hardening K,e0,n, as 520,0.004,0.22.", _SHEET)] = None,
-    flow_curve: Annotated[
-        Path | None, _option("Measured hardening: a CSV file of plastic strain and true stress.", _SHEET)
-    ] = None,
-    draw: Annotated[float | None, _option("Way of the strip; default 1.5 times the way through.", _SOLUTION)] = None,
-    element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "BEND8",
-    elements: Annotated[float, _option("Elements on a quarter turn of the sharper radius.", _SOLUTION)] = 20.0,
-    contact_points: Annotated[int, _option("Contact points per direction and facet.", _SOLUTION)] = 4,
+    young: Young = None,
+    poisson: Poisson = None,
+    yield_stress: Yield = None,
+    hardening_modulus: Modulus = None,
+    swift: SwiftCurve = None,
+    flow_curve: FlowCurve = None,
+    draw: Annotated[float | None, option("Way of the strip; default 1.5 times the way through.", SOLUTION)] = None,
+    element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND8",
+    elements: Annotated[float, option("Elements on a quarter turn of the sharper radius.", SOLUTION)] = 20.0,
+    contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 4,
     extrapolate: Annotated[
-        bool, _option("A coarser mesh too: forces with elements of no length, and the error.", _SOLUTION)
+        bool, option("Run a coarser mesh too: forces extrapolated to elements of zero length, and the error.", SOLUTION)
     ] = False,
     overwrite: Overwrite = False,
     timing: Timed = False,

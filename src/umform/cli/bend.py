@@ -8,13 +8,14 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from umform.cli.check import Force
 from umform.cli.drawing import without_help_texts
 from umform.cli.metal import law_of, numbers
+from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import echo_warnings, print_warnings_once
@@ -28,11 +29,7 @@ if TYPE_CHECKING:
     from umform.run import Result
 
 
-def _option(help_text: str, panel: str, *names: str) -> Any:
-    return typer.Option(*names, help=help_text, rich_help_panel=panel)
-
-
-_GOAL, _TOOLS, _SHEET, _SOLUTION = "What to do", "Tools (mm, degrees)", "Sheet (mm, MPa)", "Solution"
+_GOAL, _TOOLS = "What to do", "Tools (mm, degrees)"
 #: Each row of a table is an unloading.
 _MOST_ROWS = 1000
 
@@ -43,42 +40,40 @@ def bend(
         str | None,
         typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/bend."),
     ] = None,
-    angle: Annotated[float | None, _option("Find the stroke that leaves this angle in degrees.", _GOAL)] = None,
-    stroke: Annotated[float | None, _option("Bend to this stroke in mm.", _GOAL)] = None,
-    table: Annotated[str | None, _option("Strokes of a bending table: first:last:step, as 4:6:0.5.", _GOAL)] = None,
-    budget: Annotated[bool, _option("Run again with refinements, and show what they change.", _GOAL)] = False,
-    opening: Annotated[float, _option("Opening of the die.", _TOOLS)] = 16.0,
-    die_angle: Annotated[float, _option("Angle of the die.", _TOOLS)] = 85.0,
-    die_radius: Annotated[float, _option("Radius of its shoulders.", _TOOLS)] = 2.0,
-    punch_angle: Annotated[float, _option("Angle of the punch.", _TOOLS)] = 85.0,
-    punch_radius: Annotated[float, _option("Radius of its tip.", _TOOLS)] = 1.5,
-    thickness: Annotated[float, _option("Thickness of the sheet.", _SHEET)] = 2.0,
-    width: Annotated[float | None, _option("Length of the bend; default: plane strain.", _SHEET)] = None,
-    material: Annotated[str | None, _option("Name in the library: `umform metal list`.", _SHEET)] = None,
+    angle: Annotated[float | None, option("Find the stroke that leaves this angle in degrees.", _GOAL)] = None,
+    stroke: Annotated[float | None, option("Bend to this stroke in mm.", _GOAL)] = None,
+    table: Annotated[str | None, option("Strokes of a bending table: first:last:step, as 4:6:0.5.", _GOAL)] = None,
+    budget: Annotated[bool, option("Run again with refinements, and show what they change.", _GOAL)] = False,
+    opening: Annotated[float, option("Opening of the die.", _TOOLS)] = 16.0,
+    die_angle: Annotated[float, option("Angle of the die.", _TOOLS)] = 85.0,
+    die_radius: Annotated[float, option("Radius of its shoulders.", _TOOLS)] = 2.0,
+    punch_angle: Annotated[float, option("Angle of the punch.", _TOOLS)] = 85.0,
+    punch_radius: Annotated[float, option("Radius of its tip.", _TOOLS)] = 1.5,
+    thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 2.0,
+    width: Annotated[float | None, option("Length of the bend; default: plane strain.", SHEET)] = None,
+    material: Material = None,
     rolling: Annotated[
-        float | None, _option("Degrees from the bend line to the rolling direction: 0 along it, 90 across.", _SHEET)
+        float | None, option("Degrees from the bend line to the rolling direction: 0 along it, 90 across.", SHEET)
     ] = None,
-    young: Annotated[float | None, _option("Young's modulus.", _SHEET)] = None,
-    poisson: Annotated[float | None, _option("Poisson's ratio.", _SHEET)] = None,
-    yield_stress: Annotated[float | None, _option("Yield stress, for linear hardening.", _SHEET)] = None,
-    hardening_modulus: Annotated[float | None, _option("Hardening modulus; default 0.", _SHEET)] = None,
-    swift: Annotated[str | None, _option("Swift hardening K,e0,n, as 520,0.004,0.22.", _SHEET)] = None,
-    flow_curve: Annotated[
-        Path | None, _option("Measured hardening: a CSV file of plastic strain and true stress.", _SHEET)
-    ] = None,
-    element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "BEND18",
-    layers: Annotated[int, _option("Elements through the thickness.", _SOLUTION)] = 2,
-    thickness_points: Annotated[int, _option("Points through the thickness of a layer.", _SOLUTION)] = 6,
-    elements_per_thickness: Annotated[float, _option("Elements on a length of one thickness.", _SOLUTION)] = 3.0,
-    width_elements: Annotated[int, _option("Elements over half of the width.", _SOLUTION)] = 3,
-    contact_points: Annotated[str, _option("Contact points per direction and facet, or auto.", _SOLUTION)] = "auto",
-    penalty: Annotated[float | None, _option("Contact pressure per penetration.", _SOLUTION)] = None,
+    young: Young = None,
+    poisson: Poisson = None,
+    yield_stress: Yield = None,
+    hardening_modulus: Modulus = None,
+    swift: SwiftCurve = None,
+    flow_curve: FlowCurve = None,
+    element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND18",
+    layers: Annotated[int, option("Elements through the thickness.", SOLUTION)] = 2,
+    thickness_points: Annotated[int, option("Points through the thickness of a layer.", SOLUTION)] = 6,
+    elements_per_thickness: Annotated[float, option("Elements on a length of one thickness.", SOLUTION)] = 3.0,
+    width_elements: Annotated[int, option("Elements over half of the width.", SOLUTION)] = 3,
+    contact_points: Annotated[str, option("Contact points per direction and facet, or auto.", SOLUTION)] = "auto",
+    penalty: Annotated[float | None, option("Contact pressure per penetration.", SOLUTION)] = None,
     penetration: Annotated[
-        float | None, _option("Penetration allowed, in place of a penalty; default thickness / 200.", _SOLUTION)
+        float | None, option("Penetration allowed, in place of a penalty; default thickness / 200.", SOLUTION)
     ] = None,
-    increment: Annotated[float, _option("Way of the punch in an increment, over the opening.", _SOLUTION)] = 0.00625,
-    tolerance: Annotated[float, _option("Of the angle that is looked for, in degrees.", _SOLUTION)] = 0.02,
-    processes: Annotated[int | None, _option("Runs of the budget at a time.", _SOLUTION)] = None,
+    increment: Annotated[float, option("Way of the punch in an increment, over the opening.", SOLUTION)] = 0.00625,
+    tolerance: Annotated[float, option("Of the angle that is looked for, in degrees.", SOLUTION)] = 0.02,
+    processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
     print_deck: Annotated[
         bool, typer.Option("--print-deck", help="Print the bend as a deck for `umform run`, and run nothing else.")
     ] = False,

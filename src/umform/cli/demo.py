@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.options import option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
 from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
@@ -18,11 +19,6 @@ if TYPE_CHECKING:
 
 demos = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", help="Run an example and show what comes out.")
 app.add_typer(demos, name="demo")
-
-
-def _option(help_text: str, panel: str, *names: str) -> Any:
-    return typer.Option(*names, help=help_text, rich_help_panel=panel)
-
 
 _RUNS, _STRIP, _MATERIAL, _SOLUTION = "Which runs", "Strip and tool (mm)", "Material (MPa)", "Solution"
 Default = FreeBending
@@ -36,34 +32,34 @@ def free_bending(
             metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/free-bending."
         ),
     ] = None,
-    mesh: Annotated[list[str] | None, _option("Elements along and across, as 24x1; may be repeated.", _RUNS)] = None,
-    element: Annotated[list[str] | None, _option("Element of the catalogue; may be repeated.", _RUNS)] = None,
+    mesh: Annotated[list[str] | None, option("Elements along and across, as 24x1; may be repeated.", _RUNS)] = None,
+    element: Annotated[list[str] | None, option("Element of the catalogue; may be repeated.", _RUNS)] = None,
     contact: Annotated[
-        list[str] | None, _option("Contact points per direction and facet, or nodes; may be repeated.", _RUNS)
+        list[str] | None, option("Contact points per direction and facet, or nodes; may be repeated.", _RUNS)
     ] = None,
-    thickness_points: Annotated[int | None, _option("Points through the thickness.", _RUNS)] = None,
-    thickness_rule: Annotated[str | None, _option("gauss, lobatto or split.", _RUNS)] = None,
-    thickness_order: Annotated[int | None, _option("Order of the thickness strain, 1 to 4.", _RUNS)] = None,
-    tie_E33: Annotated[bool | None, _option("Tie the thickness strain.", _RUNS, "--tie-e33/--no-tie-e33")] = None,
-    length: Annotated[float, _option("Length of the half strip.", _STRIP)] = Default.length,
-    width: Annotated[float, _option("Width of the strip.", _STRIP)] = Default.width,
-    thickness: Annotated[float, _option("Thickness of the strip.", _STRIP)] = Default.thickness,
-    radius: Annotated[float, _option("Radius of the cylinder.", _STRIP)] = Default.radius,
-    tool_x: Annotated[float, _option("x of its axis.", _STRIP)] = Default.tool_x,
-    tool_z: Annotated[float | None, _option("z of its axis; default: it touches the strip.", _STRIP)] = None,
-    kappa: Annotated[float, _option("Bulk modulus.", _MATERIAL)] = Default.kappa,
-    mu: Annotated[float, _option("Shear modulus.", _MATERIAL)] = Default.mu,
-    yield_stress: Annotated[float, _option("Yield stress.", _MATERIAL)] = Default.yield_stress,
-    hardening: Annotated[float, _option("Linear hardening modulus.", _MATERIAL)] = Default.hardening,
-    penalty: Annotated[float, _option("Contact pressure per penetration.", _SOLUTION)] = Default.penalty,
-    stroke: Annotated[float, _option("Largest displacement.", _SOLUTION)] = Default.stroke,
-    steps: Annotated[int, _option("Increments up to the stroke.", _SOLUTION)] = Default.steps,
-    unload: Annotated[bool, _option("Release to zero force.", _SOLUTION)] = Default.unload,
-    solver: Annotated[str, _option("auto, multifrontal, banded, pardiso or superlu.", _SOLUTION)] = Default.solver,
+    thickness_points: Annotated[int | None, option("Points through the thickness.", _RUNS)] = None,
+    thickness_rule: Annotated[str | None, option("gauss, lobatto or split.", _RUNS)] = None,
+    thickness_order: Annotated[int | None, option("Order of the thickness strain, 1 to 4.", _RUNS)] = None,
+    tie_E33: Annotated[bool | None, option("Tie the thickness strain.", _RUNS, "--tie-e33/--no-tie-e33")] = None,
+    length: Annotated[float, option("Length of the half strip.", _STRIP)] = Default.length,
+    width: Annotated[float, option("Width of the strip.", _STRIP)] = Default.width,
+    thickness: Annotated[float, option("Thickness of the strip.", _STRIP)] = Default.thickness,
+    radius: Annotated[float, option("Radius of the cylinder.", _STRIP)] = Default.radius,
+    tool_x: Annotated[float, option("x of its axis.", _STRIP)] = Default.tool_x,
+    tool_z: Annotated[float | None, option("z of its axis; default: it touches the strip.", _STRIP)] = None,
+    kappa: Annotated[float, option("Bulk modulus.", _MATERIAL)] = Default.kappa,
+    mu: Annotated[float, option("Shear modulus.", _MATERIAL)] = Default.mu,
+    yield_stress: Annotated[float, option("Yield stress.", _MATERIAL)] = Default.yield_stress,
+    hardening: Annotated[float, option("Linear hardening modulus.", _MATERIAL)] = Default.hardening,
+    penalty: Annotated[float, option("Contact pressure per penetration.", _SOLUTION)] = Default.penalty,
+    stroke: Annotated[float, option("Largest displacement.", _SOLUTION)] = Default.stroke,
+    steps: Annotated[int, option("Increments up to the stroke.", _SOLUTION)] = Default.steps,
+    unload: Annotated[bool, option("Release to zero force.", _SOLUTION)] = Default.unload,
+    solver: Annotated[str, option("auto, multifrontal, banded, pardiso or superlu.", _SOLUTION)] = Default.solver,
     line_search: Annotated[
-        bool, _option("Shorten Newton's increments that go too far.", _SOLUTION, "--line-search/--no-line-search")
+        bool, option("Shorten Newton's increments that go too far.", _SOLUTION, "--line-search/--no-line-search")
     ] = Default.line_search,
-    processes: Annotated[int | None, _option("Runs at a time; default: the processors.", _SOLUTION)] = None,
+    processes: Annotated[int | None, option("Runs at a time; default: the processors.", _SOLUTION)] = None,
     print_deck: Annotated[
         bool, typer.Option("--print-deck", help="Print the first run as a deck, and run none.")
     ] = False,

@@ -1,4 +1,4 @@
-"""``umform draw``: a round cup, and a U-bend, drawn and taken out of their tools."""
+"""``umform draw``: a round cup, and a U-bend, drawn, released and measured."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from umform.cli.metal import law_of
+from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import echo_warnings, print_warnings_once
@@ -18,46 +19,35 @@ if TYPE_CHECKING:
     from umform.processes.draw.drawn import Drawn
     from umform.processes.draw.u_bend import UBend
 
-_TOOLS, _SHEET, _SOLUTION = "Tools (mm, N)", "Sheet (mm, MPa)", "Solution"
+_TOOLS = "Tools (mm, N)"
 
-group = typer.Typer(no_args_is_help=True, help="Draw a part, and take it out of its tools: `umform draw cup`.")
+group = typer.Typer(no_args_is_help=True, help="Draw a part, open the tools and measure it: `umform draw cup`.")
 app.add_typer(group, name="draw")
 
 
-def _option(help_text: str, panel: str) -> Any:
-    return typer.Option(help=help_text, rich_help_panel=panel)
-
-
 Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
-Material = Annotated[str | None, _option("Name in the library of sheet metals: `umform metal list`.", _SHEET)]
-Young = Annotated[float | None, _option("Young's modulus.", _SHEET)]
-Poisson = Annotated[float | None, _option("Poisson's ratio.", _SHEET)]
-Yield = Annotated[float | None, _option("Yield stress, for linear hardening.", _SHEET)]
-Modulus = Annotated[float | None, _option("Hardening modulus; default 0.", _SHEET)]
-SwiftCurve = Annotated[str | None, _option("Swift hardening K,e0,n, as 520,0.004,0.22.", _SHEET)]
-FlowCurve = Annotated[Path | None, _option("Measured hardening: a CSV file of plastic strain and true stress.", _SHEET)]
-LimitCurve = Annotated[Path | None, _option("Forming limit: a CSV file of minor and major logarithmic strain.", _SHEET)]
-Stroke = Annotated[float | None, _option("Way of the punch; default: the usual one.", _TOOLS)]
+LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]
+Stroke = Annotated[float | None, option("Way of the punch; default: a whole cup, a fifth of the blank of a U.", _TOOLS)]
 Coarse = Annotated[bool, typer.Option("--coarse", help="A coarse mesh: a first look in seconds.")]
-Turn = Annotated[float | None, _option("Largest angle in degrees that an element turns over a radius.", _SOLUTION)]
-Layers = Annotated[int, _option("Elements through the thickness.", _SOLUTION)]
-ThicknessPoints = Annotated[int | None, _option("Points through the thickness of a layer.", _SOLUTION)]
+Turn = Annotated[float | None, option("Largest angle in degrees that an element turns over a radius.", SOLUTION)]
+Layers = Annotated[int, option("Elements through the thickness.", SOLUTION)]
+ThicknessPoints = Annotated[int | None, option("Points through the thickness of a layer.", SOLUTION)]
 
 
 @group.command()
 def cup(
     out: Out = None,
     coarse: Coarse = False,
-    punch: Annotated[float, _option("Diameter of the punch.", _TOOLS)] = 60.0,
-    punch_edge: Annotated[float, _option("Radius of its edge.", _TOOLS)] = 5.0,
-    opening: Annotated[float, _option("Diameter of the opening of the die.", _TOOLS)] = 62.4,
-    die_edge: Annotated[float, _option("Radius of its edge.", _TOOLS)] = 10.0,
-    holder_force: Annotated[float, _option("Force of the holder; 0: it keeps its distance.", _TOOLS)] = 40e3,
-    holder_gap: Annotated[float | None, _option("Least distance of holder and die; default 1.04 t.", _TOOLS)] = None,
-    friction: Annotated[float, _option("Coefficient of friction.", _TOOLS)] = 0.09,
+    punch: Annotated[float, option("Diameter of the punch.", _TOOLS)] = 60.0,
+    punch_edge: Annotated[float, option("Radius of its edge.", _TOOLS)] = 5.0,
+    opening: Annotated[float, option("Diameter of the opening of the die.", _TOOLS)] = 62.4,
+    die_edge: Annotated[float, option("Radius of its edge.", _TOOLS)] = 10.0,
+    holder_force: Annotated[float, option("Force of the holder; 0: it keeps its gap.", _TOOLS)] = 40e3,
+    holder_gap: Annotated[float | None, option("Least distance of holder and die; default 1.04 t.", _TOOLS)] = None,
+    friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.09,
     stroke: Stroke = None,
-    blank: Annotated[float, _option("Diameter of the blank.", _SHEET)] = 107.5,
-    thickness: Annotated[float, _option("Thickness of the sheet.", _SHEET)] = 1.0,
+    blank: Annotated[float, option("Diameter of the blank.", SHEET)] = 107.5,
+    thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 1.0,
     material: Material = None,
     young: Young = None,
     poisson: Poisson = None,
@@ -66,13 +56,13 @@ def cup(
     swift: SwiftCurve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
-    element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "ANS3DEAS",
+    element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "ANS3DEAS",
     turn: Turn = None,
-    around: Annotated[int | None, _option("Elements on a quarter of the rim.", _SOLUTION)] = None,
+    around: Annotated[int | None, option("Elements on a quarter of the rim.", SOLUTION)] = None,
     layers: Layers = 1,
     thickness_points: ThicknessPoints = None,
-    contact_points: Annotated[int, _option("Contact points per direction and facet.", _SOLUTION)] = 2,
-    penalty: Annotated[float | None, _option("Contact pressure per penetration.", _SOLUTION)] = None,
+    contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 2,
+    penalty: Annotated[float | None, option("Contact pressure per penetration.", SOLUTION)] = None,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -112,16 +102,16 @@ def cup(
 def u(
     out: Out = None,
     coarse: Coarse = False,
-    punch: Annotated[float, _option("Width of the punch.", _TOOLS)] = 50.0,
-    punch_edge: Annotated[float, _option("Radius of its edges.", _TOOLS)] = 5.0,
-    opening: Annotated[float, _option("Opening of the die.", _TOOLS)] = 52.0,
-    die_edge: Annotated[float, _option("Radius of its edges.", _TOOLS)] = 5.0,
-    holder_force: Annotated[float, _option("Force of the holder.", _TOOLS)] = 2450.0,
-    friction: Annotated[float, _option("Coefficient of friction.", _TOOLS)] = 0.144,
+    punch: Annotated[float, option("Width of the punch.", _TOOLS)] = 50.0,
+    punch_edge: Annotated[float, option("Radius of its edges.", _TOOLS)] = 5.0,
+    opening: Annotated[float, option("Opening of the die.", _TOOLS)] = 52.0,
+    die_edge: Annotated[float, option("Radius of its edges.", _TOOLS)] = 5.0,
+    holder_force: Annotated[float, option("Force of the holder.", _TOOLS)] = 2450.0,
+    friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.144,
     stroke: Stroke = None,
-    length: Annotated[float, _option("Length of the blank.", _SHEET)] = 350.0,
-    width: Annotated[float, _option("Width of the blank.", _SHEET)] = 35.0,
-    thickness: Annotated[float, _option("Thickness of the sheet.", _SHEET)] = 0.78,
+    length: Annotated[float, option("Length of the blank.", SHEET)] = 350.0,
+    width: Annotated[float, option("Width of the blank.", SHEET)] = 35.0,
+    thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 0.78,
     material: Material = None,
     young: Young = None,
     poisson: Poisson = None,
@@ -130,12 +120,12 @@ def u(
     swift: SwiftCurve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
-    element: Annotated[str, _option("Element of the catalogue.", _SOLUTION)] = "BEND8",
+    element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND8",
     turn: Turn = None,
     layers: Layers = 1,
     thickness_points: ThicknessPoints = None,
-    contact_points: Annotated[int, _option("Contact points per direction and facet.", _SOLUTION)] = 3,
-    penalty: Annotated[float, _option("Contact pressure per penetration.", _SOLUTION)] = 1000.0,
+    contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 3,
+    penalty: Annotated[float, option("Contact pressure per penetration.", SOLUTION)] = 1000.0,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,

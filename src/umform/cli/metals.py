@@ -107,14 +107,14 @@ def _print_directions(metal: SheetMetal) -> None:
     for angle in range(0, 91, 15):
         stress, r = uniaxial(function, angle)
         table.add_row(
-            str(angle), f"{stress:.3f}", _told(measured.stress.get(angle)), f"{r:.3f}", _told(measured.r.get(angle))
+            str(angle), f"{stress:.3f}", _shown(measured.stress.get(angle)), f"{r:.3f}", _shown(measured.r.get(angle))
         )
     stress, r = balanced(function)
-    table.add_row("biaxial", f"{stress:.3f}", _told(measured.biaxial), f"{r:.3f}", _told(measured.r_biaxial))
+    table.add_row("biaxial", f"{stress:.3f}", _shown(measured.biaxial), f"{r:.3f}", _shown(measured.r_biaxial))
     console().print(table)
 
 
-def _told(value: float | None) -> str:
+def _shown(value: float | None) -> str:
     return "" if value is None else f"{value:.3f}"
 
 

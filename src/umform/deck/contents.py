@@ -9,12 +9,14 @@ from pydantic import Field
 
 from umform.deck.beads import BeadPart
 from umform.deck.contacts import ContactPart
-from umform.deck.controls import ControlPart, Support
+from umform.deck.controls import ControlPart
 from umform.deck.element import ElementPart
 from umform.deck.material import MaterialPart
 from umform.deck.mesh import MeshPart
 from umform.deck.parts import Name, Part
-from umform.deck.steps import Output, Solution, StepPart
+from umform.deck.settings import Output, Solution
+from umform.deck.steps import StepPart
+from umform.deck.supports import Support
 from umform.deck.tools import ToolPart
 
 

@@ -26,7 +26,7 @@ class Foreign(Part):
     file: Annotated[str, Field(min_length=1)]
     """Shared library, a path from the folder of the deck."""
     state: Variables = 0
-    """Number of state variables, or their names and sizes in their order; fields go by these names."""
+    """Number of state variables, or their names and sizes in their order; fields have these names."""
     properties: list[float] = []
     """Constants of the law."""
     initial: list[float] = []
@@ -42,7 +42,7 @@ class Foreign(Part):
 
 
 class Umat(Foreign):
-    """A UMAT, the interface of Abaqus, for three-dimensional small strains: asked with logarithmic strains."""
+    """A UMAT, the interface of Abaqus, for three-dimensional small strains; it gets logarithmic strains."""
 
     law: Literal["UMAT"]
     """The word UMAT."""
@@ -51,7 +51,7 @@ class Umat(Foreign):
     parallel: bool = False
     """Whether several threads may call it at once."""
     directional: bool = True
-    """Whether it has directions and needs rolling."""
+    """Whether it is anisotropic and needs rolling."""
     symbol: Annotated[str, Field(min_length=1)] | None = None
     """Name of the function; by default what compilers make of UMAT."""
     name: Annotated[str, Field(min_length=1, max_length=80)] = "UMAT"
@@ -73,13 +73,13 @@ class Compiled(Foreign):
     energy: Annotated[str, Field(min_length=1)] | None = None
     """Name of the function of its energies."""
     strain: Literal["logarithmic", "green-lagrange"] = "logarithmic"
-    """What it is asked with."""
+    """Strain that it gets."""
     parallel: bool = True
     """Whether several threads may call it at once."""
     sees_points: bool = False
-    """Whether it wants axes and length of the cell."""
+    """Whether it uses axes and length of the cell."""
     directional: bool = False
-    """Whether it has directions and needs rolling."""
+    """Whether it is anisotropic and needs rolling."""
 
     def build(self, folder: Path) -> Material:
         """The law, whose library is found from a folder."""

@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 
 from umform.deck.contents import Contents
-from umform.deck.controls import Rigid
-from umform.deck.errors import ANY_CAUSE, ANY_REMEDY, DeckError, DeckKey
+from umform.deck.drawn_tools import Profiled
+from umform.deck.errors import DeckError
 from umform.deck.foreign import Foreign
-from umform.deck.lines import Path
 from umform.deck.metal import J2, Metal
+from umform.deck.places import Place
 from umform.deck.profiles import profile_of
 from umform.deck.rolling import direction
 from umform.deck.source import Source
 from umform.deck.steps import Named
-from umform.deck.tools import Profiled
+from umform.deck.supports import Rigid
 from umform.elements import Rolling
 from umform.elements.technology import Element
 from umform.errors import UmformError
@@ -278,61 +278,10 @@ class _Builder:
                 steps.append(part.build(named))
         return steps
 
-    def _at(self, *path: str | int) -> _Place:
+    def _at(self, *path: str | int) -> Place:
         """Where what is built inside of the block stands in the deck."""
-        return _Place(path, self)
+        return Place(path, self.source, self.errors)
 
     def _raise(self) -> None:
         if self.errors:
             raise DeckError(self.errors)
-
-
-@dataclass(frozen=True)
-class _Place:
-    """A block that may fail: its error is kept, with its place in the deck."""
-
-    path: Path
-    builder: _Builder
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
-        if isinstance(error, UmformError):
-            self._place(error)
-            self.builder.errors.append(error)
-        elif isinstance(error, ArithmeticError | ValueError | MemoryError):
-            unusable = DeckKey(
-                "nothing can be built from this",
-                where=self.builder.source.place(self.path),
-                cause=str(error) or type(error).__name__,
-                remedy="look at the size of its numbers",
-            )
-            self.builder.errors.append(unusable)
-        else:
-            return False
-        return True
-
-    def _place(self, error: UmformError) -> None:
-        """Say where in the deck; if the error names a key of the table, or its value, where that key is."""
-        source, path = self.builder.source, self.path
-        error.cause, error.remedy = error.cause or ANY_CAUSE, error.remedy or ANY_REMEDY
-        table = _value(source.data, path)
-        keys = table if isinstance(table, dict) else {}
-        last = error.where.rpartition(".")[2]
-        plain = isinstance(error.value, str | int | float)  # arrays are not compared
-        named = [last] if last in keys else [key for key, given in keys.items() if plain and given == error.value]
-        if named and isinstance(keys[named[0]], str | int | float):
-            error.where = source.place((*path, named[0]))
-        else:
-            inner = f" ({error.where})" if error.where and error.where != path[-1] else ""
-            error.where = source.place(path) + inner
-
-
-def _value(data: Any, path: Path) -> Any:
-    for part in path:
-        try:
-            data = data[part]
-        except (KeyError, IndexError, TypeError):
-            return None
-    return data

@@ -78,7 +78,7 @@ def _vectors(path: Path) -> np.ndarray[Any, np.dtype[np.float64]]:
         ) from None
     except ValueError as error:
         raise FileProblem(
-            "the rolling directions are no numbers", where=str(path), cause=str(error), remedy=remedy
+            "the rolling directions are not numbers", where=str(path), cause=str(error), remedy=remedy
         ) from None
     if rows.shape[1] != 3:
         raise FileProblem(

@@ -1,4 +1,4 @@
-"""The steps of a deck, how they are solved, and what is written."""
+"""The steps of a deck."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from umform import steps
@@ -14,7 +14,6 @@ from umform.deck.parts import Count, Name, Pair, Part, Positive
 from umform.model.contact import Contact
 from umform.model.control import Control
 from umform.model.support import Support
-from umform.solution.options import NewtonOptions
 
 
 @dataclass(frozen=True)
@@ -241,62 +240,3 @@ class Close(Part):
 
 
 StepPart = Annotated[Move | Release | Arc | Free | Close, Field(discriminator="kind")]
-
-
-def _order(value: object) -> object:
-    """Order of an extrapolation that is wanted or not: true is 1, false 0."""
-    return int(value) if isinstance(value, bool) else value
-
-
-class Solution(Part):
-    """Sparse solver and Newton's method."""
-
-    solver: Annotated[str, Field(min_length=1)] = "auto"
-    """auto, multifrontal, banded, pardiso, superlu, or petsc for many ranks."""
-    residual: Positive = 1e-9
-    """Tolerance of the residual, relative to the element forces."""
-    increment: Positive = 1e-6
-    """Tolerance of the increment, relative to the largest displacement."""
-    max_iterations: Annotated[int, Field(ge=1, le=1000)] = 25
-    """Iterations before an increment is cut."""
-    line_search: bool | None = None
-    """Shorten increments that go too far; default: where a law has a history."""
-    extrapolate: Annotated[Literal[0, 1, 2], BeforeValidator(_order)] = 1
-    """Start an increment from the tangent (0), or from a line (1) or a parabola (2) through the last states."""
-    mixed: bool | None = None
-    """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets."""
-    rest: Literal["auto", "off"] | Positive = "auto"
-    """Springs under a sheet that lies loosely at first: auto where needed, off, or their stiffness in all."""
-
-    def build(self) -> NewtonOptions:
-        """Options of Newton's method."""
-        return NewtonOptions(**self.model_dump(exclude={"solver", "rest"}))
-
-
-class Output(Part):
-    """What is written, and where."""
-
-    folder: Annotated[str, Field(min_length=1)] | None = None
-    """Folder, from where the command is run; by default results/ and the name of the deck."""
-    frames: Annotated[int, Field(ge=1, le=100_000)] = 60
-    """About how many states each step keeps for pictures and fields."""
-    csv: bool = True
-    """History as history.csv."""
-    vtkhdf: bool = True
-    """Fields as fields.vtkhdf."""
-    report: bool = True
-    """A page, report.html."""
-    pictures: bool = True
-    """Force over displacement as curve.png, the last shape as shape.png."""
-    forming: bool = False
-    """Strains of both skins and of the middle, thinning and wrinkling among the fields."""
-    forming_limit: list[Pair] | None = None
-    """Forming limit: logarithmic minor and major strains, the minor ones ascending; its margin is a field then."""
-
-    @model_validator(mode="after")
-    def _ascending(self) -> Output:
-        minor = [pair[0] for pair in self.forming_limit or ()]
-        if self.forming_limit is not None and (len(minor) < 2 or sorted(set(minor)) != minor):
-            text = "a forming limit has two points or more, pairs of minor and major strain, the minor ones ascending"
-            raise PydanticCustomError("forming_limit", text)
-        return self

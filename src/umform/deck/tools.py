@@ -2,69 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from pathlib import Path as File
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
 
 from umform import surfaces
-from umform.deck.parts import NotNegative, Part, Positive, Vector, Way
-from umform.deck.profiles import ProfilePart, profile_of
+from umform.deck.drawn_tools import Drawing, Extruded, Revolved
+from umform.deck.parts import NotNegative, Positive, Vector, Way
+from umform.deck.placeable import ORIGIN, Placeable
 from umform.surfaces import Tool
 from umform.surfaces.directions import rotation_matrix
 
 Angle = Annotated[float, Field(gt=0, lt=180)]
-ORIGIN = (0.0, 0.0, 0.0)
-#: Sine of the angle between two segments of a section from which they make an edge.
-_EDGE = 1e-3
-
-
-class Placeable(Part):
-    """A tool, which may be turned about the origin and then shifted."""
-
-    rotation: Vector = ORIGIN
-    """Rotation vector in degrees: [0, 90, 0] turns by 90 degrees about y."""
-    translation: Vector = ORIGIN
-    """Shift after the rotation."""
-
-    offset: float = 0.0
-    """Distance by which the tool is grown on all sides; a sheet of this thickness lies between it and the drawn one."""
-    other_side: bool = False
-    """The tool is what lies beyond this distance: the punch of a die."""
-
-    def build(self, folder: File = File()) -> Tool:
-        """The tool in its place.
-
-        Parameters
-        ----------
-        folder : Path
-            Where files are looked for.
-        """
-        tool = self._tool(folder)
-        if self.other_side:
-            tool = tool.counterpart(self.offset)
-        elif self.offset:
-            tool = tool.offset(self.offset)
-        if self.rotation == ORIGIN and self.translation == ORIGIN:
-            return tool
-        x, y, z = (math.radians(angle) for angle in self.rotation)
-        return tool.moved(self.translation, (x, y, z))
-
-    def _tool(self, folder: File) -> Tool:
-        del folder
-        own = {name: getattr(self, name) for name in type(self).model_fields if name not in _NOT_OF_THE_TOOL}
-        made: Tool = getattr(surfaces, type(self).__name__)(**own)
-        return made
-
-    def convex_radii(self, own: Tool) -> Iterator[float]:
-        """Radii that a sheet may be bent around, 0 at an edge, of the tool as it is without offset and place."""
-        yield from ()
-
-
-_NOT_OF_THE_TOOL = ("shape", "rotation", "translation", "offset", "other_side")
 
 
 class Plane(Placeable):
@@ -235,83 +186,6 @@ class Punch(Section):
     def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radius of the tip."""
         yield self.tip_radius
-
-
-class Profiled(Placeable):
-    """A tool that is made of a profile."""
-
-    profile: ProfilePart
-    """Its section."""
-
-    def convex_radii(self, own: Tool) -> Iterator[float]:
-        """Radii of the arcs that turn to the left, and 0 if there is a sharp edge."""
-        assert isinstance(own, surfaces.Extruded | surfaces.Revolved)
-        segments, closed = own.profile.segments, own.profile.closed
-        for i, segment in enumerate(segments):
-            if isinstance(segment, surfaces.Arc) and not segment.clockwise:
-                yield segment.radius
-            if i + 1 < len(segments) or closed:
-                one, other = segment.tangents()[1], segments[(i + 1) % len(segments)].tangents()[0]
-                if one[0] * other[1] - one[1] * other[0] > _EDGE:
-                    yield 0.0
-
-
-class Extruded(Profiled):
-    """A profile that is drawn out; by default its plane is the xz-plane and the tool goes along y."""
-
-    shape: Literal["Extruded"]
-    """The word Extruded."""
-    origin: Vector = ORIGIN
-    """Where the origin of the profile lies."""
-    x: Way = "x"
-    """First direction of the profile."""
-    y: Way = "z"
-    """Second direction of the profile."""
-
-    def _tool(self, folder: File) -> Tool:
-        return surfaces.Extruded(profile_of(self.profile, folder), self.origin, self.x, self.y)
-
-
-class Revolved(Profiled):
-    """A profile that is turned about an axis: its first coordinate is the radius, its second that along the axis."""
-
-    shape: Literal["Revolved"]
-    """The word Revolved."""
-    origin: Vector = ORIGIN
-    """Where the origin of the profile lies."""
-    axis: Way = "z"
-    """Direction of the axis."""
-
-    def _tool(self, folder: File) -> Tool:
-        return surfaces.Revolved(profile_of(self.profile, folder), self.origin, self.axis)
-
-
-class Drawing(Placeable):
-    """The faces of a STEP or IGES file, or the triangles of an STL file."""
-
-    shape: Literal["Drawing"]
-    """The word Drawing."""
-    file: Annotated[str, Field(min_length=1)]
-    """Path, from the folder of the deck; it ends in .step, .stp, .iges, .igs or .stl."""
-    tolerance: Positive = 1e-3
-    """Largest distance of the tool from free-form faces of a STEP or IGES file."""
-    sharp: Annotated[float, Field(gt=0, lt=90)] | None = None
-    """Angle in degrees from which an edge is sharp: by default 30 between triangles of STL, 2 between faces."""
-    open: bool = False
-    """The surface may have rims; beyond them nothing is touched."""
-    scale: Positive = 1.0
-    """Factor to the unit of the model: from millimetres for STEP and IGES, from what stands in an STL file."""
-
-    def convex_radii(self, own: Tool) -> Iterator[float]:
-        """One over the largest curvature."""
-        assert isinstance(own, surfaces.CadTool | surfaces.Triangulated)
-        if own.largest_curvature > 0.0:
-            yield 1.0 / own.largest_curvature
-
-    def _tool(self, folder: File) -> Tool:
-        return surfaces.read_tool(
-            folder / self.file, tolerance=self.tolerance, sharp=self.sharp, open=self.open, scale=self.scale
-        )
 
 
 ToolPart = Annotated[

@@ -36,24 +36,24 @@ class CompiledLaw:
     library : str or path-like, optional
         Shared library.
     state : int or mapping of str to int
-        Number of state variables, or their names and sizes, by which fields go; ``eqps`` is the accumulated plastic
+        Number of state variables, or their names and sizes, which name the fields; ``eqps`` is the accumulated plastic
         strain. They begin at ``initial``, by default at zero.
     properties : sequence of float
-        Constants of the law, handed on as they are.
+        Constants of the law, passed on unchanged.
     energy : str, int or object, optional
         A function ``int energy(int points, const double* strain, const double* state, const double* properties, double*
         energies)`` that fills elastic energy and plastic work (2) of each point, with the state that belongs to the
         strain. Without it the energies of a run are not known, and are NaN.
     strain : {"logarithmic", "green-lagrange"}
-        What it is asked with: logarithmic strains, which make a small-strain law one of finite strain, or E.
+        Strain that it gets: logarithmic, which makes a small-strain law one of finite strain, or Green-Lagrange.
     symmetric : bool
         Whether the tangent is symmetric at any strain; one that is not is then refused.
     parallel : bool
-        Whether several threads may call it at once: it has no memory of its own.
+        Whether several threads may call it at once: it keeps nothing between calls.
     sees_points : bool
-        Whether it wants axes and length of the cell; else they are null and 0.
+        Whether it uses axes and length of the cell; else they are null and 0.
     directional : bool
-        Whether it has directions, so that a model must say the rolling direction.
+        Whether it is anisotropic, so that a model needs the rolling direction.
     name : str
         For messages and fingerprints of runs: another name for another function without a library.
 
@@ -85,7 +85,7 @@ class CompiledLaw:
         put(self, "initial", initial_state(where, self.state, self.initial))
         if self.strain not in ("logarithmic", "green-lagrange"):
             raise InvalidValue(
-                "a law is asked with logarithmic or Green-Lagrange strains",
+                "a law gets logarithmic or Green-Lagrange strains",
                 where=where,
                 value=self.strain,
                 cause="another word",

@@ -47,7 +47,7 @@ def address(library: str | PathLike[str], symbols: Sequence[str], where: str) ->
 
 
 def content(library: str | PathLike[str], where: str) -> str:
-    """Digest of the file, by which runs with other code are told apart."""
+    """Digest of the file, which distinguishes runs with other code."""
     return hashlib.sha256(_file(library, where).read_bytes()).hexdigest()[:32]
 
 
@@ -55,7 +55,7 @@ def _file(library: str | PathLike[str], where: str) -> Path:
     path = Path(library)
     if not path.is_file():
         raise FileProblem(
-            "the library of a law is not there",
+            "the library of a law does not exist",
             where=where,
             value=str(library),
             cause="another folder, or it has not been compiled",
@@ -94,7 +94,7 @@ def named_state(where: str, state: int | Mapping[str, int]) -> dict[str, int]:
             "the state of a law is a number of variables, or their names and sizes",
             where=where,
             value=state,
-            cause="a size that is no whole number",
+            cause="a size that is not a whole number",
             remedy='state=13, or state={"back_stress": 6, "plastic_strain": 6, "eqps": 1}',
         )
     return {name: size for name, size in names.items() if size}

@@ -143,7 +143,7 @@ class Metal(Plastic):
         return _core.logarithmic_space(self.small_strain_law())
 
     def small_strain_law(self) -> _core.Material:
-        """The law that is asked with logarithmic strains."""
+        """The law of logarithmic strains."""
         back = self.back_stress
         pairs: list[tuple[float, float]] = []
         first, growth, surfaces = 1.0, 0.0, list[float]()

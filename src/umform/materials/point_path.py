@@ -21,7 +21,7 @@ class SmallStrainLaw(Protocol):
     """What has a law of small strains."""
 
     def small_strain_law(self) -> _core.Material:
-        """The law that is asked with logarithmic strains."""
+        """The law of logarithmic strains."""
 
 
 @dataclass(frozen=True)

@@ -17,19 +17,19 @@ _SYMBOLS = ("umat_", "umat", "UMAT", "umat__")
 
 @dataclass(frozen=True)
 class Umat:
-    """A UMAT for three-dimensional small strains, asked in logarithmic space in the axes of the sheet (theory, 3.15).
+    """A UMAT for three-dimensional small strains, in logarithmic space and the axes of the sheet (theory, 3.15).
 
-    STRAN and DSTRAN are logarithmic strains, STRESS is their conjugate: F, and the coordinates of the point, are not
-    known to it (DFGRD0, DFGRD1 and DROT are the identity, COORDS and TEMP are zero). NDI = NSHR = 3. TIME counts from
-    0 over the whole run, KSTEP is 1, KINC is 1 in the first increment and 2 later, NOEL is the number of the cell
-    plus one, CELENT its length. PNEWDT below 1 cuts the increment in half.
+    STRAN and DSTRAN are logarithmic strains, STRESS is their conjugate. It does not get F and the coordinates of the
+    point: DFGRD0, DFGRD1 and DROT are the identity, COORDS and TEMP are zero. NDI = NSHR = 3. TIME counts from 0 over
+    the whole run, KSTEP is 1, KINC is 1 in the first increment and 2 later, NOEL is the number of the cell plus one,
+    CELENT its length. PNEWDT below 1 cuts the increment in half.
 
     Parameters
     ----------
     library : str or path-like
         Shared library: ``gfortran -O2 -shared -fPIC -o umat.so umat.f``.
     state : int or mapping of str to int
-        Number of state variables, or their names and sizes in their order, by which fields go: ``eqps`` is the
+        Number of state variables, or their names and sizes in their order, which name the fields: ``eqps`` is the
         accumulated plastic strain. They begin at ``initial``, by default at zero.
     properties : sequence of float
         PROPS.
@@ -40,7 +40,7 @@ class Umat:
     parallel : bool
         Whether several threads may call it at once: no SAVE, no COMMON, no files. Ranks call it at once in any case.
     directional : bool
-        Whether it has directions, so that a model must say the rolling direction; False for an isotropic one.
+        Whether it is anisotropic, so that a model needs the rolling direction; False for an isotropic one.
     symbol : str, optional
         Name of the function; default what compilers make of UMAT.
     name : str
@@ -83,7 +83,7 @@ class Umat:
         return _core.logarithmic_space(self.small_strain_law())
 
     def small_strain_law(self) -> _core.Material:
-        """The law that is asked with logarithmic strains."""
+        """The law of logarithmic strains."""
         assert isinstance(self.state, Mapping)
         return _core.umat_law(
             self._address(),

@@ -102,7 +102,7 @@ def _gmsh() -> Iterator[Any]:
             "a blank of any outline needs gmsh",
             where="blank",
             cause=str(error),
-            remedy="pip install 'umform[mesh]'; or disc, ring, strip, which need nothing",
+            remedy="pip install 'umform[mesh]'; or disc, ring, strip, which need no extra",
         ) from error
     gmsh.initialize(["gmsh", "-noenv"], readConfigFiles=False, interruptible=False)
     try:
@@ -163,7 +163,7 @@ def _meshed(gmsh: Any, size: float | Callable[[float, float], float], order: int
     try:
         gmsh.model.mesh.generate(2)
         gmsh.model.mesh.setOrder(order)
-    except Exception as error:  # gmsh raises nothing more special
+    except Exception as error:  # gmsh raises plain exceptions
         raise MeshError(
             "gmsh finds no mesh of the blank", where="blank", cause=str(error), remedy="an outline without crossings"
         ) from error

@@ -2,32 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from umform import _core
 from umform.elements import Element, Rolling, rolling_directions
 from umform.elements import element as catalogue_element
 from umform.elements import thickness_rule as make_thickness_rule
-from umform.errors import EmptySet, InvalidValue, WrongCellType
+from umform.errors import InvalidValue, WrongCellType
 from umform.materials import Material
 from umform.mesh import Mesh
 from umform.model.control import Twins
 from umform.model.cut import Cut
 from umform.model.elsewhere import not_here
+from umform.model.selected_cells import Cells, cell_numbers
 from umform.model.term import At, Energies, Found, Into, Term, Tree
 from umform.model.through_thickness import completed, points_through
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
-
-#: Cells: their numbers, a mask, or a predicate of the coordinates x, y, z of their centres.
-Cells = ArrayLike | Callable[[Floats, Floats, Floats], Any]
 
 
 @dataclass(frozen=True)
@@ -155,7 +153,7 @@ class Body(Term):
             )
         self.mesh = mesh
         #: Numbers of its cells in the mesh.
-        self.cells: Numbers = _cell_numbers(mesh, self._selection, self.name)
+        self.cells: Numbers = cell_numbers(mesh, self._selection, self.name)
         #: Rolling direction, or that of each of its cells.
         self.rolling = rolling_directions(self._given_rolling, self._centres())
         self._numbers = self.cells
@@ -296,24 +294,3 @@ class Body(Term):
         self._numbers, self.rolling, history = piece["numbers"], piece["rolling"], piece["history"]
         if history is not None:
             self.restore(history)
-
-
-def _cell_numbers(mesh: Mesh, cells: Cells | None, name: str) -> Numbers:
-    """Numbers of selected cells, increasing."""
-    count = len(mesh.connectivity)
-    if cells is None:
-        return np.arange(count)
-    if callable(cells):
-        centres = mesh.points[mesh.connectivity].mean(axis=1)
-        cells = cells(*centres.T)
-    chosen = np.asarray(cells)
-    if chosen.dtype == bool and chosen.shape != (count,):
-        raise InvalidValue("a mask of cells has one entry for each cell", where=f"body {name}", value=chosen.shape)
-    numbers = np.flatnonzero(chosen) if chosen.dtype == bool else np.unique(chosen.astype(np.int64))
-    if len(numbers) == 0:
-        raise EmptySet("a body has no cell", where=f"body {name}", remedy="look at its predicate or its numbers")
-    if numbers[0] < 0 or numbers[-1] >= count:
-        raise InvalidValue(
-            "a cell of a body does not exist", where=f"body {name}", value=int(numbers[-1]), remedy=f"0 to {count - 1}"
-        )
-    return numbers

@@ -47,12 +47,12 @@ def stop_at_gap(model: Evaluated, press: Press, to: Tool, gap: float) -> tuple[f
             where=where,
             value="no contact point of either has both tools on opposite sides",
             cause="another tool than the one behind the sheet, or a way that is not normal to it",
-            remedy="stop(force, at=...) with the way at which it shall stand",
+            remedy="stop(force, at=...) with its way at the stop",
         )
     distance, sense = ways[np.argmin(ways[:, 0])]
     if distance < gap:
         raise InvalidValue(
-            "the tools are nearer to each other than the gap that they shall keep",
+            "the tools are nearer to each other than the gap that they must keep",
             where=where,
             value=f"distance {distance:.6g}, gap {gap:.6g}",
             cause="the gap, or where a tool stands",

@@ -1,6 +1,6 @@
-"""Rigid stops of pressed tools: where one bears its tool, the equation of the way is that it stands there.
+"""Rigid stops of pressed tools: if one is active, its equation replaces the balance of the press.
 
-Which holds is decided in each iteration from the signs, as an active set; eqs. (4.140), (4.141).
+Each iteration chooses the active stops from the signs; eqs. (4.140), (4.141).
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ class ToolFound(Found):
     Attributes
     ----------
     borne : dict of str to float
-        Force of the rigid stop that bears it along its way, by the name of the control of its press.
+        Force of its rigid stop along its way, by the name of the control of its press.
     """
 
     borne: Mapping[str, float] = field(default_factory=dict)
 
 
 def bear(press: Press, at: At, into: Into) -> float | None:
-    """Put the equation of a rigid stop in the place of the balance of a press, if one bears the tool.
+    """Replace the balance of a press by the equation of a rigid stop, if one bears the tool.
 
     Parameters
     ----------

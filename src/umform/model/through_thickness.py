@@ -8,7 +8,7 @@ from umform.materials.material import Material
 
 
 def points_through(element: Element, material: Material, points: int | None, rule: str | None) -> tuple[int, str]:
-    """Points through the thickness and their rule: what is given, else what law and element want."""
+    """Points through the thickness and their rule: as given, else the default of law and element."""
     wanted, wanted_rule = element.plastic_points if _plastic(material) else (2, "gauss")
     if points is not None:
         return points, rule or "gauss"
@@ -16,7 +16,7 @@ def points_through(element: Element, material: Material, points: int | None, rul
 
 
 def completed(element: Element, material: Material, points: int) -> Element:
-    """The element with the complete order of E_33 where a plastic law asks for it. eq. (2.46)"""
+    """The element with the complete order of E_33, if the law is plastic. eq. (2.46)"""
     if not (_plastic(material) and element.complete) or points <= element.thickness_order + 1:
         return element
     return at_order(element, points - 1)

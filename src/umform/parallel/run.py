@@ -100,7 +100,7 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
     asked_by = {part.by for part in model.rows} | {str(holder) for holder in model.holders if len(holder.rows)}
     if asked_by:
         raise InvalidValue(
-            "supports in local axes do not go with the solver petsc",
+            "supports in local axes do not work with the solver petsc",
             where="supports",
             value=", ".join(sorted(asked_by)),
             cause="ranks share out single degrees of freedom and pairs of them",

@@ -75,6 +75,35 @@ def length(what: str, remedy: str) -> Rule:
     return Rule(positive, f"{what} must be positive and finite", "a sign, or a missing value", remedy)
 
 
+def plastic_material(what: str) -> Rule:
+    """A plastic law; ``what`` says who needs it."""
+    from umform.materials.j2 import Plastic  # laws load NumPy, which the command line without numbers does without
+
+    return Rule(
+        lambda value: isinstance(value, Plastic),
+        f"{what} needs a plastic material",
+        "an elastic law, or the name of a metal",
+        "a J2 or a Metal; umform.sheet_metals.get('DC04').law for one",
+    )
+
+
+def contact_points(remedy: str) -> Rule:
+    """Contact points per direction of a facet."""
+    return Rule(
+        lambda value: whole(value, 1, 10),
+        "contact points per direction must be a whole number from 1 to 10",
+        "zero, or a rule that does not exist",
+        remedy,
+    )
+
+
+#: A coefficient of friction.
+FRICTION = Rule(
+    lambda value: number(value) and 0.0 <= value <= 2.0,
+    "a coefficient of friction lies between 0 and 2",
+    "a sign, or a percentage",
+    "0.05 to 0.2 for lubricated sheet",
+)
 #: The rolling direction of a sheet that is bent about one line.
 ROLLING = Rule(
     lambda value: value is None or (number(value) and abs(value) <= 180.0),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -73,6 +73,19 @@ def _parts(result: History, live: Live, deck: str) -> Iterator[str]:
     if deck:
         yield parts.heading("Deck")
         yield parts.folded("The input of this run", deck)
+    yield from closing(result)
+
+
+def parameter_parts(values: Mapping[str, object], note: str) -> Iterator[str]:
+    """The parameters of a process, with where its material comes from."""
+    yield parts.heading("Parameters")
+    if note:
+        yield parts.paragraph(note)
+    yield parts.pairs({name.replace("_", " "): value for name, value in values.items()})
+
+
+def closing(result: History) -> Iterator[str]:
+    """What every report ends with: the time of the run, and versions."""
     yield parts.heading("Where the time went")
     yield time_spent(result)
     yield parts.heading("Versions")

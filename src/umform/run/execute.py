@@ -186,7 +186,7 @@ def resume(
 
 
 def _prepared(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
-    """The steps, if the model can go them; a sheet that lies loosely rests on springs then."""
+    """The steps, if the model can go them; a loose sheet rests on springs then."""
     sequence = checked(model, steps)
     assert model is not None
     carry_loose_sheet(model, sequence)

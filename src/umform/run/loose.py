@@ -1,4 +1,4 @@
-"""A sheet that lies loosely at first: a run lets it rest on springs by itself where its steps bring tools to it.
+"""Springs under a sheet that is loose at first: a run adds them by itself if its steps bring tools to it.
 
 docs/theory, 4.18
 """
@@ -20,7 +20,7 @@ from umform.steps import Close, Move, Release, Step
 
 
 def carry_loose_sheet(model: Model, steps: Sequence[Step]) -> Rest | None:
-    """Let a sheet rest on springs if it can move as a rigid whole now and tools will hold it.
+    """Put springs under a sheet that can move as a rigid body now and that tools will hold.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def carry_loose_sheet(model: Model, steps: Sequence[Step]) -> Rest | None:
 
 @contextmanager
 def carried(model: Model, steps: Sequence[Step]) -> Iterator[None]:
-    """Let a loose sheet rest on springs for a while."""
+    """Put springs under a loose sheet inside of the block."""
     springs = carry_loose_sheet(model, steps)
     try:
         yield
@@ -60,17 +60,17 @@ def carried_motions(model: Model, steps: Sequence[Step]) -> list[str]:
         return []
     try:
         free = free_now(model)
-    except ModelError:  # the check of the model says more about it
+    except ModelError:  # the check of the model has the details
         return []
     return free if free and not free_in_touch(model) else []
 
 
 def note_springs(model: Model, result: History) -> None:
-    """Say that a run has let the sheet rest on springs by itself."""
+    """Note in the events that a run has put springs under the sheet."""
     for term in model.others:
         if isinstance(term, Rest) and term.motions and term.acts(model.ranks):
             result.note(
-                f"{term.name}: the sheet lies loosely, free: {term.motions}; it rests on weak springs until tools hold "
+                f"{term.name}: the sheet is loose, free: {term.motions}; it rests on weak springs until tools hold "
                 f"it (columns {term.name}_acts, {term.name}_energy)"
             )
 

@@ -1,4 +1,4 @@
-"""A sheet metal with what is known of it."""
+"""A sheet metal with its source and its limits."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from umform.sheet_metals.directional_fit import Directions
 
 @dataclass(frozen=True)
 class SheetMetal:
-    """A sheet metal with what is known of it. Units N, mm, MPa.
+    """A sheet metal with its source and its limits. Units N, mm, MPa.
 
     Attributes
     ----------
@@ -68,5 +68,5 @@ class SheetMetal:
         if isinstance(self.law, Metal):
             parts = (self.law.yield_function, self.law.back_stress, self.law.modulus)
             lines += [f"           {part}" for part in parts if part is not None]
-        told = {"source": self.source, "derived": self.derived, "caveat": self.caveat}
-        return "\n".join([*lines, *(f"  {what + ':':8s} {text}" for what, text in told.items() if text)])
+        notes = {"source": self.source, "derived": self.derived, "caveat": self.caveat}
+        return "\n".join([*lines, *(f"  {what + ':':8s} {text}" for what, text in notes.items() if text)])

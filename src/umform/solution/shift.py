@@ -1,8 +1,8 @@
 """Descend to a stable equilibrium where the tangent is indefinite: factorise K + s 1 in its place. eq. (5.54)
 
-Where a contact point lets go the sheet may lose its stability: no equilibrium is near, and Newton's method goes from
-the states with the point to those without it and back. With all eigenvalues positive each increment goes downhill, and
-the line search leads to the next stable equilibrium. There the tangent is positive and is taken as it is.
+Where a contact point opens the sheet may lose its stability: no equilibrium is near, and Newton's method alternates
+between states with the point and without it. With all eigenvalues positive each increment goes downhill, and the line
+search leads to the next stable equilibrium. There the tangent is positive definite and is not shifted.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Refuse an increment in which a sheet turns so far on a tool that chords of its slip say nothing of friction."""
+"""Refuse an increment in which a sheet turns so far on a tool that a chord is not the direction of its slip."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from umform.solution.records import Cause, Converged, Failed
 
 Floats = NDArray[np.float64]
 
-#: Chord over radius up to which a chord is the arc but for a hundredth.
+#: Chord over radius up to which the chord is shorter than the arc by at most a hundredth.
 _LONGEST = 0.5
 
 
 def follows(model: Model, last: Evaluation, converged: Converged) -> Converged:
     """The equilibrium, if the sheet turned on no tool with friction by more than half a radian. eq. (4.152)
 
-    The slip of an increment is measured along its chord. A free sheet that turned on its tool by half a turn would
-    feel friction towards its middle alone, and rest there: a false place, which increments of many degrees may find.
+    The slip of an increment is measured along its chord. After half a turn of a free sheet all chords pass through its
+    middle, and friction has no moment: a false equilibrium, which large increments may reach.
 
     Parameters
     ----------

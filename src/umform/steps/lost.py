@@ -1,4 +1,4 @@
-"""Tools under forces or springs that have let go of the sheet in an increment, in words."""
+"""Messages about tools under forces or springs that lost contact with the sheet in an increment."""
 
 from __future__ import annotations
 
@@ -35,5 +35,5 @@ def _message(press: Press) -> str:
     held = "a spring holds it" if press.stiffness else "a stop holds it" if press.stops else "nothing else holds it"
     return (
         f"tool {press.way.tool.name}, pressed with {what}, has lost the sheet; {held} at {press.way.name} = "
-        f"{press.way.value:.6g}: more force, a stop or a spring that follows the sheet, or Close() to fetch it again"
+        f"{press.way.value:.6g}: more force, a stop or a spring that follows the sheet, or Close() to bring it back"
     )

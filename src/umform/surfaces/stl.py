@@ -80,7 +80,7 @@ def _read(path: Path) -> tuple[Floats, Ids]:
         with np.errstate(over="ignore"), contextlib.redirect_stdout(io.StringIO()):  # it prints warnings
             made = meshio.read(path, file_format="stl")
         triangles = [block.data for block in made.cells if block.type == "triangle"]
-    except (Exception, SystemExit) as error:  # meshio raises what it comes across, and may exit
+    except (Exception, SystemExit) as error:  # meshio raises errors of any kind, and may exit
         raise FileProblem(
             "this is no STL file that can be read",
             where=str(path),

@@ -79,7 +79,7 @@ class Triangulated(Tool):
         edges = connected(self.surface, self.name, rims=self.open)
         if not (edges.mate < 0).any() and self.volume < 0.0:
             raise TurnedNormals(
-                "the normals of a closed tool look into it",
+                "the normals of a closed tool point into it",
                 where=self.name,
                 value=f"volume {self.volume:.6g}",
                 cause="a file that describes the void, or turned faces",
@@ -97,8 +97,8 @@ class Triangulated(Tool):
     ) -> Triangulated:
         """A tool from the triangles of an STL file.
 
-        What the true surface was is not in such a file: its normals are guessed from the triangles. A STEP file is
-        the better choice where there is one.
+        Such a file does not hold the true surface: normals are estimated from the triangles. Prefer a STEP file if
+        there is one.
 
         Parameters
         ----------
@@ -125,7 +125,7 @@ class Triangulated(Tool):
 
     @cached_property
     def volume(self) -> float:
-        """Volume inside of a closed surface, negative if the normals look into it."""
+        """Volume inside of a closed surface, negative if the normals point into it."""
         a, b, c = np.moveaxis(self.surface.corners - self.surface.points.mean(axis=0), 1, 0)
         return float(np.einsum("ti,ti->", a, np.cross(b, c)) / 6.0)
 
@@ -157,7 +157,7 @@ class Triangulated(Tool):
         return bool((rise < 0.0).any())
 
     def __str__(self) -> str:
-        """What the triangles have been made into."""
+        """Triangles, sharp edges and rims."""
         across = self.patches.across
         parts = [f"{len(self.surface.triangles)} triangles", f"{int((across == 1).sum()) // 2} sharp edges"]
         parts += [f"{int((across == 2).sum())} edges of rims"] if (across == 2).any() else []
@@ -178,9 +178,7 @@ class Triangulated(Tool):
         return self.patches.kernel()
 
     def __getstate__(self) -> dict[str, object]:
-        return {
-            name: value for name, value in self.__dict__.items() if name != "_kernel"
-        }  # made again where it is needed
+        return {name: value for name, value in self.__dict__.items() if name != "_kernel"}  # rebuilt on demand
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Flat triangles of the patches, as small as the chord error asks for."""

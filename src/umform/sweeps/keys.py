@@ -8,7 +8,7 @@ from typing import Any
 from umform.deck.contents import Contents
 from umform.deck.element import ElementPart
 from umform.deck.errors import slip
-from umform.deck.steps import Output, Solution
+from umform.deck.settings import Output, Solution
 from umform.errors import InvalidValue
 
 #: Names of the material of a deck, whose values may be sheet metals of the library.

@@ -141,7 +141,7 @@ def test_what_measurements_do_not_tell_is_named():
 
 
 def test_refusals():
-    with pytest.raises(InvalidValue, match="nothing to fit"):
+    with pytest.raises(InvalidValue, match="no measurements to fit"):
         calibrate(Measurements(), 2e5)
     with pytest.raises(InvalidValue, match="one of hill48, yld2004"):
         calibrate(Measurements(), 2e5, yield_function="hill")

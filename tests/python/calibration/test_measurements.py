@@ -48,7 +48,7 @@ def test_plastic_strains_get_their_elastic_part(file):
         ("0,1,1\n45,1,1\n", "the column angle is missing"),
         ("angle;stress;r\n0;1;1\n", "another separator"),
         ("angle,stress,r\n0,1,0,8\n", "decimal comma"),
-        ("angle,stress,r\n0,1,one\n", "the r is no number"),
+        ("angle,stress,r\n0,1,one\n", "the r is not a number"),
         ("angle,stress,r\n0,1,-0.8\n", "r at 0.0 must be positive"),
         ("angle,stress,r\n0,1,0.8\n0,1,0.9\n", "each once"),
         ("angle,stress,r\n135,1,0.8\n", "between 0 and 90"),

@@ -5,7 +5,7 @@ import pytest
 from pydantic import ValidationError
 
 from umform.deck.contents import json_schema
-from umform.deck.steps import Solution
+from umform.deck.settings import Solution
 
 PAGE = Path(__file__).parents[3] / "docs" / "deck-schema.json"
 

@@ -71,7 +71,7 @@ def test_all_ways_to_say_it(rolling, expected, tmp_path):
         ("rolling = [0.0, 0.0, 0.0]", "zero vector"),
         ('rolling = { angle = 30.0, line = "z" }', "along the normal"),
         ('rolling = { file = "none.csv" }', "cannot be read"),
-        ('rolling = { file = "words.csv" }', "are no numbers"),
+        ('rolling = { file = "words.csv" }', "are not numbers"),
         ('rolling = { file = "two.csv" }', "three numbers"),
         ('rolling = { file = "one.csv" }', "one for each cell"),
     ],

@@ -389,7 +389,7 @@ def test_what_is_refused_before_a_run(elastic, kinematic, tmp_path):
     text = tmp_path / "text.so"
     text.write_text("no library")
     for make, kind, message in (
-        (lambda: uf.Umat(tmp_path / "none.so"), FileProblem, "is not there"),
+        (lambda: uf.Umat(tmp_path / "none.so"), FileProblem, "does not exist"),
         (lambda: uf.Umat(text), FileProblem, "cannot be loaded"),
         (lambda: uf.Umat(elastic), FileProblem, "does not have the function"),
         (lambda: uf.Umat(kinematic, symbol="other"), FileProblem, "does not have the function"),
@@ -464,7 +464,7 @@ def test_decks(kinematic, elastic):
 @pytest.mark.parametrize(
     ("old", "new", "text"),
     [
-        ('"kinematic.so"', '"none.so"', "library of a law is not there"),
+        ('"kinematic.so"', '"none.so"', "library of a law does not exist"),
         ("energies = true", 'symbol = "other"', "does not have the function"),
         ('rolling = "x"', "", "rolling direction"),
         ("eqps = 1", "eqps = 0", "eqps"),

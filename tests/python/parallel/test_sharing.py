@@ -125,6 +125,6 @@ def test_supports_that_ranks_cannot_share_are_refused_by_name(support, name):
     model = uf.Model(strip(8.0, 3.0, 1.0, (4, 3)), material=STEEL)
     model.fix("x0")
     support(model)
-    with pytest.raises(InvalidValue, match="do not go with the solver petsc") as caught:
+    with pytest.raises(InvalidValue, match="do not work with the solver petsc") as caught:
         _outline(model, [], ONE)
     assert name in str(caught.value)

@@ -20,10 +20,10 @@ from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.air_bending import budget as budget_module
 from umform.processes.air_bending.brake import build
 from umform.processes.air_bending.budget import Budget, error_budget, refinements
-from umform.processes.air_bending.checks import MOST_LAYERS, MOST_POINTS
 from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.files import parameters, write_files
 from umform.processes.air_bending.measures import QUANTITIES
+from umform.processes.air_bending.rules import MOST_LAYERS, MOST_POINTS
 from umform.processes.air_bending.words import summary, summary_header
 
 TINY = AirBending(stroke=1.0, elements_per_thickness=1.0, layers=1, increment=0.025)

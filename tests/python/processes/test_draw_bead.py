@@ -90,8 +90,8 @@ def test_files(drawn, tmp_path):
     ("wrong", "said"),
     [
         ({"thickness": -1.0}, "thickness"),
-        ({"radius": 0.3}, "does not go with the thickness"),
-        ({"groove_radius": 900.0}, "does not go with the thickness"),
+        ({"radius": 0.3}, "does not fit the thickness"),
+        ({"groove_radius": 900.0}, "does not fit the thickness"),
         ({"height": 0.0}, "height"),
         ({"groove": 8.0}, "no room"),
         ({"gap": -0.1}, "gap"),

@@ -1,4 +1,4 @@
-"""A sheet that lies loosely at first rests on weak springs, which let go once tools hold it."""
+"""A sheet that is loose at first rests on weak springs, which are removed once tools hold it."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def test_a_loose_sheet_that_tools_will_hold_rests_on_springs_by_itself():
     """As with a call of rest(), to the last bit; the run says so, and for what."""
     model, hold = loose(0.2, supported=False)
     by_itself = solve(model, Close(hold, force=-200.0))
-    assert "lies loosely" in by_itself.events[0]
+    assert "the sheet is loose" in by_itself.events[0]
     assert "translation z" in by_itself.events[0]
     assert by_itself["rest_acts"][[0, -1]].tolist() == [1.0, 0.0]
     assert 0.0 < by_itself["rest_energy"][-1] < 1e-6 * by_itself["external_work"][-1]

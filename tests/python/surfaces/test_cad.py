@@ -148,5 +148,5 @@ def test_what_cannot_be_read(tmp_path):
         CadTool.read(tmp_path / "text.step")
     with pytest.raises(FileProblem, match="a STEP or an IGES file"):
         read_tool(tmp_path / "die.dwg")
-    with pytest.raises(DrawingError, match="do not come near enough"):
+    with pytest.raises(DrawingError, match="do not reach the tolerance"):
         CadTool.read(write(free_form(), tmp_path / "wave.step"), tolerance=1e-9)

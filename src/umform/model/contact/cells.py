@@ -7,7 +7,7 @@ import math
 from umform.errors import InvalidValue
 from umform.model.contact.encounter import Encounter
 
-#: Ripple of the force that is wanted where nothing is said.
+#: Default of the allowed ripple of the force.
 RIPPLE = 1e-3
 #: Fewest and most cells per direction of a face.
 FEWEST, MOST = 3, 20

@@ -32,7 +32,7 @@ _STIFFEST = 10.0
 #: Contact points that the expected contact length should hold, and the most points per direction. Where the force is a
 #: third of what is expected, as late in air bending, the contact is 0.7 times as long and still holds four.
 _WITHIN, _MOST = 6.0, 10
-#: Points per direction where nothing is said.
+#: Default of the points per direction.
 _POINTS = 2
 
 

@@ -10,9 +10,10 @@ from umform.elements import element
 from umform.pool import run_all
 from umform.processes.air_bending.brake import build
 from umform.processes.air_bending.branches import Brake
-from umform.processes.air_bending.checks import MOST_LAYERS, MOST_POINTS, RULES, needed_stroke
+from umform.processes.air_bending.checks import needed_stroke
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.rules import MOST_LAYERS, MOST_POINTS, RULES
 from umform.progress import progress_bar
 
 #: Element of the stack that the layers are judged by, and its points through the thickness of each of them.

@@ -7,19 +7,13 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from umform.errors import InvalidValue
-from umform.materials import J2, Metal
-from umform.processes.rules import ROLLING, Rule, check_rolling, check_rules, length, number, positive, whole
+from umform.processes.air_bending.rules import RULES, angle_rule
+from umform.processes.rules import Rule, check_rolling, check_rules, number
 
-#: The most contact points per direction, and the most layers.
-MOST_POINTS, MOST_LAYERS = 10, 8
-#: A larger increment jumps over the first contact; a run of smaller ones does not end.
-_LARGEST_INCREMENT, _SMALLEST_INCREMENT = 0.05, 1e-5
 #: Openings over the thickness between which a sheet is bent in the air; press brakes take 5 to 16.
 _NARROWEST, _WIDEST = 1.0, 500.0
 #: Penalty over E / thickness beyond which Newton's method creeps.
 _STIFFEST = 1e3
-#: More elements on a thickness than any mesh study needs.
-_MOST_ELEMENTS = 100
 
 
 class Geometry(Protocol):
@@ -81,71 +75,6 @@ class Geometry(Protocol):
         """Smallest angle of bending that the tools allow."""
 
 
-def _angle(what: str, mixed_up: str, usual: str) -> Rule:
-    return Rule(
-        lambda value: number(value) and 0.0 < value < 180.0,
-        f"{what} lies between 0 and 180 degrees",
-        f"radians, a sign, or {mixed_up}",
-        f"in degrees, such as {usual}",
-    )
-
-
-def _of_flanks(tool: str) -> Rule:
-    return _angle(f"the angle between the flanks of the {tool}", "the angle of bending in place of it", "85")
-
-
-def _count(what: str, least: int, most: int, usual: str) -> Rule:
-    return Rule(
-        lambda value: whole(value, least, most),
-        f"{what} must be a whole number from {least} to {most}",
-        "zero, a sign, a fraction, or more than there are rules for",
-        f"such as {usual}",
-    )
-
-
-#: One rule a parameter; the element is looked up where the catalogue is.
-RULES: dict[str, Rule] = {
-    "thickness": length("the thickness of the sheet", "in mm, such as 2"),
-    "opening": length("the opening of the die", "in mm, such as 8 times the thickness"),
-    "die_angle": _of_flanks("die"),
-    "die_radius": length("the radius of the shoulders", "in mm, such as 2"),
-    "punch_angle": _of_flanks("punch"),
-    "punch_radius": length("the radius of the tip", "in mm, such as 1.5"),
-    "width": length("the length of the bend", "in mm, such as 50; leave it out for plane strain").optional(),
-    "stroke": length("the way of the punch", "in mm, downwards, such as 6").optional(),
-    "material": Rule(
-        lambda value: isinstance(value, J2 | Metal),
-        "air bending needs a plastic material",
-        "an elastic law, or the name of a metal",
-        "a J2 or a Metal; umform.sheet_metals.get('DC04').law for one",
-    ),
-    "rolling": ROLLING,
-    "layers": _count("the number of layers", 1, MOST_LAYERS, "2"),
-    "thickness_points": _count("the number of thickness points", 2, 15, "6"),
-    "elements_per_thickness": Rule(
-        lambda value: positive(value) and value <= _MOST_ELEMENTS,
-        f"the number of elements on a thickness must be positive and at most {_MOST_ELEMENTS}",
-        "the number of all elements in place of that on a thickness, or a sign",
-        "such as 3",
-    ),
-    "width_elements": _count("the number of elements over half of the width", 1, 1000, "3"),
-    "contact_points": Rule(
-        lambda value: value == "auto" if isinstance(value, str) else whole(value, 1, MOST_POINTS),
-        f"contact points per direction must be a whole number from 1 to {MOST_POINTS}, or auto",
-        "more points than there are rules for, or all points of a facet instead of those of one direction",
-        "auto, or such as 5",
-    ),
-    "penalty": length(
-        "the penalty", "pressure per penetration; leave it out: it follows from the penetration"
-    ).optional(),
-    "penetration": length("the penetration", "such as thickness / 500; leave it out for thickness / 200").optional(),
-    "increment": Rule(
-        lambda value: number(value) and _SMALLEST_INCREMENT <= value <= _LARGEST_INCREMENT,
-        f"an increment is {_SMALLEST_INCREMENT:g} to {_LARGEST_INCREMENT:g} of the opening",
-        "a length in mm instead of a part of the opening, or a sign",
-        "0.00625 is usual",
-    ),
-}
 #: The force that counts as zero after unloading leaves about the smallest of these open; see `brake`.
 _FINEST, _COARSEST = 0.001, 10.0
 _TOLERANCE = Rule(
@@ -154,7 +83,9 @@ _TOLERANCE = Rule(
     "a sign, radians, or a part of the angle",
     "0.02 is usual",
 )
-_WANTED = _angle("the angle of a bend", "the angle by which the sheet is bent in place of that between the legs", "90")
+_WANTED = angle_rule(
+    "the angle of a bend", "the angle by which the sheet is bent in place of that between the legs", "90"
+)
 
 
 def check_parameters(values: Mapping[str, Any]) -> None:
@@ -212,7 +143,7 @@ def _check_rolling(case: Geometry) -> None:
 
 
 def _unfit(case: Geometry, name: str, what: str, cause: str, remedy: str) -> InvalidValue:
-    """Error for a parameter that does not go with the others."""
+    """Error for a parameter that does not fit the others."""
     return InvalidValue(what, where=name, value=getattr(case, name), cause=cause, remedy=remedy)
 
 
@@ -222,7 +153,7 @@ def _check_proportions(case: Geometry) -> None:
         raise _unfit(
             case,
             "opening",
-            "the opening of the die does not go with the thickness of the sheet",
+            "the opening of the die does not fit the thickness of the sheet",
             f"it is {case.opening / case.thickness:.3g} thicknesses; another unit, or the two exchanged",
             f"{_NARROWEST:g} to {_WIDEST:g} thicknesses; press brakes take 5 to 16",
         )

@@ -17,9 +17,8 @@ from umform.processes.air_bending.words import summary, summary_header, table_he
 from umform.report import parts
 from umform.report.live import Live, style
 from umform.report.materials import material_text
-from umform.report.page import settings, time_spent
+from umform.report.page import closing, parameter_parts, settings
 from umform.report.repeats import counted
-from umform.report.versions import versions
 
 _BUDGET = (
     "± is the root of the sum of squares of the changes by the refinements beside it: the uncertainty from mesh, "
@@ -98,23 +97,17 @@ def _parts(
     yield parts.heading("History")
     yield parts.paragraph("The forces of the history are those of the part of the sheet that is modelled.")
     yield live.table
-    yield parts.heading("Parameters")
-    if note:
-        yield parts.paragraph(note)
-    yield parts.pairs(_parameters(bend.case))
+    yield from parameter_parts(_parameters(bend.case), note)
     yield parts.heading("Model")
     yield parts.pairs(settings(bend.result))
     if deck:
         yield parts.heading("Deck")
         yield parts.folded("The input of this bend, for umform run", deck)
-    yield parts.heading("Where the time went")
-    yield time_spent(bend.result)
-    yield parts.heading("Versions")
-    yield parts.pairs(versions())
+    yield from closing(bend.result)
 
 
 def _parameters(case: AirBending) -> dict[str, object]:
     """The parameters of a bend, for people; those that follow from others are left out."""
     words = {"material": material_text(case.material), "element": element(case.element).name}
     record = case.record() | words | {"width": "plane strain" if case.width is None else case.width}
-    return {name.replace("_", " "): value for name, value in record.items() if value is not None}
+    return {name: value for name, value in record.items() if value is not None}

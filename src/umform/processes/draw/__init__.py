@@ -1,4 +1,4 @@
-"""Deep drawing: a round cup, and a U-bend; each is drawn, taken out of its tools and measured.
+"""Deep drawing: a round cup, and a U-bend; each is drawn, released from its tools and measured.
 
 `draw` runs a `Cup` or a `UBend`; `Drawn` is what comes out, `write_files` writes all that is known of it.
 """

@@ -24,7 +24,7 @@ def draw(
 ) -> Drawn:
     """Draw a part and take it out of its tools.
 
-    A run that cannot be continued ends with what it has: ``ending`` of what is returned says why.
+    A run that fails returns its last converged state; ``ending`` of the result has the cause.
 
     Parameters
     ----------

@@ -48,7 +48,7 @@ class Cup:
     punch_radius, punch_edge, die_radius, die_edge : float
         Radii of the punch and of the opening of the die, and of their edges.
     holder_force : float, optional
-        Force on the whole holder, which comes to lie on its distance blocks where the sheet lets it; without it the
+        Force on the whole holder, which rests on its distance blocks unless the sheet pushes harder; without it the
         holder keeps its distance.
     holder_gap : float, optional
         Distance of the holder on its blocks from the die; default 1.04 thicknesses.
@@ -107,7 +107,7 @@ class Cup:
         air = self.die_radius - self.punch_radius
         if not 0.5 * self.thickness < air < 20.0 * self.thickness:
             raise InvalidValue(
-                "between punch and die there is no room for the sheet, or much too much",
+                "the gap between punch and die does not fit the sheet",
                 where="die_radius",
                 value=self.die_radius,
                 cause=f"a gap of {air:.4g} beside the punch for a sheet of {self.thickness:g}; a diameter for a radius",

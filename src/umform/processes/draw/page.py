@@ -11,9 +11,8 @@ from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.words import before_the_run, parameters, summary, title
 from umform.report import parts
 from umform.report.materials import material_text
-from umform.report.page import settings, time_spent
+from umform.report.page import closing, parameter_parts, settings
 from umform.report.repeats import counted
-from umform.report.versions import versions
 
 _CAPTIONS = {
     "curve": "Forces of the tools on the whole part over the stroke.",
@@ -55,15 +54,8 @@ def _parts(drawn: Drawn, figures: Mapping[str, Figure], note: str) -> Iterator[s
     yield parts.table(["quantity", "value", "unit"], summary(drawn))
     for name, figure in figures.items():
         yield parts.figure(figure, _CAPTIONS[name])
-    yield parts.heading("Parameters")
-    if note:
-        yield parts.paragraph(note)
-    told = parameters(drawn.case) | {"material": material_text(drawn.case.material)}
-    yield parts.pairs({name.replace("_", " "): value for name, value in told.items()})
+    yield from parameter_parts(parameters(drawn.case) | {"material": material_text(drawn.case.material)}, note)
     yield parts.paragraph(before_the_run(drawn.case))
     yield parts.heading("Model")
     yield parts.pairs(settings(drawn.result))
-    yield parts.heading("Where the time went")
-    yield time_spent(drawn.result)
-    yield parts.heading("Versions")
-    yield parts.pairs(versions())
+    yield from closing(drawn.result)

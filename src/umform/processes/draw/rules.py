@@ -2,33 +2,22 @@
 
 from __future__ import annotations
 
-from umform.materials.j2 import Plastic
-from umform.processes.rules import Rule, length, number, positive, whole
+from umform.processes.rules import FRICTION, Rule, contact_points, length, number, plastic_material, positive, whole
 
 #: Rules that cups and U-bends share.
 COMMON: dict[str, Rule] = {
     "thickness": length("the thickness of the sheet", "in mm, such as 1"),
-    "material": Rule(
-        lambda value: isinstance(value, Plastic),
-        "a part is drawn of a plastic material",
-        "an elastic law, or the name of a metal",
-        "a J2 or a Metal; umform.sheet_metals.get('DC04').law for one",
-    ),
+    "material": plastic_material("drawing"),
     "punch_edge": length("the radius of the edge of the punch", "in mm, such as 5"),
     "die_edge": length("the radius of the edge of the die", "in mm, such as 10"),
     "holder_force": Rule(
-        lambda value: positive(value),
+        positive,
         "the force of the holder must be positive",
         "a sign",
         "in N, such as 40e3; leave it out for a holder that keeps its distance",
     ).optional(),
-    "friction": Rule(
-        lambda value: number(value) and 0.0 <= value <= 2.0,
-        "a coefficient of friction lies between 0 and 2",
-        "a sign, or a percentage",
-        "0.05 to 0.2 for lubricated sheet",
-    ),
-    "stroke": length("the stroke", "in mm; leave it out for the usual one").optional(),
+    "friction": FRICTION,
+    "stroke": length("the stroke", "in mm; leave it out for a whole cup or the usual U-bend").optional(),
     "turn": Rule(
         lambda value: number(value) and 1.0 <= value <= 45.0,
         "the angle that an element turns over a radius lies between 1 and 45 degrees",
@@ -36,12 +25,7 @@ COMMON: dict[str, Rule] = {
         "15 is usual, 30 for a coarse mesh",
     ),
     "penalty": length("the penalty of the contacts", "in MPa per mm of penetration, such as 3e4"),
-    "contact_points": Rule(
-        lambda value: whole(value, 1, 10),
-        "contact points per direction must be a whole number from 1 to 10",
-        "zero, or more than there are rules for",
-        "2 for cells of 8 nodes, 3 for those of 18",
-    ),
+    "contact_points": contact_points("2 for cells of 8 nodes, 3 for those of 18"),
     "thickness_points": Rule(
         lambda value: whole(value, 2, 20),
         "points through the thickness must be a whole number from 2 to 20",

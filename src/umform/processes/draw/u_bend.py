@@ -88,7 +88,7 @@ class UBend:
         air = 0.5 * (self.opening - self.punch_width)
         if not 0.5 * self.thickness < air < 20.0 * self.thickness:
             raise InvalidValue(
-                "between punch and die there is no room for the sheet, or much too much",
+                "the gap between punch and die does not fit the sheet",
                 where="opening",
                 value=self.opening,
                 cause=f"a gap of {air:.4g} beside the punch for a sheet of {self.thickness:g}",

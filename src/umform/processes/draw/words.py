@@ -32,5 +32,5 @@ def summary(drawn: Drawn) -> list[list[str]]:
 
 
 def before_the_run(case: Cup | UBend) -> str:
-    """What is said of the mesh before the run."""
+    """Description of the mesh, printed before the run."""
     return f"along the section: {case.sizes}"

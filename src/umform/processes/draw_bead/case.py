@@ -55,7 +55,7 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
 
 
 def limits_of(coarse: Drawn, fine: Drawn) -> Limits:
-    """Both forces with elements of no length, from two meshes."""
+    """Both forces extrapolated to elements of zero length, from two meshes."""
     refined = fine.case.elements / coarse.case.elements
     return Limits(Limit.of(coarse.restraint, fine.restraint, refined), Limit.of(coarse.uplift, fine.uplift, refined))
 

@@ -6,20 +6,25 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from umform.errors import InvalidValue
-from umform.materials import J2, Metal
-from umform.processes.rules import ROLLING, Rule, check_rolling, check_rules, length, number, positive, whole
+from umform.processes.rules import (
+    FRICTION,
+    ROLLING,
+    Rule,
+    check_rolling,
+    check_rules,
+    contact_points,
+    length,
+    number,
+    plastic_material,
+    positive,
+)
 
 #: Sharper radii, in thicknesses, crush the sheet; rounder ones are no bead.
 _SHARPEST, _ROUNDEST = 1.0, 200.0
 
 RULES: dict[str, Rule] = {
     "thickness": length("the thickness of the sheet", "in mm, such as 0.8"),
-    "material": Rule(
-        lambda value: isinstance(value, J2 | Metal),
-        "a draw bead needs a plastic material",
-        "an elastic law, or the name of a metal",
-        "a J2 or a Metal; umform.sheet_metals.get('DC04').law for one",
-    ),
+    "material": plastic_material("a draw bead"),
     "rolling": ROLLING,
     "radius": length("the radius of the bead", "in mm, such as 5.5"),
     "height": length("the height of the bead", "in mm, such as 6"),
@@ -31,12 +36,7 @@ RULES: dict[str, Rule] = {
         "a sign, or the distance of the flats in place of the air beside the sheet",
         "in mm, such as 0.04; leave it out for 5 % of the thickness",
     ).optional(),
-    "friction": Rule(
-        lambda value: number(value) and 0.0 <= value <= 2.0,
-        "a coefficient of friction lies between 0 and 2",
-        "a sign, or a percentage",
-        "0.05 to 0.2 for lubricated steel",
-    ),
+    "friction": FRICTION,
     "draw": length("the way that the strip is drawn", "in mm; leave it out for 1.5 times the way through").optional(),
     "elements": Rule(
         lambda value: positive(value) and 2.0 <= value <= 100.0,
@@ -44,12 +44,7 @@ RULES: dict[str, Rule] = {
         "the number of all elements in place of those on an arc",
         "20 is usual, 10 with 18 nodes",
     ),
-    "contact_points": Rule(
-        lambda value: whole(value, 1, 10),
-        "contact points per direction must be a whole number from 1 to 10",
-        "zero, or more than there are rules for",
-        "such as 4",
-    ),
+    "contact_points": contact_points("such as 4"),
 }
 
 
@@ -109,7 +104,7 @@ def check_geometry(case: Geometry) -> None:
         ratio = getattr(case, name) / case.thickness
         if not _SHARPEST <= ratio <= _ROUNDEST:
             raise InvalidValue(
-                "a radius of the bead does not go with the thickness of the sheet",
+                "a radius of the bead does not fit the thickness of the sheet",
                 where=name,
                 value=getattr(case, name),
                 cause=f"it is {ratio:.3g} thicknesses; another unit, or the two exchanged",

@@ -21,7 +21,7 @@ def in_deck(drawn: Drawn) -> str:
 
 
 def _forces(drawn: Drawn) -> tuple[float, float]:
-    """Restraint and uplift, with elements of no length where that is known."""
+    """Restraint and uplift, extrapolated to elements of zero length if two meshes were run."""
     if drawn.limits is None:
         return drawn.restraint, drawn.uplift
     return drawn.limits.restraint.value, drawn.limits.uplift.value

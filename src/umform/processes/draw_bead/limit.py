@@ -1,4 +1,4 @@
-"""What two meshes say of the forces with elements of no length, and how far the finer mesh is from that."""
+"""Forces of two meshes extrapolated to elements of zero length, and the error of the finer mesh."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Self
 
 @dataclass(frozen=True)
 class Limit:
-    """A number with elements of no length, its error falling with the square of their length.
+    """A number extrapolated to elements of zero length; its error falls with the square of their length.
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class Limit:
 
 @dataclass(frozen=True)
 class Limits:
-    """Both forces of a bead with elements of no length."""
+    """Both forces of a bead, extrapolated to elements of zero length."""
 
     restraint: Limit
     uplift: Limit

@@ -55,7 +55,7 @@ class Drawn:
     result : Result
         History, frames and iterations.
     limits : Limits, optional
-        Both forces with elements of no length, where two meshes have been drawn.
+        Both forces extrapolated to elements of zero length, if two meshes were run.
     """
 
     case: DrawBead

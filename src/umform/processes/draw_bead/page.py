@@ -12,9 +12,8 @@ from umform.processes.draw_bead.measures import Drawn
 from umform.processes.draw_bead.words import parameters, summary
 from umform.report import parts
 from umform.report.materials import material_text
-from umform.report.page import settings, time_spent
+from umform.report.page import closing, parameter_parts, settings
 from umform.report.repeats import counted
-from umform.report.versions import versions
 
 
 def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: str = "") -> Path:
@@ -46,14 +45,7 @@ def _parts(drawn: Drawn, figures: Mapping[str, Figure], note: str) -> Iterator[s
     yield parts.figure(figures["shape"], "The sheet in the bead at the end.")
     yield parts.heading("Equivalent bead")
     yield parts.folded("Table of a deck", in_deck(drawn))
-    yield parts.heading("Parameters")
-    if note:
-        yield parts.paragraph(note)
-    told = parameters(drawn) | {"material": material_text(drawn.case.material)}
-    yield parts.pairs({name.replace("_", " "): value for name, value in told.items()})
+    yield from parameter_parts(parameters(drawn) | {"material": material_text(drawn.case.material)}, note)
     yield parts.heading("Model")
     yield parts.pairs(settings(drawn.result))
-    yield parts.heading("Where the time went")
-    yield time_spent(drawn.result)
-    yield parts.heading("Versions")
-    yield parts.pairs(versions())
+    yield from closing(drawn.result)

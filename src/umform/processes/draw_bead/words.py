@@ -20,6 +20,6 @@ def summary(drawn: Drawn) -> list[list[str]]:
     rows = [[label, f"{getattr(drawn, name):.{digits}f}", unit] for name, (label, unit, digits) in QUANTITIES.items()]
     if drawn.limits is not None:
         for label, limit in (("restraining force", drawn.limits.restraint), ("uplift force", drawn.limits.uplift)):
-            rows.append([f"{label}, elements of no length", f"{limit.value:.1f}", "N/mm"])
+            rows.append([f"{label}, extrapolated", f"{limit.value:.1f}", "N/mm"])
             rows.append(["what the mesh is above it", f"{100.0 * limit.off:.1f}", "%"])
     return rows

@@ -44,7 +44,7 @@ class CadTool(Tool):
     smooth : Triangulated
         The triangles of all faces.
     exact : tuple of Tool
-        Endless surfaces of the faces that have a formula.
+        Infinite surfaces of the faces that have a formula.
     face : ndarray of int, shape (m,)
         That of each triangle, -1 on free forms.
     deviation : float
@@ -114,7 +114,7 @@ class CadTool(Tool):
         if refusal is not None:
             raise refusal
         raise DrawingError(
-            "the triangles of the faces do not come near enough to them",
+            "the triangles of the faces do not reach the tolerance",
             where=str(path),
             value=f"{found}, {tolerance:.3g} is allowed",
             cause="a tolerance far below the size of the radii, or faces with kinks",
@@ -142,16 +142,14 @@ class CadTool(Tool):
         return self.smooth.patches.kernel(faces, np.repeat(self.face, 3), trust)
 
     def __getstate__(self) -> dict[str, object]:
-        return {
-            name: value for name, value in self.__dict__.items() if name != "_kernel"
-        }  # made again where it is needed
+        return {name: value for name, value in self.__dict__.items() if name != "_kernel"}  # rebuilt on demand
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Flat triangles of the patches."""
         return self.smooth.facets(centre, reach, chord)
 
     def __str__(self) -> str:
-        """What the drawing has been made into."""
+        """Faces, triangles and deviation."""
         kinds = ", ".join(f"{count} {kind}" for kind, count in sorted(self.kinds.items()))
         return (
             f"{self.smooth.name}: {kinds}; {len(self.face)} triangles, smooth surface within {self.deviation:.2g} of "

@@ -1,0 +1,25 @@
+"""Options of the command line: their panels in the help, and those that describe the sheet."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+#: Panels.
+SHEET, SOLUTION = "Sheet (mm, MPa)", "Solution"
+
+
+def option(help_text: str, panel: str, *names: str) -> Any:
+    """An option with its panel in the help."""
+    return typer.Option(*names, help=help_text, rich_help_panel=panel)
+
+
+Material = Annotated[str | None, option("Name in the library of sheet metals: `umform metal list`.", SHEET)]
+Young = Annotated[float | None, option("Young's modulus.", SHEET)]
+Poisson = Annotated[float | None, option("Poisson's ratio.", SHEET)]
+Yield = Annotated[float | None, option("Yield stress, for linear hardening.", SHEET)]
+Modulus = Annotated[float | None, option("Hardening modulus; default 0.", SHEET)]
+SwiftCurve = Annotated[str | None, option("Swift hardening K,e0,n, as 520,0.004,0.22.", SHEET)]
+FlowCurve = Annotated[Path | None, option("Measured hardening: a CSV file of plastic strain and true stress.", SHEET)]

@@ -1,0 +1,111 @@
+"""The supports of a deck."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from umform.deck.parts import Axis, Name, Part, Vector, Way
+from umform.deck.selection import Selection, nodes_of
+from umform.model import Model
+from umform.model.axes import Axes, cylindrical
+from umform.model.support import Support as Held
+
+
+class Around(Part):
+    """Cylindrical axes r, t, a around a line."""
+
+    origin: Vector
+    """A point of the axis."""
+    axis: Way
+    """Direction of the axis."""
+
+    def build(self) -> Axes:
+        """The axes."""
+        return cylindrical(self.origin, self.axis)
+
+
+class _Supporting(Part):
+    """What supports in axes of their own have in common."""
+
+    nodes: Selection
+    """Which nodes; for a mid-line or a director the lower and upper nodes of the edge."""
+    directions: Annotated[str, Field(pattern=r"^[xyzrta]{1,3}$")] | None = None
+    """Letters of the directions: x, y, z, or r, t, a of the axes; by default all three."""
+    axes: Around | None = None
+    """Cylindrical axes instead of x, y, z."""
+    name: Name | None = None
+    """Name, by which a step may free it."""
+
+    def _hold(self, method: Callable[..., Held], model: Model) -> Held:
+        axes = None if self.axes is None else self.axes.build()
+        return method(nodes_of(model.mesh, self.nodes), self.directions, axes=axes, name=self.name or "")
+
+
+class Fix(_Supporting):
+    """Nodes that are held."""
+
+    kind: Literal["fix"]
+    """The word fix."""
+
+    def add_to(self, model: Model) -> Held:
+        """Hold the nodes."""
+        return self._hold(model.fix, model)
+
+
+class Symmetry(Part):
+    """Nodes that stay in a plane."""
+
+    kind: Literal["symmetry"]
+    """The word symmetry."""
+    nodes: Selection
+    """Which nodes."""
+    normal: Axis
+    """Normal of the plane."""
+
+    def add_to(self, model: Model) -> Held:
+        """Hold the nodes in the plane."""
+        return model.symmetry(nodes_of(model.mesh, self.nodes), self.normal)
+
+
+class Hinge(_Supporting):
+    """Mid-line of an edge that is held; the edge may turn about it."""
+
+    kind: Literal["hinge"]
+    """The word hinge."""
+
+    def add_to(self, model: Model) -> Held:
+        """Hold the mid-line."""
+        return self._hold(model.hinge, model)
+
+
+class Director(_Supporting):
+    """Director of an edge that stays in the planes normal to the directions, and may tilt and stretch there."""
+
+    kind: Literal["director"]
+    """The word director."""
+
+    def add_to(self, model: Model) -> Held:
+        """Hold the director."""
+        return self._hold(model.hold_director, model)
+
+
+class Rigid(Part):
+    """As few degrees of freedom as hold the sheet as a rigid body beside all else; a step puts it in place."""
+
+    kind: Literal["rigid"]
+    """The word rigid."""
+    name: Name
+    """Name, by which a step puts it in place."""
+    nodes: Selection = "all"
+    """Nodes that may be held: three that are not on a line, or all."""
+
+    def add_to(self, model: Model) -> Held:
+        """Let the support wait."""
+        nodes = "all" if self.nodes == "all" else nodes_of(model.mesh, self.nodes)
+        return model.hold_rigid(nodes, self.name)
+
+
+Support = Annotated[Fix | Symmetry | Hinge | Director | Rigid, Field(discriminator="kind")]

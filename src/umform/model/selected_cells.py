@@ -1,0 +1,39 @@
+"""Cells of a body: their numbers, a mask, or a predicate."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform.errors import EmptySet, InvalidValue
+from umform.mesh import Mesh
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.int64]
+
+#: Cells: their numbers, a mask, or a predicate of the coordinates x, y, z of their centres.
+Cells = ArrayLike | Callable[[Floats, Floats, Floats], Any]
+
+
+def cell_numbers(mesh: Mesh, cells: Cells | None, name: str) -> Numbers:
+    """Numbers of selected cells, increasing."""
+    count = len(mesh.connectivity)
+    if cells is None:
+        return np.arange(count)
+    if callable(cells):
+        centres = mesh.points[mesh.connectivity].mean(axis=1)
+        cells = cells(*centres.T)
+    chosen = np.asarray(cells)
+    if chosen.dtype == bool and chosen.shape != (count,):
+        raise InvalidValue("a mask of cells has one entry for each cell", where=f"body {name}", value=chosen.shape)
+    numbers = np.flatnonzero(chosen) if chosen.dtype == bool else np.unique(chosen.astype(np.int64))
+    if len(numbers) == 0:
+        raise EmptySet("a body has no cell", where=f"body {name}", remedy="look at its predicate or its numbers")
+    if numbers[0] < 0 or numbers[-1] >= count:
+        raise InvalidValue(
+            "a cell of a body does not exist", where=f"body {name}", value=int(numbers[-1]), remedy=f"0 to {count - 1}"
+        )
+    return numbers
