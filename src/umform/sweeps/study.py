@@ -42,7 +42,8 @@ class Sweep:
     Examples
     --------
     >>> import umform as uf
-    >>> rows = [{"thickness": t, "outcome": "done", "punch_force:peak": f} for t, f in ((0.8, 21.0), (1.0, 33.5))]
+    >>> row = {"outcome": "done", "warnings": 0, "seconds": 1.0, "reason": "", "folder": "jobs"}
+    >>> rows = [row | {"thickness": t, "punch_force:peak": force} for t, force in ((0.8, 21.0), (1.0, 33.5))]
     >>> found = uf.Sweep(["thickness"], ["punch_force:peak"], rows, [])
     >>> found["punch_force:peak"]
     [21.0, 33.5]
