@@ -1,4 +1,5 @@
 // Integrals of a linear gap over the part of a cell where it is negative, against sums over a fine grid and by hand.
+#include <array>
 #include <random>
 
 #include "check.hpp"
@@ -8,7 +9,13 @@ using namespace umform;
 
 namespace {
 
-Overlap cut(double g, double p, double q) { return Cut(g, p, q).overlap; }
+using Corners = std::array<double, 4>;
+
+Corners corners(double g, double p, double q) {
+    return {g - 0.5 * p - 0.5 * q, g + 0.5 * p - 0.5 * q, g + 0.5 * p + 0.5 * q, g - 0.5 * p + 0.5 * q};
+}
+
+Overlap cut(double g, double p, double q) { return Cut(corners(g, p, q)).overlap; }
 
 /// Sums over strips along eta, each integrated exactly in xi by its two ends.
 Overlap summed(double g, double p, double q) {
@@ -75,6 +82,12 @@ void check_derivative() {
         CHECK_NEAR(at.m_xi, (cut(g, p + h, q).gap - cut(g, p - h, q).gap) / (2 * h), 2e-9 + 1e-9 / std::hypot(p, q));
         CHECK_NEAR(at.m_eta, (cut(g, p, q + h).gap - cut(g, p, q - h).gap) / (2 * h), 2e-9 + 1e-9 / std::hypot(p, q));
         CHECK_NEAR(at.gap, (cut(g + h, p, q).half_square - cut(g - h, p, q).half_square) / (2 * h), 1e-9);
+        for (int i = 0; i < 4; ++i) {
+            Corners more = corners(g, p, q), less = more;
+            more[i] += h, less[i] -= h;
+            const double slope = (Cut(more).overlap.gap - Cut(less).overlap.gap) / (2 * h);
+            CHECK_NEAR(at.by_corner[i], slope, 2e-9 + 1e-9 / std::hypot(p, q));
+        }
     }
 }
 
