@@ -181,8 +181,9 @@ void check_history() {
     block->commit();
     CHECK(block->multipliers() == multipliers);
     const std::vector<double> kept = block->history().state();
+    const std::vector<Vec3> places = block->positions();
     for (int q = 0; q < 4; ++q) {
-        const Vec3& x = block->positions()[q];
+        const Vec3& x = places[q];
         CHECK_NEAR(kept[4 * q], multipliers[q], 0.0);
         CHECK_NEAR(kept[4 * q + 1], x[1], 1e-15);
         CHECK_NEAR(kept[4 * q + 2], 5.0 - x[0], 1e-15);
