@@ -123,7 +123,7 @@ def _options(group: TyperGroup, command: str | None) -> dict[str, str]:
     """Options of a command and of those below it, by the names that Python has for them."""
     chosen: Any = group.commands.get(command or "") or _plugins()[command or ""]
     below = chosen.commands.values() if isinstance(chosen, TyperGroup) else [chosen]
-    return {parameter.name: parameter.opts[0] for each in below for parameter in each.params}
+    return {str(parameter.name): parameter.opts[0] for each in below for parameter in each.params}
 
 
 def _show_traceback(ctx: Any) -> None:
