@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 import umform as uf
 from umform.solution.bordered import Bordered
 from umform.solution.line_search import lengthened
+from umform.solution.options import Wary
+from umform.solution.prospects import Prospects
+from umform.solution.records import Failed
 from umform.solution.shift import Shift
 from umform.solution.timed_solver import TimedSolver
 from umform.solvers import Pattern, make_solver
@@ -76,3 +81,15 @@ def test_increments_near_a_saddle_are_doubled_until_the_slope_has_fallen():
     assert shortened[:6] == [2.0] * 6
     assert length == np.prod(shortened)
     assert 0.3 < evaluation.x[0] < 1.5
+
+
+@pytest.mark.parametrize("shifted", [False, True])
+def test_a_residual_that_grows_on_the_way_down_does_not_end_the_attempt(shifted):
+    none = SimpleNamespace(status=np.zeros(0, dtype=np.uint8))
+    prospects = Prospects(SimpleNamespace(smooth=False, ranks=SimpleNamespace(any=bool)))
+    assert not prospects.shifts(0, Wary.OF_ANY)  # the tangent is positive
+    assert not prospects.shifts(1, Wary.NOT)  # nothing has gone in a cycle, and the last state was not stable
+    assert not shifted or prospects.shifts(1, Wary.OF_ANY)
+    with nullcontext() if shifted else pytest.raises(Failed, match="has not fallen"):
+        for k in range(20):
+            prospects.longest(none, none.status, 1.0 + k, [])
