@@ -88,7 +88,7 @@ RULES: dict[str, Rule] = {
     "thickness_rule": Rule(
         lambda value: value in ("gauss", "lobatto", "split"),
         "unknown thickness rule",
-        "a slip of the pen",
+        "a typing error",
         "gauss, lobatto or split",
     ),
     "thickness_order": Rule(
