@@ -33,7 +33,7 @@ class Geometry(Protocol):
 
     @property
     def die_radius(self) -> float:
-        """Radius of its shoulders."""
+        """Radius of the die shoulders."""
 
     @property
     def punch_angle(self) -> float:
@@ -41,7 +41,7 @@ class Geometry(Protocol):
 
     @property
     def punch_radius(self) -> float:
-        """Radius of its tip."""
+        """Radius of the punch tip."""
 
     @property
     def material(self) -> Any:
