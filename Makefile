@@ -75,7 +75,7 @@ dome: env  ## a sphere pressed into sheets of up to 160 000 elements: time, memo
 	@$(BIN)/python benchmarks/dome.py --json build/dome.json --plot docs/images/dome.png --page docs/performance-increments.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 
-robust: env  ## 300 random jobs and how many arrive (some 10 minutes of CPU); writes docs/robust-rate.md
+robust: env  ## 300 random jobs and how many finish (some 10 minutes of CPU); writes docs/robust-rate.md
 	@$(BIN)/python benchmarks/robust.py --json build/robust.json --page docs/robust-rate.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 
