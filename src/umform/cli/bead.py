@@ -117,7 +117,7 @@ def _what_was_reached(out: Path) -> Iterator[None]:
         reached = getattr(stop, "result", None)
         if reached is not None and reached.frames:
             files = [reached.write(out / name) for name in ("history.csv", "bead.vtkhdf")]
-            stop.add_note(f"  what was reached is in {out}: {', '.join(file.name for file in files)}")
+            stop.add_note(f"  results so far are in {out}: {', '.join(file.name for file in files)}")
         raise
 
 

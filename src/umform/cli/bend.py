@@ -155,7 +155,7 @@ def bend(
             with printing(f"the files of the bend are in {place}"):
                 _show(done, rows, errors, note)
         except KeyboardInterrupt as stop:
-            stop.add_note(f"  what was reached is in {place}: all but the budget")
+            stop.add_note(f"  results so far are in {place}: all but the budget")
             raise
         finally:  # also if nobody reads the table
             with done.result.timing.files:
@@ -199,7 +199,7 @@ def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
         if reached is not None and reached.frames:
             files += [reached.write(out / name) for name in ("history.csv", "bend.vtkhdf")]
         if files:
-            stop.add_note(f"  what was reached is in {out}: {', '.join(file.name for file in files)}")
+            stop.add_note(f"  results so far are in {out}: {', '.join(file.name for file in files)}")
         raise
 
 

@@ -157,5 +157,5 @@ def _show(outcome: Outcome, out: Path, *, timing: bool) -> None:
     for run in failed:
         typer.echo(f"umform: {run.case.name}: {as_typed(run.failure)}", err=True)
     if failed:
-        typer.echo(f"  what was reached before is in {out}", err=True)
+        typer.echo(f"  earlier results are in {out}", err=True)
         raise typer.Exit(1)

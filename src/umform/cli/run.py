@@ -126,10 +126,10 @@ def end(outcome: Outcome) -> None:
     if outcome.checkpoint:
         error.add_note(f"  go on with: umform resume {shlex.quote(str(outcome.checkpoint))}")
     if isinstance(error, KeyboardInterrupt):
-        say_of(error, "interrupted; what was reached is written")
+        say_of(error, "interrupted; the results so far are written")
         raise typer.Exit(INTERRUPTED)
     if isinstance(error, UmformError):
         typer.echo(f"umform: {error}", err=True)
-        typer.echo("  what was reached is written", err=True)
+        typer.echo("  the results so far are written", err=True)
         raise typer.Exit(1)
     raise error

@@ -163,7 +163,7 @@ def _check_proportions(case: Geometry) -> None:
             "penalty",
             "the penalty is so stiff that the run would creep",
             f"it is {case.penalty * case.thickness / case.material.E:.3g} times E / thickness",
-            "leave it out: it follows from the penetration that is allowed",
+            "omit it: it follows from the penetration that is allowed",
         )
 
 
