@@ -38,7 +38,7 @@ RULES: dict[str, Rule] = {
         lambda value: value is None or number(value),
         "the z of the axis of the cylinder must be a finite number",
         "a missing value",
-        "leave it out: then the cylinder touches the strip",
+        "omit it: then the cylinder touches the strip",
     ),
     "kappa": _mpa("the bulk modulus", "175000"),
     "mu": _mpa("the shear modulus", "80770"),
