@@ -102,9 +102,9 @@ class Model(Standing):
         self._embody(bodies)
 
     def remove(self, thing: Support | Contact) -> Load:
-        """Take a support or a contact away; the forces that it exerted stay as a dead load of factor 1.
+        """Remove a support or a contact; its forces remain as a dead load of factor 1.
 
-        Move the load to zero to let the sheet go gradually, see docs/supports.md. A step :class:`umform.Free` does both
+        Move the load to zero to release the sheet gradually, see docs/supports.md. :class:`umform.Free` does both
         within a run, and opens tools that stay in the model.
 
         Parameters
@@ -126,7 +126,7 @@ class Model(Standing):
         return removal.remove(self, thing)
 
     def put_back(self, thing: Support | Tool, *, here: bool = True) -> None:
-        """Let a support that was removed act again, or a tool that was opened touch the sheet again.
+        """Restore a removed support, or contact with an opened tool.
 
         Parameters
         ----------
@@ -141,7 +141,7 @@ class Model(Standing):
             removal.put_back(self, thing, here=here)
 
     def hold_rigid(self, nodes: Selector = "all", name: str = "") -> Support:
-        """A support of as few degrees of freedom as hold the sheet as a rigid body; a step Free puts it in place.
+        """Define a statically determinate support of the sheet; a step Free activates it.
 
         It holds six of them, at three nodes for one, or what the supports of the model leave free; until ``Free(...,
         on=...)`` or :meth:`put_back` it does not act. Where no other forces act, its reactions are zero.
@@ -164,7 +164,7 @@ class Model(Standing):
         return self.wait(unique(dofs // 3).astype(np.int32), dofs, name)
 
     def rest(self, stiffness: float | None = None, name: str = "rest", *, motions: str = "") -> Rest:
-        """Let a sheet that nothing holds yet rest on weak springs, which let go for good once tools hold it.
+        """Support a loose sheet by weak springs, removed for good once tools hold it.
 
         A run does so by itself, with the default, where tools that its steps move will hold the sheet; set
         :attr:`carries_loose_sheet` to False to have such a model refused instead.
@@ -189,7 +189,7 @@ class Model(Standing):
     def keep_gap(self, force: ToolForce, to: Contact | Tool, gap: float) -> None:
         """Let a pressed tool keep a gap to another one: it lies on rigid distance blocks, and its force is the largest.
 
-        What the blocks bear is the column ``<name>_stop``: with the force of the sheet on the tool it balances the
+        The force of the blocks is the column ``<name>_stop``: with the force of the sheet on the tool it balances the
         press. Where the sheet pushes harder than the press, the tool lifts off the blocks under the force of the press.
 
         Parameters

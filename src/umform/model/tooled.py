@@ -57,7 +57,7 @@ class Tooled(Controlled):
         tool : Tool or Contact
             The tool, or a pair that touches it.
         axis : str or array_like, shape (3,)
-            Axis of the turn where the tool stands now.
+            Axis of rotation at the present position of the tool.
         about : array_like, shape (3,)
             Point of the axis.
         name : str, optional
@@ -75,18 +75,18 @@ class Tooled(Controlled):
         return way
 
     def press(self, tool: Contact | Tool, direction: Direction, name: str = "") -> ToolForce:
-        """Let steps press a tool with a force along a direction; its way along it is found.
+        """Let steps press a tool with a force along a direction; its displacement is an unknown.
 
-        The sheet must hold the tool: where nothing touches it, there is no equilibrium.
+        The sheet must support the tool: without contact there is no equilibrium.
 
         Parameters
         ----------
         tool : Tool or Contact
             The tool, or a pair that touches it.
         direction : str or array_like, shape (3,)
-            Direction of the force, and of the way.
+            Direction of the force and of the displacement.
         name : str, optional
-            Column of the history; the way is the column ``<name>_way``.
+            Column of the history; the displacement is the column ``<name>_way``.
 
         Returns
         -------
@@ -105,14 +105,14 @@ class Tooled(Controlled):
     def press_turn(
         self, tool: Contact | Tool, axis: Direction, about: ArrayLike = (0.0, 0.0, 0.0), name: str = ""
     ) -> ToolForce:
-        """Let steps turn a tool with a moment about an axis; its angle is found.
+        """Let steps turn a tool with a moment about an axis; its angle is an unknown.
 
         Parameters
         ----------
         tool : Tool or Contact
             The tool, or a pair that touches it.
         axis : str or array_like, shape (3,)
-            Axis of the turn where the tool stands now.
+            Axis of rotation at the present position of the tool.
         about : array_like, shape (3,)
             Point of the axis.
         name : str, optional
@@ -130,7 +130,7 @@ class Tooled(Controlled):
     def spring(
         self, tool: Contact | Tool, direction: Direction, stiffness: float, preload: float = 0.0, name: str = ""
     ) -> ToolForce:
-        """Hold a tool by a spring along a direction, as a pad on gas springs; its way along it is found.
+        """Support a tool by a spring, such as a pad on gas springs; its displacement is an unknown.
 
         Parameters
         ----------
@@ -141,9 +141,9 @@ class Tooled(Controlled):
         stiffness : float
             Force per length.
         preload : float
-            Force with which the spring pushes the tool where it stands now.
+            Force of the spring at the present position of the tool.
         name : str, optional
-            Column of the history; the way is the column ``<name>_way``.
+            Column of the history; the displacement is the column ``<name>_way``.
 
         Returns
         -------
@@ -159,19 +159,18 @@ class Tooled(Controlled):
         return force
 
     def stop(self, force: ToolForce, at: float, stiffness: float | None = None, *, below: bool = False) -> None:
-        """Let a pressed or sprung tool come to lie on a stop: distance blocks, the end of a gas spring.
+        """Limit the displacement of a pressed or sprung tool by a stop: distance blocks, the end of a gas spring.
 
         Parameters
         ----------
         force : ToolForce
             What :meth:`press`, :meth:`press_turn` or :meth:`spring` returned.
         at : float
-            The way at which the tool meets the stop.
+            Displacement at which the tool meets the stop.
         stiffness : float, optional
-            Of the stop: force per length beyond it. Default: it is rigid, and the way cannot pass it; what it bears is
-            the column ``<name>_stop``, the force on the tool along its way.
+            Force per length beyond the stop. Default: rigid; the column ``<name>_stop`` is then its force on the tool.
         below : bool
-            Whether the way must not fall below it, instead of not growing beyond it.
+            Whether the stop is a lower bound of the displacement; default: an upper bound.
 
         Raises
         ------
@@ -195,9 +194,9 @@ class Tooled(Controlled):
             )
 
     def attach(self, tool: Contact | Tool, way: ToolWay) -> None:
-        """Let a tool follow the way or turn of another one, at the distance at which it stands now.
+        """Let a tool follow the displacement or rotation of another one, at its present distance.
 
-        A pad on springs in a punch follows the punch, and has a way of its own by :meth:`spring`; a holder that keeps a
+        A pad on springs in a punch follows the punch and moves relative to it by :meth:`spring`; a holder that keeps a
         gap follows the die. The force of the control is then that on both tools.
 
         Parameters
@@ -210,7 +209,7 @@ class Tooled(Controlled):
         Raises
         ------
         InvalidValue
-            If it goes with it already, or the model does not have this way.
+            If the tool already follows it, or the control belongs to another model.
         """
         tool = _tool_of(tool)
         if way not in self.controls or tool in way.tools:
@@ -225,7 +224,7 @@ class Tooled(Controlled):
         tool.add_way(way)
 
     def press_of(self, force: ToolForce) -> Press:
-        """What a force control presses with.
+        """The press that a force control acts on.
 
         Raises
         ------
@@ -265,7 +264,7 @@ class Tooled(Controlled):
         return force
 
     def set_motion(self, tool: Contact | Tool, motion: Motion, about: ArrayLike = (0.0, 0.0, 0.0)) -> None:
-        """Give a tool a motion in time, in addition to what steps do to it.
+        """Prescribe a motion of a tool in time, in addition to that of the steps.
 
         Parameters
         ----------

@@ -33,7 +33,7 @@ class Touched(Tooled):
     # Tools and pairs -----------------------------------------------------------------------------------------
 
     def tool(self, name: str, surface: Surface) -> Tool:
-        """Make a rigid tool, which pairs of faces may touch.
+        """Define a rigid tool that several contact pairs may share.
 
         Parameters
         ----------
@@ -67,7 +67,7 @@ class Touched(Tooled):
         slip: float | None = None,
         name: str = "",
     ) -> Contact:
-        """Let faces touch a rigid tool.
+        """Define contact of faces with a rigid tool.
 
         Parameters
         ----------
@@ -76,30 +76,30 @@ class Touched(Tooled):
         tool : Surface or Tool
             A tool of :mod:`umform.surfaces`, or UserSurface; or what :meth:`tool` returned, which several pairs share.
         penalty : float, optional
-            Pressure per penetration. Without it, it follows from the penetration that is allowed, the strength of the
-            sheet and the radius of the tool. eq. (4.29)
+            Pressure per penetration. Default: from the allowed penetration, the strength of the sheet and the
+            radius of the tool. eq. (4.29)
         penetration : float, optional
-            Penetration that is allowed, instead of the penalty; default 1/200 of the thickness of the sheet. A run that
-            exceeds it is warned.
+            Allowed penetration, instead of the penalty; default 1/200 of the sheet thickness. A run that exceeds it
+            warns.
         points : int, "auto" or "nodes"
-            Gauss points per direction and facet, 1 to 10, or as many as the length that touches asks for by eq. (4.31),
-            or the nodes with their tributary areas; default 2. Take at least 2 on 4-node and 3 on 9-node facets.
+            Gauss points per direction and facet, 1 to 10, or as many as the contact length requires by eq. (4.31),
+            or the nodes with their tributary areas; default 2. Use at least 2 on 4-node and 3 on 9-node facets.
         cells : int or "auto", optional
-            Instead of points: cells per direction and facet, 1 to 20, over which a linear gap is integrated with the
-            moving edge of contact, so that the force has no stairs; "auto": as many as the ripple that is wanted asks
-            for, eq. (4.122). Take at least 3 on 4-node and 5 on 9-node facets. The tangent is unsymmetric.
+            Instead of points: cells per direction and facet, 1 to 20, over which a linear gap is integrated up to the
+            moving edge of contact, so that the force has no stairs; "auto": as many as the allowed ripple requires,
+            eq. (4.122). Use at least 3 on 4-node and 5 on 9-node facets. The tangent is unsymmetric.
             docs/cells.md
         ripple : float, optional
-            Ripple of the force that is wanted of cells="auto", as a part of it; default 0.001.
+            Allowed relative ripple of the force with cells="auto"; default 0.001.
         augmented : bool
-            Take what penetrates further than allowed back, by multipliers; penalty and penetration may then both be
-            given. It costs a few iterations more in each increment.
+            Remove excess penetration by multipliers; penalty and penetration may then both be given. Costs a few
+            iterations per increment.
         friction : float, Friction, FrictionByRegion or callable, optional
-            Coefficient of friction or a law of it, see :class:`umform.Friction`; a function (pressure, distance slid,
-            place in the frame of the tool) -> largest tangential traction. Default: none.
+            Coefficient of friction or a law, see :class:`umform.Friction`, or a function (pressure, accumulated slip,
+            position in the tool frame) -> largest tangential traction. Default: none.
         slip : float, optional
-            Elastic slip that is allowed: by so much a place that sticks may move before it slips where the pressure is
-            the one that is expected; default 1/200 of the thickness of the sheet. Multipliers take it away.
+            Allowed elastic slip: displacement of a sticking point before it slips, at the expected pressure; default
+            1/200 of the sheet thickness. Multipliers remove it.
         name : str, optional
             For the history: the columns ``<name>_fx`` ... are the force on the tool.
 

@@ -1,4 +1,4 @@
-"""Run steps of all kinds in a row: `solve` begins, `resume` takes up a run that was stopped; both go the same way."""
+"""Run a sequence of steps: `solve` starts, `resume` continues a stopped run; both share the code."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def solve(
         The model; it is left at its last converged state, whatever happens. With the solver "petsc" all ranks but the
         first may give None, and no steps: they get their shares from there.
     steps : Step or sequence of Step
-        What happens, in a row.
+        Sequence of steps.
     solver : str
         Sparse solver, see :mod:`umform.solvers`; "petsc" runs on all ranks that mpiexec has started (docs/parallel.md).
     options : NewtonOptions, optional
@@ -129,7 +129,7 @@ def resume(
     progress: bool | None = None,
     every: float = 60.0,
 ) -> Result:
-    """Take up a run from its checkpoint; what comes out is what the run would have given, to the last bit.
+    """Continue a run from its checkpoint; the result equals that of an uninterrupted run, to the last bit.
 
     Parameters
     ----------

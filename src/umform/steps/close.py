@@ -1,4 +1,4 @@
-"""Close a tool that a force presses: by its way until the sheet answers with the force, then by the force."""
+"""Close a force-controlled tool: displacement control until the force is reached, then force control."""
 
 from __future__ import annotations
 
@@ -32,20 +32,20 @@ _EASY = 8
 
 @dataclass(frozen=True)
 class Close:
-    """Close a pressed tool that need not touch the sheet yet: by way until a force is reached, from then on by force.
+    """Close a pressed tool that need not touch the sheet yet: displacement control, then force control.
 
-    The first increments take the tool to the sheet, which it cannot pass by more than a hair; the next ones grow as
-    long as they are easy. The last one asks for the force, with the way among the unknowns, and meets it exactly. While
-    the tool goes by way, the column of the control has the force that this takes.
+    The first increments bring the tool to the sheet with a negligible overshoot; the next ones grow while Newton
+    converges easily. The last one prescribes the force, with the displacement as an unknown, and meets it exactly.
+    Under displacement control the column of the control has the required force.
 
     Parameters
     ----------
     control : ToolForce
         What ``press``, ``press_turn`` or ``spring`` of the model returned.
     force : float
-        The force (or moment) on the tool that it is closed with, in the sense of the control.
+        Closing force (or moment) on the tool, in the direction of the control.
     way : float, optional
-        Largest way (or angle) that it may go. Default: its distance from the sheet and the largest extent of the sheet.
+        Largest displacement (or angle). Default: its distance from the sheet and the largest extent of the sheet.
     time : float
         What the step takes.
 

@@ -1,4 +1,4 @@
-"""Move controls along lines or functions, in equal increments or at a pace that follows what happens."""
+"""Move controls along lines or functions, in equal or adaptive increments."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ class Move:
     to : float, callable or sequence
         End value, or a function of the fraction (0 ... 1) of the step, one for each control.
     steps : int or Pace, optional
-        Number of equal increments; or limits of what may happen in one, from which its size follows. Default: those of
+        Number of equal increments, or limits on the changes in one, which set its size. Default: those of
         :class:`umform.Pace`.
     cuts : int
-        How often an increment may be halved before the run is given up.
+        How often an increment may be halved before the run fails.
     grow : float
         Largest increment over the nominal one: 1 never grows beyond ``1/steps``. A pace has a limit of its own.
     follow : mapping of Control to callable or sequence of (float, float), optional
@@ -128,7 +128,7 @@ class Move:
 
 
 def check_time(where: str, time: float) -> None:
-    """Refuse a step that takes no time.
+    """Raise an error if the step takes no time.
 
     Raises
     ------

@@ -27,8 +27,8 @@ _SHORT = 1.0 - 1e-9
 class Release:
     """Take a displacement or a tool back until its force is zero (or contact has lifted off).
 
-    A tool that a force presses goes back by its way, which is given from then on; a step :class:`umform.Close` presses
-    it again. The column of its control has the force that this takes, none at the end.
+    A force-controlled tool retracts under displacement control; a step :class:`umform.Close` presses it again. The
+    column of its control has the required force, zero at the end.
 
     The increments of a release are solved so far that the force is known to a part of the tolerance, even where the
     tolerance of the residual in :class:`umform.NewtonOptions` is looser.
@@ -38,8 +38,8 @@ class Release:
     control : Control
         A prescribed displacement or a tool motion, or the force that presses a tool.
     increment : float, optional
-        Size of the first increment of the way back; default 1/1000 of the present value. It doubles while Newton is at
-        ease, up to a twentieth of the value.
+        Size of the first increment of the way back; default 1/1000 of the present value. It doubles while Newton
+        converges easily, up to a twentieth of the value.
     tolerance : float
         Force that counts as zero, relative to the force at the beginning.
     time : float

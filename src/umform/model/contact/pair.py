@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 
 
 class Contact(PairPoints):
-    """Contact of faces with one tool, held by a penalty and, where wanted, multipliers; with or without friction.
+    """Contact of faces with one tool by a penalty and optional multipliers; with or without friction.
 
     docs/theory, chapter 4. Made by :meth:`umform.Model.contact`.
 
@@ -36,7 +36,7 @@ class Contact(PairPoints):
     tool : Tool
         The tool.
     settings : ContactSettings
-        Penalty, points, penetration that is allowed, multipliers or not; they are attributes of the pair.
+        Penalty, points, allowed penetration, multipliers or not; they are attributes of the pair.
     name : str
         For the history.
     """
@@ -95,7 +95,7 @@ class Contact(PairPoints):
         self._last = found
 
     def commit(self, found: Found) -> None:
-        """Make the trial history, multipliers too, and what was found those of the converged state."""
+        """Accept trial history, multipliers and results as those of the converged state."""
         self._commit()
         assert isinstance(found, ContactFound)
         self.stand(found)
@@ -187,7 +187,7 @@ class Contact(PairPoints):
         return self._last
 
     def active(self) -> NDArray[np.bool_]:
-        """Which points are held by the tool in the converged state."""
+        """Which points are active in the converged state."""
         return self.found.active
 
     def at_points(self) -> ContactPoints:
