@@ -205,7 +205,7 @@ def compare_histories(
 
 
 def _check_column(name: str, columns: Mapping[str, Floats], run: str) -> None:
-    """Refuse a column that a history does not have, and name the nearest that it has."""
+    """Reject a column that a history does not have, and name the nearest that it has."""
     if name in columns:
         return
     near = get_close_matches(name, columns, n=1, cutoff=0.4)

@@ -144,7 +144,7 @@ def _with_one_thread(call: Callable[[], Answer]) -> Answer:
 
 
 def check_processes(processes: int | None) -> None:
-    """Refuse a number of processes that is less than 1, for callers that do something else first.
+    """Reject a number of processes that is less than 1, for callers that do something else first.
 
     Raises
     ------

@@ -226,7 +226,7 @@ def _pairs(path: Path, percent: bool, *, empty: bool) -> tuple[bool, Floats, Flo
 
 
 def _check_elastic(path: Path, strain: Floats, stress: Floats, young: float, *, cycles: bool = False) -> None:
-    """Refuse strains that are smaller than their elastic part: no metal is stiffer than its E."""
+    """Reject strains that are smaller than their elastic part: no metal is stiffer than its E."""
     if not young > 1000.0:
         raise InvalidValue(
             "Young's modulus is in MPa",

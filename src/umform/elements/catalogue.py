@@ -169,7 +169,7 @@ def _build(
 
 
 def _check_thickness(name: str, cell: str, thickness: int, count: int, order: int, order_count: int) -> None:
-    """Refuse thickness modes that an element with ``thickness`` modes of its own cannot have."""
+    """Reject thickness modes that an element with ``thickness`` modes of its own cannot have."""
     if thickness == 0 and (count != 0 or order != 1):
         raise InvalidValue(
             f"{name} has no enhanced thickness strain",

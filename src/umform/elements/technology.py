@@ -142,7 +142,7 @@ class Element:
         return {"hex8": 8, "hex18": 18}[self.cell]
 
     def check_modes(self, t: NDArray[np.float64]) -> None:
-        """Refuse modes that are linearly dependent at the Gauss points, for the thickness points ``t``.
+        """Reject modes that are linearly dependent at the Gauss points, for the thickness points ``t``.
 
         Raises
         ------

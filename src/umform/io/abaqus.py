@@ -10,7 +10,7 @@ NOT_READ = {"INCLUDE", "SYSTEM", "NGEN", "NFILL", "NCOPY", "ELGEN", "ELCOPY"}
 
 
 def check_abaqus(path: Path) -> None:
-    """Refuse the parts of the Abaqus language that meshio would read wrongly without saying so.
+    """Reject the parts of the Abaqus language that meshio would read wrongly without saying so.
 
     These are generated or included nodes and elements, several lists of nodes (parts and assemblies), sets
     made of other sets, sets given in pieces, and element sets named on some ``*ELEMENT`` lines only.

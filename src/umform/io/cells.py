@@ -238,7 +238,7 @@ def _with_means(values: FloatArray, pairs: IntArray) -> FloatArray:
 
 
 def _check_middle(X: FloatArray, cells: IntArray, middle: IntArray) -> None:
-    """Refuse a middle layer that cannot be left out."""
+    """Reject a middle layer that cannot be left out."""
     lower, upper = (X[half] for half in np.hsplit(cells, 2))
     away = np.linalg.norm(X[middle] - 0.5 * (lower + upper), axis=2)
     curved = np.flatnonzero((away > MIDDLE_TOLERANCE * np.linalg.norm(upper - lower, axis=2)).any(axis=1))

@@ -15,7 +15,7 @@ Fields = Mapping[str, ArrayLike]
 
 
 def check_points(points: FloatArray, where: str) -> None:
-    """Refuse positions that are not finite.
+    """Reject positions that are not finite.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def check_points(points: FloatArray, where: str) -> None:
 
 
 def check_ids(cells: IntArray, points: int, where: str) -> None:
-    """Refuse cells that name points which do not exist.
+    """Reject cells that name points which do not exist.
 
     Parameters
     ----------

@@ -237,7 +237,7 @@ def _hexahedra(mesh: Any, path: Path) -> tuple[FloatArray, dict[str, IntArray]]:
 
 
 def _check_types(mesh: Any, path: Path) -> None:
-    """Refuse a mesh without hexahedra or with other solids."""
+    """Reject a mesh without hexahedra or with other solids."""
     counts: dict[str, int] = {}
     for block in mesh.cells:
         counts[block.type] = counts.get(block.type, 0) + len(block.data)

@@ -118,7 +118,7 @@ def staging(out: str | Path, names: Sequence[str]) -> Iterator[Staging]:
 
 
 def check_name(out: str | Path) -> None:
-    """Refuse the name of a folder that is none.
+    """Reject the name of a folder that is none.
 
     Raises
     ------

@@ -83,7 +83,7 @@ def read_vtkhdf(path: str | os.PathLike[str]) -> tuple[FloatArray, dict[str, Int
 
 
 def _check_degrees(expected: tuple[int, ...], degrees: FloatArray, where: str) -> None:
-    """Refuse Lagrange cells of other degrees, which have other nodes."""
+    """Reject Lagrange cells of other degrees, which have other nodes."""
     wrong = np.flatnonzero((degrees != expected).any(axis=1))
     if wrong.size:
         raise WrongCellType(

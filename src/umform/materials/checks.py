@@ -8,7 +8,7 @@ from umform.errors import NotFinite
 
 
 def check_finite(where: str, **values: float) -> None:
-    """Refuse numbers that are not finite.
+    """Reject numbers that are not finite.
 
     Raises
     ------

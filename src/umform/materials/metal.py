@@ -179,7 +179,7 @@ class Metal(Plastic):
 
 
 def _check_rate(rate: object, back_stress: object) -> None:
-    """Refuse what is no rate factor, and one with two surfaces."""
+    """Reject what is no rate factor, and one with two surfaces."""
     if rate is None:
         return
     if not callable(getattr(rate, "factor", None)) or isinstance(rate, type):
@@ -201,7 +201,7 @@ def _check_rate(rate: object, back_stress: object) -> None:
 
 
 def _check_first_yield(metal: Plastic) -> None:
-    """Refuse a metal that yields at a strain no metal knows."""
+    """Reject a metal that yields at a strain no metal knows."""
     first, _ = metal.hardening.curve()(0.0)
     if first > _LARGEST_YIELD * metal.E:
         raise InvalidValue(
@@ -214,7 +214,7 @@ def _check_first_yield(metal: Plastic) -> None:
 
 
 def _check_surfaces(surfaces: YoshidaUemori, hardening: Hardening) -> None:
-    """Refuse a yield surface that grows, or that does not fit into the bounding surface."""
+    """Reject a yield surface that grows, or that does not fit into the bounding surface."""
     first, slope = hardening.curve()(0.0)
     if slope != 0.0 or hardening.curve()(1.0)[0] != first:
         raise InvalidValue(

@@ -136,7 +136,7 @@ def _turned(X: Floats, cells: Whole, signed: Whole) -> tuple[Whole, Whole, Whole
 
 
 def _check_middle(X: Floats, lower: Whole, upper: Whole, middle: Whole) -> None:
-    """Refuse a middle layer that cannot be left out."""
+    """Reject a middle layer that cannot be left out."""
     low, high = X[lower[:, : middle.shape[1]]], X[upper[:, : middle.shape[1]]]
     away = np.linalg.norm(X[middle] - 0.5 * (low + high), axis=2) / np.linalg.norm(high - low, axis=2)
     curved = np.flatnonzero((away > MIDDLE_TOLERANCE).any(axis=1))

@@ -1,4 +1,4 @@
-"""Refuse cells without a positive volume, and say what is probably wrong with them."""
+"""Reject cells without a positive volume, and say what is probably wrong with them."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _other_orders(nodes: int) -> dict[str, Ids]:
 
 
 def check_cells(points: Floats, cells: Ids) -> None:
-    """Refuse inverted and folded cells.
+    """Reject inverted and folded cells.
 
     Raises
     ------

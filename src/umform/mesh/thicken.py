@@ -113,7 +113,7 @@ def _checked(
 
 
 def _check_folds(nodes: Floats, cells: Whole, X: Floats, t: Floats) -> None:
-    """Refuse cells that are thicker than the surface allows."""
+    """Reject cells that are thicker than the surface allows."""
     J = jacobians(nodes, cells.astype(np.int32))
     bad = np.flatnonzero(J.min(axis=1) <= 1e-10 * np.abs(J).max(axis=1))
     if not bad.size:

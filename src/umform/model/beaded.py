@@ -66,7 +66,7 @@ class Beaded(Touched):
         closed : bool
             Join the last point to the first.
         slip : float, optional
-            Elastic slip that is allowed; default 1/200 of the thickness.
+            Allowed elastic slip; default 1/200 of the thickness.
         points : int, optional
             Gauss points per direction and facet, 1 to 10; default as many as the band asks for. eq. (4.105)
         name : str, optional

@@ -1,4 +1,4 @@
-"""Refuse models that cannot be solved as they stand, before time is spent on them."""
+"""Reject models that cannot be solved as they stand, before time is spent on them."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def check_model(model: Evaluated) -> None:
 
 
 def check_nodes(mesh: Mesh) -> None:
-    """Refuse nodes without a cell."""
+    """Reject nodes without a cell."""
     used = np.zeros(len(mesh.points), dtype=bool)
     used[mesh.connectivity] = True
     unused = np.flatnonzero(~used)
@@ -55,7 +55,7 @@ def middle(model: Evaluated, points: Floats | None = None) -> tuple[Floats, floa
 
 
 def check_held(model: Evaluated) -> None:
-    """Refuse supports that leave a rigid-body motion free, and tools that swallow the sheet."""
+    """Reject supports that leave a rigid-body motion free, and tools that swallow the sheet."""
     problem = None
     try:
         touched = [*_touching(model), *_sprung(model)]

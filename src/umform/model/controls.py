@@ -55,7 +55,7 @@ class Controlled:
         return taken
 
     def _refuse_taken(self, columns: Iterable[str], name: str) -> None:
-        """Refuse a name whose columns another thing writes.
+        """Reject a name whose columns another thing writes.
 
         Raises
         ------

@@ -55,7 +55,7 @@ class Evaluated(Assembled):
             With ``rates``, that are then changes: the time at which tools that move by a function of time arrive, whose
             way counts too. eq. (4.37)
         tangent : bool
-            Whether the tangent is wanted; else forces alone are evaluated. The last tangent is then still that which
+            Whether to evaluate the tangent; else forces only. The last tangent is then still that which
             enhanced parameters are recovered with.
         """
         assembly, unknowns, dofs = self._assembly(), self.unknowns, self.u.size

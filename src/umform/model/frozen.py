@@ -24,7 +24,7 @@ class Frozen:
         super().__setattr__(name, value)
 
     def refuse(self, name: str, value: object) -> NoReturn:
-        """Refuse to set an attribute.
+        """Raise an error on setting an attribute.
 
         Raises
         ------

@@ -151,7 +151,7 @@ class Held(Controlled):
         return support
 
     def refuse_taken(self, support: Support) -> None:
-        """Refuse a support that does not act yet, if another one holds its degrees of freedom."""
+        """Reject a support that does not act yet, if another one holds its degrees of freedom."""
         fixed = self._fixed.copy()
         fixed[support.held] = True
         taken = self._taken([tie.without_held(fixed) for tie in self.ties])
@@ -212,7 +212,7 @@ class Held(Controlled):
 
 
 def refuse_twice(dofs: Ids, direction: str, taken: Mapping[str, Ids], by: str) -> None:
-    """Refuse degrees of freedom that another support holds already."""
+    """Reject degrees of freedom that another support holds already."""
     for other, theirs in taken.items():
         shared = common(dofs, theirs)
         if len(shared):

@@ -211,5 +211,5 @@ class Model(Standing):
         self.stop(force, at, below=below)
 
     def check(self) -> None:
-        """Refuse what cannot be solved before time is spent on it, see :func:`umform.model.checks.check_model`."""
+        """Reject what cannot be solved before time is spent on it, see :func:`umform.model.checks.check_model`."""
         check_model(self)

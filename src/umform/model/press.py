@@ -102,7 +102,7 @@ class Press:
         return largest - self.way.value if sense > 0.0 else self.way.value - least
 
     def bearing(self, way: float, rest: float, measure: float) -> float | None:
-        """Way of the rigid stop that bears the tool; None where forces alone balance it. eq. (4.140)
+        """Position of the active rigid stop; None where forces alone balance the tool. eq. (4.140)
 
         Parameters
         ----------
@@ -125,7 +125,7 @@ class Press:
 
 
 def check_stiffness(stiffness: float, other: float, where: str, names: str) -> None:
-    """Refuse a spring or a stop that is none.
+    """Reject a spring or a stop that is none.
 
     Parameters
     ----------

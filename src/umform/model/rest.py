@@ -20,7 +20,7 @@ _NEGLIGIBLE = 1e-3
 
 
 class Rest(NodalTerm):
-    """Springs between all nodes and the places where they lie; they let go for good once tools hold the sheet.
+    """Springs between all nodes and the places where they lie; removed for good once tools hold the sheet.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class Rest(NodalTerm):
         return stored, np.zeros(len(u))
 
     def acts(self, ranks: Ranks) -> bool:
-        """Whether the springs have not let go."""
+        """Whether the springs still act."""
         return ranks.any(bool((self.history[:, 0] == 0.0).any()))
 
     def settled(self, model: Any, evaluation: Any) -> None:

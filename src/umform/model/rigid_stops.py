@@ -29,7 +29,7 @@ class ToolFound(Found):
 
 
 def bear(press: Press, at: At, into: Into) -> float | None:
-    """Replace the balance of a press by the equation of a rigid stop, if one bears the tool.
+    """Replace the balance of a press by the equation of a rigid stop, if one is active.
 
     Parameters
     ----------

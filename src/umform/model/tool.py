@@ -240,7 +240,7 @@ class Tool(Term):
                 pair.block.open = open_now
 
     def column_names(self) -> Iterable[str]:
-        """Force and moment of the sheet on it, and what rigid stops bear."""
+        """Force and moment of the sheet on it, and forces of rigid stops."""
         return [*self._of_resultant(), *(f"{press.force.name}_stop" for press in self.presses if press.rigid)]
 
     def _of_resultant(self) -> list[str]:

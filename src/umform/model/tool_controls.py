@@ -28,7 +28,7 @@ class ToolWay(Control):
     tool : Tool
         The tool that it was made for.
     followers : list of Tool
-        Tools that go with it.
+        Tools that follow it.
     """
 
     tool: Any = None

@@ -115,7 +115,7 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
 
 
 def _refuse_what_cannot_be_cut(model: Model) -> None:
-    """Refuse terms of other kinds that do not say what each rank gets of them."""
+    """Reject terms of other kinds that do not say what each rank gets of them."""
     for term in model.others:
         if not term.shareable:
             raise InvalidValue(
@@ -127,7 +127,7 @@ def _refuse_what_cannot_be_cut(model: Model) -> None:
 
 
 def _check_alike(model: Model, ranks: MpiRanks) -> None:
-    """Refuse models that are not the same on all ranks."""
+    """Reject models that are not the same on all ranks."""
     mesh, loads = model.mesh, [load.vector for load in model.of_kind(Load)]
     facets = [contact.facets for contact in model.contacts]
     coupled = [part.ids for term in model.others for part in term.couples()]

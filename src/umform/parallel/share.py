@@ -119,7 +119,7 @@ class Share(Model):
         return Gathering(self)
 
     def check(self) -> None:
-        """Refuse what cannot be solved; all ranks look at their own nodes and contact points."""
+        """Reject what cannot be solved; all ranks look at their own nodes and contact points."""
         check_held(self)
 
     def node_number(self, node: int) -> int:

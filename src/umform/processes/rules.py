@@ -35,7 +35,7 @@ class Rule:
         return Rule(lambda value: value is None or self.fits(value), self.what, self.cause, self.remedy)
 
     def check(self, name: str, value: Any) -> None:
-        """Refuse a value that does not fit.
+        """Reject a value that does not fit.
 
         Raises
         ------
@@ -50,7 +50,7 @@ class Rule:
 
 
 def check_rules(values: Mapping[str, Any], rules: Mapping[str, Rule]) -> None:
-    """Refuse values by name that do not fit, each by itself."""
+    """Reject values by name that do not fit, each by itself."""
     for name, rule in rules.items():
         rule.check(name, values[name])
 
@@ -114,7 +114,7 @@ ROLLING = Rule(
 
 
 def check_rolling(material: Any, rolling: float | None) -> None:
-    """Refuse a law with directions without its rolling direction.
+    """Reject a law with directions without its rolling direction.
 
     Raises
     ------

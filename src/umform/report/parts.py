@@ -63,7 +63,7 @@ def items(texts: Iterable[str]) -> str:
 
 
 def check_name(path: str | Path) -> None:
-    """Refuse a page whose name does not end in .html."""
+    """Reject a page whose name does not end in .html."""
     if Path(path).suffix != ".html":
         raise InvalidValue(
             "a report is a page of HTML",

@@ -43,7 +43,7 @@ class History:
     on the tool, the largest penetration ``<name>_penetration`` and the number of ``<name>_active`` points, the
     ``external_work`` and the ``elastic_energy``, ``plastic_work``, ``contact_energy`` and ``friction_work`` that it
     went into, and the number of ``iterations``. ``events`` says what happened (lift-off), ``warnings`` what to look at,
-    ``timing`` where the time went, since the run began or was taken up.
+    ``timing`` where the time went, since the run began or was resumed.
 
     All energies of a model at rest are zero. A run that starts from a deformed or loaded state starts its external work
     at the sum of the energies that it finds. Energies that a law does not know (one of the user, without an energy) are

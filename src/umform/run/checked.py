@@ -1,4 +1,4 @@
-"""Refuse steps that a model cannot go, before time is spent on the first of them."""
+"""Reject steps that a model cannot go, before time is spent on the first of them."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
 
 
 def _refuse_a_way_that_is_found(model: Model, control: Control, earlier: Sequence[Step], where: str) -> None:
-    """Refuse to move a tool along the way that a force or a spring finds, unless it has been released or opened."""
+    """Reject to move a tool along the way that a force or a spring finds, unless it has been released or opened."""
     press = way_is_found(model, control)
     if press is None:
         return
@@ -67,7 +67,7 @@ def _refuse_a_way_that_is_found(model: Model, control: Control, earlier: Sequenc
 
 
 def _refuse_to_free(model: Model, step: Free, earlier: Sequence[Step], where: str) -> None:
-    """Refuse to free a support that does not act when its step begins, or a tool that is open."""
+    """Reject to free a support that does not act when its step begins, or a tool that is open."""
     freed = [thing for other in earlier if isinstance(other, Free) for thing in other.things]
     put = [other.on for other in earlier if isinstance(other, Free)]
     for number, thing in enumerate(step.things):

@@ -214,7 +214,7 @@ def _here(model: Model | None, steps: Callable[[], Sequence[Step]], work: _Work)
 
 
 def _ready(result: Result, solver: str, options: NewtonOptions | None, frames: int) -> Run:
-    """Refuse a model that cannot be solved, and make the run that has not begun."""
+    """Reject a model that cannot be solved, and make the run that has not begun."""
     model, timing = result.model, result.timing
     model.timing = timing
     model.check()

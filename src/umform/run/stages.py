@@ -106,7 +106,7 @@ def solve_stages(
     stages : sequence of Stage
         What happens, in a row.
     checkpoints : str or PathLike, optional
-        Folder for the checkpoint of each stage. Stages whose checkpoint lies there already are taken up from it, to
+        Folder for the checkpoint of each stage. Stages whose checkpoint lies there already are resumed from it, to
         the same bits; so the same call continues a run that was stopped.
     **options
         See :func:`umform.solve`; they hold for all stages.

@@ -58,7 +58,7 @@ class Bordered:
         return solved[:, 0]
 
     def _check(self, what: list[str], corner: Floats) -> None:
-        """Refuse scalar unknowns that nothing answers, by name."""
+        """Reject scalar unknowns that nothing answers, by name."""
         scale = np.abs(corner).max(initial=0.0)
         finite = bool(np.isfinite(self._schur).all())
         _, sizes, directions = np.linalg.svd(self._schur if finite else np.zeros_like(self._schur))

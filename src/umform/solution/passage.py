@@ -1,4 +1,4 @@
-"""Refuse an equilibrium for which the sheet went through a tool."""
+"""Reject an equilibrium for which the sheet went through a tool."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Refuse an increment in which a sheet turns so far on a tool that a chord is not the direction of its slip."""
+"""Reject an increment in which a sheet turns so far on a tool that a chord is not the direction of its slip."""
 
 from __future__ import annotations
 

@@ -136,7 +136,7 @@ class Multifrontal:
 
 @contextmanager
 def _memory(pattern: Pattern, needed: Callable[[], int]) -> Iterator[None]:
-    """Refuse factors that are larger than the memory of the machine, and say so where memory ends on the way."""
+    """Reject factors that are larger than the memory of the machine, and say so where memory ends on the way."""
     if needed() > _installed():
         raise _too_large(pattern, needed())
     try:

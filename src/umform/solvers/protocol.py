@@ -44,7 +44,7 @@ class Pattern:
     symmetric: bool
 
     def __post_init__(self) -> None:
-        """Refuse what is no pattern: the solvers would read outside of their arrays."""
+        """Reject what is no pattern: the solvers would read outside of their arrays."""
         if len(self.indptr) != self.n + 1 or self.indptr[0] != 0 or self.indptr[-1] != len(self.indices):
             raise _bad_pattern("the row starts do not fit the number of equations and of columns")
         lengths = np.diff(self.indptr)
@@ -227,7 +227,7 @@ def backward_error(residual: FloatArray, size: float, x: FloatArray, rhs: FloatA
 
 
 def check_accuracy(solver: str, error: float) -> None:
-    """Refuse a solution whose backward error is far above rounding."""
+    """Reject a solution whose backward error is far above rounding."""
     if not error <= 1e-8:
         raise SolveError(
             "The solution of the linear equations is not accurate",

@@ -27,7 +27,7 @@ class Free:
     of a tool, from the beginning of the run on: the share of the forces that is left, zero while the thing acts.
 
     A tool that is opened stays where it is, and the sheet springs back as if it were not there: with all tools in one
-    step, on a support from :meth:`umform.Model.hold_rigid`, the part comes out free of forces from outside.
+    step, on a support from :meth:`umform.Model.hold_rigid`, the part ends free of external forces.
 
     Parameters
     ----------

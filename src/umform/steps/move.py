@@ -154,7 +154,7 @@ def _at(law: Law, value: float) -> float:
 
 
 def _check_law(control: Control, law: Law) -> None:
-    """Refuse a law that is neither a function nor a table."""
+    """Reject a law that is neither a function nor a table."""
     if callable(law):
         return
     table = np.asarray(law, dtype=float)

@@ -16,7 +16,7 @@ _TOUCH = 1e-9
 
 
 def refuse_crossings(segments: Sequence[Segment], closed: bool, endless: tuple[bool, bool], where: str) -> None:
-    """Refuse a curve that meets itself anywhere but where a segment follows the one before.
+    """Reject a curve that meets itself anywhere but where a segment follows the one before.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ class Line:
     end: Point2
 
     def check(self, where: str) -> None:
-        """Refuse a line of no length."""
+        """Reject a line of no length."""
         if self._vector(where).any():
             return
         raise InvalidValue(
@@ -95,7 +95,7 @@ class Arc:
     clockwise: bool = False
 
     def check(self, where: str) -> None:
-        """Refuse an arc whose ends are not on one circle."""
+        """Reject an arc whose ends are not on one circle."""
         centre = point(self.centre, f"{where}.centre", 2)
         first = math.dist(point(self.start, f"{where}.start", 2), centre)
         last = math.dist(point(self.end, f"{where}.end", 2), centre)

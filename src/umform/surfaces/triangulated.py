@@ -188,7 +188,7 @@ class Triangulated(Tool):
 
 
 def _refuse_shape(normals: Floats | None, surface: Triangles, where: str) -> None:
-    """Refuse normals that are not three for each triangle."""
+    """Reject normals that are not three for each triangle."""
     if normals is not None and normals.shape != surface.corners.shape:
         raise InvalidValue(
             "there must be one normal for each corner of each triangle",

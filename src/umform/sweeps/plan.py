@@ -168,7 +168,7 @@ def _cell(value: Any) -> Any:
 
 
 def _check_keys(keys: Mapping[str, str]) -> None:
-    """Refuse a sweep that varies nothing, or a key twice."""
+    """Reject a sweep that varies nothing, or a key twice."""
     twice = {key: [name for name, other in keys.items() if other == key] for key in keys.values()}
     for key, names in twice.items():
         if len(names) > 1:

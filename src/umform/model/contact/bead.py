@@ -25,7 +25,7 @@ log = logging.getLogger("umform.contact")
 
 Floats = NDArray[np.float64]
 
-#: Elastic slip that is allowed by default, and the gap at which a bead ends, in thicknesses.
+#: Allowed elastic slip by default, and the gap at which a bead ends, in thicknesses.
 _SLIP, _OFF = 1.0 / 200.0, 0.5
 #: Points within half a band for an error of the resultant below 1e-3, and below which it is some per cent or more.
 _WANTED, _FEWEST, _MOST = 4.5, 1.5, 10
@@ -216,7 +216,7 @@ def _corners(curve: ArrayLike | Sequence[ArrayLike], closed: bool, where: str) -
 
 
 def _refuse_beside(line: BeadLine, tool: Tool, where: str) -> None:
-    """Refuse a line that is farther from its tool than the band is wide to one side, at corners or between them."""
+    """Reject a line that is farther from its tool than the band is wide to one side, at corners or between them."""
     following = np.roll(line.curve, -1, axis=0)
     middles = 0.5 * (line.curve + following)
     places = np.concatenate([line.curve, middles if line.closed else middles[:-1]])

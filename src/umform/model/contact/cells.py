@@ -19,7 +19,7 @@ def checked_cells(cells: int | str | None, ripple: float | None, where: str) -> 
     Raises
     ------
     InvalidValue
-        If it is no such number, or a ripple is wanted of a given number.
+        If the number is invalid, or a ripple is given with a number of cells.
     """
     if ripple is not None and cells != "auto":
         raise InvalidValue(
@@ -59,7 +59,7 @@ def ripple_of(met: Encounter, cells: int, allowed: float) -> float:
 
 
 def cells_for(met: Encounter, ripple: float, touching: float, allowed: float) -> int:
-    """Fewest cells that keep the ripple below what is wanted and are shorter than the contact. eq. (4.122)"""
+    """Fewest cells that keep the ripple below its limit and are shorter than the contact. eq. (4.122)"""
     by_ripple = math.sqrt(ripple_of(met, 1, allowed) / ripple)
     by_length = met.length / touching if touching > 0.0 else MOST
     return min(max(math.ceil(by_ripple), math.ceil(by_length), FEWEST), MOST)

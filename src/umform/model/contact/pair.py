@@ -201,7 +201,7 @@ class Contact(PairPoints):
     # Multipliers and penalties -------------------------------------------------------------------------------
 
     def loose(self, found: ContactFound) -> bool:
-        """Whether multipliers are wanted and a face is further from the tool than allowed, or has slid farther."""
+        """Whether multipliers are on and a gap or an elastic slip exceeds its limit."""
         if not self.augmented or self.allowed is None:
             return False
         if (np.abs(self._in_basis(found.held_gap, found)) > self.allowed).any():
@@ -219,7 +219,7 @@ class Contact(PairPoints):
         """Let the multipliers carry the pressure that was found, and add what that changes in the residual.
 
         The points that are held now stay so to first order, and close their gaps: where the tool goes back, new
-        multipliers on old gaps would let go of points that bear a pressure. eqs. (4.34), (4.35)
+        multipliers on old gaps would open points under pressure. eqs. (4.34), (4.35)
         """
         self._close(found, found.share * self._in_basis(found.held_gap, found), change)
         self.block.multipliers = np.maximum(self._in_basis(found.pressure, found), 0.0)

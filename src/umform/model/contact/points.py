@@ -72,7 +72,7 @@ class PairPoints(Term):
 
     @property
     def allowed(self) -> float | None:
-        """Penetration that is allowed; None where only a penalty was given."""
+        """Allowed penetration; None where only a penalty was given."""
         return self._settings.allowed
 
     @allowed.setter
@@ -139,7 +139,7 @@ class PairPoints(Term):
 
     @property
     def slip(self) -> float:
-        """Elastic slip that is allowed; zero without friction."""
+        """Allowed elastic slip; zero without friction."""
         return self._settings.slip
 
     @property

@@ -21,11 +21,11 @@ from umform.surfaces import Surface
 
 log = logging.getLogger("umform.contact")
 
-#: Penetration that is allowed by default, in thicknesses.
+#: Allowed penetration by default, in thicknesses.
 _PENETRATION = 1.0 / 200.0
 #: Length that a flat tool, a blank holder for instance, spreads the line force on, in thicknesses.
 _FLAT = 20.0
-#: Elastic slip that is allowed by default, in thicknesses.
+#: Allowed elastic slip by default, in thicknesses.
 _SLIP = 1.0 / 200.0
 #: Largest penalty over stiffness / thickness: beyond it the sheet is squeezed ten times as much as it penetrates.
 _STIFFEST = 10.0
@@ -47,13 +47,13 @@ class ContactSettings:
     points : int or "nodes"
         Gauss points per direction and facet, or cells, or the nodes.
     allowed : float, optional
-        Penetration that is allowed; None where only a penalty was given.
+        Allowed penetration; None where only a penalty was given.
     augmented : bool
         Whether multipliers take the penetration away that is not allowed, and the elastic slip.
     friction : float, Friction, FrictionByRegion or callable, optional
         Law of friction; None without.
     slip : float
-        Elastic slip that is allowed.
+        Allowed elastic slip.
     ratio : float
         Tangential stiffness over the penalty, so that the pressure that is expected slips at that elastic slip.
     cells : int, optional
@@ -224,7 +224,7 @@ def _cells(met: Encounter, penalty: float | None, allowed: float | None, ripple:
 
 
 def _default(met: Encounter) -> float:
-    """Penetration that is allowed by default."""
+    """Allowed penetration by default."""
     return _PENETRATION * met.thickness
 
 

@@ -47,7 +47,7 @@ def refinements(case: AirBending) -> dict[str, AirBending]:
     """The case refined in one way at a time; t-pts are those through the thickness, c-pts of contact.
 
     What is automatic is refined from what it comes to. A parameter that is as fine as it may be is made coarser: the
-    change tells as much. depth is the penetration that is allowed. The layers are judged by a stack of eight: a layer
+    change tells as much. depth is the allowed penetration. The layers are judged by a stack of eight: a layer
     more tells little of the error of two, which falls neither fast nor steadily (docs/verification/air-bend-mesh.md).
     """
     elements, points = case.elements_per_thickness, case.thickness_points

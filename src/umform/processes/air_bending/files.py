@@ -85,7 +85,7 @@ def write_files(
 
 
 def record(bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None = None) -> dict[str, Any]:
-    """Parameters, measures, table and budget in a form that JSON can hold; None for what cannot be told."""
+    """Parameters, measures, table and budget in a form that JSON can hold; None for unknown values."""
     content: dict[str, Any] = {
         "parameters": parameters(bend.case),
         "measures": _told(asdict(bend.measures)),

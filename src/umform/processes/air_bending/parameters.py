@@ -62,9 +62,9 @@ class AirBending:
     contact_points : int or "auto"
         Contact points per direction and facet; "auto": as many as the contact of each tool needs, eq. (4.31).
     penalty : float, optional
-        Contact pressure per penetration; default: it follows from the penetration that is allowed, eq. (4.29).
+        Contact pressure per penetration; default: it follows from the allowed penetration, eq. (4.29).
     penetration : float, optional
-        Penetration that is allowed, in place of a penalty; default thickness / 200.
+        Allowed penetration, in place of a penalty; default thickness / 200.
     increment : float
         Way of the punch in one increment, over the opening.
     """

@@ -101,7 +101,7 @@ RULES: dict[str, Rule] = {
 
 
 def check_parameters(values: Mapping[str, Any]) -> None:
-    """Refuse parameters of free bending that do not fit, each by itself and then together.
+    """Reject parameters of free bending that do not fit, each by itself and then together.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ def check_parameters(values: Mapping[str, Any]) -> None:
 
 
 def _check_room(values: Mapping[str, Any]) -> None:
-    """Refuse a stroke that the cylinder and its mirror image leave no room for.
+    """Reject a stroke that the cylinder and its mirror image leave no room for.
 
     The sheet can at most be folded about its upper face: its lower face is then an arc of radius t about a point of
     x = 0, which goes down with the stroke and must stay clear of the cylinder.

@@ -97,7 +97,7 @@ def demo(
     processes: int | None = None,
     progress: bool | None = None,
 ) -> Outcome:
-    """Bend the strip of the example with all its meshes, elements and contact rules, and show what comes out.
+    """Bend the strip of the example with all its meshes, elements and contact rules, and show the results.
 
     The runs go in parallel processes, which are spawned: a script that calls this needs
     ``if __name__ == "__main__":``.

@@ -81,7 +81,7 @@ class Geometry(Protocol):
 
 
 def check_parameters(values: Mapping[str, Any]) -> None:
-    """Refuse parameters that do not fit, each by itself.
+    """Reject parameters that do not fit, each by itself.
 
     Raises
     ------
@@ -93,7 +93,7 @@ def check_parameters(values: Mapping[str, Any]) -> None:
 
 
 def check_geometry(case: Geometry) -> None:
-    """Refuse tools between which the sheet finds no room, and a way that ends before the force is steady.
+    """Reject tools between which the sheet finds no room, and a way that ends before the force is steady.
 
     Raises
     ------

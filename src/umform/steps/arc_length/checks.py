@@ -7,7 +7,7 @@ from umform.model import Model
 
 
 def refuse_on_an_arc(model: Model, where: str) -> None:
-    """Refuse multipliers where the load is an unknown: they are found at fixed loads.
+    """Reject multipliers where the load is an unknown: they are found at fixed loads.
 
     Raises
     ------

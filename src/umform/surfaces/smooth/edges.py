@@ -89,7 +89,7 @@ def connected(surface: Triangles, where: str, *, rims: bool = False) -> Edges:
 
 
 def _refuse_lines(surface: Triangles, where: str) -> None:
-    """Refuse triangles without area."""
+    """Reject triangles without area."""
     corners = surface.corners
     longest = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1)
     flat = 2.0 * np.linalg.norm(surface.area_vectors, axis=1) <= _FLAT * longest**2
@@ -104,7 +104,7 @@ def _refuse_lines(surface: Triangles, where: str) -> None:
 
 
 def _refuse_holes(points: Floats, start: Ids, end: Ids, where: str) -> None:
-    """Refuse rims, with the place and the length of each."""
+    """Reject rims, with the place and the length of each."""
     used, ids = np.unique(np.concatenate([start, end]), return_inverse=True)
     one, other = ids[: len(start)], ids[len(start) :]
     rims, label = groups(one, other, len(used))

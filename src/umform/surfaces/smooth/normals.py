@@ -124,7 +124,7 @@ def _same(label: Ids, edges: Edges, end: Ids) -> Bools:
 
 
 def _refuse_folds(surface: Triangles, corner: Floats, where: str) -> None:
-    """Refuse normals that look away from their triangles."""
+    """Reject normals that look away from their triangles."""
     cosine = np.einsum("tci,ti->tc", corner, _unit(surface.area_vectors))
     if not (cosine > _LEAST_COSINE).all():
         t, c = np.argwhere(~(cosine > _LEAST_COSINE))[0]
