@@ -1,0 +1,84 @@
+// @ts-check
+// The list of jobs, asked for again and again: more often while one runs.
+
+import { get, post } from "./api.js";
+import { element, make } from "./dom.js";
+import { number, t } from "./texts.js";
+
+const [BUSY, IDLE] = [300, 2000];
+
+export class Jobs {
+  /** @param {(name: string) => void} open @param {(chosen: string[]) => void} choose */
+  constructor(open, choose) {
+    this.open = open;
+    this.choose = choose;
+    /** @type {any[]} */
+    this.rows = [];
+    /** @type {Set<string>} */
+    this.chosen = new Set();
+    this.shown = "";
+    this.seen = "";
+    this.timer = 0;
+    document.addEventListener("visibilitychange", () => document.hidden || this.refresh());
+    this.refresh();
+  }
+
+  async refresh() {
+    clearTimeout(this.timer);
+    try {
+      this.rows = (await get("/api/jobs")).jobs;
+      element("offline").hidden = true;
+      this.show();
+    } catch {
+      element("offline").hidden = false;
+    }
+    const busy = this.rows.some(({ state }) => state === "running" || state === "waiting");
+    this.timer = setTimeout(() => this.refresh(), busy ? BUSY : IDLE);
+  }
+
+  /** @param {string} name */
+  mark(name) {
+    this.shown = name;
+    this.seen = "";
+    this.show();
+  }
+
+  show() {
+    const seen = JSON.stringify([this.rows, this.shown, [...this.chosen], t("jobs.title")]);
+    if (seen === this.seen) return;
+    this.seen = seen;
+    const focus = document.activeElement?.id;
+    element("jobs-empty").hidden = this.rows.length > 0;
+    element("jobs").replaceChildren(...this.rows.map((row) => this.item(row)));
+    if (focus?.startsWith("job-")) element(focus)?.focus();
+  }
+
+  /** @param {any} row */
+  item(row) {
+    const { id, state, title, summary } = row;
+    const angle = summary.measures?.angle;
+    const end = state === "running" ? `${Math.round(100 * row.fraction)} %` : state === "done" && angle ? `${number(angle, 1)}°` : t(`state.${state}`);
+    const comparable = state === "done" && summary.measures?.angle !== undefined;
+    const box = make("input", { type: "checkbox", id: `job-c-${id}`, "aria-label": t("compare.choose", { title }), checked: this.chosen.has(id), disabled: !comparable });
+    box.addEventListener("change", () => this.toggle(id, box.checked));
+    const button = make("button", { type: "button", id: `job-o-${id}`, "aria-current": id === this.shown ? "true" : null, onclick: () => this.open(id) },
+      make("i", { class: `dot ${state}`, title: t(`state.${state}`) }), make("span", {}, `${row.number} · ${title}`), make("b", {}, end));
+    return make("li", {}, box, button);
+  }
+
+  /** @param {string} id @param {boolean} on */
+  toggle(id, on) {
+    if (on) this.chosen.add(id);
+    else this.chosen.delete(id);
+    element("chosen-count").hidden = this.chosen.size === 0;
+    element("chosen-count").textContent = String(this.chosen.size);
+    this.choose([...this.chosen]);
+  }
+
+  /** @param {string} name @param {"stop" | "resume" | "remove"} what */
+  async ask(name, what) {
+    await post(`/api/jobs/${name}/${what}`);
+    if (what === "remove") this.toggle(name, false);
+    await this.refresh();
+  }
+}
