@@ -6,6 +6,7 @@ import fcntl
 import os
 import secrets
 import socket
+import threading
 from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import asynccontextmanager, contextmanager, suppress
 from importlib.resources import files
@@ -21,6 +22,7 @@ from starlette.routing import Route
 from umform.bench.api import routes
 from umform.bench.guard import Guard
 from umform.bench.jobs import Queue
+from umform.bench.library import library
 from umform.errors import FileProblem, InvalidValue
 
 HOST = "127.0.0.1"
@@ -51,6 +53,7 @@ def application(queue: Queue, token: str, port: int) -> Starlette:
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
         queue.start()
+        threading.Thread(target=library, name="umform-bench-library", daemon=True).start()  # the first page needs it
         try:
             yield
         finally:

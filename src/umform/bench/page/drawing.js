@@ -2,7 +2,7 @@
 // Tools and sheet in true proportion: before a run bent by geometry alone, in a run as it was computed.
 
 import { draw } from "./dom.js";
-import { number, t } from "./texts.js";
+import { number } from "./texts.js";
 
 /** @typedef {[number, number]} Point */
 /**
@@ -70,12 +70,12 @@ export class Drawing {
     const half = this.values.opening / 2;
     const [[left], [right]] = [place([-half, 0]), place([half, 0])];
     const low = height - 14;
-    const [ax, az] = place([0, -bent.stroke]);
+    const [ax, az] = place([0, (this.outlines?.thickness ?? 0) - bent.stroke]);
     return [
       line(left, place([0, 0])[1], left, low - 4), line(right, place([0, 0])[1], right, low - 4),
       draw("path", { d: `M${left} ${low - 8}H${right}`, class: "arrow" }),
       label((left + right) / 2, low + 6, `V ${number(this.values.opening)}`),
-      Number.isFinite(bent.angle) ? label(ax, Math.max(az - 26, 22) , `${number(bent.angle, this.computed ? 1 : undefined)}°`, "angle") : draw("g"),
+      Number.isFinite(bent.angle) ? label(ax, Math.max(az - 28, 22), `${number(bent.angle, this.computed ? 1 : undefined)}°`, "angle") : draw("g"),
     ];
   }
 }
@@ -145,6 +145,3 @@ function both(inner, outer) {
   const mirror = (/** @type {Point[]} */ half) => half.map(([x, z]) => /** @type {Point} */ ([-x, z]));
   return [...mirror(inner).reverse(), ...inner, ...[...outer].reverse(), ...mirror(outer)];
 }
-
-/** @param {number} angle */
-export const spoken = (angle) => t("drawing.text", { angle });

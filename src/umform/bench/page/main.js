@@ -22,6 +22,7 @@ async function start() {
   const jobs = new Jobs((name) => go(`bend/${name}`), (chosen) => chosen.length && location.hash.startsWith("#compare") && go(`compare/${chosen.join(",")}`));
   const result = new Result(library, drawing, {
     gone: () => go("bend"),
+    expected,
     ask: (/** @type {string} */ name, /** @type {any} */ what) => jobs.ask(name, what),
     again: (/** @type {any} */ job) => {
       form.change(job.parameters);
@@ -30,10 +31,9 @@ async function start() {
     },
   });
   const form = new Form(library, (found, values) => {
-    if (found.drawing) drawing.set(found.drawing, values);
+    if (found.drawing && !result.name) drawing.set(found.drawing, values);
     element("sketch").classList.toggle("old", !found.drawing);
-    if (!found.drawing || !result.name || drawing.computed === null) expected(found, values);
-    else expected(found, values);
+    if (!result.name) expected(found, values);
   });
   const deck = new Deck((name) => go(`bend/${name}`));
 
@@ -81,6 +81,7 @@ async function start() {
     if (view === "bend" && rest !== result.name) {
       jobs.mark(rest);
       await result.open(rest);
+      if (!rest) form.look();
     }
     if (view === "deck") await deck.start();
     if (view === "compare") {

@@ -1,7 +1,7 @@
 // @ts-check
 // One job: how far it is while it runs, then its numbers with what they mean.
 
-import { get } from "./api.js";
+import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
 import { plot } from "./plot.js";
 import { number, t } from "./texts.js";
@@ -22,9 +22,11 @@ export class Result {
     this.timer = 0;
     /** @type {any} */
     this.job = null;
-    this.frame = make("iframe", { title: "", loading: "lazy", sandbox: "allow-scripts allow-downloads" });
     this.shapeAt = 0;
     this.shapeOf = "";
+    // The frame of the shape stays where it is when the rest is made again: a frame that is moved loads again.
+    [this.top, this.space, this.foot] = ["top-part", "shape", "foot-part"].map((name) => make("div", { class: name }));
+    element("result").replaceChildren(this.top, this.space, this.foot);
   }
 
   /** @param {string} name */
@@ -32,6 +34,7 @@ export class Result {
     this.name = name;
     this.job = null;
     this.shapeOf = "";
+    this.space.replaceChildren();
     element("result").hidden = !name;
     this.drawing.setComputed(null);
     if (name) await this.refresh();
@@ -61,6 +64,13 @@ export class Result {
   /** @param {any} job */
   async show(job) {
     const parts = [this.head(job)];
+    if (!this.job && job.kind === "bend") {
+      const found = await post("/api/look", job.parameters);
+      if (found.drawing && job.id === this.name) {
+        this.drawing.set(found.drawing, job.parameters);
+        this.actions.expected(found, job.parameters);
+      }
+    }
     if (job.live.section && job.kind === "bend") this.drawing.setComputed(job.live);
     if (job.state === "running" || job.state === "waiting") parts.push(this.progress(job));
     if (job.state === "failed" || job.reason) parts.push(make("pre", { class: "bad" }, job.reason));
@@ -69,10 +79,10 @@ export class Result {
     if (job.state === "done" && job.summary.last) parts.push(this.last(job));
     const curve = this.curve(job);
     if (curve) parts.push(curve);
-    if (job.has_shape) parts.push(this.shape(job));
-    if (job.files.length) parts.push(this.files(job));
     const focus = document.activeElement?.id;
-    element("result").replaceChildren(...parts);
+    this.top.replaceChildren(...parts);
+    if (job.has_shape) this.shape(job);
+    this.foot.replaceChildren(...(job.files.length ? [this.files(job)] : []));
     if (focus) element(focus)?.focus({ preventScroll: true });
   }
 
@@ -176,12 +186,11 @@ export class Result {
   shape(job) {
     const now = performance.now() / 1000;
     const version = `${job.id}-${job.live.shape}-${job.state}`;
-    if (version !== this.shapeOf && (job.state !== "running" || now - this.shapeAt > SHAPE_EVERY || !this.shapeOf)) {
-      this.shapeOf = version;
-      this.shapeAt = now;
-      this.frame = make("iframe", { title: t("shape.title"), sandbox: "allow-scripts allow-downloads", src: `/files/${job.id}/shape.html?v=${encodeURIComponent(version)}` });
-    }
-    return make("div", { class: "shape" }, this.frame);
+    if (version === this.shapeOf || (job.state === "running" && this.shapeOf && now - this.shapeAt < SHAPE_EVERY)) return;
+    this.shapeOf = version;
+    this.shapeAt = now;
+    const src = `/files/${job.id}/shape.html?v=${encodeURIComponent(version)}`;
+    this.space.replaceChildren(make("iframe", { title: t("shape.title"), sandbox: "allow-scripts allow-downloads", src }));
   }
 
   /** @param {any} job */
