@@ -117,7 +117,7 @@ def _strain_at_largest_force(row: dict[str, Any]) -> float:
 def of_certificate(
     name: str, yield_stress: float, tensile_strength: float, uniform_elongation: float | None = None
 ) -> SheetMetal:
-    """Sheet metal of the library with the numbers of a coil: the kind of its curve stays, R, Rm and Ag are the coil's.
+    """Sheet metal of the library with R, Rm and Ag of a coil; a Voce curve where no Swift curve goes through them.
 
     Parameters
     ----------
@@ -152,7 +152,12 @@ def of_certificate(
     if uniform_elongation is not None:
         row |= {"uniform": "measured", "measured": uniform_elongation + tensile_strength / float(row["young"])}
     row |= {"basis": "numbers of a coil", "source": f"R, Rm of a coil; all else as {metal.name}: {metal.source}"}
-    return _from_row(metal.name, row)
+    try:
+        return _from_row(metal.name, row)
+    except InvalidValue:
+        if row["curve"] == "Voce":
+            raise
+        return _from_row(metal.name, row | {"curve": "Voce"})
 
 
 @cache
