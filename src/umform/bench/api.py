@@ -16,6 +16,7 @@ from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, R
 from starlette.routing import Route
 
 from umform.bench.decks import checked_deck, known_templates, schema_text, template_text, title_of
+from umform.bench.folders import RESULTS, SHAPE
 from umform.bench.index import Job
 from umform.bench.jobs import MOST_WAITING, Queue, result_file
 from umform.bench.library import library
@@ -26,7 +27,7 @@ from umform.errors import InvalidValue, UmformError
 from umform.processes.air_bending.files import RESULTS as BEND_FILES
 from umform.processes.air_bending.measures import QUANTITIES
 
-_FILES = frozenset({*BEND_FILES, *DECK_FILES, "shape.html"})
+_FILES = frozenset({*BEND_FILES, *DECK_FILES, SHAPE})
 #: Reports run their own programs: as a page of no origin, which cannot ask this server for anything.
 _SANDBOX = "sandbox allow-scripts allow-downloads allow-popups"
 _SHOWN = (".html", ".png", ".svg")
@@ -119,8 +120,8 @@ class _Api:
         """A job, with its numbers, what it tells of its run, and its files."""
         job = self._known(request)
         folder = self.queue.place(job.id)
-        files = [file for file in sorted(_FILES) if (folder / "results" / file).is_file()]
-        shape = (folder / "shape.html").is_file()
+        files = [file for file in sorted(_FILES) if (folder / RESULTS / file).is_file()]
+        shape = (folder / SHAPE).is_file()
         return {**asdict(job), "live": self.queue.live(job.id), "files": files, "has_shape": shape}
 
     def _row(self, job: Job) -> _Json:

@@ -18,8 +18,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from umform.bench.folders import DECK, LIVE, LOCK, ORDER, OUTCOME, RESULTS, SHAPE, is_owned
 from umform.bench.index import UNFINISHED, Index, Job
-from umform.bench.work import DECK, LOCK, ORDER, OUTCOME, RESULTS, is_owned
 from umform.errors import InvalidValue, UmformError
 from umform.io.atomic import PendingFile
 
@@ -41,10 +41,18 @@ class Queue:
         Folder of the bench.
     at_once : int
         Jobs at a time.
+
+    Attributes
+    ----------
+    index : Index
+        The index.
+    command : list of str
+        Starts a process that reads the folder of its job.
     """
 
     def __init__(self, folder: Path, at_once: int = 1) -> None:
         self.folder, self.at_once = folder, at_once
+        self.command = [sys.executable, "-m", "umform.bench.work"]
         (folder / "jobs").mkdir(parents=True, exist_ok=True)
         self.index = Index(folder)
         self._lock = threading.RLock()
@@ -155,7 +163,7 @@ class Queue:
     def live(self, name: str) -> dict[str, Any]:
         """What a job tells while it runs."""
         with suppress(OSError, ValueError):
-            content: dict[str, Any] = json.loads((self.place(name) / "live.json").read_text(encoding="utf-8"))
+            content: dict[str, Any] = json.loads((self.place(name) / LIVE).read_text(encoding="utf-8"))
             return content
         return {}
 
@@ -215,7 +223,7 @@ class Queue:
             self._let_go()
             with (self.folder / "jobs.log").open("ab") as text:
                 self._ready = subprocess.Popen(
-                    [sys.executable, "-m", "umform.bench.work"],
+                    self.command,
                     stdin=subprocess.PIPE,
                     stdout=text,
                     stderr=text,
@@ -224,13 +232,12 @@ class Queue:
         return self._ready
 
     def _let_go(self) -> None:
-        """Let the process that waits end."""
+        """End the process that waits."""
         if self._ready is not None:
+            self._ready.kill()  # it has no job
+            self._ready.wait()
             if self._ready.stdin is not None:
-                with suppress(OSError):
-                    self._ready.stdin.close()
-            with suppress(subprocess.TimeoutExpired):
-                self._ready.wait(timeout=_GENTLE)
+                self._ready.stdin.close()
             self._ready = None
 
     def _lives(self, name: str) -> bool:
@@ -271,7 +278,7 @@ def result_file(queue: Queue, name: str, file: str, known: frozenset[str]) -> Pa
         If there is none, or its name is none of those that jobs write.
     """
     place = queue.place(name)
-    path = place / file if file == "shape.html" else place / RESULTS / file
+    path = place / file if file == SHAPE else place / RESULTS / file
     if file not in known or path.is_symlink() or not path.is_file():
         raise UmformError("there is no such file", where="file", value=file[:60])
     return path

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from umform.bench.folders import LIVE, SHAPE
 from umform.bench.shape import write_shape
 from umform.processes.air_bending.brake import force_per_width
 from umform.processes.air_bending.branches import Brake
@@ -18,7 +19,6 @@ from umform.steps import Release
 if TYPE_CHECKING:
     from umform.steps.loop import Run
 
-LIVE, SHAPE = "live.json", "shape.html"
 #: Seconds between two files, at least.
 _OFTEN = 0.1
 #: Seconds before the first shape in space; those that follow take at most this part of the time.

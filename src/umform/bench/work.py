@@ -5,17 +5,16 @@ It writes all that it knows into the folder of the job, and lives on where the s
 
 from __future__ import annotations
 
-import fcntl
 import json
 import os
 import sys
 import traceback
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from umform.bench.live import SHAPE, BendTold, DeckTold, Watch, write_live
+from umform.bench.folders import DECK, ORDER, OUTCOME, RESULTS, SHAPE, owned
+from umform.bench.live import BendTold, DeckTold, Watch, write_live
 from umform.bench.look import said
 from umform.bench.shape import write_shape
 from umform.bench.wanted import Wanted
@@ -32,7 +31,6 @@ from umform.processes.air_bending.files import FILES, record, write_files
 from umform.processes.air_bending.search import find_stroke
 from umform.run.watching import watching
 
-ORDER, OUTCOME, LOCK, RESULTS, DECK = "job.json", "outcome.json", "lock", "results", "deck.toml"
 #: Part of the memory of the machine that a job may have: a mesh that cannot be meant then harms nobody.
 _MEMORY = 0.8
 
@@ -43,7 +41,7 @@ def main(arguments: list[str]) -> int:
     if not text:
         return 0  # the server that has kept this process ready is gone
     folder = Path(text)
-    with _owned(folder) as mine:
+    with owned(folder) as mine:
         if not mine or (folder / OUTCOME).exists():
             return 0
         limit_memory()
@@ -51,33 +49,6 @@ def main(arguments: list[str]) -> int:
         with PendingFile(folder / OUTCOME) as waiting:
             waiting.write_text(json.dumps(outcome, allow_nan=False), encoding="utf-8")
     return 0
-
-
-@contextmanager
-def _owned(folder: Path) -> Iterator[bool]:
-    """Hold the lock of a job, by which others see that it runs; False if another process has it."""
-    with (folder / LOCK).open("a") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            yield False
-            return
-        lock.truncate()
-        lock.write(str(os.getpid()))  # whom a later server is to ask to stop
-        lock.flush()
-        yield True
-
-
-def is_owned(folder: Path) -> bool:
-    """Whether a process holds the lock of a job."""
-    try:
-        with (folder / LOCK).open("r") as lock:
-            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
-    except FileNotFoundError:
-        return False
-    except OSError:
-        return True
-    return False
 
 
 def limit_memory() -> None:

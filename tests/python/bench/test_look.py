@@ -82,7 +82,11 @@ def test_numbers_of_a_coil_are_those_that_are_computed_with():
     """The curve has its largest force at the Rm of the coil, by Considère."""
     coils = [("DC04", 160, 295, None), ("DC04", 160, 295, 15), ("S235", 290, 410, None), ("1.4301", 280, 620, None)]
     for name, re, rm, elongation in [*coils, ("EN AW-5754", 100, 215, None), ("EN AW-5754", 100, 215, 17)]:
-        given = {"yield_stress": float(re), "tensile_strength": float(rm), "uniform_elongation": elongation and float(elongation)}
+        given = {
+            "yield_stress": float(re),
+            "tensile_strength": float(rm),
+            "uniform_elongation": elongation and float(elongation),
+        }
         law, note = Wanted(material=name, **given).law()
         assert tensile_strength(law) == pytest.approx(rm, rel=5e-3)
         assert "coil" in note
@@ -98,7 +102,9 @@ def test_all_tools_of_the_library_can_be_taken():
     for die in tools()["dies"]:
         form = {"thickness": die["opening"] / 8, "opening": float(die["opening"]), "die_radius": die["radius"]}
         for punch in tools()["punches"]:
-            found = look({**form, "punch_angle": float(punch["angle"]), "punch_radius": punch["radius"], "angle": 120.0})
+            found = look(
+                {**form, "punch_angle": float(punch["angle"]), "punch_radius": punch["radius"], "angle": 120.0}
+            )
             problems = [row for row in found["problems"] if row["where"] != "punch_radius"]
             assert not problems, (die, punch)
 

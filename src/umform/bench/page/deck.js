@@ -95,10 +95,10 @@ export class Deck {
     const path = headers.length ? headers[headers.length - 1][1].split(".") : [];
     if (path.join(".") === this.at && element("deck-help").children.length) return;
     this.at = path.join(".");
-    const parts = path.reduce((/** @type {any[]} */ nodes, name) => nodes.flatMap((node) => this.below(node, name)), [this.schema]);
-    const kinds = parts.flatMap((node) => this.variants(node)).filter((node) => node.properties);
+    const parts = path.reduce((/** @type {any[]} */ nodes, /** @type {string} */ name) => nodes.flatMap((node) => this.below(node, name)), [this.schema]);
+    const kinds = parts.flatMap((/** @type {any} */ node) => this.variants(node)).filter((/** @type {any} */ node) => node.properties);
     const title = path.length ? `[${path.join(".")}]` : t("deck.help");
-    element("deck-help").replaceChildren(make("h2", {}, title), ...kinds.slice(0, 16).map((node, i) => this.table(node, kinds.length === 1 || (i === 0 && !path.length))));
+    element("deck-help").replaceChildren(make("h2", {}, title), ...kinds.slice(0, 16).map((/** @type {any} */ node, /** @type {number} */ i) => this.table(node, kinds.length === 1 || (i === 0 && !path.length))));
   }
 
   /** @param {any} node @param {boolean} open */

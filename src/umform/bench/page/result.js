@@ -25,7 +25,10 @@ export class Result {
     this.shapeAt = 0;
     this.shapeOf = "";
     // The frame of the shape stays where it is when the rest is made again: a frame that is moved loads again.
-    [this.top, this.space, this.foot] = ["top-part", "shape", "foot-part"].map((name) => make("div", { class: name }));
+    this.top = make("div", { class: "top-part" });
+    this.space = make("div", { class: "shape" });
+    this.foot = make("div", { class: "foot-part" });
+    this.seen = "";
     element("result").replaceChildren(this.top, this.space, this.foot);
   }
 

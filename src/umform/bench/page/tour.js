@@ -36,6 +36,8 @@ export function tour(asked = true) {
   };
   dialog.onclose = () => document.querySelectorAll(".lit").forEach((node) => node.classList.remove("lit"));
   dialog.show();
-  dialog.onkeydown = (/** @type {KeyboardEvent} */ event) => event.key === "Escape" && dialog.close();
+  dialog.onkeydown = (/** @type {KeyboardEvent} */ event) => {
+    if (event.key === "Escape") dialog.close(); // a dialog that is not modal does not do so by itself
+  };
   show();
 }
