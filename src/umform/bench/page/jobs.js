@@ -8,8 +8,13 @@ import { number, t } from "./texts.js";
 const [BUSY, IDLE] = [300, 2000];
 
 export class Jobs {
-  /** @param {(name: string) => void} open @param {(chosen: string[]) => void} choose */
-  constructor(open, choose) {
+  /**
+   * @param {(name: string) => void} open @param {(chosen: string[]) => void} choose
+   * @param {() => void} ended is called when another job has ended
+   */
+  constructor(open, choose, ended) {
+    this.ended = ended;
+    this.endings = -1;
     this.open = open;
     this.choose = choose;
     /** @type {any[]} */
@@ -48,6 +53,9 @@ export class Jobs {
     if (seen === this.seen) return;
     this.seen = seen;
     const focus = document.activeElement?.id;
+    const endings = this.rows.filter((row) => row.state === "done").length;
+    if (endings > this.endings && this.endings >= 0) this.ended();
+    this.endings = endings;
     element("jobs-empty").hidden = this.rows.length > 0;
     element("jobs").replaceChildren(...this.rows.map((row) => this.item(row)));
     if (focus?.startsWith("job-")) element(focus)?.focus();

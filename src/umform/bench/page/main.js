@@ -19,7 +19,9 @@ async function start() {
   if (location.search) history.replaceState(null, "", location.pathname + location.hash); // the token stays in the cookie
   const [, library] = await Promise.all([loadTexts(), get("/api/library")]);
   const drawing = new Drawing(element("drawing"));
-  const jobs = new Jobs((name) => go(`bend/${name}`), (chosen) => chosen.length && location.hash.startsWith("#compare") && go(`compare/${chosen.join(",")}`));
+  const comparing = () => location.hash.startsWith("#compare");
+  const jobs = new Jobs((name) => go(`bend/${name}`), (chosen) => chosen.length && comparing() && go(`compare/${chosen.join(",")}`),
+    () => comparing() && show());
   const result = new Result(library, drawing, {
     gone: () => go("bend"),
     expected,
