@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 import uvicorn
 
+import umform
 from umform.bench.jobs import Queue
 from umform.bench.server import application, listening
 
@@ -47,6 +48,15 @@ def test_texts_that_the_page_asks_for_are_there():
     sources = [path.read_text(encoding="utf-8") for path in PAGE.iterdir() if path.name.endswith((".js", ".html"))]
     asked = {key for text in sources for key in re.findall(r"""(?:\bt\(|data-t(?:-label)?=)["']([\w.]+)["']""", text)}
     assert len(asked) > 40 and asked <= english.keys()
+
+
+def test_translated_messages_are_those_of_the_code():
+    source = Path(umform.__file__).parent
+    rooms = [*source.glob("processes/**/*.py"), *source.glob("sheet_metals/*.py")]
+    code = "".join(path.read_text(encoding="utf-8") for path in rooms)
+    for name in ("en", "de"):
+        for key in json.loads((PAGE / f"{name}.json").read_text(encoding="utf-8")):
+            assert not key.startswith("refused.") or key.removeprefix("refused.") in code, key
 
 
 def test_page_names_no_other_server():
