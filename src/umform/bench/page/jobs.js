@@ -3,7 +3,7 @@
 
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
-import { number, t } from "./texts.js";
+import { language, number, t } from "./texts.js";
 
 const [BUSY, IDLE] = [300, 2000];
 
@@ -49,28 +49,27 @@ export class Jobs {
   }
 
   show() {
-    const seen = JSON.stringify([this.rows, this.shown, [...this.chosen], t("jobs.title")]);
-    if (seen === this.seen) return;
-    this.seen = seen;
-    const focus = document.activeElement?.id;
     const endings = this.rows.filter((row) => row.state === "done").length;
     if (endings > this.endings && this.endings >= 0) this.ended();
     this.endings = endings;
     element("jobs-empty").hidden = this.rows.length > 0;
-    element("jobs").replaceChildren(...this.rows.map((row) => this.item(row)));
-    if (focus?.startsWith("job-")) element(focus)?.focus();
+    const seen = JSON.stringify([this.rows.map(({ id, state }) => [id, state]), this.shown, [...this.chosen], language]);
+    if (seen !== this.seen) {
+      const focus = document.activeElement?.id;
+      element("jobs").replaceChildren(...this.rows.map((row) => this.item(row)));
+      if (focus?.startsWith("job-")) element(focus)?.focus();
+    }
+    this.seen = seen;
+    for (const row of this.rows) element(`job-e-${row.id}`).textContent = end(row); // buttons stay, lest a click be lost
   }
 
   /** @param {any} row */
-  item(row) {
-    const { id, state, title, summary } = row;
-    const angle = summary.measures?.angle;
-    const end = state === "running" ? `${Math.round(100 * row.fraction)} %` : state === "done" && angle ? `${number(angle, 1)}°` : t(`state.${state}`);
+  item({ id, state, title, summary, number: count }) {
     const comparable = state === "done" && summary.measures?.angle !== undefined;
     const box = make("input", { type: "checkbox", id: `job-c-${id}`, "aria-label": t("compare.choose", { title }), checked: this.chosen.has(id), disabled: !comparable });
     box.addEventListener("change", () => this.toggle(id, box.checked));
     const button = make("button", { type: "button", id: `job-o-${id}`, "aria-current": id === this.shown ? "true" : null, onclick: () => this.open(id) },
-      make("i", { class: `dot ${state}`, title: t(`state.${state}`) }), make("span", {}, `${row.number} · ${title}`), make("b", {}, end));
+      make("i", { class: `dot ${state}`, title: t(`state.${state}`) }), make("span", {}, `${count} · ${title}`), make("b", { id: `job-e-${id}` }));
     return make("li", {}, box, button);
   }
 
@@ -89,4 +88,10 @@ export class Jobs {
     if (what === "remove") this.toggle(name, false);
     await this.refresh();
   }
+}
+
+/** How far a job is, or what came of it. @param {any} row @returns {string} */
+function end({ state, fraction, summary }) {
+  const angle = summary.measures?.angle;
+  return state === "running" ? `${Math.round(100 * fraction)} %` : state === "done" && angle ? `${number(angle, 1)}°` : t(`state.${state}`);
 }

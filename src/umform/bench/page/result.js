@@ -4,7 +4,7 @@
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
 import { plot } from "./plot.js";
-import { number, t } from "./texts.js";
+import { language, number, t } from "./texts.js";
 
 const OFTEN = 200;
 /** The numbers that go to the machine, in the order of the page. */
@@ -24,12 +24,13 @@ export class Result {
     this.job = null;
     this.shapeAt = 0;
     this.shapeOf = "";
-    // The frame of the shape stays where it is when the rest is made again: a frame that is moved loads again.
+    // Buttons stay while the numbers change, lest a click be lost; the frame of the shape stays, lest it load again.
+    this.bar = make("div", { class: "bar-part" });
     this.top = make("div", { class: "top-part" });
     this.space = make("div", { class: "shape" });
     this.foot = make("div", { class: "foot-part" });
-    this.seen = "";
-    element("result").replaceChildren(this.top, this.space, this.foot);
+    this.seen = this.barOf = this.footOf = "";
+    element("result").replaceChildren(this.bar, this.top, this.space, this.foot);
   }
 
   /** @param {string} name */
@@ -66,7 +67,10 @@ export class Result {
 
   /** @param {any} job */
   async show(job) {
-    const parts = [this.head(job)];
+    const parts = [];
+    const bar = JSON.stringify([job.id, job.state, language]);
+    if (bar !== this.barOf) this.bar.replaceChildren(this.head(job));
+    this.barOf = bar;
     if (!this.job && job.kind === "bend") {
       const found = await post("/api/look", job.parameters);
       if (found.drawing && job.id === this.name) {
@@ -85,7 +89,9 @@ export class Result {
     const focus = document.activeElement?.id;
     this.top.replaceChildren(...parts);
     if (job.has_shape) this.shape(job);
-    this.foot.replaceChildren(...(job.files.length ? [this.files(job)] : []));
+    const foot = JSON.stringify([job.id, job.files, language]);
+    if (foot !== this.footOf) this.foot.replaceChildren(...(job.files.length ? [this.files(job)] : []));
+    this.footOf = foot;
     if (focus) element(focus)?.focus({ preventScroll: true });
   }
 
