@@ -29,12 +29,13 @@ def bench(
     try:
         from umform.bench.server import serve
     except ModuleNotFoundError as error:
-        if error.name not in ("starlette", "uvicorn"):
+        missing = (error.name or "").partition(".")[0]
+        if missing not in ("starlette", "uvicorn"):
             raise
         from umform.errors import UmformError
 
         raise UmformError(
-            f"umform bench needs {error.name}",
+            f"umform bench needs {missing}",
             where="umform bench",
             cause=str(error),
             remedy='pip install "umform[bench]"',
@@ -48,4 +49,7 @@ def bench(
 
             webbrowser.open(link)
 
-    serve(folder, port, processes, ready)
+    try:
+        serve(folder, port, processes, ready)
+    except KeyboardInterrupt:
+        typer.echo("The bench has ended.")

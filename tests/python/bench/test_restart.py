@@ -139,7 +139,9 @@ def test_server_that_is_killed_loses_nothing_and_answers_a_thousand_at_once(tmp_
     before = set(server.jobs())
     assert asked_at_once(server, 1000)
     assert set(server.jobs()) == before and server.process.poll() is None
-    server.end(signal.SIGINT)
+    server.process.send_signal(signal.SIGINT)
+    said, _ = server.process.communicate(timeout=40)
+    assert server.process.returncode == 0 and "has ended" in said
 
 
 @pytest.mark.long
