@@ -111,7 +111,8 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
 
 def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     """The work of `umform run`, or of `umform resume` where there is a checkpoint."""
-    from umform.deck import load, running
+    from umform.deck import running
+    from umform.deck.deck import Deck
     from umform.deck.kept import Kept
     from umform.deck.results import CHECKPOINT
 
@@ -119,7 +120,8 @@ def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     checkpoint = results / CHECKPOINT
     taken_up = checkpoint.is_file()
     kept = Kept.read(checkpoint) if taken_up else None
-    deck = kept.deck if kept else load(folder / DECK)
+    files = folder.parent.parent  # of the bench: where the check looks for what a deck names
+    deck = kept.deck if kept else Deck.read((folder / DECK).read_text(encoding="utf-8"), DECK, files)
     steps = deck.contents.steps
     told = DeckTold(sum(step.expected for step in steps), len(steps))
     watch = Watch(folder, order["title"], told)

@@ -24,9 +24,11 @@ PAGE = Path(str(files("umform.bench").joinpath("page")))
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="no Node to parse JavaScript")
 def test_modules_can_be_parsed():
-    for path in PAGE.iterdir():
-        if path.name.endswith(".js"):
-            subprocess.run(["node", "--check", "--input-type=module"], input=path.read_bytes(), check=True, timeout=60)
+    parse = "const vm = require('vm'), fs = require('fs');"
+    parse += "for (const file of process.argv.slice(1)) new vm.SourceTextModule(fs.readFileSync(file, 'utf8'));"
+    modules = [str(path) for path in PAGE.iterdir() if path.name.endswith(".js")]
+    assert len(modules) > 8
+    subprocess.run(["node", "--experimental-vm-modules", "--no-warnings", "-e", parse, *modules], check=True, timeout=60)
 
 
 @pytest.mark.skipif(shutil.which("tsc") is None, reason="no TypeScript to check the types of JSDoc")

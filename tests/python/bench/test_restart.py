@@ -145,6 +145,7 @@ def test_server_that_is_killed_loses_nothing_and_answers_a_thousand_at_once(tmp_
 
 
 @pytest.mark.long
+@pytest.mark.timeout(1200)
 def test_server_that_is_killed_twenty_times_loses_nothing(tmp_path):
     killed(tmp_path, 20).end(signal.SIGINT)
 
