@@ -28,7 +28,9 @@ def test_modules_can_be_parsed():
     parse += "for (const file of process.argv.slice(1)) new vm.SourceTextModule(fs.readFileSync(file, 'utf8'));"
     modules = [str(path) for path in PAGE.iterdir() if path.name.endswith(".js")]
     assert len(modules) > 8
-    subprocess.run(["node", "--experimental-vm-modules", "--no-warnings", "-e", parse, *modules], check=True, timeout=60)
+    subprocess.run(
+        ["node", "--experimental-vm-modules", "--no-warnings", "-e", parse, *modules], check=True, timeout=60
+    )
 
 
 @pytest.mark.skipif(shutil.which("tsc") is None, reason="no TypeScript to check the types of JSDoc")
