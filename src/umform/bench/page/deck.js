@@ -26,12 +26,12 @@ export class Deck {
   async start() {
     if (this.schema) return;
     this.schema = await get("/api/decks/schema");
-    const { templates } = await get("/api/decks");
-    element("deck-template").replaceChildren(make("option", { value: "" }, "…"), ...templates.map((/** @type {any} */ one) => make("option", { value: one.name }, one.title)));
     try {
       this.text.value = sessionStorage.getItem("deck") ?? "";
     } catch { /* it begins empty */ }
     if (!this.text.value) await this.take("air-bending");
+    const { templates } = await get("/api/decks");
+    element("deck-template").replaceChildren(make("option", { value: "" }, "…"), ...templates.map((/** @type {any} */ one) => make("option", { value: one.name }, one.title)));
     this.help();
   }
 
