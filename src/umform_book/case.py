@@ -27,6 +27,8 @@ class Case:
         Seconds that the whole case takes on one core, about; the dearest cases start first.
     own : str
         What of the reference umform has computed itself; empty where nothing.
+    picture : str
+        Name of the picture that stands first on the page; default: the first one.
     """
 
     name: str
@@ -36,6 +38,7 @@ class Case:
     run: Callable[[Any], None]
     cost: float = 10.0
     own: str = ""
+    picture: str = ""
 
 
 @dataclass(frozen=True)

@@ -63,7 +63,9 @@ def _show_page(path: Path) -> None:
     """The page as the terminal can show it."""
     from rich.markdown import Markdown
 
-    console().print(Markdown(path.read_text(encoding="utf-8")))
+    from umform_book.markdown import unfolded
+
+    console().print(Markdown(unfolded(path.read_text(encoding="utf-8"))))
 
 
 def _show_verdicts(outcomes: dict[str, Outcome], out: Path) -> None:

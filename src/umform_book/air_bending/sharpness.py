@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from umform.processes.air_bending import AirBending
-from umform_book.air_bending.causes import ONE_LAYER
+from umform_book.air_bending.causes import ONE_LAYER, ONE_LAYER_THEORY
 from umform_book.air_bending.runs import INCREMENT, Loading, load, outer_strain
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
@@ -130,7 +130,7 @@ def _judge(page: Page, bend: Bluntness, found: Runs) -> None:
     # points come to lie above and below where the fibres yield: no more than what the default may be off in all
     page.check(f"{bend.label}, 8 points for 6: outer strain", strain(found[EIGHT]), strain(found[DEFAULT]), 0.04)
     what = f"{bend.label}, one layer: outer strain"
-    page.check(what, strain(found[SINGLE]), stretched, 0.04, known=0.27, cause=ONE_LAYER)
+    page.check(what, strain(found[SINGLE]), stretched, 0.04, known=0.27, cause=ONE_LAYER, theory=ONE_LAYER_THEORY)
 
 
 def _figure(page: Page, found: Mapping[Bluntness, Runs]) -> None:

@@ -18,6 +18,7 @@ from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot, rule_name
 from umform_book.linear_algebra import stiffness
 from umform_book.page import Page
+from umform_book.printed import about, bounded
 
 LENGTH, WIDTH, THICKNESS, RADIUS, DEPTH, E = 40.0, 2.0, 0.5, 20.0, 2.0, 1e5
 EI = E * WIDTH * THICKNESS**3 / 12
@@ -123,8 +124,8 @@ def show_series(page: Page, found: dict[tuple[int, int | str], dict[float, Found
                     f.condition,
                     f.lines,
                     f.increments,
-                    f.iterations,
-                    f.residual,
+                    about(f.iterations),
+                    bounded(f.residual, 1e-8) or f.residual,
                 )
             )
         x = list(row)
@@ -140,7 +141,7 @@ def show_series(page: Page, found: dict[tuple[int, int | str], dict[float, Found
         "condition",
         "lines in contact",
         "increments",
-        "iterations",
+        "iterations, about",
         "last residual",
     )
     page.table("Penalty; the force is compared with that of the stiffest one", columns, rows)

@@ -21,6 +21,7 @@ from umform.surfaces import Cylinder, Plane, Sphere, Surface
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot, rule_name
 from umform_book.page import Page
+from umform_book.printed import shown
 from umform_book.variants import Variant, with_tying
 
 Floats = NDArray[np.float64]
@@ -133,7 +134,7 @@ def on_the_plane(page: Page) -> None:
                 if patch.is_exact(points):
                     resultant = max(resultant, resultant_error(model, contact))
                     penetration = max(penetration, penetration_error(model, contact))
-        rows.append((patch.label, *(f"{errors[points]:.1e}" for points in rules)))
+        rows.append((patch.label, *(shown(errors[points], 2) for points in rules)))
         exact = max(error for points, error in errors.items() if patch.is_exact(points))
         page.at_most(f"{patch.label}: pressure at nodes and {patch.least} x {patch.least} points or more", exact, 1e-12)
         page.at_most(f"{patch.label}: penetration of the nodes over p / penalty", penetration, 1e-11)

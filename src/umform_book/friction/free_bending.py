@@ -93,9 +93,9 @@ def cost(page: Page, bent: dict[tuple[int, float], Result]) -> None:
         for k, attempt in enumerate(attempts):
             evaluations[k], thrown[k] = evaluations[k] + attempt.evaluations, thrown[k] + attempt.thrown
         shares = [100 * attempt.share for attempt in attempts]
-        rows.append((label, per_increment(pair[0]), per_increment(pair[1]), ratios[-1], *shares))
+        rows.append((label, *(round(value, 1) for value in (*map(per_increment, pair), ratios[-1], *shares))))
     share = [100 * thrown[k] / evaluations[k] for k in (0, 1)]
-    rows.append(("all", None, None, float(median(ratios)), *share))
+    rows.append(("all", None, None, *(round(value, 1) for value in (median(ratios), *share))))
     columns = ("", "iterations an increment", "without friction", "ratio", "thrown away %", "without friction %")
     page.table("What friction costs; the last row: median, sums", columns, rows)
     page.at_most("iterations of an increment with friction over without, median", float(median(ratios)), ITERATIONS)

@@ -16,6 +16,7 @@ from umform.steps import Move
 from umform_book.case import Case
 from umform_book.convergence import Study, normalised, show, study
 from umform_book.page import Page
+from umform_book.printed import about
 from umform_book.plastic.curves import lines_figure
 from umform_book.plastic.hourglass import alternation
 from umform_book.variants import SEVEN, Variant
@@ -115,8 +116,8 @@ def _judge(page: Page, found: Study, bent: dict[tuple[Variant, int], Bent]) -> N
         f"The membrane of ANS3DEAS is that of a displacement element: with {finest} x {finest} cells it finds "
         f"{100 * found[Variant('ANS3DEAS')][finest] / REFERENCE:.0f} % of the displacement, since plastic flow keeps "
         "the volume (volumetric locking). DISP3D and DISP3DEAS have the same membrane and the same numbers. EAS3DEAS "
-        f"does not lock, but with 16 intervals its {', '.join(f'{v.label[-7:]} take {n}' for v, n in costs.items())} "
-        f"iterations and meet up to {pivots} negative pivots, where MI9K3DEAS takes {steady.iterations} and meets "
+        f"does not lock, but with 16 intervals its {', '.join(f'{v.label[-7:]} take {about(n)}' for v, n in costs.items())} "
+        f"iterations and meet up to {pivots} negative pivots, where MI9K3DEAS takes {about(steady.iterations)} and meets "
         f"{_pivots(steady)}."
     )
 
@@ -129,11 +130,11 @@ def _pivots(found: Bent) -> int:
 def _table(page: Page, bent: dict[tuple[Variant, int], Bent]) -> None:
     page.table(
         "What it takes",
-        ("element, intervals", "iterations", "alternation of the cells", "most negative pivots"),
+        ("element, intervals", "iterations, about", "alternation of the cells", "most negative pivots"),
         [
             (
                 f"{variant.label}, {n}",
-                found.iterations,
+                about(found.iterations),
                 found.alternation,
                 _pivots(found),
             )

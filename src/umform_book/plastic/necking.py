@@ -13,10 +13,11 @@ from umform.steps import Move
 from umform_book.case import Case
 from umform_book.convergence import show, study
 from umform_book.page import Page
+from umform_book.printed import about
 from umform_book.plastic.bars import maximum_force, maximum_force_plane_strain, narrowed_strip, peak
 from umform_book.plastic.curves import lines_figure
 from umform_book.plastic.hourglass import alternation
-from umform_book.plastic.hourglass_stability import CAUSE
+from umform_book.plastic.hourglass_stability import CAUSE, THEORY
 from umform_book.plastic.tension import LAWS, MEMBRANE_SETTINGS
 from umform_book.variants import Variant
 
@@ -158,7 +159,7 @@ def _table(page: Page, strip: Strip, runs: dict[tuple[Variant, int], Necked]) ->
             "narrowing, middle over end",
             "alternation",
             "negative pivots",
-            "iterations",
+            "iterations, about",
             "ended",
         ),
         [
@@ -169,7 +170,7 @@ def _table(page: Page, strip: Strip, runs: dict[tuple[Variant, int], Necked]) ->
                 found.narrowing,
                 found.alternation,
                 found.negative_pivots,
-                found.iterations,
+                about(found.iterations),
                 found.ended or None,
             )
             for (v, n), found in runs.items()
@@ -190,9 +191,11 @@ def _judge(
         cause = CAUSE if enhanced else ""
         run = runs[variant, finest]
         limit = 25 if enhanced else 0
-        page.at_most(f"negative pivots at the end, {what}", run.negative_pivots, 0.5, known=limit, cause=cause)
-        reached = 1.0 - float(run.elongation[-1]) / strip.elongation
-        page.at_most(f"part of the way not gone, {what}", reached, 1e-9, known=0.35 if enhanced else 0.0, cause=cause)
+        theory = THEORY if enhanced else ""
+        pivots = run.negative_pivots
+        page.at_most(f"negative pivots at the end, {what}", pivots, 0.5, known=limit, cause=cause, theory=theory)
+        missing, known = 1.0 - float(run.elongation[-1]) / strip.elongation, 0.35 if enhanced else 0.0
+        page.at_most(f"part of the way not reached, {what}", missing, 1e-9, known=known, cause=cause, theory=theory)
         known = 1.0 if enhanced else 0.0
         page.at_most(f"alternation of the cells, {what}", run.alternation, 0.15, known=known, cause=cause)
 

@@ -17,6 +17,7 @@ from umform.steps import Move
 from umform_book.case import Case
 from umform_book.diaphragm import rigid_diaphragm
 from umform_book.page import Page
+from umform_book.printed import about
 from umform_book.plastic.curves import lines_figure
 from umform_book.references import table
 from umform_book.variants import Variant, with_tying
@@ -107,7 +108,7 @@ def _table(page: Page, reference: dict[str, Floats], runs: dict[tuple[Variant, i
             f"{variant.label}, {n}",
             *(float(np.interp(d, found.way, found.force)) for d in depths),
             100.0 * _distance(found, reference, depth),
-            found.iterations,
+            about(found.iterations),
         )
         for (variant, n), found in runs.items()
     ]
@@ -115,7 +116,7 @@ def _table(page: Page, reference: dict[str, Floats], runs: dict[tuple[Variant, i
     rows.append(("reference", *(float(value) for value in values), 0.0, None))
     page.table(
         "Force at displacements of its point",
-        ("element, intervals", *(f"{d:g}" for d in depths), "distance in %", "iterations"),
+        ("element, intervals", *(f"{d:g}" for d in depths), "distance in %", "iterations, about"),
         rows,
     )
 

@@ -19,6 +19,7 @@ from umform.run import Result, solve
 from umform.steps import Move
 from umform_book.case import Case
 from umform_book.page import Page
+from umform_book.printed import shown
 from umform_book.variants import VARIANTS, Variant, with_tying
 
 Floats = NDArray[np.float64]
@@ -151,10 +152,10 @@ def run(page: Page) -> None:
         page.at_most(f"all elements: change with {name}", max(row[number] for row in changes.values()), ROUND_OFF)
     largest = max(max(row[2:]) for row in changes.values())
     page.text(
-        f"The largest change of all is {largest:.1e}: every element is invariant to every numbering, to rotations and "
+        f"The largest change of all is {shown(largest, 2)}: every element is invariant to every numbering, to rotations and "
         "to units, but for round-off."
         if largest <= ROUND_OFF
-        else f"Not all elements are invariant: the largest change is {largest:.1e}."
+        else f"Not all elements are invariant: the largest change is {shown(largest, 2)}."
     )
     more = max(abs(count - row[0]) for row in iterations.values() for count in row)
     page.at_most("all elements: iterations more or less in any of them", more, 0.0)

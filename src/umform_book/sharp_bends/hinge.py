@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
 from umform_book.page import Page
+from umform_book.printed import about
 from umform_book.sharp_bends import calculix
 from umform_book.sharp_bends.candidates import BEND8, BEND18, of_order, stack
 from umform_book.sharp_bends.moment import radius_of_excess
@@ -64,10 +65,10 @@ def _table(page: Page, hardening: float, runs: Runs, stacks: dict[str, Bend], co
     rows: list[tuple[str | float | None, ...]] = [
         (curve.label, None, *(_force(curve, u) for u in MARKS), None, None) for curve in continuum.values()
     ]
-    rows += [(k, None, *(b.at(u) for u in MARKS), b.radius, b.iterations) for k, b in stacks.items()]
+    rows += [(k, None, *(b.at(u) for u in MARKS), b.radius, about(b.iterations)) for k, b in stacks.items()]
     for (label, cells), found in runs.items():
-        rows.append((label, HALF_SPAN / cells, *(found.at(u) for u in MARKS), found.radius, found.iterations))
-    columns = ("run", "length / h", *(f"F({u:g})" for u in MARKS), "least R/h at the end", "iterations")
+        rows.append((label, HALF_SPAN / cells, *(found.at(u) for u in MARKS), found.radius, about(found.iterations)))
+    columns = ("run", "length / h", *(f"F({u:g})" for u in MARKS), "least R/h at the end", "iterations, about")
     page.table(f"Force in N on a width of 10 mm, H = {hardening:g} MPa", columns, rows)
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from umform.elements import element, thickness_rule
 from umform_book.case import Case
 from umform_book.page import Page
+from umform_book.printed import about
 from umform_book.plastic.bent_sheet import bend
 from umform_book.plastic.curves import Lines, lines_figure
 from umform_book.plastic.plane_strain import Section, bending_path
@@ -143,11 +144,11 @@ def _elements(page: Page, exact: Floats) -> None:
     rows: list[tuple[str | float | int, ...]] = []
     for label, name, options in page.each(page.pick(runs, runs[4:5]), lambda r: r[0]):
         errors = _percent(cantilever_sets(page, label, name, LEVELS, **options), exact)
-        rows.append((label, *map(float, errors), page.balances[-1].iterations))
+        rows.append((label, *map(float, errors), about(page.balances[-1].iterations)))
         if not options:
             for level, error in zip(LEVELS, errors, strict=True):
                 page.check(f"{label}: permanent set at {level:g} My", 1.0 + error / 100.0, 1.0, WITHIN)
-    columns = ("element", *(f"{level:g} My" for level in LEVELS), "iterations")
+    columns = ("element", *(f"{level:g} My" for level in LEVELS), "iterations, about")
     page.table("Error in % of the permanent deflection of the tip", columns, rows)
 
 

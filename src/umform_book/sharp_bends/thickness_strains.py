@@ -12,6 +12,7 @@ from umform.materials import NeoHooke
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
 from umform_book.page import Page
+from umform_book.printed import about
 from umform_book.sharp_bends.arc_bending import ArcBending
 from umform_book.sharp_bends.candidates import of_order, stack
 from umform_book.sharp_bends.section import BentSection, ThicknessStrain
@@ -117,8 +118,8 @@ def _hinge(page: Page) -> None:
     found = {c.label: bend(page, HINGE, c, 50) for c in page.each(candidates, lambda c: f"hinge, {c.label}")}
     marks = (5.0, 10.0, 15.0, 20.0)
     rows: list[tuple[str | float, ...]] = []
-    rows += [(label, *(b.at(u) for u in marks), b.radius, b.iterations) for label, b in found.items()]
-    columns = ("element", *(f"F({u:g})" for u in marks), "least R/h at the end", "iterations")
+    rows += [(label, *(b.at(u) for u in marks), b.radius, about(b.iterations)) for label, b in found.items()]
+    columns = ("element", *(f"F({u:g})" for u in marks), "least R/h at the end", "iterations, about")
     page.table("Three-point bend, H = 100 MPa, elements of length h/2, force in N on a width of 10 mm", columns, rows)
     order_4, free = (found[c.label].at(20.0) for c in (candidates[0], candidates[2]))
     page.check("three-point bend, F(20): order 4 against order 11", order_4, free, 0.01)
