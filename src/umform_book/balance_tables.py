@@ -5,16 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from statistics import median
-from typing import TYPE_CHECKING
 
 from umform_book.balance import BalanceRow
 from umform_book.case import Chapter
 from umform_book.markdown import markdown_table
 from umform_book.newton_order import LOW, REASONS
+from umform_book.outcome import Outcome
 from umform_book.printed import bounded
-
-if TYPE_CHECKING:
-    from umform_book.writing import Outcome
 
 #: Imbalances up to this are Newton's tolerance and round-off: a bound stands for them.
 _TOLERANCE = 1e-6
@@ -32,7 +29,9 @@ def balance_line(rows: Sequence[BalanceRow]) -> str:
     """Worst balance of some runs in a sentence."""
     drift, force, moment, order = _worst(rows)
     runs = f"{len(rows)} nonlinear run{'s' * (len(rows) > 1)}"
-    return f"{runs}: drift of energy {drift}, imbalance of forces {force}, of moments {moment}, order of Newton {order}."
+    return (
+        f"{runs}: drift of energy {drift}, imbalance of forces {force}, of moments {moment}, order of Newton {order}."
+    )
 
 
 def balance_table(rows: Sequence[BalanceRow]) -> str:

@@ -18,10 +18,11 @@ from umform_book.balance_tables import balance_page
 from umform_book.case import Case, Chapter
 from umform_book.checks import Verdict
 from umform_book.errata import errata_text
+from umform_book.outcome import Outcome
 from umform_book.page import Page
 from umform_book.summary import summary_text
 from umform_book.which_element import which_element_text
-from umform_book.writing import Outcome, failed_text, page_text, write_text
+from umform_book.writing import failed_text, page_text, write_text
 
 #: Largest resultant of the external forces over the sum of their sizes that Newton's tolerance leaves.
 BALANCED = 1e-6

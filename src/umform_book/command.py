@@ -10,7 +10,7 @@ import typer
 from umform.cli.root import Debug, Verbose, console
 
 if TYPE_CHECKING:
-    from umform_book.writing import Outcome
+    from umform_book.outcome import Outcome
 
 
 def verify(

@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 
 from umform_book.checks import Check, Verdict
 from umform_book.markdown import folded
-from umform_book.writing import Outcome, worst
+from umform_book.outcome import Outcome
+from umform_book.writing import worst
 
 _LIMITS = """\
 ## Limits that no check shows
@@ -62,4 +63,6 @@ def _line(cause: str, checks: Sequence[Check]) -> str:
     check = worst(checks)
     assert check is not None
     number = f" (worst of {len(checks)})" if len(checks) > 1 else ""
-    return f"{check.what}: {check.miss}, limit {check.limit}{number}." + (f" {cause[0].upper()}{cause[1:]}." if cause else "")
+    return f"{check.what}: {check.miss}, limit {check.limit}{number}." + (
+        f" {cause[0].upper()}{cause[1:]}." if cause else ""
+    )

@@ -30,8 +30,7 @@ def bounded(value: float, limit: float) -> str:
 
 def about(count: int) -> int:
     """A count, such as that of iterations, that differs a little between machines: two digits."""
-    step = 10 ** max(len(str(abs(count))) - 2, 0)
-    return round(count / step) * step
+    return round(count, 2 - len(str(abs(count))))
 
 
 def shown(value: float, digits: int = 4) -> str:

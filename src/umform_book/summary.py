@@ -9,7 +9,8 @@ from umform.report.versions import versions
 from umform_book.case import Case, Chapter
 from umform_book.checks import Check, Verdict
 from umform_book.markdown import markdown_table
-from umform_book.writing import Outcome, worst
+from umform_book.outcome import Outcome
+from umform_book.writing import worst
 
 #: Characters of the phrase for the worst check.
 _PHRASE = 70

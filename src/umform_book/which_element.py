@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from umform_book.checks import Verdict
 from umform_book.markdown import folded, markdown_table
+from umform_book.outcome import Outcome
 from umform_book.page import StudyRecord
-from umform_book.writing import Outcome
 
 #: Error that counts as good enough, as a fraction.
 ENOUGH = 0.05
@@ -117,18 +117,19 @@ def which_element_text(outcomes: Mapping[str, Outcome]) -> str:
     rows.append(("**problems met / tried**", *(_met(studies, label) for label in labels)))
     advice = [(advice.purpose, advice.take, _because(advice, studies, outcomes)) for advice in ADVICE]
     legend = (
-        f"*Because*: in how many of the problems below an element comes within {100 * ENOUGH:g} %, and the median of the "
-        "intervals that it needs. Tie E_33 wherever the sheet is or becomes curved: it decides on coarse meshes."
+        f"*Because*: in how many of the problems below an element comes within {100 * ENOUGH:g} %, and the median of "
+        "the intervals that it needs. Tie E_33 wherever the sheet is or becomes curved: it decides on coarse meshes."
     )
     meshes = (
-        f"Intervals between nodes along an edge from which on the error stays below {100 * ENOUGH:g} % (`> 32`: not with "
-        "32). 18-node elements have half as many elements as intervals."
+        f"Intervals between nodes along an edge from which on the error stays below {100 * ENOUGH:g} % (`> 32`: not "
+        "with 32). 18-node elements have half as many elements as intervals."
     )
     parts = [
         "# Which element should I take?",
         _ENGINEER,
         f"**Researcher:** take `MI9K3DEAS` with `tie_E33=True`. It comes within {100 * ENOUGH:g} % in "
-        f"{_met(studies, _RESEARCHER).replace('/', 'of')} problems, on coarse meshes, and it is stable in plastic flow.",
+        f"{_met(studies, _RESEARCHER).replace('/', 'of')} problems, on coarse meshes, and it is stable in plastic "
+        "flow.",
         "## For a particular problem",
         folded("Element by problem", f"{markdown_table(('you compute', 'take', 'because'), advice)}\n\n{legend}"),
         "## How fine a mesh each element needs",

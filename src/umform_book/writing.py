@@ -3,47 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from umform.io.atomic import PendingFile
-from umform_book.balance import BalanceRow
 from umform_book.balance_tables import balance_line, balance_table
 from umform_book.case import Case
 from umform_book.checks import Check, Verdict
 from umform_book.markdown import folded, markdown_table
-from umform_book.page import Page, StudyRecord
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What a page leaves once it is written; can be sent between processes.
-
-    Attributes
-    ----------
-    name : str
-        The case.
-    verdict : Verdict
-        Its verdict.
-    checks : tuple of Check
-        Its checks.
-    balances : tuple of BalanceRow
-        Balance of each nonlinear run.
-    studies : tuple of StudyRecord
-        Numbers of each element on each mesh.
-    seconds : float
-        Wall time of the run.
-    failure : str
-        Why the run failed; empty if it did not.
-    """
-
-    name: str
-    verdict: Verdict
-    checks: tuple[Check, ...] = ()
-    balances: tuple[BalanceRow, ...] = ()
-    studies: tuple[StudyRecord, ...] = ()
-    seconds: float = 0.0
-    failure: str = ""
+from umform_book.page import Page
 
 
 def write_text(path: Path, text: str) -> None:
@@ -70,15 +37,17 @@ def page_text(page: Page) -> str:
         *_checks(page.checks),
     ]
     if page.balances:
-        parts += ["## Balance", balance_line(page.balances), folded("Balance of each run", balance_table(page.balances))]
+        parts += [
+            "## Balance",
+            balance_line(page.balances),
+            folded("Balance of each run", balance_table(page.balances)),
+        ]
     return "\n\n".join(part for part in parts if part) + "\n\n[All cases](README.md)\n"
 
 
 def failed_text(case: Case, message: str) -> str:
     """Markdown of the page of a case that could not be run to its end."""
-    return (
-        f"# {case.title}\n\n**{Verdict.RED.mark}** · `umform verify {case.name}` failed:\n\n```\n{message}\n```\n"
-    )
+    return f"# {case.title}\n\n**{Verdict.RED.mark}** · `umform verify {case.name}` failed:\n\n```\n{message}\n```\n"
 
 
 def counted(checks: Sequence[Check]) -> str:
@@ -137,7 +106,10 @@ def _checks(checks: Sequence[Check]) -> list[str]:
 def _check_table(checks: Sequence[Check], notes: Sequence[str]) -> str:
     """Checks as a table; a number in brackets names the cause."""
     rows = [
-        (*check.cells()[:-1], f"{check.verdict.mark} ({notes.index(check.note) + 1})" if check.note else check.cells()[-1])
+        (
+            *check.cells()[:-1],
+            f"{check.verdict.mark} ({notes.index(check.note) + 1})" if check.note else check.cells()[-1],
+        )
         for check in checks
     ]
     return markdown_table(("what", "reference", "found", "deviation", "limit", "verdict"), rows)

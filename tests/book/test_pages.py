@@ -18,10 +18,11 @@ from umform_book.errata import errata_text
 from umform_book.linear_algebra import linear_solution
 from umform_book.markdown import unfolded
 from umform_book.newton_order import NewtonOrder
+from umform_book.outcome import Outcome
 from umform_book.page import Page, StudyRecord
 from umform_book.variants import SEVEN, VARIANTS, Variant
 from umform_book.which_element import which_element_text
-from umform_book.writing import Outcome, page_text, worst
+from umform_book.writing import page_text, worst
 
 
 def stretched(page):

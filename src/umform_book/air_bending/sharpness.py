@@ -175,9 +175,9 @@ def _advice(page: Page, found: Mapping[Bluntness, Runs]) -> None:
         for bend, runs in found.items()
     ]
     page.text(
-        f"**Which R/h needs what.** Outer strain against the stack. {'; '.join(said)}. In two layers, order 1 locks in "
-        "sharp bends and orders 2 to 4 hardly differ, for each layer bends only half as sharply for its thickness. One "
-        "layer is too sharp, with order 4 too: see [air-bend-mesh](air-bend-mesh.md) for the cause."
+        f"**Outer strain against the stack.** {'; '.join(said)}. In two layers, order 1 locks in sharp bends and "
+        "orders 2 to 4 hardly differ, since each layer bends half as sharply for its thickness. One layer is too "
+        "sharp, also with order 4 ([cause](air-bend-mesh.md))."
     )
 
 
@@ -185,17 +185,17 @@ CASE = Case(
     name="air-bend-sharpness",
     title="Air bending: blunt and sharp bends",
     problem=f"""
-The brake of `umform bend` without options (opening {OPENING:g} mm, tools of 85 degrees, shoulders of 2 mm, tip of 1.5
-mm, the metal like DC04, plane strain) with sheets of 2.56 to 0.35 mm, bent to strokes at which
-the inside radius R under load is 1 to 20 thicknesses h. Two layers of the 18-node element with thickness order 1 (as in
-the literature), 2, 3 (E_33 tied) and 4 (BEND18), and numbers of thickness points; one layer. Three elements on
-a thickness (or on 1/16 of the opening, if that is more) along the bend; automatic contact points, a penetration of
-1/100 of the thickness allowed. Outer strain: the mean logarithmic one over the element next to the middle.
+The default brake of `umform bend` (opening {OPENING:g} mm, tools of 85 degrees, shoulders of 2 mm, tip of 1.5 mm, metal
+like DC04, plane strain) with sheets of 2.56 to 0.35 mm, bent until the inside radius R under load is 1 to 20
+thicknesses h. Two layers of the 18-node element with thickness order 1 (as in the literature), 2, 3 (E_33 tied) and 4
+(BEND18), and several numbers of thickness points; one layer. Three elements per thickness (or per 1/16 of the opening,
+if that is more); automatic contact points, allowed penetration h/100. Outer strain: mean logarithmic strain over the
+element next to the middle.
 """,
     reference="""
-Stack of four layers of EAS3DEAS of order 2, E_33 tied, twice as many elements along: another element, with other
-assumptions. Its own uncertainty at R/h = 1, seen from eight layers on twice as many elements (an earlier run): 0.3 %
-of the largest force, 1.5 % of the outer strain.
+Stack of four layers of EAS3DEAS of order 2, E_33 tied, twice as many elements along: another element with other
+assumptions. Uncertainty at R/h = 1, from eight layers on twice as many elements: 0.3 % of the largest force, 1.5 % of
+the outer strain.
 """,
     own="four layers of EAS3DEAS of order 2, umform itself",
     run=run,

@@ -113,17 +113,15 @@ CASE = Case(
     name="friction-free-bending",
     title="The paper's example with friction, and what friction costs",
     problem=f"""
-The paper's example of free bending (see [its reproduction](bending-reproduction.md)) with friction on the cylinder,
-mu = 0, 0.1 and 0.3, 24, 48 and 96 elements ANS3DEAS along the strip, 5 x 5 contact points, elastic slip allowed
-0.005, {STEPS} increments to the stroke. Then iterations of an increment with friction and without, and the share of
-evaluations in attempts that were given up, for this example and for the strips of the [capstan](friction-capstan.md)
-and of [bending and unbending](friction-bending-work.md).
+The paper's free bending ([reproduction](bending-reproduction.md)) with friction on the cylinder, mu = 0, 0.1, 0.3; 24,
+48 and 96 elements ANS3DEAS along the strip, 5 x 5 contact points, allowed elastic slip 0.005, {STEPS} increments. Cost:
+iterations per increment with and without friction, and the share of evaluations in abandoned attempts, also for the
+strips of the [capstan](friction-capstan.md) and of [bending and unbending](friction-bending-work.md).
 """,
     reference="""
-No reference of others: what friction adds to the force, over the force without it on the same mesh, is compared with
-that on the finest mesh, within 2 % and 1 %; what the mesh does without friction stands on [another
-page](bending-reproduction.md). And the balance of work, with that of friction. Friction may cost half as many
-iterations more, in the median, and 15 % of the evaluations may be thrown away.
+No external reference. The force over that without friction on the same mesh is compared with the finest mesh, within 2
+% and 1 %; meshes without friction: [reproduction](bending-reproduction.md). Also the balance of work. Limits of the
+cost: half as many iterations more in the median, 15 % abandoned evaluations.
 """,
     run=run,
     cost=60.0,

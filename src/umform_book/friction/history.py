@@ -183,19 +183,19 @@ CASE = Case(
     name="friction-history",
     title="What friction remembers: rest, bound, a closed loop",
     problem=f"""
-*Rest:* a strip of h = {STRIP.thickness:g} around half of a cylinder of R = 10, mu = {STRIP.mu:g}, under a tension of
-{TENSION:g}; the cylinder turns by {THERE:g} and back to {BACK:g}, so that a part of the strip sticks and a part slips
-backwards; then 1000 increments in which nothing moves. *Bound:* the same, increment by increment, with four laws: a
-coefficient of 0.3; with a cap of 0.04; falling from 0.3 to 0.2 between the pressures 0.05 and 0.15; falling from 0.3
-to 0.2 with the distance slid, over 0.02. *Closed loop:* a patch is held on a sphere of R = {RADIUS:g}, 35 degrees off
-its axis, while the sphere turns once beneath it; the elastic slip that is allowed is so large that nothing slips.
+* Rest: a strip of h = {STRIP.thickness:g} around half of a cylinder of R = 10, mu = {STRIP.mu:g}, under a tension of
+  {TENSION:g}; the cylinder turns by {THERE:g} and back to {BACK:g}, so that a part sticks and a part slips backwards;
+  then 1000 increments without motion.
+* Bound: the same with four laws: coefficient 0.3; with a cap of 0.04; falling from 0.3 to 0.2 between the pressures
+  0.05 and 0.15; falling from 0.3 to 0.2 with the distance slid, over 0.02.
+* Closed loop: a patch is held on a sphere of R = {RADIUS:g}, 35 degrees off its axis, while the sphere turns once; the
+  allowed elastic slip is so large that nothing slips.
 """,
     reference="""
-Rest: nothing changes; each increment may end with a residual of 1e-9 of the forces. Bound: |t| <= bound(p, slip), and
-equal where it slips, to round-off. Closed loop: the elastic slip that is carried along a circle of latitude theta at
-the distance r is the chord of its development, a circular arc of radius r tan(theta) and angle Phi = 2 pi cos(theta):
-r tan(theta) (sin Phi, 1 - cos Phi) along and across the way. Own uncertainty: chords in place of arcs, below (2
-pi/n)^2 of the way for n increments.
+Rest: nothing changes; each increment may leave a residual of 1e-9 of the forces. Bound: |t| <= bound(p, slip), equal
+where it slips, to round-off. Closed loop: on a circle of latitude theta at the distance r, the elastic slip is the
+chord of its development, an arc of radius r tan(theta) and angle Phi = 2 pi cos(theta): r tan(theta) (sin Phi, 1 - cos
+Phi) along and across. Uncertainty: chords for arcs, below (2 pi/n)^2 for n increments.
 """,
     run=run,
     cost=16.0,

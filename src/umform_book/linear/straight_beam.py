@@ -112,8 +112,8 @@ def _layers(page: Page) -> None:
     page.table("Twist over St. Venant's", ("24 intervals along", *(f"{n} across" for n in across)), rows)
     page.text(
         "One layer converges to the plate with constant transverse shear, several layers to St. Venant's torsion. "
-        "18-node elements stay somewhat too stiff in bending in the plane, however fine the mesh: Poisson's effect "
-        "curves the sides of the beam in a parabola through the thickness, which elements linear in t cannot follow."
+        "18-node elements stay slightly too stiff in in-plane bending on any mesh: Poisson's effect curves the sides "
+        "parabolically through the thickness, which elements linear in t cannot represent."
     )
 
 
@@ -146,16 +146,14 @@ CASE = Case(
     title="Straight cantilever",
     problem="""
 Beam 6 x 0.2 x 0.1 (thickness of the elements 0.1), E = 1e7, nu = 0.3. The section at x = 0 stays plane but may
-contract; a unit force along x, y (in the plane of the elements) or z is spread evenly over the other end, or a unit
-couple about x, as shear along its lower and upper edge. Measured: mean displacement of the end, or its rotation.
-Meshes: 6 x 1 intervals between nodes of rectangles, of trapezoids or of parallelograms with lines at 45 degrees; and
-their halves and quarters.
+contract. At the other end: a unit force along x, y (in the plane of the elements) or z, or a unit couple about x.
+Measured: mean displacement of the end, or its rotation. Meshes: 6 x 1 intervals between nodes of rectangles, trapezoids
+or parallelograms with lines at 45 degrees; their halves and quarters.
 """,
     reference=f"""
-MacNeal & Harder, Finite Elem. Anal. Des. 1 (1985) 3-20: 3.0e-5, 0.1081, 0.4321, which is beam theory with shear, good
-to 0.2 %. The twist is that of St. Venant's torsion, {REFERENCES["twist"]:.4g} (the paper prints 0.03208). Plates with
-transverse shear constant through the thickness and no shear correction would find {_PLATE_TWIST:.3f} of it: 1 -
-tanh(a)/a of b h^3/3 with a = sqrt(3) b/h.
+MacNeal & Harder, Finite Elem. Anal. Des. 1 (1985) 3-20, beam theory with shear: 3.0e-5, 0.1081, 0.4321, good to 0.2 %.
+Twist: St. Venant's torsion, {REFERENCES["twist"]:.4g} (the paper prints 0.03208). A plate with constant transverse
+shear and no shear correction reaches {_PLATE_TWIST:.3f} of it: 1 - tanh(a)/a of b h^3/3 with a = sqrt(3) b/h.
 """,
     run=run,
     cost=10.0,

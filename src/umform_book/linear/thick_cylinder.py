@@ -26,7 +26,9 @@ POISSON = (0.49, 0.499, 0.4999)
 LOCKED = {0.49: 0.03, 0.499: 0.2, 0.4999: 0.7}
 COARSE = {0.49: 0.0, 0.499: 0.08, 0.4999: 0.42}
 _LOCKS = "volumetric locking: plane strain holds E_33, and no enhanced membrane strain follows the linear dilatation"
-_NINE_POINTS = "with E_33 held, an element has nine volume constraints and eight unknowns; the error falls with refinement"
+_NINE_POINTS = (
+    "with E_33 held, an element has nine volume constraints and eight unknowns; the error falls with refinement"
+)
 _THEORY = "constraint count: Hughes, The Finite Element Method (2000), 4.3"
 
 
@@ -98,12 +100,12 @@ CASE = Case(
     name="thick-cylinder",
     title="Thick-walled cylinder, nearly incompressible",
     problem="""
-Quarter of a cylinder with radii 3 and 9 in plane strain (all nodes stay in their plane z), E = 1000, nu = 0.49, 0.499,
-0.4999, under unit pressure inside. The thickness of the elements is along the axis of the cylinder; n intervals along
-the radius, geometrically graded, 2 n around. Measured: radial displacement of the inner face.
+Quarter of a cylinder, radii 3 and 9, in plane strain, E = 1000, nu = 0.49, 0.499, 0.4999, under unit inner pressure.
+The thickness of the elements is along the axis; n intervals along the radius, geometrically graded, 2 n around.
+Measured: radial displacement of the inner face.
 """,
     reference="""
-Lame's solution: 5.0399e-3, 5.0602e-3, 5.0623e-3, as in MacNeal & Harder, Finite Elem. Anal. Des. 1 (1985) 3-20; exact.
+Lamé's solution, exact: 5.0399e-3, 5.0602e-3, 5.0623e-3, as in MacNeal & Harder, Finite Elem. Anal. Des. 1 (1985) 3-20.
 """,
     run=run,
     cost=6.0,

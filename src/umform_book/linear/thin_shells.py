@@ -129,8 +129,8 @@ Measured: mean of the outward and inward displacement under the forces, times E 
 bending. Elements that do not lock, without and with tying of E_33.
 """,
     reference="""
-The finest mesh of MI9K3DEAS with E_33 tied, one for each thickness: our own solution. Its uncertainty is about 1 %, from
-three elements on the finest mesh and from the coarser meshes.
+Our own solution: the finest mesh of MI9K3DEAS with E_33 tied, one for each thickness. Its uncertainty is about 1 %,
+from three elements on the finest mesh and from the coarser meshes.
 """,
     own="the finest mesh of MI9K3DEAS with E_33 tied, umform itself",
     run=run,

@@ -92,8 +92,8 @@ def _simple_shear(page: Page) -> None:
         "shear of 2: J2 stays at y / sqrt 3", float(np.interp(2.0, shear, curves[0])), 160.0 / np.sqrt(3.0), 0.01
     )
     page.text(
-        "Where the axes of strain turn against the sheet, the plastic strain of logarithmic space does not turn with "
-        "them as that of J2 does: the two depart, little below a shear of one. Sheet metal is not sheared so far."
+        "If the axes of strain turn relative to the sheet, the plastic strain of logarithmic space does not follow, "
+        "that of J2 does. The difference is small up to a shear of one, far more than in sheet forming."
     )
 
 

@@ -13,12 +13,12 @@ from umform.steps import Move
 from umform_book.case import Case
 from umform_book.convergence import show, study
 from umform_book.page import Page
-from umform_book.printed import about
 from umform_book.plastic.bars import maximum_force, maximum_force_plane_strain, narrowed_strip, peak
 from umform_book.plastic.curves import lines_figure
 from umform_book.plastic.hourglass import alternation
 from umform_book.plastic.hourglass_stability import CAUSE, THEORY
 from umform_book.plastic.tension import LAWS, MEMBRANE_SETTINGS
+from umform_book.printed import about
 from umform_book.variants import Variant
 
 Floats = NDArray[np.float64]
@@ -137,15 +137,15 @@ def _one_strip(page: Page, strip: Strip) -> None:
         early = [found for (v, _), found in runs.items() if v.name == "EAS3DEAS" and found.ended]
         page.text(
             f"In plane strain {len(early)} of {sum(v.name == 'EAS3DEAS' for v, _ in runs)} runs with enhanced membrane "
-            "strains end before their time, with negative pivots: see the [hourglass stiffness of one "
-            "element](plastic-hourglass.md). ANS3DEAS is stable but keeps the volume too stiffly, and its neck comes "
-            "too late; MI9K3DEAS necks as it should. Do not use EAS3DEAS where membranes flow in plane strain."
+            "strains end early, with negative pivots: see the [hourglass stiffness of one "
+            "element](plastic-hourglass.md). ANS3DEAS is stable but too stiff in volume, and necks too late; "
+            "MI9K3DEAS necks as it should. Do not use EAS3DEAS where membranes flow in plane strain."
         )
     else:
         page.text(
-            "In plane stress the neck of the enhanced elements and of MI9K3DEAS is the same on all meshes up to here; "
-            "further on it becomes a band as narrow as the mesh allows, and every mesh has a curve of its own. "
-            "ANS3DEAS is late."
+            "In plane stress the enhanced elements and MI9K3DEAS have the same neck on all meshes up to here. Later "
+            "the neck becomes a band as narrow as the mesh allows, and each mesh has its own curve. ANS3DEAS necks "
+            "late."
         )
 
 
@@ -222,18 +222,19 @@ CASE = Case(
     name="plastic-necking",
     title="Necking of strips",
     problem=f"""
-A quarter of a strip, half length {LENGTH:g}, half width {WIDTH:g}, that is {100 * IMPERFECTION:g} % narrower in its
-middle (a cosine along the length); E = 210000, nu = 0.3, Swift's hardening 500 (0.01 + e)^0.2. Its ends are pulled
-apart and may contract. Plane stress: a sheet of half thickness {THICKNESS:g}, with 3 thickness points, to an
-elongation of {STRIPS[0].elongation:g}. Plane strain: the same mesh with u_z = 0 on both faces, so that the membrane
-of the element must keep the volume, to {STRIPS[1].elongation:g}. The mesh has three cells along for one across; all
-cells are square.
+Quarter of a strip, half length {LENGTH:g}, half width {WIDTH:g}, {100 * IMPERFECTION:g} % narrower in its middle (a
+cosine along the length); E = 210000, nu = 0.3, Swift's hardening 500 (0.01 + e)^0.2. The ends are pulled apart and may
+contract. Square cells, three along for one across.
+
+* Plane stress: half thickness {THICKNESS:g}, 3 thickness points, elongation {STRIPS[0].elongation:g}.
+* Plane strain: the same mesh with u_z = 0 on both faces, elongation {STRIPS[1].elongation:g}; the membrane must keep
+  the volume.
 """,
     reference=f"""
-The largest force lies between that of the straight strip (the [case of tension](plastic-tension.md)) and that of the
-narrowest section, {100 * IMPERFECTION:g} % less: half of it is the uncertainty. Behind it the law has no length in it,
-and a neck becomes as narrow as the mesh allows: nothing but trends is to be compared there. A sound element shows no
-negative pivot under a prescribed displacement that is still followed, and no pattern from cell to cell.
+The largest force lies between that of the straight strip ([case of tension](plastic-tension.md)) and that of the
+narrowest section, {100 * IMPERFECTION:g} % less; half of it is the uncertainty. After the largest force the law has no
+length, and the neck depends on the mesh: compare trends only. A sound element shows no negative pivot on the path, and
+no pattern from cell to cell.
 """,
     run=run,
     cost=50.0,

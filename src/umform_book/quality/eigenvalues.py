@@ -39,7 +39,9 @@ POISSON = (0.4, 0.49, 0.499, 0.4999)
 
 #: Modes of thin bending: unknowns of the deflection and two rotations, less three rigid motions, less the tied shears.
 BENDING_MODES = {"hex8": 12 - 3 - 4, "hex18": 27 - 3 - 12}
-_PIVOT = "round-off: the condensation compares pivots with the largest one, and thickness modes are (l/h)^4 times stiffer"
+_PIVOT = (
+    "round-off: the condensation compares pivots with the largest one, and thickness modes are (l/h)^4 times stiffer"
+)
 _IN_PLANE = "volumetric locking: no enhanced membrane strain follows the dilatation that is linear in r and s"
 _CONSTRAINTS = "Hughes, The Finite Element Method (2000), 4.3; Hauptmann & Schweizerhof 1998"
 
@@ -140,8 +142,8 @@ def _thin(page: Page) -> None:
         page.at_most(what, float(np.abs(thin / thick - 1).max()), 0.05)
     page.text(
         "Elements with compatible transverse shear lack bending modes: they lock. The change from h = 0.1 to 0.01 is "
-        "physical, of order h^2; a locked mode would grow a hundredfold. At h = 1e-4 round-off (E / h against E h^3) is "
-        "as large as the bending eigenvalues."
+        "physical, of order h^2; a locked mode would grow a hundredfold. At h = 1e-4 round-off (E / h against E h^3) "
+        "is as large as the bending eigenvalues."
     )
     shown = [Variant(name) for name in ("DISP3DEAS", "ANS3DEAS", "DISP9K3DEAS", "MI9K3DEAS")]
     figure = _spectra(shown, [spectra[v] for v in shown], THICKNESSES, "thickness h", "eigenvalue / E h^3")
@@ -166,9 +168,7 @@ def _incompressible(page: Page) -> None:
         rows.append((v.label, count, unknowns / count))
         if v.name in ("ANS3DEAS", "EAS3DEAS"):
             bound, cause, theory = (3.0, _IN_PLANE, _CONSTRAINTS) if v.name == "ANS3DEAS" else (0.0, "", "")
-            page.check(
-                f"{v.label}: modes that grow with kappa", count, 1, 0.0, known=bound, cause=cause, theory=theory
-            )
+            page.check(f"{v.label}: modes that grow with kappa", count, 1, 0.0, known=bound, cause=cause, theory=theory)
     page.table(
         "Modes of a cube that grow with the bulk modulus",
         ("element", "modes", "unknowns of a large mesh for each (3 is that of the continuum)"),

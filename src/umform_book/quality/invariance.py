@@ -152,8 +152,7 @@ def run(page: Page) -> None:
         page.at_most(f"all elements: change with {name}", max(row[number] for row in changes.values()), ROUND_OFF)
     largest = max(max(row[2:]) for row in changes.values())
     page.text(
-        f"The largest change of all is {shown(largest, 2)}: every element is invariant to every numbering, to rotations and "
-        "to units, but for round-off."
+        f"Largest change of all: {shown(largest, 2)}. Every element is invariant to numbering, rotation and units."
         if largest <= ROUND_OFF
         else f"Not all elements are invariant: the largest change is {shown(largest, 2)}."
     )
@@ -166,15 +165,14 @@ CASE = Case(
     name="invariance",
     title="Invariance",
     problem=f"""
-A distorted and warped sheet of 2 x 2 elements, {LENGTH:g} x {WIDTH:g} x {HEIGHT:g} mm, perfectly clamped at one end; a
-dead force of {FORCE.tolist()} N on the other bends it into the plastic range in four increments (J2, kappa = 175000,
-mu = 80770, yield stress 160 + 2000 eqps MPa, large displacements). The same is done with other numberings of the nodes
-of the cells, with model and force rotated in space, and in other units.
+A distorted and warped sheet of 2 x 2 elements, {LENGTH:g} x {WIDTH:g} x {HEIGHT:g} mm, is clamped at one end. A dead
+force of {FORCE.tolist()} N on the other bends it into the plastic range in four increments (J2, kappa = 175000, mu =
+80770, yield stress 160 + 2000 eqps MPa, large displacements). Compared: other numberings of the nodes of cells, a
+rotated model, other units.
 """,
     reference="""
-The problem itself: all answers must be equal. Nothing in the elements has a preferred direction: the tying points and
-the enhanced modes go over into themselves when the local axes are turned or reflected, and enhanced strains are mapped
-as tensors; so all of them must be invariant but for round-off.
+The problem itself: all answers must be equal up to round-off. Tying points and enhanced modes are symmetric in the
+local axes, and enhanced strains are mapped as tensors.
 """,
     run=run,
     cost=5.0,

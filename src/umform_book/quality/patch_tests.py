@@ -62,22 +62,26 @@ def _by_element(page: Page, found: dict[Test, float]) -> None:
     """What each element must pass and need not pass; a check for each group of the same cause and size."""
     table = []
     for name in dict.fromkeys(row.name for row, _, _ in found):
-        groups: dict[ExpectedFailure | None, list[Test]] = {}
+        must: list[Test] = []
+        groups: dict[ExpectedFailure, list[Test]] = {}
         for test in (test for test in found if test[0].name == name):
-            groups.setdefault(known_failure(*test), []).append(test)
-        must = groups.pop(None)
+            known = known_failure(*test)
+            (must if known is None else groups.setdefault(known, [])).append(test)
         largest = max(found[test] for test in must)
         page.at_most(f"{name}: {len(must)} tests that it must pass", largest, ROUND_OFF)
-        need_not = {known: _named(tests) for known, tests in groups.items()}
-        for known, tests in groups.items():
+        need_not = {expected: _named(tests) for expected, tests in groups.items()}
+        for expected, tests in groups.items():
             worst = max(found[test] for test in tests)
-            what = f"{name}, {need_not[known]}, {len(tests)} test{'s' * (len(tests) > 1)}"
-            page.at_most(what, worst, ROUND_OFF, known=known.limit, cause=known.cause, theory=known.theory)
+            what = f"{name}, {need_not[expected]}, {len(tests)} test{'s' * (len(tests) > 1)}"
+            limit, cause, theory = expected
+            page.at_most(what, worst, ROUND_OFF, known=limit, cause=cause, theory=theory)
         passed = sum(found[test] <= ROUND_OFF for tests in groups.values() for test in tests)
         page.at_most(f"{name}: tests that it should fail and passes", passed, 0.0)
         good = sum(found[test] <= ROUND_OFF for test in must)
         table.append((name, f"{good} of {len(must)}", "; ".join(dict.fromkeys(need_not.values())) or "-"))
-    page.table("What each element must pass, and need not", ("element", "passes of those it must", "need not pass"), table)
+    page.table(
+        "What each element must pass, and need not", ("element", "passes of those it must", "need not pass"), table
+    )
 
 
 def _named(tests: list[Test]) -> str:

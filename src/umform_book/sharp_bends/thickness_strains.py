@@ -220,18 +220,18 @@ CASE = Case(
     name="bend-candidates",
     title="Which thickness strain? The candidates",
     problem=f"""
-A section in pure plastic bending by itself: straight director of free length, 60 points through the thickness, plane
-strain, no axial force, 100 increments of curvature. It has the stretches of mid-line and director, and one of: E_33
-with Legendre polynomials up to an order in t (what the elements have); E_33 free at each point, which makes S_33
-constant; the same polynomials in the logarithm of the thickness stretch; order 1 or 2 with the logarithm of the volume
-change projected on polynomials in t; order 4 with a stabilisation c mu of its parameters. J2, kappa = 175000, mu =
-80770, y0 = 160, perfect or with H = {HARDENING:g} MPa. Parameters: of E_33 + of the pressure.
+A section in pure plastic bending: straight director of free length, 60 points through the thickness, plane strain, no
+axial force, 100 increments of curvature. Besides the stretches of mid-line and director it has one of: E_33 with
+Legendre polynomials up to an order in t (the elements); E_33 free at each point (constant S_33); the same polynomials
+in the logarithm of the thickness stretch; order 1 or 2 with the logarithm of the volume change projected on polynomials
+in t; order 4 with a stabilisation c mu. J2, kappa = 175000, mu = 80770, y0 = 160, perfect or H = {HARDENING:g} MPa.
+Parameters: of E_33 + of the pressure.
 
 ![A sheet in pure bending, from the page of the moment](images/bend-moment-shape.png)
 """,
     reference="""
 Perfect plasticity: Hill, The Mathematical Theory of Plasticity (1950), exact for a rigid-plastic sheet; an elastic one
-of 16 layers is 1.3 % below at 0.2, see [moment](bend-moment.md). Hardening: a stack of 32 layers, 0.4 % from one of 16
+of 16 layers is 1.3 % below at 0.2 ([moment](bend-moment.md)). Hardening: a stack of 32 layers, 0.4 % from one of 16
 (same page).
 """,
     own="with hardening, 32 layers, umform itself; Hill's closed form without",
