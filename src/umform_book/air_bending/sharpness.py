@@ -199,5 +199,6 @@ the outer strain.
 """,
     own="four layers of EAS3DEAS of order 2, umform itself",
     run=run,
+    picture="strain",
     cost=50.0,
 )

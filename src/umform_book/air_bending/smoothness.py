@@ -21,7 +21,7 @@ from umform_book.page import Page
 THICKNESS = 1.0
 #: Window of J in thicknesses: that of the page bending-contact-points, 0.1 mm for a sheet of 1 mm.
 WINDOW = 0.1
-#: J beyond the smooth curve that is asked for.
+#: Largest J beyond the smooth curve.
 LIMIT = 0.01
 
 
@@ -230,5 +230,6 @@ of the second contact, where the true slope jumps. J of the difference is the pa
 polynomial follows. Limit: {100 * LIMIT:g} %.
 """,
     run=run,
+    picture="curves",
     cost=45.0,
 )

@@ -181,5 +181,6 @@ block, below 0.5 % (last table); finite strains and circle for parabola, below 0
 of the block over a length a.
 """,
     run=run,
+    picture="pressure",
     cost=35.0,
 )

@@ -177,8 +177,8 @@ def check_condition(page: Page, row: dict[float, Found], points: int | str) -> N
 def check_stiff(page: Page, rows: Iterable[dict[float, Found]]) -> None:
     """Stiff penalties converge too, at the tolerance of the house or the floor of eq. (5.36), without cuts."""
     found = [f for row in rows for f in row.values()]
-    page.at_most("increments more than asked for, of all runs", sum(f.increments - STEPS for f in found), 0)
-    page.at_most("largest residual that an increment ended with", max(f.residual for f in found), 1e-8)
+    page.at_most("additional increments, all runs", sum(f.increments - STEPS for f in found), 0)
+    page.at_most("largest final residual of an increment", max(f.residual for f in found), 1e-8)
 
 
 def run(page: Page) -> None:

@@ -206,5 +206,6 @@ R) inside the tool; with all points in contact the pressure is penalty times thi
 mean square sqrt(4/45) of its height (exact with three points or more).
 """,
     run=run,
+    picture="ripple",
     cost=15.0,
 )

@@ -201,5 +201,6 @@ mm (20 mm is taken), Gauss points are not equidistant, the strip is not straight
 lengths.
 """,
     run=run,
+    picture="curves",
     cost=170.0,
 )

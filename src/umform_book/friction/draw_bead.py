@@ -115,7 +115,7 @@ def run(page: Page) -> None:
         limit, lift = limits.restraint, limits.uplift
         page.table(
             "Elements of no length, from the last two",
-            ("", "limit", "last mesh over it, %"),
+            ("", "limit", "last mesh over the limit, %"),
             [("restraint", limit.value, 100.0 * limit.off), ("uplift", lift.value, 100.0 * lift.off)],
         )
         found = limit.value
@@ -149,7 +149,7 @@ sharper radius. Then the same strip is drawn over a flat with the equivalent bea
 After Swift, as in [bending and unbending](friction-bending-work.md), for each of three arcs: F -> exp(mu theta) (F + B)
 + B with B = M/r, M the plastic moment in plane strain under the tension there; theta of the edges from the common
 tangent of the circles of the mid-line, 2 theta on the bead. The usual estimate of draw beads (Stoughton 1988, after the
-tests of Nine 1978, whose numbers were not at hand). Uncertainty 10 %: the strip is not bent to the radius at once,
+tests of Nine 1978, whose numbers were not available). Uncertainty 10 %: the strip is not bent to the radius at once,
 elastic strains take a part, hardening adds one.
 """,
     run=run,

@@ -69,7 +69,7 @@ def rest(page: Page) -> None:
         page.at_most(f"{divisions} intervals, {count} increments at rest: way over allowed elastic slip", moved, 1e-6)
         page.at_most(f"{divisions} intervals, {count} increments at rest: change of tractions", changed, limit)
     columns = ("intervals", "increments", "points", "stick", "way over allowed slip", "traction", "work of friction")
-    page.table("At rest: what has changed in the end, the latter two relative", columns, rows)
+    page.table("At rest: changes at the end, the last two relative", columns, rows)
 
 
 def bound(page: Page) -> None:
@@ -166,7 +166,7 @@ def sphere(page: Page) -> None:
             within = (2.0 * np.pi / increments) ** 2  # chords in place of arcs
             page.at_most(f"{divisions} x {divisions}, {increments} increments: elastic slip", errors[-1], within)
         curves.append(Curve(f"{divisions} x {divisions}", counts, errors, "o-"))
-    columns = ("facets", "points", "increments", "largest collected slip", "largest error over it")
+    columns = ("facets", "points", "increments", "largest collected slip", "largest error over the slip")
     page.table("Elastic slip collected around circles of latitude, against the closed form", columns, rows)
     figure = plot(curves, "increments", "largest error over the collected slip", log="xy")
     page.figure("loop", figure, "Closed loop on a sphere: error of the collected elastic slip")
@@ -181,7 +181,7 @@ def run(page: Page) -> None:
 
 CASE = Case(
     name="friction-history",
-    title="What friction remembers: rest, bound, a closed loop",
+    title="History of friction: rest, bound, a closed loop",
     problem=f"""
 * Rest: a strip of h = {STRIP.thickness:g} around half of a cylinder of R = 10, mu = {STRIP.mu:g}, under a tension of
   {TENSION:g}; the cylinder turns by {THERE:g} and back to {BACK:g}, so that a part sticks and a part slips backwards;

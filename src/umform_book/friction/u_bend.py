@@ -68,7 +68,7 @@ class Setup:
 
 @dataclass(frozen=True)
 class Measured:
-    """What the benchmark asks for.
+    """Quantities of the benchmark.
 
     Attributes
     ----------
@@ -198,7 +198,7 @@ def run(page: Page) -> None:
     names = [field.name for field in fields(Measured)]
     rows = [(label, *(getattr(value, name) for name in names)) for label, value in found.items()]
     columns = ("", "force, N/mm", "draw-in, mm", "theta1", "theta2", "radius, mm")
-    page.table("What the benchmark asks for", columns, rows)
+    page.table("Quantities of the benchmark", columns, rows)
     page.figure("part", plot(lines, "x, mm", "z, mm"), "Mid-surface of the part after the release")
     page.figure("force", plot(curves, "stroke, mm", "force of the punch, N/mm"), "Force of the punch")
     first = next(iter(found.values())) if page.short else found["175 intervals"]

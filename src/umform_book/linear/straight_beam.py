@@ -156,5 +156,6 @@ Twist: St. Venant's torsion, {REFERENCES["twist"]:.4g} (the paper prints 0.03208
 shear and no shear correction reaches {_PLATE_TWIST:.3f} of it: 1 - tanh(a)/a of b h^3/3 with a = sqrt(3) b/h.
 """,
     run=run,
+    picture="trapezoids-in-plane-shear",
     cost=10.0,
 )

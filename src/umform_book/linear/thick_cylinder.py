@@ -108,5 +108,6 @@ Measured: radial displacement of the inner face.
 Lamé's solution, exact: 5.0399e-3, 5.0602e-3, 5.0623e-3, as in MacNeal & Harder, Finite Elem. Anal. Des. 1 (1985) 3-20.
 """,
     run=run,
+    picture="nu-0.4999",
     cost=6.0,
 )

@@ -105,5 +105,6 @@ bar with turning principal axes; for the thick beam it agrees with the paper wit
 partly hinders transverse contraction: 1 to 2 % of uncertainty.
 """,
     run=run,
+    picture="in-plane-0.0032",
     cost=5.0,
 )

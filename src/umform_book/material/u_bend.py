@@ -23,7 +23,7 @@ def run(page: Page) -> None:
     names = [part.name for part in fields(Measured)]
     columns = ("hardening", "force, N/mm", "draw-in, mm", "theta1", "theta2", "radius of the wall, mm")
     rows = [(label, *(getattr(value, name) for name in names)) for label, value in found.items()]
-    page.table("What the benchmark asks for", columns, rows)
+    page.table("Quantities of the benchmark", columns, rows)
     page.figure("part", plot(lines, "x, mm", "z, mm"), "Mid-surface of the part after the release")
     forces = [value.force for value in found.values()]
     page.at_most("force of the punch: largest over least less one", max(forces) / min(forces) - 1.0, 0.15)

@@ -61,5 +61,6 @@ thickness times curvature, 0.4 % at the full moment. Second problem of Sze, Liu 
 1551-1569.
 """,
     run=run,
+    picture="curves",
     cost=6.0,
 )

@@ -40,5 +40,6 @@ Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569 (Abaqus S4R): w = 6.6
 intervals agree on 6.700 and 3.290: the table is uncertain by 0.03 % and 0.12 %.
 """,
     run=run,
+    picture="curves",
     cost=3.0,
 )

@@ -52,5 +52,6 @@ MI9K3DEAS with E_33 tied finds 4.069 and 8.131 with 32 intervals, 4.074 and 8.14
 0.4 % high.
 """,
     run=run,
+    picture="curves",
     cost=30.0,
 )

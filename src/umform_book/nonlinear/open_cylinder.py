@@ -62,5 +62,6 @@ load. MI9K3DEAS with E_33 tied finds 2.773, 4.578, 3.247 with 32 intervals and 2
 uncertain by 0.5 %; between 0.5 and 0.6 of the load, where the sides snap inward, its -u_B is 1 % low.
 """,
     run=run,
+    picture="curves",
     cost=42.0,
 )

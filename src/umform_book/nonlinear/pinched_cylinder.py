@@ -116,5 +116,6 @@ Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569: -w_A = 83.102 and u_
 a shell, it comes to about 80.1 and 32.9: the director is stretched by some per cent and cannot tilt.
 """,
     run=run,
+    picture="curves",
     cost=400.0,
 )

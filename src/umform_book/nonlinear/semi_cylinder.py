@@ -80,5 +80,6 @@ with E_33 tied finds 171.66 with 32 intervals, 171.92 with 64: the table is 0.25
 is flattest (0.3 to 0.35 of the load).
 """,
     run=run,
+    picture="curves",
     cost=62.0,
 )

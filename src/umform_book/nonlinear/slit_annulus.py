@@ -85,5 +85,6 @@ MI9K3DEAS with E_33 tied finds 13.800 and 17.437 with 64 x 8 intervals, 13.845 a
 0.3 % high along the whole curve.
 """,
     run=run,
+    picture="curves",
     cost=36.0,
 )

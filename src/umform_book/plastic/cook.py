@@ -129,7 +129,7 @@ def _pivots(found: Bent) -> int:
 
 def _table(page: Page, bent: dict[tuple[Variant, int], Bent]) -> None:
     page.table(
-        "What it takes",
+        "Effort and stability",
         ("element, intervals", "iterations, about", "alternation of the cells", "most negative pivots"),
         [
             (

@@ -151,7 +151,7 @@ def _one_strip(page: Page, strip: Strip) -> None:
 
 def _table(page: Page, strip: Strip, runs: dict[tuple[Variant, int], Necked]) -> None:
     page.table(
-        f"Behind the largest force, {strip.name}",
+        f"After the largest force, {strip.name}",
         (
             "element, intervals",
             "elongation reached",
@@ -195,7 +195,7 @@ def _judge(
         pivots = run.negative_pivots
         page.at_most(f"negative pivots at the end, {what}", pivots, 0.5, known=limit, cause=cause, theory=theory)
         missing, known = 1.0 - float(run.elongation[-1]) / strip.elongation, 0.35 if enhanced else 0.0
-        page.at_most(f"part of the way not reached, {what}", missing, 1e-9, known=known, cause=cause, theory=theory)
+        page.at_most(f"part of the path not reached, {what}", missing, 1e-9, known=known, cause=cause, theory=theory)
         known = 1.0 if enhanced else 0.0
         page.at_most(f"alternation of the cells, {what}", run.alternation, 0.15, known=known, cause=cause)
 
@@ -237,5 +237,6 @@ length, and the neck depends on the mesh: compare trends only. A sound element s
 no pattern from cell to cell.
 """,
     run=run,
+    picture="plane-strain",
     cost=50.0,
 )

@@ -171,5 +171,6 @@ with E' = E/(1 - nu^2), flow stress 2/sqrt(3) y, elastic unloading). Both neglec
 (2.29), which is part of its limit.
 """,
     run=run,
+    picture="curve-hardening",
     cost=6.0,
 )

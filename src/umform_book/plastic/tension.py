@@ -101,5 +101,6 @@ stress, eps = tau/E + e, in closed form. Width held: the law is integrated in nu
 of a parabola through the three highest points: 1e-5 of the force, 1 % of the strain with increments of 0.75 %.
 """,
     run=run,
+    picture="curves-swift",
     cost=18.0,
 )

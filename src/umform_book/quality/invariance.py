@@ -112,7 +112,7 @@ NUMBERINGS: dict[str, Callable[[Ids], Ids]] = {
     "turned by 90 degrees": lambda cells: turned(cells, 1),
     "turned by 180 degrees": lambda cells: turned(cells, 2),
     "turned by 270 degrees": lambda cells: turned(cells, 3),
-    "each cell turned otherwise": lambda cells: turned(cells, np.arange(len(cells)) % 4),
+    "each cell turned differently": lambda cells: turned(cells, np.arange(len(cells)) % 4),
     "upper and lower exchanged": flipped,
 }
 
@@ -145,7 +145,7 @@ def run(page: Page) -> None:
     )
     page.table(
         "Iterations of all increments",
-        ("element", "as it is", *columns),
+        ("element", "original", *columns),
         [(label, *row) for label, row in iterations.items()],
     )
     for number, name in enumerate(columns, start=2):

@@ -131,5 +131,6 @@ The references of those pages, and the base element, which order 4 must not chan
 """,
     own="the element that each is made of, umform itself, beside the references of the problems",
     run=run,
+    picture="nonlinear-pinched-hemisphere",
     cost=20.0,
 )

@@ -24,7 +24,7 @@ STRAINS = tuple(float(x) for x in np.linspace(0.02, 0.3, 29))
 POINTS = {"gauss": (5, 6, 7, 8, 9, 11, 13, 15), "lobatto": (5, 6, 7, 8, 9, 11, 13, 15), "split": (6, 8, 10, 12, 14)}
 ALL = tuple((rule, n) for rule, numbers in POINTS.items() for n in numbers)
 SHORT = (("gauss", 8), ("split", 8), ("split", 12))
-#: What is run where all would be too dear.
+#: The selection where all combinations would take too long.
 FEW = (("gauss", 5), ("gauss", 8), ("gauss", 15), ("lobatto", 5), ("lobatto", 8), ("split", 8), ("split", 12))
 #: The rule that errs least in a section, which the others are compared with in the hinge.
 FINEST = ("split", 14)
