@@ -165,7 +165,7 @@ def needed_text(found: Found, enough: float = EXPECTED) -> str:
         good = [n for n in row if all(abs(row[finer] - 1.0) <= enough for finer in row if finer >= n)]
         when = f"from {min(good)} intervals on" if good else f"not even with {max(row)} intervals"
         met.setdefault(when, []).append(variant.label.replace(", E_33 tied", " (tied)"))
-    parts = "; ".join(f"{when} {', '.join(labels)}" for when, labels in sorted(met.items()))
+    parts = "; ".join(f"{when}: {', '.join(labels)}" for when, labels in sorted(met.items()))
     return f"{what} is within {100 * enough:g} % of the reference {parts}."
 
 
