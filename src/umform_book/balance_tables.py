@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from statistics import median
 
@@ -20,9 +21,8 @@ _MEANING = f"""\
 **Drift**: largest difference between external work and the sum of stored, dissipated, contact and friction energy,
 over the largest energy of the run. If a sheet starts inside a tool, the drift counts from the first equilibrium.
 **Forces**, **moments**: resultant of all external forces or moments over the sum of their sizes.
-**Order of Newton**: median over the increments of the order of the last two steps. Problems that are linear but for
-contact have orders far above 2: with the right active set, one step gives the answer.
-**Low**: the most frequent reason for an order below {LOW:g}."""
+**Order of Newton**: median over the increments of the order of the last two steps; *quadratic* from {LOW:g} on, else
+the order with the most frequent reason."""
 
 
 def balance_line(rows: Sequence[BalanceRow]) -> str:
@@ -35,15 +35,13 @@ def balance_line(rows: Sequence[BalanceRow]) -> str:
 
 
 def balance_table(rows: Sequence[BalanceRow]) -> str:
-    """Balance of each run, and what the columns mean."""
-    columns = ("run", "increments", "drift", "forces", "moments", "order of Newton", "low")
+    """Balance of each run."""
+    columns = ("run", "increments", "drift", "forces", "moments", "order of Newton")
     cells = [
-        (row.run, str(row.increments), _size(row.drift), _size(row.force), _size(row.moment), _order([row]), _low(row))
+        (row.run, str(row.increments), _size(row.drift), _size(row.force), _size(row.moment), _order([row]))
         for row in rows
     ]
-    reasons = [f"*{word}*: {meaning}" for word, meaning in REASONS.items() if any(word == _low(row) for row in rows)]
-    legend = f"Low order, reasons: {'; '.join(reasons)}.\n\n" if reasons else ""
-    return f"{markdown_table(columns, cells)}\n\n{legend}[What the columns mean](balance.md)"
+    return f"{markdown_table(columns, cells)}\n\n[What the columns mean](balance.md)"
 
 
 def balance_page(chapters: Sequence[Chapter], outcomes: Mapping[str, Outcome]) -> str:
@@ -71,14 +69,11 @@ def _size(value: float) -> str:
 
 
 def _order(rows: Sequence[BalanceRow]) -> str:
-    """Median of the orders, to one digit after the point."""
+    """Median of the orders: quadratic from 1.8 on, else to one digit, with the most frequent reason."""
     orders = [row.newton.order for row in rows if row.newton.order is not None and math.isfinite(row.newton.order)]
-    return f"{median(orders):.1f}" if orders else "-"
-
-
-def _low(row: BalanceRow) -> str:
-    """The most frequent reason of a low order; an empty cell where less than a tenth of the increments is low."""
-    low = row.newton.low
-    if sum(low.values()) < 0.1 * max(row.newton.measured, 1):
-        return ""
-    return max(low, key=lambda reason: low[reason], default="")
+    if not orders:
+        return "-"
+    if median(orders) >= LOW:
+        return "quadratic"
+    low = sum((Counter(row.newton.low) for row in rows), Counter[str]())
+    return f"{median(orders):.1f} ({max(low, key=lambda reason: low[reason])})"

@@ -13,7 +13,7 @@ from umform_book.balance import BalanceRow, balance_row
 from umform_book.case import Case
 from umform_book.checks import Check, Verdict
 from umform_book.markdown import folded, markdown_table
-from umform_book.printed import shown
+from umform_book.printed import rounded_coordinates, shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -139,6 +139,7 @@ class Page:
         if self.images is None:
             return
         path = save(figure, self.images / f"{self.case.name}-{name}.svg")
+        path.write_text(rounded_coordinates(path.read_text(encoding="utf-8")), encoding="utf-8")
         self._show(path, caption)
 
     def shape(

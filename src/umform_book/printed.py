@@ -1,31 +1,40 @@
-"""Numbers as the book prints them: round-off, which differs between machines, stands as a bound."""
+"""Numbers as the book prints them: what differs between machines, round-off above all, stands as a bound."""
 
 from __future__ import annotations
 
-#: Bounds that stand for round-off and for what Newton's tolerance leaves.
-_BOUNDS = (1e-12, 1e-10, 1e-8, 1e-6)
-#: A check with a larger limit is about mechanics: its number is printed unless it is below the first bound.
+import re
+
+#: Numbers below this are round-off in any check.
+_ROUND_OFF = 1e-12
+#: A check with a limit up to this is about round-off or Newton's tolerance: whether it passes is all that is stable.
 _NUMERICAL = 1e-5
 #: Numbers of tables below this are round-off.
 _TABLE = 1e-10
+#: Decimals of a coordinate in a picture, in points.
+_DECIMALS = 2
 
 
 def bounded(value: float, limit: float) -> str:
-    """A bound such as "below 1e-12" for an error at round-off; empty if the number itself is to be printed.
+    """A bound such as "below 1e-10" for an error at round-off; empty if the number itself is to be printed.
 
     Parameters
     ----------
     value : float
         The error.
     limit : float
-        Largest error that passes. The bound is never above it; an exact zero of a count has no bound.
+        Largest error that passes. If it is numerical (1e-5 or less) it is the bound: another processor changes such
+        errors by any factor. Otherwise the bound is 1e-12. An exact zero of a count has no bound.
     """
     size = abs(value)
     if not size <= limit or (size == 0.0 and not 0.0 < limit < 0.5):
         return ""
-    bounds = _BOUNDS if limit <= _NUMERICAL else _BOUNDS[:1]
-    found = next((bound for bound in bounds if size <= bound), 0.0)
-    return f"below {min(found, limit):g}".replace("e-0", "e-") if found else ""
+    if limit <= _NUMERICAL:
+        return _below(limit)
+    return _below(_ROUND_OFF) if size <= _ROUND_OFF else ""
+
+
+def _below(limit: float) -> str:
+    return f"below {limit:g}".replace("e-0", "e-")
 
 
 def about(count: int) -> int:
@@ -38,5 +47,10 @@ def shown(value: float, digits: int = 4) -> str:
     if value != value:
         return "-"
     if 0.0 < abs(value) <= _TABLE:
-        return bounded(value, _TABLE)
+        return _below(_TABLE)
     return f"{value:.{digits}g}"
+
+
+def rounded_coordinates(svg: str) -> str:
+    """A picture whose coordinates do not show the last digits of what is drawn."""
+    return re.sub(r"\d*[1-9]\d*\.\d{3,}", lambda number: f"{float(number[0]):.{_DECIMALS}f}", svg)

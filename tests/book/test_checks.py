@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from umform_book.checks import Check, Verdict
-from umform_book.printed import about, bounded, shown
+from umform_book.printed import about, bounded, rounded_coordinates, shown
 
 
 @pytest.mark.parametrize(
@@ -72,12 +72,13 @@ def test_an_expected_failure_has_a_cause():
 @pytest.mark.parametrize(
     ("value", "limit", "text"),
     [
-        (7.4e-15, 1e-10, "below 1e-12"),
-        (7.2e-15, 1e-10, "below 1e-12"),
-        (0.0, 1e-10, "below 1e-12"),
+        (7.4e-15, 1e-12, "below 1e-12"),
+        (7.2e-15, 1e-12, "below 1e-12"),
+        (0.0, 1e-10, "below 1e-10"),
         (-3e-11, 1e-10, "below 1e-10"),
         (6.45e-10, 1e-9, "below 1e-9"),
-        (2.4e-10, 1e-6, "below 1e-8"),
+        (2.4e-10, 1e-6, "below 1e-6"),
+        (7.4e-15, 1e-2, "below 1e-12"),
         (2.7e-13, 1e-2, "below 1e-12"),
         (2e-11, 1e-2, ""),  # not far enough below to be round-off
         (3e-5, 1e-2, ""),
@@ -94,11 +95,18 @@ def test_round_off_is_printed_as_a_bound(value, limit, text):
 def test_numbers_of_tables():
     assert [shown(value) for value in (0.0, 1e-15, -1e-15, 5e-11, 1.23456e-9, 0.123456, float("nan"))] == [
         "0",
-        "below 1e-12",
-        "below 1e-12",
+        "below 1e-10",
+        "below 1e-10",
         "below 1e-10",
         "1.235e-09",
         "0.1235",
         "-",
     ]
     assert [about(count) for count in (7, 99, 903, 1248, 0)] == [7, 99, 900, 1200, 0]
+
+
+def test_coordinates_of_pictures_hide_the_last_digits():
+    one, other = '<path d="M 50.144561 13.192073"/>', '<path d="M 50.144560 13.192074"/>'
+    assert rounded_coordinates(one) == rounded_coordinates(other) == '<path d="M 50.14 13.19"/>'
+    kept = '<g transform="scale(0.015625)" width="446.4pt" version="1.1">'
+    assert rounded_coordinates(kept) == kept

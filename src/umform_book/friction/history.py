@@ -20,6 +20,7 @@ from umform_book.contact.figures import Curve, plot
 from umform_book.contact.hertz_line import EIGHT
 from umform_book.friction.capstan import PENALTY, TENSION, WIDTH, E, Strip, wrapped
 from umform_book.page import Page
+from umform_book.printed import bounded
 
 Floats = NDArray[np.float64]
 
@@ -65,7 +66,17 @@ def rest(page: Page) -> None:
         moved = float(np.abs(model.u - u).max()) / SLIP
         changed = float(np.abs(contact.found.traction - traction).max() / np.abs(traction).max())
         work = float(result["friction_work"][-1] - result["friction_work"][0]) / float(result["friction_work"][-1])
-        rows.append((divisions, count, len(contact.found.status), sticks, moved, changed, work))
+        rows.append(
+            (
+                divisions,
+                count,
+                len(contact.found.status),
+                sticks,
+                bounded(moved, 1e-6) or moved,
+                bounded(changed, limit) or changed,
+                work,
+            )
+        )
         page.at_most(f"{divisions} intervals, {count} increments at rest: way over allowed elastic slip", moved, 1e-6)
         page.at_most(f"{divisions} intervals, {count} increments at rest: change of tractions", changed, limit)
     columns = ("intervals", "increments", "points", "stick", "way over allowed slip", "traction", "work of friction")
