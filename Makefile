@@ -21,13 +21,16 @@ PACKAGE   := $(shell find CMakeLists.txt pyproject.toml cpp src \
 CPP       := $(shell find cpp -name '*.hpp' -o -name '*.cpp')
 CPP_TESTS := $(wildcard tests/cpp/*.hpp tests/cpp/*.cpp tests/cpp/*/*.hpp tests/cpp/*/*.cpp)
 
+# Where each commit is checked, a warning of the compiler is an error; a newer compiler of a user's may warn.
+STRICT := $(if $(CI),--config-settings=cmake.define.UMFORM_STRICT=ON)
+
 export CMAKE_BUILD_PARALLEL_LEVEL := $(JOBS)
 unexport PYTHONPATH PYTHONHOME
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-stubs lint-format lint-cpp stubs \
+.PHONY: help env dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-stubs lint-format lint-cpp stubs \
         format docs wheel bench dome robust ubend cup compare peers clean
 
 help:  ## show this help
@@ -51,7 +54,7 @@ $(VENV)/.tools: pyproject.toml tools/check_machine.py tools/requirements.py
 $(VENV)/.package: $(VENV)/.tools $(PACKAGE)
 	$(SAY) 'Compiling and installing umform with $(JOBS) jobs (a minute or two the first time)'
 	@touch $@.new
-	@$(PIP) install --no-build-isolation --config-settings=build-dir=$(BUILD) .
+	@$(PIP) install --no-build-isolation --config-settings=build-dir=$(BUILD) $(STRICT) .
 	@mv $@.new $@
 
 $(VENV)/.dev: $(VENV)/.tools
@@ -109,6 +112,16 @@ test-python: dev  ## tests of the installed package
 
 test-long: dev  ## the long verification runs
 	@$(BIN)/pytest -q -m long $(ARGS)
+
+test-clang: dev  ## build the kernels with clang, warnings as errors, and test them (skipped without clang)
+	$(SAY) 'Testing a build by clang'
+	@bash tools/clang.sh $(BIN)/python release
+
+sanitize: dev  ## tests with clang's sanitizers: addresses, undefined behaviour, threads (an hour)
+	$(SAY) 'Testing with AddressSanitizer and UndefinedBehaviorSanitizer'
+	@bash tools/clang.sh $(BIN)/python address
+	$(SAY) 'Testing with ThreadSanitizer'
+	@bash tools/clang.sh $(BIN)/python thread
 
 BENDING := tests/verification/test_free_bending.py
 PARDISO_TESTS := tests/python/solvers tests/python/test_threads.py '$(BENDING)::test_forces_of_the_table[12x1 MI9K3DEAS 3]' \
