@@ -117,7 +117,8 @@ class Check:
         """The deviation as it is printed."""
         if self.relative:
             return f"{round(100 * self.deviation, 2) + 0.0:+.2f} %"  # no minus before a zero
-        return bounded(self.deviation, self.within) or f"{self.deviation:+.4g}"
+        sign = "+" if self.reference else ""
+        return bounded(self.deviation, self.within) or f"{self.deviation + 0.0:{sign}.4g}"
 
     @property
     def limit(self) -> str:
@@ -127,7 +128,7 @@ class Check:
     def cells(self) -> tuple[str, ...]:
         """What stands in the table of checks: what, reference, found, deviation, limit, verdict."""
         if self.reference == 0.0:  # found and deviation are the same
-            found, deviation = self.miss.removeprefix("+"), "-"
+            found, deviation = self.miss, "-"
         else:
             found, deviation = f"{self.found:.6g}", self.miss
         return self.what, f"{self.reference:.6g}", found, deviation, self.limit, self.verdict.mark

@@ -13,14 +13,16 @@ from umform_book.outcome import Outcome
 from umform_book.writing import worst
 
 #: Characters of the phrase for the worst check.
-_PHRASE = 70
+_PHRASE = 45
+#: A deviation above so many times its limit is printed as such.
+_FAR = 10.0
 
 _INTRODUCTION = """\
 Every number comes from a run. `make verification` runs all cases, `umform verify NAME` one of them.
 
-* **Green**: all checks are within their limits. Failures that the theory of an element predicts count as expected.
-* **Amber**: a check misses by a known amount, and the page names the cause.
-* **Red**: a check misses.
+* 🟢 All checks are within their limits. Failures that the theory of an element predicts are expected.
+* 🟠 A check misses by a known amount; the page names the cause.
+* 🔴 A check misses.
 
 Then: [which element should I take?](which-element.md) · [known defects](errata.md) ·
 [balance of all nonlinear runs](balance.md)"""
@@ -42,25 +44,26 @@ def summary_text(chapters: Sequence[Chapter], outcomes: Mapping[str, Outcome]) -
     for chapter in chapters:
         rows = [_row(case, outcomes[case.name]) for case in chapter.cases if case.name in outcomes]
         if rows:
-            table = markdown_table(("case", "verdict", "worst: deviation, share of the limit"), rows)
+            table = markdown_table(("case", "", "of limit", "worst check"), rows)
             parts += [f"## {chapter.title}", chapter.about, table]
     used = ", ".join(f"{name} {version}" for name, version in versions().items() if name != "platform")
     parts += [f"\\* umform computed the reference or a part of it; the page says which.\n\nMade with {used}."]
     return "\n\n".join(parts) + "\n"
 
 
-def _row(case: Case, outcome: Outcome) -> tuple[str, str, str]:
+def _row(case: Case, outcome: Outcome) -> tuple[str, str, str, str]:
     name = f"[{case.title}]({case.name}.md)" + (" \\*" if case.own else "")
+    sign = outcome.verdict.mark.split()[0]
     if outcome.failure:
-        return name, Verdict.RED.mark, outcome.failure.splitlines()[0]
+        return name, sign, "-", outcome.failure.splitlines()[0]
     check = worst(outcome.checks)
-    return name, outcome.verdict.mark, "no check" if check is None else _phrase(check)
+    if check is None:
+        return name, sign, "-", "no check"
+    return name, sign, _share(check), shorten(check.what, _PHRASE, placeholder=" ...").replace("|", "/")
 
 
-def _phrase(check: Check) -> str:
-    """The worst check in a few words."""
-    what = shorten(check.what, _PHRASE, placeholder=" ...").replace("|", "/")
-    if check.within == 0.0:
-        return f"{what}: {check.miss}"
-    share = "below 1 %" if check.share < 0.01 else f"{100 * check.share:.3g} %"
-    return f"{what}: {check.miss}, {share}"
+def _share(check: Check) -> str:
+    """Deviation over its limit."""
+    if check.share > _FAR:
+        return f"> {100 * _FAR:.0f} %"
+    return f"{100 * check.share:.0f} %" if check.share >= 0.01 else "< 1 %"
