@@ -152,14 +152,14 @@ CASE = Case(
     name="material-finite-strain",
     title="Logarithmic space, tangents, objectivity",
     problem="""
-Von Mises in logarithmic space beside the multiplicative J2: on paths whose principal axes stay, and in simple shear.
-Tangents of all laws of this chapter on paths that turn, increments of 3 %. One element of AA2090-T3 with Chaboche,
-stretched and sheared into the plastic range: as it is, with mesh and rolling direction turned, and with a rotation on
-top of the deformation.
+* Von Mises in logarithmic space beside the multiplicative J2: paths with fixed principal axes, and simple shear.
+* Tangents of all laws of this chapter on rotating paths, increments of 3 %.
+* One element of AA2090-T3 with Chaboche, stretched and sheared into the plastic range: original, with mesh and rolling
+  direction turned, and with a superposed rotation.
 """,
     reference="""
-The multiplicative J2 of the theory, section 3.4, another kernel. Differences of fourth order of the stress. The forces
-of the sheet that is not turned.
+The multiplicative J2 (theory 3.4), another kernel; differences of fourth order of the stress; the forces of the sheet
+that is not turned.
 """,
     own="the multiplicative J2 is umform's own, checked in the chapter on plasticity",
     run=run,
