@@ -75,14 +75,17 @@ bench: env  ## time kernels, a run and the sparse solvers; the numbers go to bui
 	@$(BIN)/python benchmarks/sparse.py --json $(JSON)
 
 dome: env  ## a sphere pressed into sheets of up to 160 000 elements: time, memory, evaluations thrown away (an hour)
-	@$(BIN)/python benchmarks/dome.py --json build/dome.json --plot docs/images/dome.png --page docs/performance.md $(ARGS)
+	@$(BIN)/python benchmarks/dome.py --json build/dome.json --plot docs/images/dome.png --page docs/performance-increments.md $(ARGS)
+	@$(BIN)/python tools/performance_numbers.py
 
-robust: env  ## 300 random jobs and how many arrive (some 10 minutes of CPU); writes docs/robust-rate.md
+robust: env  ## 300 random jobs and how many finish (some 10 minutes of CPU); writes docs/robust-rate.md
 	@$(BIN)/python benchmarks/robust.py --json build/robust.json --page docs/robust-rate.md $(ARGS)
+	@$(BIN)/python tools/performance_numbers.py
 
 ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter of an hour)
 	$(SAY) 'Drawing the U-bend'
-	@$(BIN)/python benchmarks/ubend.py --page docs/performance.md $(ARGS)
+	@$(BIN)/python benchmarks/ubend.py --page docs/performance-codes.md $(ARGS)
+	@$(BIN)/python tools/performance_numbers.py
 
 cup: env  ## the cup of the ESAFORM benchmark 2021 on finer meshes (a quarter of an hour)
 	$(SAY) 'Drawing the cup'
@@ -92,7 +95,8 @@ compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)
 
 peers: env  ## the same work in other codes that are installed, CalculiX first (some 15 minutes of CPU)
-	@$(BIN)/python benchmarks/peers/run.py --out benchmarks/peers/results.md --page docs/performance.md $(ARGS)
+	@$(BIN)/python benchmarks/peers/run.py --out benchmarks/peers/results.md --page docs/performance-codes.md $(ARGS)
+	@$(BIN)/python tools/performance_numbers.py
 
 # ---- test ----
 
