@@ -18,11 +18,11 @@ from umform_book.printed import bounded
 _TOLERANCE = 1e-6
 
 _MEANING = f"""\
-**Drift**: largest difference between external work and the sum of stored, dissipated, contact and friction energy,
-over the largest energy of the run. If a sheet starts inside a tool, the drift counts from the first equilibrium.
-**Forces**, **moments**: resultant of all external forces or moments over the sum of their sizes.
-**Order of Newton**: median over the increments of the order of the last two steps; *quadratic* from {LOW:g} on, else
-the order with the most frequent reason."""
+* **Drift**: largest difference between external work and the sum of stored, dissipated, contact and friction energy,
+  over the largest energy of the run. If a sheet starts inside a tool, the drift counts from the first equilibrium.
+* **Forces**, **moments**: resultant of all external forces or moments over the sum of their sizes.
+* **Order of Newton**: median over the increments of the order of the last two steps; *quadratic* from {LOW:g} on, else
+  the order with the most frequent reason."""
 
 
 def balance_line(rows: Sequence[BalanceRow]) -> str:
