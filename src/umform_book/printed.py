@@ -52,5 +52,8 @@ def shown(value: float, digits: int = 4) -> str:
 
 
 def rounded_coordinates(svg: str) -> str:
-    """A picture whose coordinates do not show the last digits of what is drawn."""
+    """A picture whose coordinates, and the names made from them, do not show the last digits of what is drawn."""
+    names = dict.fromkeys(re.findall(r'id="([mp][0-9a-f]{10})"', svg))
+    numbers = {name: f"{name[0]}{number}" for number, name in enumerate(names)}
+    svg = re.sub(r'(?<=#|")[mp][0-9a-f]{10}(?=["\)])', lambda name: numbers.get(name[0], name[0]), svg)
     return re.sub(r"\d*[1-9]\d*\.\d{3,}", lambda number: f"{float(number[0]):.{_DECIMALS}f}", svg)
