@@ -26,7 +26,7 @@ _TAPERED_BENDING = "layers whose thickness varies inside an element: bending is 
 
 @dataclass(frozen=True)
 class Row:
-    """An element in the patch tests; each stands for the thickness orders 1 and 3, which must not matter.
+    """An element in the patch tests; each stands for the thickness orders 1 and 3 and the complete one, which must not matter.
 
     Attributes
     ----------
@@ -54,12 +54,14 @@ class Row:
 
     def options(self) -> list[dict[str, int | bool]]:
         """Options of the catalogue, one set for each thickness order."""
-        common: dict[str, int | bool] = {"tie_E33": self.tied}
+        return [{**self.common(), "thickness_order": order} for order in (1, 3)] if self.modes else [self.common()]
+
+    def common(self) -> dict[str, int | bool]:
+        """Options without the thickness order."""
+        options: dict[str, int | bool] = {"tie_E33": self.tied}
         if self.compatible_E12:
-            common["compatible_E12"] = True
-        if not self.modes:
-            return [common]
-        return [{**common, "thickness_modes": self.modes, "thickness_order": order} for order in (1, 3)]
+            options["compatible_E12"] = True
+        return options | {"thickness_modes": self.modes} if self.modes else options
 
 
 def known_failure(row: Row, mesh: str, field: str) -> tuple[float, str] | None:
