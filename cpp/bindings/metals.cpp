@@ -136,7 +136,8 @@ void bind_metals(nb::module_& m) {
             "Back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.")
         .def("law", &MetalCard::law, "The small-strain law.")
         .def("residuals", &MetalCard::residuals, nb::arg("strain"), nb::arg("state"), nb::arg("step"),
-             nb::sig("def residuals(self, strain: NDArray[float64], state: NDArray[float64], step: float) -> list[float]"),
+             nb::sig(
+                 "def residuals(self, strain: NDArray[float64], state: NDArray[float64], step: float) -> list[float]"),
              "Residuals of the return map at a strain (6,), over the stresses, from its start to its end.");
     m.def(
         "logarithmic_space",

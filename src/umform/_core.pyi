@@ -70,6 +70,11 @@ class Material:
         S (n, 6), CC (n, 6, 6) and the new history at n points with the same axes (3, 3), size and step.
         """
 
+    def lead(self, turn: NDArray[float64], strain: NDArray[float64], stress: NDArray[float64], steps: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+        """
+        A law of small strains along a path (n, 6), NaN where the stress is prescribed: strains, stresses, histories behind the rows up to the first that cannot be reached.
+        """
+
     def energy(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
         """
         Elastic energy and plastic work per reference volume at n points, with the history that belongs to E; NaN where not known.

@@ -181,7 +181,9 @@ class Metal(Plastic):
         fall, rate = (0.0, 0.0) if self.modulus is None else (1.0 - self.modulus.saturated / self.E, self.modulus.rate)
         function, curve = self.yield_function.function(), self.hardening.curve()
         factor = [] if self.rate is None else [self.rate.factor()]
-        return _core.MetalCard(self.kappa, self.mu, curve, function, pairs, first, growth, fall, rate, surfaces, *factor)
+        return _core.MetalCard(
+            self.kappa, self.mu, curve, function, pairs, first, growth, fall, rate, surfaces, *factor
+        )
 
     def shown(self, history: Mapping[str, Floats]) -> dict[str, Floats]:
         """What fields show of the history: the sum of the back stresses, the surface of stagnation, the modulus.

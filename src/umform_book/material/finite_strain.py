@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import umform as uf
-from umform.materials import J2, Chaboche, Hardening, Metal, Perfect, Swift, Voce
+from umform.materials import J2, Chaboche, Hardening, Metal, Perfect, Swift, Voce, YoshidaUemori
 from umform.materials.material import Material
 from umform_book.case import Case
 from umform_book.material.metals import CARDS, SPCC, SPCC_YIELD, STEEL, YIELD_FUNCTIONS
@@ -131,7 +131,7 @@ def _differences(law: uf._core.Material, E: Floats, state: Floats, step: float =
 
 def _return_maps(page: Page) -> None:
     page.heading("Newton's method of the return maps")
-    hardening = {
+    hardening: dict[str, tuple[Hardening, Chaboche | YoshidaUemori | None]] = {
         "Voce": (VOCE, None),
         "Swift": (SWIFT, None),
         "Voce, Prager": (VOCE, Chaboche(((2000.0, 0.0),))),
@@ -142,7 +142,7 @@ def _return_maps(page: Page) -> None:
     short, slowest = [], 0
     for name, function in YIELD_FUNCTIONS.items():
         row: list[str | float | None] = [name]
-        for kind, (curve, back) in hardening.items():
+        for curve, back in hardening.values():
             metal = Metal(**STEEL, hardening=curve, yield_function=function, back_stress=back)
             orders, iterations = _orders(metal, count=page.pick((60,), (12,))[0])
             slowest = max(slowest, iterations)

@@ -26,7 +26,7 @@ _TAPERED_BENDING = "layers whose thickness varies inside an element: bending is 
 
 @dataclass(frozen=True)
 class Row:
-    """An element in the patch tests; each stands for the thickness orders 1 and 3 and the complete one, which must not matter.
+    """An element in the patch tests; each stands for the thickness orders 1, 3 and complete, which must not matter.
 
     Attributes
     ----------

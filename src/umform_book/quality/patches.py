@@ -217,11 +217,17 @@ def stress_forces(mesh: Mesh, S: Floats) -> Floats:
     return forces.ravel()
 
 
-def patch_model(
-    mesh: str, name: str | Element, thickness: float = THICKNESS, material: Material = MATERIAL, **options: int | bool
-) -> Model:
+def patch_model(mesh: str, name: str | Element, thickness: float = THICKNESS, **options: int | bool) -> Model:
     """Plate held at its lateral faces, with an element of the catalogue and its options."""
-    technology = element(name, **options)  # type: ignore[arg-type]
+    return _held(mesh, element(name, **options), MATERIAL, thickness)  # type: ignore[arg-type]
+
+
+def plastic_patch_model(mesh: str, name: str, **options: int | bool) -> Model:
+    """The same with points and order of a plastic law, which does not flow."""
+    return _held(mesh, element(name, **options), NEVER_FLOWS, THICKNESS)  # type: ignore[arg-type]
+
+
+def _held(mesh: str, technology: Element, material: Material, thickness: float) -> Model:
     model = Model(MESHES[mesh](technology.cell, thickness), technology, material=material)
     model.fix("outer")
     return model
