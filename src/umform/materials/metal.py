@@ -250,7 +250,7 @@ def _check_surfaces(surfaces: YoshidaUemori, hardening: Hardening) -> None:
             where="Metal",
             value=hardening,
             cause="hardening that belongs to the bounding surface: B, growth, b, m",
-            remedy="hardening=Perfect(Y)",
+            remedy='Perfect(Y), in a deck { curve = "Perfect", yield_stress = Y }',
         )
     if not first < surfaces.B:
         raise InvalidValue(

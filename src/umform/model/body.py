@@ -194,7 +194,11 @@ class Body(Term):
         except ValueError as error:
             if self.rolling is None:
                 raise
-            raise InvalidValue(str(error), remedy="a vector in the plane of the sheet, or one for each cell") from error
+            raise InvalidValue(
+                str(error),
+                cause="a direction along the normal of the sheet",
+                remedy="a vector in the plane of the sheet, or one for each cell",
+            ) from error
         block.set_numbers(self._numbers.astype(np.int32))
         return block
 

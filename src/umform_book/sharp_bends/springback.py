@@ -13,8 +13,7 @@ from umform_book.page import Page
 from umform_book.plastic.bent_sheet import bend
 from umform_book.plastic.curves import Lines, lines_figure
 from umform_book.plastic.plane_strain import Section, bending_path, equal_fibres
-from umform_book.sharp_bends.arc_bending import ArcBending
-from umform_book.sharp_bends.candidates import BEND8, BEND18, Candidate, stack, steel
+from umform_book.sharp_bends.candidates import steel
 from umform_book.sharp_bends.cantilever import (
     HARDENING,
     LENGTH,
@@ -27,6 +26,7 @@ from umform_book.sharp_bends.cantilever import (
     permanent_sets,
 )
 from umform_book.sharp_bends.section import BentSection, ThicknessStrain
+from umform_book.sharp_bends.sharp_release import to_one_thickness
 from umform_book.variants import Variant
 
 Floats = NDArray[np.float64]
@@ -48,6 +48,7 @@ _RULES = {
 #: Moments and curvatures over those of first yield, pure bending: 1.1 times the moment is 1.1166 times the curvature.
 MOMENTS = np.linspace(1.1, 1.5, 81)
 FIRST_CURVATURE = 1.1166
+_ONE_BORDER = "one border of flow at one depth between few points; thickness_points=16 for 3 % at a given curvature"
 
 
 def run(page: Page) -> None:
@@ -63,7 +64,7 @@ def run(page: Page) -> None:
     _elements(page, exact)
     _further(page)
     if not page.short:
-        _sharp(page)
+        to_one_thickness(page)
 
 
 def _section_sets(rule: Rule, order: int | None, levels: Sequence[float]) -> Floats:
@@ -130,7 +131,7 @@ def _points(page: Page, curve: tuple[Floats, Floats]) -> None:
     }
     figure = lines_figure("points through the thickness", {"worst error in %": lines}, logarithmic=True)
     page.figure("points", figure, title)
-    page.at_most("12 graded points: worst error of the permanent set, in a section", worst["graded", 12] / 100.0, 0.03)
+    page.at_most("12 graded points: worst error of the permanent set, in a section", worst["graded", 12] / 100.0, 0.025)
     best = min(error for (rule, n), error in worst.items() if n <= 12 and rule != "graded") / 100.0
     page.text(
         f"The best other rule of 12 points or fewer errs by {100 * best:.1f} %. The kink of the stress lies where flow "
@@ -162,20 +163,19 @@ def _uniform(page: Page) -> None:
     }
     figure = lines_figure("moment over the yield moment", {"error in %": lines})
     page.figure("moment", figure, "Error in % of the permanent curvature behind a uniform moment")
-    for n, limit in ((12, 0.03), (20, 0.03)):
-        worst = float(np.abs(errors[n, "graded"][0]).max()) / 100.0
-        page.at_most(f"{n} graded points, bent to a curvature: worst error of the permanent curvature", worst, limit)
-    for n, limit in ((12, 0.08), (20, 0.033)):
-        worst = float(np.abs(errors[n, "graded"][1]).max()) / 100.0
-        page.at_most(f"{n} graded points, by a moment: worst error of the permanent curvature", worst, limit)
+    for n, known in ((12, (0.07, 0.11)), (16, (0.0, 0.075)), (20, (0.0, 0.052))):
+        for what, found, most in zip(("bent to a curvature", "by a moment"), errors[n, "graded"], known, strict=True):
+            label = f"{n} graded points, {what}: worst error of the permanent curvature"
+            cause = _ONE_BORDER if most else ""
+            page.at_most(label, float(np.abs(found).max()) / 100.0, WITHIN, known=most, cause=cause)
     slope = np.interp(MOMENTS, exact, np.gradient(exact, ks))
     factor = MOMENTS / slope / _permanent(ks, exact)
     page.text(
-        "A cantilever averages over borders at all depths, and a tool that gives the curvature asks for the moment "
-        "only. Under a uniform given moment there is one border at one depth, and the curve of moment over curvature "
-        f"is flat: 1 % of the moment, or of the yield stress, is {factor.min():.0f} to {factor.max():.0f} % of the "
-        "permanent curvature. Rules err to both sides there as the border passes from point to point. It takes 20 "
-        "points for 3 %."
+        "A cantilever averages over borders at all depths. In pure bending there is one border at one depth, and rules "
+        "err to both sides in turn as it passes from point to point; by most at 1.12 to 1.3 times the yield curvature, "
+        "where 2 to 7 % of the curvature are permanent. 16 points err by less than 3 % there. Under a given moment the "
+        "curve of moment over curvature is nearly flat besides: 1 % of the moment, or of the yield stress, is "
+        f"{factor.min():.0f} to {factor.max():.0f} % of the permanent curvature."
     )
 
 
@@ -225,48 +225,13 @@ def _further(page: Page) -> None:
             label = f"{variant.label}, {multiple:g} times"
             cells = variant.cells(4)
             found = bend(page, label, variant, cells, steel(HARDENING), exact, points=points, rule=rule)
-            page.check(f"{label}: permanent curvature", found.residual_curvature, exact.residual_curvature, WITHIN)
+            known, cause = (0.07, _ONE_BORDER) if multiple < 2.0 else (0.0, "")
+            what, left = f"{label}: permanent curvature", found.residual_curvature
+            page.check(what, left, exact.residual_curvature, WITHIN, known=known, cause=cause)
             row.append(100.0 * (found.residual_curvature / exact.residual_curvature - 1.0))
         rows.append(tuple(row))
     columns = ("times the yield curvature", *(v.label for v in page.pick(tuple(_defaults()), tuple(_defaults())[:1])))
     page.table("Error in % of the permanent curvature", columns, rows)
-
-
-def _sharp(page: Page) -> None:
-    page.heading("To R/h = 1")
-    fine = stack("EAS3DEAS", 16, 2)
-    rows = []
-    exact = {strain: _released(fine, strain) for strain in (0.05, 0.2, 0.5)}
-    for candidate in (BEND8, BEND18):
-        for strain, reference in exact.items():
-            found = _released(candidate, strain)
-            label = f"{candidate.label}, R/h = {0.5 / strain:g}"
-            springback = (2.0 * strain - found) / (2.0 * strain - reference)
-            rows.append((label, 100.0 * (found / reference - 1.0), 100.0 * (springback - 1.0)))
-            page.check(f"{label}: permanent curvature", found, reference, WITHIN)
-            if strain < 0.5:
-                page.check(f"{label}: springback of the curvature", springback, 1.0, 0.03)
-    columns = ("element", "permanent curvature", "springback")
-    page.table("Error in %, against a stack of 16 elements", columns, rows)
-    page.text(
-        "At R/h = 1 the springback of the curvature is 6 to 7 % too large: the straight director of one element, which "
-        "the stack does not have. It is 1.5 % of the curvature, and the permanent curvature hardly feels it."
-    )
-
-
-def _released(candidate: Candidate, strain: float) -> float:
-    """Curvature without moment behind a bend to a surface strain."""
-    sheet, target = ArcBending(candidate, HARDENING, thickness=THICKNESS), 2.0 * strain / THICKNESS
-    for curvature in np.linspace(0.0, target, 61)[1:]:
-        sheet.bend_to(float(curvature))
-    moment = sheet.moment
-    for _ in range(6):
-        released = sheet.curvature < target
-        slope = (moment - sheet.moment) / (target - sheet.curvature) if released else YIELD_MOMENT / YIELD_CURVATURE
-        if abs(sheet.moment) < 1e-6 * moment:
-            break
-        sheet.bend_to(float(sheet.curvature - sheet.moment / slope))
-    return sheet.curvature
 
 
 CASE = Case(
