@@ -48,7 +48,7 @@ _RULES = {
 #: Moments and curvatures over those of first yield, pure bending: 1.1 times the moment is 1.1166 times the curvature.
 MOMENTS = np.linspace(1.1, 1.5, 81)
 FIRST_CURVATURE = 1.1166
-_ONE_BORDER = "one border of flow at one depth between few points; thickness_points=16 for 3 % at a given curvature"
+_ONE_BORDER = "one border of flow at one depth between few points; 16 graded points for 3 % at a given curvature"
 
 
 def run(page: Page) -> None:
