@@ -70,6 +70,11 @@ class Material:
         S (n, 6), CC (n, 6, 6) and the new history at n points with the same axes (3, 3), size and step.
         """
 
+    def lead(self, turn: NDArray[float64], strain: NDArray[float64], stress: NDArray[float64], steps: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+        """
+        A law of small strains along a path (n, 6), NaN where the stress is prescribed: strains, stresses, histories behind the rows up to the first that cannot be reached.
+        """
+
     def energy(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
         """
         Elastic energy and plastic work per reference volume at n points, with the history that belongs to E; NaN where not known.
@@ -120,10 +125,21 @@ def yld2004(exponent: float, first: Sequence[float], second: Sequence[float]) ->
     c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.
     """
 
-def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float, surfaces: Sequence[float] = [], rate_factor: RateFactor = ...) -> Material:
-    """
-    A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.
-    """
+class MetalCard:
+    """The parts of a metal."""
+
+    def __init__(self, kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float, surfaces: Sequence[float] = [], rate_factor: RateFactor = ...) -> None:
+        """
+        Back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.
+        """
+
+    def law(self) -> Material:
+        """The small-strain law."""
+
+    def residuals(self, strain: NDArray[float64], state: NDArray[float64], step: float) -> list[float]:
+        """
+        Residuals of the return map at a strain (6,), over the stresses, from its start to its end.
+        """
 
 def logarithmic_space(law: Material) -> Material:
     """
