@@ -96,7 +96,7 @@ def read_tree(path: str | os.PathLike[str], kind: str, *, part: str | None = Non
 
 def _problem(path: str | os.PathLike[str], what: str, cause: str) -> FileProblem:
     return FileProblem(
-        what, where=str(path), cause=cause, remedy="check the path; else a copy of before, or begin anew"
+        what, where=str(path), cause=cause, remedy="check the path; use an older copy, or start again"
     )
 
 
