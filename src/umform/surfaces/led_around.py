@@ -24,7 +24,7 @@ class LedAround(Tool):
     ----------
     profile : Profile
         The section: its x is the distance outwards from the outline of the rectangle, its y goes across. It is open,
-        begins and ends with a line that goes on for ever, and is flat where it lies deeper inside of the rectangle than
+        begins and ends with a line that extends to infinity, and is flat where it lies deeper inside of the rectangle than
         its corners are round.
     size : tuple of float
         Sides of the rectangle.
@@ -72,12 +72,12 @@ class LedAround(Tool):
         return _core.led_around(rows, point(self.origin, "LedAround.origin"), axes, core.tolist(), float(self.corner))
 
     def _refuse_profile(self) -> None:
-        """Open, its ends endless lines, and flat inside of the centres of the corners."""
+        """Open, its ends infinite lines, and flat inside of the centres of the corners."""
         if self.profile.closed:
             raise InvalidValue(
                 "a profile that is led around a rectangle must be open",
                 where="LedAround.profile",
-                remedy="closed=False; its first and last line go on for ever",
+                remedy="closed=False; its first and last line extend to infinity",
             )
         segments = self.profile.segments
         refuse_endless_arcs(segments[0], segments[-1], "LedAround")
