@@ -24,8 +24,8 @@ class LedAround(Tool):
     ----------
     profile : Profile
         The section: its x is the distance outwards from the outline of the rectangle, its y goes across. It is open,
-        begins and ends with a line that extends to infinity, and is flat where it lies deeper inside of the rectangle than
-        its corners are round.
+        begins and ends with a line that extends to infinity, and is flat where it lies deeper inside of the rectangle
+        than its corners are round.
     size : tuple of float
         Sides of the rectangle.
     corner : float
