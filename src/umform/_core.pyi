@@ -198,6 +198,11 @@ def revolved(segments: NDArray[float64], start: ProfileEnd, end: ProfileEnd, ori
     A profile of segments (n, 7): start, end, centre, turn; turned about an axis.
     """
 
+def led_around(segments: NDArray[float64], origin: Sequence[float], axes: NDArray[float64], core: Sequence[float], corner: float) -> Surface:
+    """
+    A profile of segments (n, 7): start, end, centre, turn; led around a rectangle with rounded corners.
+    """
+
 def rounded_box(centre: Sequence[float], axes: NDArray[float64], core: Sequence[float], radius: float) -> Surface: ...
 
 def triangulated(control: NDArray[float64], across: NDArray[int32], neighbour: NDArray[int32], ends: NDArray[int32], face: NDArray[int32], normals: NDArray[float64], corner: NDArray[int32], faces: Sequence[Surface], trust: float) -> Surface:
