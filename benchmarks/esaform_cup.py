@@ -21,9 +21,7 @@ MESHES: dict[str, dict[str, Any]] = {
     "15 degrees": {},
     "15 degrees, two layers": {"layers": 2, "thickness_points": 3},
     "10 degrees": {"turn": 10.0, "around": 16},
-    "7 degrees": {"turn": 7.0, "around": 24},
-    "7 degrees, two layers": {"turn": 7.0, "around": 24, "layers": 2, "thickness_points": 3},
-    "BEND18, 30 degrees": {"element": "BEND18", "turn": 30.0, "contact_points": 3},
+    "7 degrees, two layers": {"turn": 7.0, "around": 20, "layers": 2, "thickness_points": 3},
 }
 
 

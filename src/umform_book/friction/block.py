@@ -243,12 +243,13 @@ multipliers.
 """,
     reference="""
 Closed forms. By way: the traction is that of a spring (bound at the largest pressure so far, that of the allowed
-penetration at least, over the allowed elastic slip) that slips at mu p, with the pressure found; with multipliers the bound itself, against the way
-of the increment. By force: the way is the traction over that spring; with multipliers less than the slip that is
-allowed. Circle of radius r: the elastic slip e = mu p / stiffness is dragged behind like a weight on a string, so
-that the weight runs on a circle of radius sqrt(r^2 - e^2) and the work of a turn is 2 pi sqrt(r^2 - e^2) mu N. Own
-uncertainty: the direction of the traction is that of the end of an increment, half an increment ahead: pi/n tan(lag)
-of the work for n increments a turn, with sin(lag) = e/r; the checks allow twice that and the chords, 2 (pi/n)^2.
+penetration at least, over the allowed elastic slip) that slips at mu p, with the pressure found; with multipliers the
+bound itself, against the way of the increment. By force: the way is the traction over that spring; with multipliers
+less than the slip that is allowed. Circle of radius r: the elastic slip e = mu p / stiffness is dragged behind like a
+weight on a string, so that the weight runs on a circle of radius sqrt(r^2 - e^2) and the work of a turn is 2 pi
+sqrt(r^2 - e^2) mu N. Own uncertainty: the direction of the traction is that of the end of an increment, half an
+increment ahead: pi/n tan(lag) of the work for n increments a turn, with sin(lag) = e/r; the checks allow twice that
+and the chords, 2 (pi/n)^2.
 """,
     run=run,
     cost=10.0,
