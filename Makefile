@@ -81,7 +81,7 @@ ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter
 	$(SAY) 'Drawing the U-bend'
 	@$(BIN)/python benchmarks/ubend.py --page docs/performance.md $(ARGS)
 
-cup: env  ## the cup of the ESAFORM benchmark 2021 on finer meshes (a quarter of an hour)
+cup: env  ## the cup of the ESAFORM benchmark 2021 on four meshes (a quarter of an hour)
 	$(SAY) 'Drawing the cup'
 	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json $(ARGS)
 

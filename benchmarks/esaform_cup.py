@@ -1,4 +1,4 @@
-"""The cup of AA6016-T4 of the ESAFORM benchmark 2021 on finer meshes: height, force, CPU seconds, release included.
+"""The cup of AA6016-T4 of the ESAFORM benchmark 2021 on four meshes: height, force, CPU seconds, release included.
 
     python benchmarks/esaform_cup.py                  # all meshes (a quarter of an hour)
     python benchmarks/esaform_cup.py --only "15 degrees"
