@@ -89,7 +89,7 @@ ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter
 
 cup: env  ## the cup of the ESAFORM benchmark 2021 on four meshes (a quarter of an hour)
 	$(SAY) 'Drawing the cup'
-	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json $(ARGS)
+	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json --page docs/performance-increments.md $(ARGS)
 
 compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)

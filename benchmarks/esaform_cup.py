@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import record
@@ -45,24 +46,35 @@ def row(changes: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
+_HEADER = """| | elements | mean height, mm | fourth harmonic, mm | punch, kN | CPU s | iterations | discarded | |
+|---|---:|---:|---:|---:|---:|---:|---:|---|"""
+
+
+def line(name: str, found: Mapping[str, Any]) -> str:
+    """A row of the table."""
+    return (
+        f"| {name} | {found['elements']} | {found['mean height']:.2f} | {found['fourth harmonic']:.3f} | "
+        f"{found['force']:.1f} | {found['CPU s']:.0f} | {found['iterations']} | {100 * found['thrown']:.1f} % | "
+        f"{found['ending']} |"
+    )
+
+
 def main() -> None:
-    """Run and print."""
+    """Run, print, and write where asked."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     record.add_option(parser)
     parser.add_argument("--only", choices=MESHES, help="one mesh")
+    parser.add_argument("--page", type=Path, help="page that gets the table between its marks")
     given = parser.parse_args()
-    print("| | elements | mean height, mm | fourth harmonic, mm | punch, kN | CPU s | iterations | thrown away | |")
-    print("|---|---:|---:|---:|---:|---:|---:|---:|---|")
-    numbers = {}
+    lines, numbers = [_HEADER], {}
+    print(_HEADER)
     for name in [given.only] if given.only else MESHES:
         found = row(MESHES[name])
-        print(
-            f"| {name} | {found['elements']} | {found['mean height']:.2f} | {found['fourth harmonic']:.3f} | "
-            f"{found['force']:.1f} | {found['CPU s']:.0f} | {found['iterations']} | {100 * found['thrown']:.1f} % | "
-            f"{found['ending']} |",
-            flush=True,
-        )
+        lines.append(line(name, found))
+        print(lines[-1], flush=True)
         numbers |= {f"{name}: {key}": found[key] for key in ("mean height", "CPU s", "iterations")}
+    if given.page is not None:
+        record.put(given.page, "cup", "\n".join(lines))
     record.write(given.json, "esaform_cup", numbers)
 
 
