@@ -1,6 +1,6 @@
 """The cup of AA6016-T4 of the ESAFORM benchmark 2021 on four meshes: height, force, CPU seconds, release included.
 
-    python benchmarks/esaform_cup.py                  # all meshes (a quarter of an hour)
+    python benchmarks/esaform_cup.py                  # all meshes (some five minutes)
     python benchmarks/esaform_cup.py --only "15 degrees"
 
 Degrees are what an element turns over the edge of the punch or of the die at most.
