@@ -527,6 +527,10 @@ class ContactFound:
         """
 
     @property
+    def tangential_stiffness(self) -> NDArray[float64]:
+        """Traction per elastic slip, shape (held,)."""
+
+    @property
     def elastic_slip(self) -> NDArray[float64]:
         """Elastic slips along the tool (held, 3), zero without friction."""
 
@@ -633,9 +637,9 @@ def friction_by_region(regions: Sequence[tuple[Sequence[float], Sequence[float],
 def friction_from_function(function: Callable[[float, float, Sequence[float]], float]) -> FrictionLaw:
     """The bound from a function of pressure, slip and place."""
 
-def coulomb_law(penalty: float, ratio: float, friction: FrictionLaw) -> ContactLaw:
+def coulomb_law(penalty: float, ratio: float, slip: float, friction: FrictionLaw) -> ContactLaw:
     """
-    Contact with friction: a penalty and multipliers in both directions; ratio is the tangential over the normal stiffness.
+    Contact with friction: a penalty and multipliers in both directions; ratio is the tangential over the normal stiffness at first touch, slip the elastic slip that is allowed.
     """
 
 def bead_law(curve: Sequence[Sequence[float]], closed: bool, half_width: float, restraint: float, uplift: float, slip: float, off: float) -> ContactLaw:

@@ -98,8 +98,8 @@ class Touched(Tooled):
             Coefficient of friction or a law of it, see :class:`umform.Friction`; a function (pressure, distance slid,
             place in the frame of the tool) -> largest tangential traction. Default: none.
         slip : float, optional
-            Elastic slip that is allowed: by so much a place that sticks may move before it slips where the pressure is
-            the one that is expected; default 1/200 of the thickness of the sheet. Multipliers take it away.
+            Elastic slip that is allowed: by so much a place that sticks moves before it slips, whatever the pressure;
+            default 1/200 of the thickness of the sheet. Multipliers take it away.
         name : str, optional
             For the history: the columns ``<name>_fx`` ... are the force on the tool.
 
