@@ -87,9 +87,9 @@ ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter
 	@$(BIN)/python benchmarks/ubend.py --page docs/performance-codes.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 
-cup: env  ## the cup of the ESAFORM benchmark 2021 on finer meshes (a quarter of an hour)
+cup: env  ## the cup of the ESAFORM benchmark 2021 on four meshes (some five minutes)
 	$(SAY) 'Drawing the cup'
-	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json $(ARGS)
+	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json --page docs/performance-increments.md $(ARGS)
 
 compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)

@@ -73,6 +73,9 @@ void bind_found(nb::module_& m) {
             nb::sig("def active(self) -> NDArray[uint8]"),
             "For each contact point 1 where the tool holds it, 2 where it slips as well, else 0.")
         .def_prop_ro(
+            "tangential_stiffness", [](const ContactFound& f) { return view(f.tangential_stiffness); }, inside,
+            nb::sig("def tangential_stiffness(self) -> NDArray[float64]"), "Traction per elastic slip, shape (held,).")
+        .def_prop_ro(
             "elastic_slip", [](const ContactFound& f) { return view(f.elastic_slip); }, inside,
             nb::sig("def elastic_slip(self) -> NDArray[float64]"),
             "Elastic slips along the tool (held, 3), zero without friction.")
@@ -171,11 +174,13 @@ void bind_law(nb::module_& m) {
     bind_friction(m);
     m.def(
         "coulomb_law",
-        [](double penalty, double ratio, std::shared_ptr<FrictionLaw> friction) -> std::shared_ptr<ContactLaw> {
-            return std::make_shared<ContactLawOf<Coulomb>>(Coulomb{penalty, ratio, std::move(friction)});
+        [](double penalty, double ratio, double slip,
+           std::shared_ptr<FrictionLaw> friction) -> std::shared_ptr<ContactLaw> {
+            return std::make_shared<ContactLawOf<Coulomb>>(Coulomb{penalty, ratio, slip, std::move(friction)});
         },
-        nb::arg("penalty"), nb::arg("ratio"), nb::arg("friction"),
-        "Contact with friction: a penalty and multipliers in both directions; ratio is the tangential over the normal stiffness.");
+        nb::arg("penalty"), nb::arg("ratio"), nb::arg("slip"), nb::arg("friction"),
+        "Contact with friction: a penalty and multipliers in both directions; ratio is the tangential over the normal stiffness at "
+        "first touch, slip the elastic slip that is allowed.");
     m.def(
         "bead_law",
         [](const std::vector<Vec3>& curve, bool closed, double half_width, double restraint, double uplift, double slip,

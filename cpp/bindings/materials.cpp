@@ -9,6 +9,7 @@
 #include "umform/materials/j2.hpp"
 #include "umform/materials/neo_hooke_logarithmic.hpp"
 #include "umform/materials/neo_hooke_power.hpp"
+#include "umform/materials/point_path.hpp"
 #include "umform/materials/saint_venant_kirchhoff.hpp"
 
 using namespace umform;
@@ -44,6 +45,34 @@ nb::object respond(const Material& material, const Input& E, const Input& state,
                                 + ": the strain is outside of its domain, or its equations could not be solved");
     return nb::make_tuple(to_numpy(std::move(S), {n, 6}), to_numpy(std::move(CC), {n, 6, 6}),
                           to_numpy(std::move(trial), {n, numbers}));
+}
+
+/// Strains (n, 6), stresses (n, 6) and histories of the rows of a path, up to the first that cannot be reached.
+nb::object lead(const Material& material, const Input& turn, const Input& strain, const Input& stress,
+                const Input& steps) {
+    const std::size_t n = steps.size(), numbers = material.state_size();
+    if (turn.size() != 36 || strain.size() != 6 * n || stress.size() != 6 * n)
+        throw std::invalid_argument("turn must have shape (6, 6), strain and stress (n, 6), steps (n,)");
+    Voigt66 rotation;
+    std::copy_n(turn.data(), 36, rotation.a.begin());
+    PointWalk walk(material, rotation);
+    PointState at;
+    at.history.resize(numbers);
+    material.initial(at.history.data());
+    std::vector<double> strains, stresses, histories;
+    std::size_t reached = 0;
+    for (; reached < n; ++reached) {
+        PointTarget target;
+        std::copy_n(strain.data() + 6 * reached, 6, target.strain.begin());
+        std::copy_n(stress.data() + 6 * reached, 6, target.stress.begin());
+        target.step = steps.data()[reached];
+        if (!walk.reach(at, target)) break;
+        strains.insert(strains.end(), at.strain.begin(), at.strain.end());
+        stresses.insert(stresses.end(), at.stress.begin(), at.stress.end());
+        histories.insert(histories.end(), at.history.begin(), at.history.end());
+    }
+    return nb::make_tuple(to_numpy(std::move(strains), {reached, 6}), to_numpy(std::move(stresses), {reached, 6}),
+                          to_numpy(std::move(histories), {reached, numbers}));
 }
 
 nb::object energy(const Material& material, const Input& E, const Input& state) {
@@ -168,6 +197,11 @@ void bind_materials(nb::module_& m) {
             nb::sig(
                 "def respond(self, E: NDArray[float64], state: NDArray[float64], axes: NDArray[float64] | None = None, size: float = 0.0, step: float = 0.0) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]"),
             "S (n, 6), CC (n, 6, 6) and the new history at n points with the same axes (3, 3), size and step.")
+        .def(
+            "lead", &lead, nb::arg("turn"), nb::arg("strain"), nb::arg("stress"), nb::arg("steps"),
+            nb::sig(
+                "def lead(self, turn: NDArray[float64], strain: NDArray[float64], stress: NDArray[float64], steps: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]"),
+            "A law of small strains along a path (n, 6), NaN where the stress is prescribed: strains, stresses, histories behind the rows up to the first that cannot be reached.")
         .def(
             "energy", &energy, nb::arg("E"), nb::arg("state"),
             nb::sig(

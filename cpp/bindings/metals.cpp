@@ -16,26 +16,48 @@ namespace {
 
 using YieldFunction = std::variant<QuadraticYield, Yld2004<6>, Yld2004<8>, Yld2004<0>, Yld2004Roots>;
 
-std::shared_ptr<Material> metal(double kappa, double mu, const Hardening& hardening, const YieldFunction& yield,
-                                const std::vector<std::pair<double, double>>& back_stress, double first, double growth,
-                                double fall, double rate, const std::vector<double>& surfaces,
-                                const RateFactor& rate_factor) {
-    if (back_stress.size() > Chaboche::largest) throw std::invalid_argument("no more than four back stresses");
-    MetalParts parts{kappa, mu, hardening, {{}, first, growth}, {fall, rate}};
-    for (const auto& [modulus, recall] : back_stress) parts.back_stress.parts.push_back({modulus, recall});
-    if (surfaces.size() == 6) {
-        parts.two_surfaces = {surfaces[1], surfaces[2], surfaces[3], surfaces[4], surfaces[5], surfaces[0]};
-    } else if (!surfaces.empty()) {
-        throw std::invalid_argument("two surfaces have the numbers Y, C, B, Rsat, m, h");
+/// A metal as the bindings take it, and what is made of its law.
+struct MetalCard {
+    MetalParts parts;
+    YieldFunction yield;
+
+    MetalCard(double kappa, double mu, const Hardening& hardening, const YieldFunction& function,
+              const std::vector<std::pair<double, double>>& back_stress, double first, double growth, double fall,
+              double rate, const std::vector<double>& surfaces, const RateFactor& rate_factor)
+        : parts{kappa, mu, hardening, {{}, first, growth}, {fall, rate}}, yield(function) {
+        if (back_stress.size() > Chaboche::largest) throw std::invalid_argument("no more than four back stresses");
+        for (const auto& [modulus, recall] : back_stress) parts.back_stress.parts.push_back({modulus, recall});
+        if (surfaces.size() == 6) {
+            parts.two_surfaces = {surfaces[1], surfaces[2], surfaces[3], surfaces[4], surfaces[5], surfaces[0]};
+        } else if (!surfaces.empty()) {
+            throw std::invalid_argument("two surfaces have the numbers Y, C, B, Rsat, m, h");
+        }
+        parts.rate = rate_factor;
     }
-    parts.rate = rate_factor;
-    return std::visit(
-        [&](const auto& function) -> std::shared_ptr<Material> {
-            using Law = Metal<std::decay_t<decltype(function)>>;
-            return std::make_shared<MaterialOf<Law>>(Law(parts, function));
-        },
-        yield);
-}
+
+    std::shared_ptr<Material> law() const {
+        return std::visit(
+            [&](const auto& function) -> std::shared_ptr<Material> {
+                using Law = Metal<std::decay_t<decltype(function)>>;
+                return std::make_shared<MaterialOf<Law>>(Law(parts, function));
+            },
+            yield);
+    }
+
+    std::vector<double> residuals(const Input& strain, const Input& state, double step) const {
+        Voigt h;
+        if (strain.size() != h.size()) throw std::invalid_argument("a strain has six components");
+        std::copy_n(strain.data(), h.size(), h.begin());
+        return std::visit(
+            [&](const auto& function) {
+                const Metal law(parts, function);
+                if (state.size() != static_cast<std::size_t>(law.state_size))
+                    throw std::invalid_argument("the state is not one of this metal");
+                return law.residuals(h, state.data(), step);
+            },
+            yield);
+    }
+};
 
 /// phi, its gradient (6,) by the components of the stress.
 nb::object evaluate(const YieldFunction& yield, const Input& stress) {
@@ -103,11 +125,20 @@ void bind_metals(nb::module_& m) {
         },
         nb::arg("exponent"), nb::arg("first"), nb::arg("second"),
         "c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.");
-    m.def(
-        "metal", &metal, nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"), nb::arg("yield_function"),
-        nb::arg("back_stress"), nb::arg("first"), nb::arg("growth"), nb::arg("fall"), nb::arg("rate"),
-        nb::arg("surfaces") = std::vector<double>{}, nb::arg("rate_factor") = RateFactor{},
-        "A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.");
+    nb::class_<MetalCard>(m, "MetalCard", "The parts of a metal.")
+        .def(
+            nb::init<double, double, const Hardening&, const YieldFunction&,
+                     const std::vector<std::pair<double, double>>&, double, double, double, double,
+                     const std::vector<double>&, const RateFactor&>(),
+            nb::arg("kappa"), nb::arg("mu"), nb::arg("hardening"), nb::arg("yield_function"), nb::arg("back_stress"),
+            nb::arg("first"), nb::arg("growth"), nb::arg("fall"), nb::arg("rate"),
+            nb::arg("surfaces") = std::vector<double>{}, nb::arg("rate_factor") = RateFactor{},
+            "Back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.")
+        .def("law", &MetalCard::law, "The small-strain law.")
+        .def("residuals", &MetalCard::residuals, nb::arg("strain"), nb::arg("state"), nb::arg("step"),
+             nb::sig(
+                 "def residuals(self, strain: NDArray[float64], state: NDArray[float64], step: float) -> list[float]"),
+             "Residuals of the return map at a strain (6,), over the stresses, from its start to its end.");
     m.def(
         "logarithmic_space",
         [](std::shared_ptr<Material> law) -> std::shared_ptr<Material> {

@@ -5,6 +5,7 @@
 #include "arrays.hpp"
 #include "umform/surfaces/cylinder.hpp"
 #include "umform/surfaces/extruded.hpp"
+#include "umform/surfaces/led_around.hpp"
 #include "umform/surfaces/offset.hpp"
 #include "umform/surfaces/placed.hpp"
 #include "umform/surfaces/plane.hpp"
@@ -113,6 +114,16 @@ void bind_shapes(nb::module_& m) {
         nb::sig("def revolved(segments: NDArray[float64], start: ProfileEnd, end: ProfileEnd, origin: Sequence[float], "
                 "axis: Sequence[float]) -> Surface"),
         "A profile of segments (n, 7): start, end, centre, turn; turned about an axis.");
+    m.def(
+        "led_around",
+        [](const Input& segments, Vec3 origin, const Input& axes, std::array<double, 2> core, double corner) {
+            const Profile section = profile(segments, ProfileEnd::Endless, ProfileEnd::Endless);
+            return surface(LedAround{section, origin, matrix(axes), core, corner});
+        },
+        nb::arg("segments"), nb::arg("origin"), nb::arg("axes"), nb::arg("core"), nb::arg("corner"),
+        nb::sig("def led_around(segments: NDArray[float64], origin: Sequence[float], axes: NDArray[float64], "
+                "core: Sequence[float], corner: float) -> Surface"),
+        "A profile of segments (n, 7): start, end, centre, turn; led around a rectangle with rounded corners.");
     m.def(
         "rounded_box",
         [](Vec3 centre, const Input& axes, Vec3 core, double radius) {

@@ -70,6 +70,11 @@ class Material:
         S (n, 6), CC (n, 6, 6) and the new history at n points with the same axes (3, 3), size and step.
         """
 
+    def lead(self, turn: NDArray[float64], strain: NDArray[float64], stress: NDArray[float64], steps: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+        """
+        A law of small strains along a path (n, 6), NaN where the stress is prescribed: strains, stresses, histories behind the rows up to the first that cannot be reached.
+        """
+
     def energy(self, E: NDArray[float64], state: NDArray[float64]) -> tuple[NDArray[float64], NDArray[float64]]:
         """
         Elastic energy and plastic work per reference volume at n points, with the history that belongs to E; NaN where not known.
@@ -120,10 +125,21 @@ def yld2004(exponent: float, first: Sequence[float], second: Sequence[float]) ->
     c12, c13, c21, c23, c31, c32 and the shears 12, 23, 13 of both transformations.
     """
 
-def metal(kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float, surfaces: Sequence[float] = [], rate_factor: RateFactor = ...) -> Material:
-    """
-    A small-strain law; back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.
-    """
+class MetalCard:
+    """The parts of a metal."""
+
+    def __init__(self, kappa: float, mu: float, hardening: Hardening, yield_function: YieldFunction, back_stress: Sequence[tuple[float, float]], first: float, growth: float, fall: float, rate: float, surfaces: Sequence[float] = [], rate_factor: RateFactor = ...) -> None:
+        """
+        Back stresses are pairs (modulus, recall) whose moduli begin at the share `first`; Young's modulus falls by `fall`.
+        """
+
+    def law(self) -> Material:
+        """The small-strain law."""
+
+    def residuals(self, strain: NDArray[float64], state: NDArray[float64], step: float) -> list[float]:
+        """
+        Residuals of the return map at a strain (6,), over the stresses, from its start to its end.
+        """
 
 def logarithmic_space(law: Material) -> Material:
     """
@@ -180,6 +196,11 @@ def extruded(segments: NDArray[float64], start: ProfileEnd, end: ProfileEnd, ori
 def revolved(segments: NDArray[float64], start: ProfileEnd, end: ProfileEnd, origin: Sequence[float], axis: Sequence[float]) -> Surface:
     """
     A profile of segments (n, 7): start, end, centre, turn; turned about an axis.
+    """
+
+def led_around(segments: NDArray[float64], origin: Sequence[float], axes: NDArray[float64], core: Sequence[float], corner: float) -> Surface:
+    """
+    A profile of segments (n, 7): start, end, centre, turn; led around a rectangle with rounded corners.
     """
 
 def rounded_box(centre: Sequence[float], axes: NDArray[float64], core: Sequence[float], radius: float) -> Surface: ...
@@ -506,6 +527,10 @@ class ContactFound:
         """
 
     @property
+    def tangential_stiffness(self) -> NDArray[float64]:
+        """Traction per elastic slip, shape (held,)."""
+
+    @property
     def elastic_slip(self) -> NDArray[float64]:
         """Elastic slips along the tool (held, 3), zero without friction."""
 
@@ -612,9 +637,9 @@ def friction_by_region(regions: Sequence[tuple[Sequence[float], Sequence[float],
 def friction_from_function(function: Callable[[float, float, Sequence[float]], float]) -> FrictionLaw:
     """The bound from a function of pressure, slip and place."""
 
-def coulomb_law(penalty: float, ratio: float, friction: FrictionLaw) -> ContactLaw:
+def coulomb_law(penalty: float, ratio: float, slip: float, friction: FrictionLaw) -> ContactLaw:
     """
-    Contact with friction: a penalty and multipliers in both directions; ratio is the tangential over the normal stiffness.
+    Contact with friction: a penalty and multipliers in both directions; ratio is the tangential over the normal stiffness at first touch, slip the elastic slip that is allowed.
     """
 
 def bead_law(curve: Sequence[Sequence[float]], closed: bool, half_width: float, restraint: float, uplift: float, slip: float, off: float) -> ContactLaw:

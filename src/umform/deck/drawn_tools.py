@@ -26,7 +26,7 @@ class Profiled(Placeable):
 
     def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radii of the arcs that turn to the left, and 0 if there is a sharp edge."""
-        assert isinstance(own, surfaces.Extruded | surfaces.Revolved)
+        assert isinstance(own, surfaces.Extruded | surfaces.Revolved | surfaces.LedAround)
         segments, closed = own.profile.segments, own.profile.closed
         for i, segment in enumerate(segments):
             if isinstance(segment, surfaces.Arc) and not segment.clockwise:
@@ -65,6 +65,26 @@ class Revolved(Profiled):
 
     def _tool(self, folder: File) -> Tool:
         return surfaces.Revolved(profile_of(self.profile, folder), self.origin, self.axis)
+
+
+class LedAround(Profiled):
+    """A profile that is led around a rectangle with rounded corners: its first coordinate is the distance outwards."""
+
+    shape: Literal["LedAround"]
+    """The word LedAround."""
+    size: Annotated[tuple[Positive, Positive], Field(strict=False)]
+    """Sides of the rectangle."""
+    corner: Positive
+    """Radius of its corners."""
+    origin: Vector = ORIGIN
+    """Centre of the rectangle, at the origin of the profile."""
+    x: Way = "x"
+    """First side."""
+    y: Way = "y"
+    """Second side, at right angles; the second coordinate of the profile goes along x cross y."""
+
+    def _tool(self, folder: File) -> Tool:
+        return surfaces.LedAround(profile_of(self.profile, folder), self.size, self.corner, self.origin, self.x, self.y)
 
 
 class Drawing(Placeable):

@@ -19,7 +19,7 @@ class ElementPart(Part):
     """Name in the catalogue; `umform elements` lists it."""
     thickness_modes: Literal[1, 4, 9] | None = None
     """Enhanced modes of the thickness strain."""
-    thickness_order: Annotated[int, Field(ge=1, le=14)] | None = None
+    thickness_order: Annotated[int, Field(ge=1, le=19)] | None = None
     """Order of the thickness strain; by default complete with a plastic law: the number of points less one."""
     order_modes: Literal[1, 4, 9] | None = None
     """Modes in the surface that go with each order above 1."""
@@ -29,7 +29,7 @@ class ElementPart(Part):
     """Tie the thickness strain."""
     compatible_E12: bool | None = None
     """Leave the tying of E_12 out of MI9K3DEAS or BEND18."""
-    thickness_points: Annotated[int, Field(ge=2, le=15)] | None = None
+    thickness_points: Annotated[int, Field(ge=2, le=20)] | None = None
     """Points through the thickness; by default what suits the material."""
     thickness_rule: Literal["gauss", "lobatto", "split", "graded"] | None = None
     """Where they lie; by default gauss, but graded where the points are those of the material."""

@@ -17,7 +17,7 @@ Variables = Annotated[
     | Annotated[dict[str, Annotated[int, Field(ge=1)]], Tag("table")],
     Discriminator(number_or_table),
 ]
-Points = Annotated[int, Field(ge=2, le=15)]
+Points = Annotated[int, Field(ge=2, le=20)]
 
 
 class Foreign(Part):

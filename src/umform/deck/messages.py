@@ -23,7 +23,7 @@ _CAUSES = dict.fromkeys(_BEYOND, "a sign, another unit, or a typing error") | {
     "finite_number": "inf or nan",
     "string_type": "a value without quotes",
     "string_pattern_mismatch": "a letter that does not belong there",
-    "too_long": "a decimal comma, which makes two numbers of one, or an entry too many",
+    "too_long": "an entry too many, or a decimal comma, which makes two numbers of one",
 }
 _REMEDIES = dict.fromkeys(_BEYOND, "write a number within the bound") | {
     "float_type": "write a number, without quotes",
@@ -130,6 +130,9 @@ def _wrong_kind(source: Source, path: Path, given: Any, context: Mapping[str, An
 def _plain(message: str) -> str:
     return (
         message.replace("Input should", "it should")
+        .replace("String should match pattern '^-?[xyz]$'", "it should be x, y, z, -x, -y or -z, or an array")
+        .replace("String should", "it should")
+        .replace(" after validation", "")
         .replace("valid tuple", "valid array")
         .replace("Tuple", "this array")
         .replace("List", "this array")

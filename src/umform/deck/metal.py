@@ -275,7 +275,7 @@ class Metal(Elastic):
         if self.rolling is None and not isinstance(self.yield_function, Mises | Hosford):
             raise PydanticCustomError("rolling", 'a yield function with directions needs rolling: rolling = "x"')
         if self.back_stress is not None and self.two_surfaces is not None:
-            raise PydanticCustomError("motion", "give back_stress or two_surfaces")
+            raise PydanticCustomError("motion", "give back_stress or two_surfaces, not both")
         return self
 
     def build(self) -> Material:

@@ -263,6 +263,9 @@ class _Builder:
             with self._at("solution", "solver"):
                 petsc()
             return options
+        if not self.errors and any(body.rolling is not None for body in model.bodies):
+            with self._at("material", "rolling"):
+                _ = [body.block for body in model.bodies]  # its elements know where it stands on the sheet
         if not self.errors:
             with self._at("supports"):
                 _ = model.pattern

@@ -154,6 +154,8 @@ class Arc(Part):
     """How often the first arc length may be halved."""
     most: Annotated[int, Field(ge=1, le=1_000_000)] = 200
     """Number of increments at which the step ends with a warning."""
+    time: Positive = 1.0
+    """What the way to the end takes at the pace of the first increment: for metals with a rate."""
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
@@ -166,6 +168,7 @@ class Arc(Part):
             grow=self.grow,
             cuts=self.cuts,
             most=self.most,
+            time=self.time,
         )
 
     @property

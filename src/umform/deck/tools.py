@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from umform import surfaces
-from umform.deck.drawn_tools import Drawing, Extruded, Revolved
+from umform.deck.drawn_tools import Drawing, Extruded, LedAround, Revolved
 from umform.deck.parts import NotNegative, Positive, Vector, Way
 from umform.deck.placeable import ORIGIN, Placeable
 from umform.surfaces import Tool
@@ -189,7 +189,19 @@ class Punch(Section):
 
 
 ToolPart = Annotated[
-    Plane | Cylinder | Sphere | Torus | Box | VDie | UDie | WipingDie | Punch | Extruded | Revolved | Drawing,
+    Plane
+    | Cylinder
+    | Sphere
+    | Torus
+    | Box
+    | VDie
+    | UDie
+    | WipingDie
+    | Punch
+    | Extruded
+    | Revolved
+    | LedAround
+    | Drawing,
     Field(discriminator="shape"),
 ]
 

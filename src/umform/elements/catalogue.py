@@ -67,7 +67,7 @@ def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode,
         Number of modes linear in t: Büchter, Ramm & Roehl (1994) for one; {1, r, s, rs} let the distorted bending patch
         test pass; nine are the full biquadratic set.
     order : int
-        Highest Legendre polynomial in t, 1 to 14.
+        Highest Legendre polynomial in t, 1 to 19.
     order_count : {1, 4, 9}
         Number of polynomials in the surface that go with P_2 ... P_order. One is enough for 8 nodes, where more change
         nothing that was measured; 18 nodes need nine in a sharp bend (docs/theory, 2.8).
@@ -230,7 +230,7 @@ def element(
     thickness_modes : {1, 4, 9}, optional
         Number of enhanced modes of E_33 linear in t; default 4 (8 nodes) or 9 (18 nodes, there only).
     thickness_order : int, optional
-        Order of the thickness strain in t, 1 to 14; 1 is the literature. Default: with a plastic law the complete
+        Order of the thickness strain in t, 1 to 19; 1 is the literature. Default: with a plastic law the complete
         order, the number of thickness points less one; else 1, but 4 with BEND8 and BEND18.
     order_modes : {1, 4, 9}, optional
         Number of polynomials in the surface that go with each order above 1; default 1 (8 nodes) or 9 (18 nodes).

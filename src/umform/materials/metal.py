@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from umform import _core
 from umform.errors import InvalidValue
@@ -144,6 +145,31 @@ class Metal(Plastic):
 
     def small_strain_law(self) -> _core.Material:
         """The law of logarithmic strains."""
+        return self._card().law()
+
+    def residuals(self, strain: ArrayLike, state: ArrayLike | None = None, time: float = 0.0) -> Floats:
+        """Residuals of the return map at a logarithmic strain: how its Newton method converges.
+
+        Parameters
+        ----------
+        strain : array_like, shape (6,)
+            Engineering shears, in the axes of the sheet.
+        state : array_like, optional
+            State before the increment; default: the virgin one.
+        time : float
+            What the increment takes, for a metal with a rate.
+
+        Returns
+        -------
+        ndarray
+            From the first state to the solution, over the stresses; empty where nothing flows. Where the yield surface
+            shrinks in stages, each stage begins again.
+        """
+        card = self._card()
+        before = card.law().initial() if state is None else np.asarray(state, dtype=float)
+        return np.array(card.residuals(np.asarray(strain, dtype=float), before, time))
+
+    def _card(self) -> _core.MetalCard:
         back = self.back_stress
         pairs: list[tuple[float, float]] = []
         first, growth, surfaces = 1.0, 0.0, list[float]()
@@ -155,7 +181,9 @@ class Metal(Plastic):
         fall, rate = (0.0, 0.0) if self.modulus is None else (1.0 - self.modulus.saturated / self.E, self.modulus.rate)
         function, curve = self.yield_function.function(), self.hardening.curve()
         factor = [] if self.rate is None else [self.rate.factor()]
-        return _core.metal(self.kappa, self.mu, curve, function, pairs, first, growth, fall, rate, surfaces, *factor)
+        return _core.MetalCard(
+            self.kappa, self.mu, curve, function, pairs, first, growth, fall, rate, surfaces, *factor
+        )
 
     def shown(self, history: Mapping[str, Floats]) -> dict[str, Floats]:
         """What fields show of the history: the sum of the back stresses, the surface of stagnation, the modulus.
@@ -222,7 +250,7 @@ def _check_surfaces(surfaces: YoshidaUemori, hardening: Hardening) -> None:
             where="Metal",
             value=hardening,
             cause="hardening that belongs to the bounding surface: B, growth, b, m",
-            remedy="hardening=Perfect(Y)",
+            remedy='Perfect(Y), in a deck { curve = "Perfect", yield_stress = Y }',
         )
     if not first < surfaces.B:
         raise InvalidValue(

@@ -13,9 +13,6 @@ from umform import _core
 from umform.errors import InvalidValue, NoConvergence
 from umform.materials.user_law import Floats
 
-_MOST_ITERATIONS = 60
-_MOST_CUTS = 12
-
 
 class SmallStrainLaw(Protocol):
     """What has a law of small strains."""
@@ -86,12 +83,15 @@ def point_path(
     steps = _durations(material, time, len(wanted))
     law = material.small_strain_law()
     turn = _turned(math.radians(angle))
-    state, h, T = law.initial(), np.zeros(6), np.zeros(6)
-    rows: list[tuple[Floats, Floats, Floats]] = []
-    for number, (target, force, step) in enumerate(zip(wanted, given, steps, strict=True)):
-        h, T, state = _reach(law, turn, (h, T, state), target, force, float(step), f"row {number}")
-        rows.append((h, T, state))
-    strains, stresses, states = (np.array(part) for part in zip(*rows, strict=True))
+    strains, stresses, states = law.lead(turn, wanted, given, steps)
+    if (number := len(strains)) < len(wanted):
+        raise NoConvergence(
+            "a state of the path cannot be reached",
+            where=f"row {number}",
+            value=np.where(np.isnan(wanted[number]), given[number], wanted[number]).tolist(),
+            cause="a stress beyond what the metal can carry",
+            remedy="prescribe the strain along the load",
+        )
     return PointPath(strains, stresses, states)
 
 
@@ -161,58 +161,3 @@ def _turned(angle: float) -> Floats:
     ]
     turn[np.ix_([4, 5], [4, 5])] = [[c, s], [-s, c]]
     return turn
-
-
-State = tuple[Floats, Floats, Floats]
-
-
-def _reach(
-    law: _core.Material,
-    turn: Floats,
-    start: State,
-    target: Floats,
-    force: Floats,
-    step: float,
-    where: str,
-    cuts: int = 0,
-) -> State:
-    """The state at a row, in halves where Newton's method does not get there at once."""
-    found = _newton(law, turn, start, target, force, step)
-    if found is not None:
-        return found
-    if cuts == _MOST_CUTS:
-        raise NoConvergence(
-            "a state of the path cannot be reached",
-            where=where,
-            value=np.where(np.isnan(target), force, target).tolist(),
-            cause="a stress beyond what the metal can carry",
-            remedy="prescribe the strain along the load",
-        )
-    h, T, _ = start
-    half = _reach(law, turn, start, 0.5 * (h + target), 0.5 * (T + force), 0.5 * step, where, cuts + 1)
-    return _reach(law, turn, half, target, force, 0.5 * step, where, cuts + 1)
-
-
-def _newton(
-    law: _core.Material, turn: Floats, start: State, target: Floats, force: Floats, step: float
-) -> State | None:
-    before, _, state = start
-    free = np.isnan(target)
-    h = np.where(free, before, target)
-    smallest = math.inf
-    for _ in range(_MOST_ITERATIONS):
-        try:
-            T, C, after = law.respond((turn @ h)[None], state[None], step=step)
-        except ValueError:
-            return None
-        stress, tangent = turn.T @ T[0], turn.T @ C[0] @ turn
-        residual = np.where(free, stress - force, 0.0)
-        size = float(np.abs(residual).max())
-        if size <= 1e-11 * max(float(np.abs(stress).max()), 1e-6):
-            return h, stress, after[0]
-        if not math.isfinite(size) or size > 1e3 * smallest:
-            return None
-        smallest = min(smallest, size)
-        h = h.copy()
-        h[free] -= np.linalg.solve(tangent[np.ix_(free, free)], residual[free])
-    return None

@@ -275,6 +275,14 @@ def Yld91(
     (1.0, 1.0)
     """
     check_finite("Yld91", a=a, b=b, c=c, f=f, g=g, h=h)
+    if min(a, b, c, f, g, h) <= 0.0:
+        raise InvalidValue(
+            "the factors of Yld91 must be positive",
+            where="Yld91",
+            value=(a, b, c, f, g, h),
+            cause="a sign, or one that was left out",
+            remedy="factors near 1",
+        )
     c12, c13, c21, c23 = (b + 2 * c) / 3, (2 * b + c) / 3, (a + 2 * c) / 3, (2 * a + c) / 3
     both = Transformation(c12, c13, c21, c23, (a + 2 * b) / 3, (2 * a + b) / 3, shear12=h, shear23=f, shear13=g)
     return Yld2004(both, both, exponent)

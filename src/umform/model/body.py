@@ -60,7 +60,7 @@ class Body(Term):
     name : str
         For messages and fields.
     thickness_points : int, optional
-        Points through the thickness, 2 to 15, at least thickness_order + 1. Default: 2 with an elastic law, 12 with a
+        Points through the thickness, 2 to 20, at least thickness_order + 1. Default: 2 with an elastic law, 12 with a
         plastic one; the elements without an enhanced thickness strain have 5.
     thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
         Where they lie; default gauss, but graded where the 12 points are the default.
@@ -194,7 +194,11 @@ class Body(Term):
         except ValueError as error:
             if self.rolling is None:
                 raise
-            raise InvalidValue(str(error), remedy="a vector in the plane of the sheet, or one for each cell") from error
+            raise InvalidValue(
+                str(error),
+                cause="a direction along the normal of the sheet",
+                remedy="a vector in the plane of the sheet, or one for each cell",
+            ) from error
         block.set_numbers(self._numbers.astype(np.int32))
         return block
 

@@ -42,7 +42,7 @@ class Model(Standing):
     bodies : sequence of Body, optional
         Several bodies instead of element and material: each cell belongs to one.
     thickness_points : int, optional
-        Points through the thickness, 2 to 15, at least thickness_order + 1. Default: 2 with an elastic law, 12 with a
+        Points through the thickness, 2 to 20, at least thickness_order + 1. Default: 2 with an elastic law, 12 with a
         plastic one; the elements without an enhanced thickness strain have 5.
     thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
         Where they lie; default gauss, but graded where the 12 points are the default.

@@ -98,8 +98,8 @@ class Touched(Tooled):
             Coefficient of friction or a law, see :class:`umform.Friction`, or a function (pressure, accumulated slip,
             position in the tool frame) -> largest tangential traction. Default: none.
         slip : float, optional
-            Allowed elastic slip: displacement of a sticking point before it slips, at the expected pressure; default
-            1/200 of the sheet thickness. Multipliers remove it.
+            Allowed elastic slip: displacement of a sticking point before it slips, at any pressure; default 1/200 of
+            the sheet thickness. Multipliers remove it.
         name : str, optional
             For the history: the columns ``<name>_fx`` ... are the force on the tool.
 

@@ -1,4 +1,4 @@
-"""How far a run let the sheet into its tools and along them, and whether that is more than was allowed."""
+"""How far a run let the sheet into its tools, and whether that is more than was allowed."""
 
 from __future__ import annotations
 
@@ -7,9 +7,6 @@ import numpy as np
 from umform.model import Model
 from umform.model.contact import Contact
 from umform.results.history import History
-
-#: The pressure to expect is an estimate: elastic slips up to so many times the allowed one are no cause for a warning.
-_MUCH = 2.0
 
 
 def penetrations(model: Model, result: History) -> dict[str, str]:
@@ -28,13 +25,7 @@ def _said(contact: Contact, deepest: float) -> str:
 
 
 def warn_of_contact(model: Model, result: History) -> None:
-    """Say at the end of a run where the sheet has gone farther into a tool, or along it, than allowed."""
-    _warn_of_penetration(model, result)
-    _warn_of_elastic_slip(model, result)
-
-
-def _warn_of_penetration(model: Model, result: History) -> None:
-    """Say once for each contact that the penetration has exceeded the allowed one, and what to do. eq. (4.30)"""
+    """Warn once for each contact whose penetration has exceeded the allowed one, with a remedy. eq. (4.30)"""
     for contact in model.contacts:
         deepest = _deepest(result, contact)
         if contact.allowed is None or deepest <= 1.01 * contact.allowed:
@@ -46,19 +37,4 @@ def _warn_of_penetration(model: Model, result: History) -> None:
         excess = f"the penetration of {deepest:.3g} exceeds the {contact.allowed:.3g} allowed"
         message = f"contact {contact.name}: {excess}; {remedy}"
         if message not in result.warnings:  # a run that was taken up at its end
-            result.warn(message)
-
-
-def _warn_of_elastic_slip(model: Model, result: History) -> None:
-    """Say once for each contact with friction that places which stick have moved farther than allowed."""
-    for contact in model.contacts:
-        if contact.friction is None or not len(result):
-            continue
-        farthest = float(np.max(result[f"{contact.name}_elastic_slip"]))
-        if farthest <= _MUCH * contact.slip:
-            continue
-        remedy = f"slip = {contact.slip**2 / farthest:.2g}" + ("" if contact.augmented else ", or augmented=True")
-        message = f"contact {contact.name}: the elastic slip of {farthest:.3g} exceeds the {contact.slip:.3g} allowed"
-        message += f", the pressure being higher than expected; {remedy}"
-        if message not in result.warnings:
             result.warn(message)

@@ -28,6 +28,8 @@ class Free:
 
     A tool that is opened stays where it is, and the sheet springs back as if it were not there: with all tools in one
     step, on a support from :meth:`umform.Model.hold_rigid`, the part ends free of external forces.
+    Forces that fade support nothing: a wall that is ironed between two tools buckles under them. Open these tools in
+    two steps, so that the part lies on one of them while the forces of the other fade.
 
     Parameters
     ----------

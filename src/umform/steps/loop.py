@@ -88,8 +88,9 @@ class Run:
         self.result.add(converged.evaluation, converged.iterations + converged.passes, step=self.number, frame=frame)
         self._tell_of_stages()
         row = self.result.rows[-1]
-        for message in lost_tools(self.model, self.result.rows[-2], row):
-            self.result.warn(f"step {self.number}, time {self.model.time:.4f}: {message}")
+        for as_planned, message in lost_tools(self.model, self.result.rows[-2], row):
+            tell = self.result.note if as_planned else self.result.warn
+            tell(f"step {self.number}, time {self.model.time:.4f}: {message}")
         forces = [f"{c.name} {row[c.name]:.5g}, force {row[f'{c.name}_force']:.5g}" for c in controls]
         self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))
 

@@ -5,6 +5,7 @@ from umform.surfaces.check import SurfaceCheck, check_surface
 from umform.surfaces.directions import Direction, unit_vector
 from umform.surfaces.drawing import read_tool
 from umform.surfaces.files import write_tool
+from umform.surfaces.led_around import LedAround
 from umform.surfaces.press_brake import Punch, UDie, VDie, WipingDie
 from umform.surfaces.profile import Profile
 from umform.surfaces.segments import Arc, Line
@@ -24,6 +25,7 @@ __all__ = [
     "Direction",
     "Extruded",
     "GapFunction",
+    "LedAround",
     "Line",
     "Offset",
     "Placed",

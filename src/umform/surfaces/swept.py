@@ -52,7 +52,7 @@ class Extruded(Tool):
         segments = self.profile.segments
         end = _JOINED if self.profile.closed else _ENDLESS
         if not self.profile.closed:
-            _refuse_endless_arcs(segments[0], segments[-1], "Extruded")
+            refuse_endless_arcs(segments[0], segments[-1], "Extruded")
             refuse_crossings(segments, False, (True, True), "Extruded")
         x, y = right_angle(self.x, self.y, "Extruded")
         rows = np.array([segment.row() for segment in segments])
@@ -150,7 +150,7 @@ class Revolved(Tool):
         outwards = -segments[0].tangents()[0][0], segments[-1].tangents()[1][0]
         for kind, i, slope in ((start, 0, outwards[0]), (end, -1, outwards[1])):
             if kind == _ENDLESS:
-                _refuse_endless_arcs(segments[i], segments[i], "Revolved")
+                refuse_endless_arcs(segments[i], segments[i], "Revolved")
                 if slope < 0.0:
                     raise InvalidValue(
                         "an open end of a profile must not run through the axis of revolution",
@@ -162,7 +162,8 @@ class Revolved(Tool):
         return Profile(segments, closed=False), start, end
 
 
-def _refuse_endless_arcs(first: Segment, last: Segment, where: str) -> None:
+def refuse_endless_arcs(first: Segment, last: Segment, where: str) -> None:
+    """Refuse an open profile that does not begin and end with a line."""
     for name, segment in (("first", first), ("last", last)):
         if not isinstance(segment, Line):
             raise InvalidValue(

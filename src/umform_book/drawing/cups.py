@@ -14,6 +14,7 @@ from umform.processes.draw import Cup
 from umform.results.forming import EarProfile, ear_profile, forming_fields
 from umform.run import Result
 from umform.sheet_metals import get
+from umform.steps import Move
 from umform_book.page import Page
 
 Floats = NDArray[np.float64]
@@ -79,12 +80,15 @@ FLANGE = 20.0
 COLUMNS = ("", "elements", "mean height", "lowest", "highest", "fourth harmonic", "punch force, kN", "thinning, %")
 
 
-def make(page: Page, label: str, case: Cup) -> Made | None:
-    """Hold, draw, open; None for a run that ends before, which the page says."""
+def make(page: Page, label: str, case: Cup, increments: int | None = None) -> Made | None:
+    """Hold, draw, perhaps by equal increments, open; None for a run that ends before, which the page says."""
     model, press = case.build()
+    closing = press.closing()
+    if increments is not None:
+        closing[-1] = Move(press.stroke, to=press.way, steps=increments)
     where = "the run ends before the end of the stroke"
     try:
-        drawn = page.solve(label, model, press.closing(), frames=50)
+        drawn = page.solve(label, model, closing, frames=50)
         where = "the press does not open"
         page.solve(f"{label}: released", model, press.opening(model))
     except NoConvergence as error:

@@ -71,17 +71,21 @@ def block(variant: Variant, divisions: int, points: int | str, *, augmented: boo
     return Block(model, contact, plane, press, push)
 
 
-def stiffness(contact: Contact) -> float:
-    """Traction per elastic slip: the bound at the pressure of the allowed penetration over the allowed elastic slip."""
-    return MU * contact.penalty * PENETRATION / SLIP
+def stiffness(contact: Contact, pressure: float) -> float:
+    """Traction per elastic slip: the bound, at the pressure of the allowed penetration or more, over the allowed slip.
+
+    With multipliers it does not follow the pressure.
+    """
+    expected = contact.penalty * PENETRATION
+    return MU * (expected if contact.augmented else max(pressure, expected)) / SLIP
 
 
-def hysteresis(way: Floats, pressure: Floats, stiff: float) -> Floats:
+def hysteresis(way: Floats, pressure: Floats, stiff: Floats) -> Floats:
     """Traction on the plane along a way: t = bound(t_n + stiff * change of way), exact along straight ways."""
     traction = np.zeros_like(way)
     for k in range(1, len(way)):
         bound = MU * pressure[k]
-        traction[k] = np.clip(traction[k - 1] + stiff * (way[k] - way[k - 1]), -bound, bound)
+        traction[k] = np.clip(traction[k - 1] + stiff[k] * (way[k] - way[k - 1]), -bound, bound)
     return traction
 
 
@@ -105,7 +109,9 @@ def deviation(result: Result) -> tuple[float, float, float]:
     pressure = -result["plane_fz"] / area
     force = 0.8 * result["plane_fx"] + 0.6 * result["plane_fy"]
     sideways = 0.8 * result["plane_fy"] - 0.6 * result["plane_fx"]
-    exact = rigid(way, pressure) if contact.augmented else hysteresis(way, pressure, stiffness(contact))
+    highest = np.maximum.accumulate(pressure)
+    stiff = np.array([stiffness(contact, p) for p in highest])
+    exact = rigid(way, pressure) if contact.augmented else hysteresis(way, pressure, stiff)
     bound = MU * area * pressure.max()
     return (
         float(np.abs(force - area * exact).max() / bound),
@@ -168,7 +174,8 @@ def by_force(page: Page) -> None:
             result = page.solve(f"force, {divisions} intervals, {kind}", made.model, steps)
             way, held = float(result["push_way"][-1]), MU * -float(result["plane_fz"][-1])
             part = float(result["push"][-1]) / held
-            exact = float(result["push"][-1]) / (stiffness(made.contact) * LENGTH * WIDTH)
+            stiff = stiffness(made.contact, -float(result["plane_fz"].min()) / (LENGTH * WIDTH))
+            exact = float(result["push"][-1]) / (stiff * LENGTH * WIDTH)
             rows.append((kind, divisions, part, way / SLIP, exact / SLIP, int(result["foot_slipping"][-1])))
             if augmented:
                 page.at_most(
@@ -199,7 +206,7 @@ def around(page: Page) -> None:
         steps = [Move(made.press, -PRESSED, steps=2), Move(made.push, circle, steps=2 * increments)]
         result = page.solve(f"circle, {increments} increments a turn", made.model, steps)
         normal = -float(result["plane_fz"][-1])
-        elastic = MU * normal / (stiffness(made.contact) * LENGTH * WIDTH)
+        elastic = MU * normal / (stiffness(made.contact, normal / (LENGTH * WIDTH)) * LENGTH * WIDTH)
         work = float(result["friction_work"][-1] - result["friction_work"][-1 - increments])
         exact = MU * normal * 2.0 * np.pi * np.sqrt(radius**2 - elastic**2)
         force = np.hypot(result["plane_fx"][-1], result["plane_fy"][-1]) / (MU * normal)
@@ -237,12 +244,13 @@ and with multipliers.
 * Around a circle of ten elastic slips.
 """,
     reference="""
-Closed forms. By displacement: a spring (bound at the pressure of the allowed penetration over the allowed elastic slip)
-that slips at mu p, with the pressure found; with multipliers the bound itself, against the motion of the increment. By
-force: traction over that spring; with multipliers less than the allowed slip. Circle of radius r: the elastic slip e =
-mu p / stiffness follows like a weight on a string, on a circle of radius sqrt(r^2 - e^2), and the work of a turn is 2
-pi sqrt(r^2 - e^2) mu N. Uncertainty: the traction has the direction of the end of an increment, pi/n tan(lag) of the
-work for n increments a turn, sin(lag) = e/r; the checks allow twice that and the chords, 2 (pi/n)^2.
+Closed forms. By displacement: a spring (bound at the largest pressure so far, at least that of the allowed penetration,
+over the allowed elastic slip) that slips at mu p, with the pressure found; with multipliers the bound itself, against
+the motion of the increment. By force: traction over that spring; with multipliers less than the allowed slip. Circle of
+radius r: the elastic slip e = mu p / stiffness follows like a weight on a string, on a circle of radius sqrt(r^2 - e^2),
+and the work of a turn is 2 pi sqrt(r^2 - e^2) mu N. Uncertainty: the traction has the direction of the end of an
+increment, pi/n tan(lag) of the work for n increments a turn, sin(lag) = e/r; the checks allow twice that and the
+chords, 2 (pi/n)^2.
 """,
     run=run,
     cost=10.0,

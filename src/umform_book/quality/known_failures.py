@@ -41,7 +41,7 @@ _TAPERED_BENDING = (
 
 @dataclass(frozen=True)
 class Row:
-    """An element in the patch tests, with thickness orders 1 and 3, which must not matter.
+    """An element in the patch tests, with thickness orders 1, 3 and complete, which must not matter.
 
     Attributes
     ----------
@@ -69,12 +69,14 @@ class Row:
 
     def options(self) -> list[dict[str, int | bool]]:
         """Options of the catalogue, one set for each thickness order."""
-        common: dict[str, int | bool] = {"tie_E33": self.tied}
+        return [{**self.common(), "thickness_order": order} for order in (1, 3)] if self.modes else [self.common()]
+
+    def common(self) -> dict[str, int | bool]:
+        """Options without the thickness order."""
+        options: dict[str, int | bool] = {"tie_E33": self.tied}
         if self.compatible_E12:
-            common["compatible_E12"] = True
-        if not self.modes:
-            return [common]
-        return [{**common, "thickness_modes": self.modes, "thickness_order": order} for order in (1, 3)]
+            options["compatible_E12"] = True
+        return options | {"thickness_modes": self.modes} if self.modes else options
 
 
 def known_failure(row: Row, mesh: str, field: str) -> ExpectedFailure | None:

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from umform import _core
 from umform.elements import element
 from umform.elements.technology import Element
-from umform.materials import SVK
+from umform.materials import J2, SVK, Perfect
+from umform.materials.material import Material
 from umform.mesh import Mesh
 from umform.model import Model
 from umform.model.forces import body_forces, rigid_body_modes
@@ -25,6 +26,8 @@ PLATE = record("patch_test_plate.json")
 POINTS: Floats = np.array(list(PLATE["points_xy"].values()))
 NUMBER = {int(name): i for i, name in enumerate(PLATE["points_xy"])}
 MATERIAL = SVK(E=PLATE["E"], nu=PLATE["nu"])
+#: A plastic law that never flows, for the points and the order that elements have with one.
+NEVER_FLOWS = J2(E=PLATE["E"], nu=PLATE["nu"], hardening=Perfect(PLATE["E"]))
 STRAIN = 1e-3
 #: Round-off grows steeply with length / thickness: with a plate ten times as thick as that of the reference 1e-10 can
 #: be asked of everything that passes.
@@ -216,8 +219,16 @@ def stress_forces(mesh: Mesh, S: Floats) -> Floats:
 
 def patch_model(mesh: str, name: str | Element, thickness: float = THICKNESS, **options: int | bool) -> Model:
     """Plate held at its lateral faces, with an element of the catalogue and its options."""
-    technology = element(name, **options)  # type: ignore[arg-type]
-    model = Model(MESHES[mesh](technology.cell, thickness), technology, material=MATERIAL)
+    return _held(mesh, element(name, **options), MATERIAL, thickness)  # type: ignore[arg-type]
+
+
+def plastic_patch_model(mesh: str, name: str, **options: int | bool) -> Model:
+    """The same with points and order of a plastic law, which does not flow."""
+    return _held(mesh, element(name, **options), NEVER_FLOWS, THICKNESS)  # type: ignore[arg-type]
+
+
+def _held(mesh: str, technology: Element, material: Material, thickness: float) -> Model:
+    model = Model(MESHES[mesh](technology.cell, thickness), technology, material=material)
     model.fix("outer")
     return model
 

@@ -19,7 +19,7 @@ struct Skewed {
 
     static constexpr bool symmetric = false, follows_places = false;
     static std::vector<Quantity> quantities() { return {{"multiplier", 1}, {"place", 3}}; }
-    double stiffness() const { return penalty; }
+    double stiffness(const double*) const { return penalty; }
     double reach(const double* trial) const { return trial[0] / penalty; }
 
     bool respond(const Place& place, double weight, const double*, double* trial, Reaction& reaction) const {

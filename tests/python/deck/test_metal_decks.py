@@ -48,6 +48,7 @@ control = "tip"
 time = 2.0
 """
 R_VALUES = "r0 = 1.79, r45 = 1.51, r90 = 2.27"
+HILL = f'yield_function = {{ function = "Hill48", {R_VALUES} }}'
 STRESSES = "s0 = 1.0, s45 = 1.0, s90 = 1.9, biaxial = 2.4"
 MODULUS = "modulus = { saturated = 160e3, rate = 30.0 }"
 RATE = 'rate = { factor = "CowperSymonds", reference = 40.0, exponent = 5.0 }'
@@ -83,6 +84,10 @@ def test_all_parts_are_built():
         ({RATE: RATE.replace("5.0", "0.2")}, "rate.exponent", "greater than or equal to 1"),
         ({BACK: SURFACES}, "material", "constant size"),
         ({'rolling = "x"': ""}, "material", "rolling"),
+        ({'rolling = "x"': 'rolling = "z"'}, "material.rolling", "stands on the sheet"),
+        ({'rolling = "x"': 'rolling = "q"'}, "material.rolling", "x, y, z, -x, -y or -z"),
+        ({HILL: 'yield_function = { function = "Yld91", a = -1.0, b = 1.0, c = 1.0 }'}, "Yld91", "positive"),
+        ({BACK: f"back_stress = {{ parts = [{', '.join(['[1.0, 1.0]'] * 5)}] }}"}, "parts", "an entry too many"),
         ({"time = 0.25": "time = 0.0"}, "steps[0].time", "greater than 0"),
     ],
 )

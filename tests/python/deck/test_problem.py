@@ -28,6 +28,12 @@ TOOLS = {
         uf.Extruded(uf.Profile.from_corners([(-5, -4), (5, -4), (0, 5)], [0.5, 0.25, 1])),
         0.25,
     ),
+    "LedAround": (
+        "size = [8, 6]\ncorner = 2.0\n"
+        "profile = { corners = [[-2, 0], [0, 0], [0, 9]], radii = [0, 1, 0], closed = false }",
+        uf.LedAround(uf.Profile.from_corners([(-2, 0), (0, 0), (0, 9)], [0, 1, 0], closed=False), (8, 6), 2.0),
+        1.0,
+    ),
     "Revolved": (
         'profile.segments = [{ kind = "arc", start = [4, 0], end = [4, 0], centre = [3, 0] }]\naxis = "y"',
         uf.Revolved(uf.Profile.circle((3, 0), 1.0), (0, 0, 0), "y"),

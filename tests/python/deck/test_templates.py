@@ -17,6 +17,7 @@ SHORT = {
     "cantilever": {"steps.0.increments": 3, "steps.0.to.force": 0.6},
     "dome": {"steps.0.to.stroke": 2.0, "mesh.cells": [2, 3]},
     "hat-rail": {"steps.1.to.stroke": 1.0, "steps.2.increments": 2, "mesh.cells": [30, 1]},
+    "square-cup": {"steps.1.to.stroke": 0.5, "mesh.x": [0.0, 25.0, 35.0, 45.0, 75.0], "mesh.y": [0.0, 35.0, 75.0]},
     "unconstrained-bending": {"steps.0.to.stroke": 2.0, "steps.1.increments": 2, "mesh.cells": [30, 1]},
     "wiping": {"steps.0.to.stroke": 1.5, "steps.1.increments": 2, "mesh.cells": [30, 1]},
     "free-bending": {"steps.0.increments": 5, "steps.0.to.punch": -1.0},

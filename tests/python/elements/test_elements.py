@@ -370,7 +370,7 @@ def test_unknown_numbers_of_modes_of_higher_order_are_refused(order_modes):
     [
         ("DISP3D", {"thickness_order": 3}),
         ("DISP9K3D", {"thickness_modes": 4}),
-        ("ANS3DEAS", {"thickness_order": 15}),
+        ("ANS3DEAS", {"thickness_order": 20}),
         ("ANS3DEAS", {"thickness_order": 0}),
         ("ANS3DEAS", {"thickness_modes": 3}),
         ("ANS3DEAS", {"membrane_modes": 4}),
@@ -462,7 +462,7 @@ def test_a_mode_given_twice_and_an_order_without_its_points_are_refused_by_the_m
 
 
 @pytest.mark.parametrize("rule", ["gauss", "lobatto", "split"])
-@pytest.mark.parametrize("points", range(2, 16))
+@pytest.mark.parametrize("points", range(2, 21))
 def test_thickness_rules_integrate_as_far_as_they_promise(rule, points):
     if rule == "split" and points % 2:
         with pytest.raises(InvalidValue, match="even"):
@@ -479,7 +479,7 @@ def test_thickness_rules_integrate_as_far_as_they_promise(rule, points):
         assert w @ np.abs(t) == pytest.approx(1.0, abs=1e-14)
 
 
-@pytest.mark.parametrize("points", [8, 10, 12])
+@pytest.mark.parametrize("points", [8, 10, 12, 16, 20])
 def test_graded_points_are_exact_on_each_half_and_dense_at_the_faces(points):
     t, w = thickness_rule(points, "graded")
     assert (np.diff(t) > 0).all()
@@ -487,11 +487,11 @@ def test_graded_points_are_exact_on_each_half_and_dense_at_the_faces(points):
     np.testing.assert_array_equal(t, -t[::-1])
     for k in range(points // 2):
         assert w[points // 2 :] @ t[points // 2 :] ** k == pytest.approx(1 / (k + 1), abs=1e-14)
-    half = np.diff(t[points // 2 :])
-    assert (np.diff(half[1:]) < 0).all()
+    steps = np.diff(t[points // 2 :])
+    assert steps[-1] < 0.6 * steps[0]
 
 
-@pytest.mark.parametrize(("points", "rule"), [(1, "gauss"), (16, "gauss"), (4, "simpson"), (11, "graded")])
+@pytest.mark.parametrize(("points", "rule"), [(1, "gauss"), (21, "gauss"), (4, "simpson"), (11, "graded")])
 def test_thickness_rules_out_of_range_are_refused(points, rule):
     with pytest.raises(InvalidValue):
         thickness_rule(points, rule)
@@ -507,3 +507,17 @@ def test_modes_of_the_membrane_have_no_mean():
                     term.factor * (w @ x**term.a) * (w @ x**term.b) for term in mode if term.component == component
                 )
                 assert total == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("name", ["ANS3DEAS", "BEND8", "MI9K3DEAS"])
+@pytest.mark.parametrize("points", [8, 12, 20])
+def test_a_constant_stress_through_the_thickness_does_no_work_on_the_modes(name, points):
+    """Modes have no mean under the graded rule, whose degree is below theirs: the forces are exact."""
+    law = mt.J2(E=100.0, nu=0.25, hardening=mt.Perfect(1e6))
+    mesh = strip(2.0, 1.0, 0.5, (1, 1), cell=element(name).cell)
+    model = Model(mesh, name, material=law, thickness_points=points, thickness_rule="graded")
+    u = np.zeros_like(mesh.points)
+    u[:, 2] = 1e-6 * mesh.points[:, 2]
+    found = model.evaluate(u.ravel()).residual.reshape(-1, 3)[mesh.points[:, 2] > 0.0, 2].sum()
+    confined = 100.0 * 0.75 / (1.25 * 0.5)
+    assert found == pytest.approx(2.0 * confined * 1e-6, rel=1e-5)

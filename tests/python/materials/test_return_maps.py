@@ -123,3 +123,50 @@ def test_work_is_what_the_energies_say(card):
             state, before, T_before = new[0], h, T[0]
         drift.append(abs(float(sum(law.energy(h[None], state[None]))[0]) / work - 1))
     assert drift[1] < 2e-3 and drift[1] < 0.7 * drift[0]
+
+
+def _last_orders(metal, count):
+    """Orders of the last three residuals above round-off of random increments behind one of 2 %."""
+    law = metal.small_strain_law()
+    before = cards.increments(count, 0.02, seed=3)
+    _, _, states = law.respond(before, np.tile(law.initial(), (count, 1)))
+    sizes = np.exp(np.random.default_rng(5).uniform(math.log(1e-3), math.log(0.1), size=(count, 1)))
+    orders = []
+    for strain, state in zip(before + sizes * cards.increments(count, 1.0, seed=4), states, strict=True):
+        residuals = metal.residuals(strain, state)
+        assert len(residuals) < 15
+        assert not residuals[:-1].size or residuals[-1] < 1e-13  # an increment that unloads has none
+        told = residuals[residuals > 1e-13]
+        if len(told) >= 3 and told[-3] < 0.1:
+            orders.append(math.log(told[-1] / told[-2]) / math.log(told[-2] / told[-3]))
+    return orders
+
+
+@pytest.mark.parametrize("function", cards.FUNCTIONS)
+def test_newton_of_the_return_map_is_quadratic_in_any_combination(function):
+    told = 0
+    parts = [*itertools.product(cards.CURVES.values(), cards.BACK.values()), (mt.Perfect(124.0), cards.SPCC)]
+    for number, (curve, back) in enumerate(parts):
+        metal = mt.Metal(
+            **cards.ALUMINIUM,
+            hardening=curve,
+            yield_function=cards.FUNCTIONS[function],
+            back_stress=back,
+            modulus=cards.FALLING if number % 2 else None,
+        )
+        orders = _last_orders(metal, 30)
+        assert not orders or np.median(orders) > 1.8, (number, np.median(orders))
+        told += len(orders)
+    assert told > 60
+
+
+def test_residuals_of_an_elastic_increment_and_of_a_rate():
+    metal = cards.CARDS["hill48, voce, fixed"]
+    assert metal.residuals(1e-5 * np.ones(6)).size == 0
+    quick = mt.Metal(**cards.ALUMINIUM, hardening=cards.CURVES["voce"], rate=mt.CowperSymonds(40.0, 5.0))
+    strain = [0.02, -0.01, -0.01, 0.0, 0.0, 0.0]
+    assert quick.residuals(strain).size == 0  # no time
+    residuals = quick.residuals(strain, time=1.0)
+    assert len(residuals) > 2 and residuals[-1] < 1e-13
+    with pytest.raises(ValueError, match="state"):
+        metal.residuals(strain, np.zeros(3))

@@ -109,7 +109,7 @@ def test_the_tangent_is_exact_with_multipliers(tool, rng):
 def test_the_tangent_is_exact_with_friction(tool, way, rng):
     """The bound of a cell is mu times its mean pressure, whose derivative is not that of a point."""
     mesh = plate()
-    law = _core.coulomb_law(PENALTY, 1.5, _core.coulomb_friction([0.0, 5.0], [0.3, 0.2], 1.0, 0.0, np.inf))
+    law = _core.coulomb_law(PENALTY, 1.5, 0.01, _core.coulomb_friction([0.0, 5.0], [0.3, 0.2], 1.0, 0.0, np.inf))
     block = block_over(mesh, TOOLS[tool], 3, law)
     u = waved(mesh, rng)
     block.locate(np.zeros(u.size))
@@ -130,7 +130,8 @@ def test_the_tangent_is_exact_with_friction(tool, way, rng):
 @pytest.mark.parametrize("friction", [False, True])
 def test_the_row_of_a_motion_of_the_tool_is_the_derivative_of_its_force(friction, rng):
     mesh = plate()
-    law = _core.coulomb_law(PENALTY, 1.5, _core.coulomb_friction([0.0], [0.3], 1.0, 0.0, np.inf)) if friction else None
+    bound = _core.coulomb_friction([0.0], [0.3], 1.0, 0.0, np.inf)
+    law = _core.coulomb_law(PENALTY, 1.5, 0.01, bound) if friction else None
     block = block_over(mesh, TOOLS["sphere"], 3, law)
     block.locate(np.zeros(mesh.points.size))
     block.begin()

@@ -9,7 +9,17 @@ import pytest
 
 from umform import materials as mt
 from umform.errors import InvalidValue
-from umform.sheet_metals import Directions, balanced, fit_cycles, fit_hill48, fit_swift, fit_voce, fit_yld2004, uniaxial
+from umform.sheet_metals import (
+    Directions,
+    balanced,
+    fit_chaboche,
+    fit_cycles,
+    fit_hill48,
+    fit_swift,
+    fit_voce,
+    fit_yld2004,
+    uniaxial,
+)
 
 ANGLES = (0, 15, 30, 45, 60, 75, 90)
 #: Measured; Barlat et al. (2005).
@@ -67,6 +77,19 @@ def test_back_stresses_from_a_noisy_cycle():
     for name, value in own.items():
         assert abs(found.constants[name] - value) < 4 * found.deviations[name] + 0.02 * value
     assert 0.0 < found.deviations["C"] < 0.1 * own["C"]
+
+
+@pytest.mark.parametrize("parts", [3, 4])
+def test_back_stresses_of_chaboche_from_their_own_cycles(parts):
+    pairs = [(30000.0, 600.0), (5000.0, 80.0), (900.0, 12.0), (100.0, 1.0)][:parts]
+    own = mt.Metal(206e3, 0.3, hardening=mt.Voce(120.0, 200.0, 8.0), back_stress=mt.Chaboche(pairs))
+    strain = np.concatenate(
+        [np.geomspace(0.001, 0.03, 15), np.linspace(0.028, -0.03, 30), np.linspace(-0.028, 0.06, 30)]
+    )
+    _, stress, _ = mt.tension(own, strain)
+    found = fit_chaboche([(strain, stress)], parts, 206e3, 0.3, largest_step=1.0)
+    assert found.misfit < 1e-3
+    assert found.law.back_stress.parts == pytest.approx(np.array(pairs), rel=1e-2)
 
 
 def test_what_nothing_determines():

@@ -10,6 +10,8 @@ import pytest
 import umform
 from umform import materials as mt
 from umform.errors import InvalidValue, NoConvergence
+from umform.mesh import strip
+from umform.model import Model
 from umform.run import solve
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
@@ -160,3 +162,35 @@ def test_an_arc_is_a_step_among_others(build):
     result = solve(model, [Arc(push, -0.2), Move(push, -0.3, steps=2), Release(push)], frames=0)
     np.testing.assert_array_equal(np.unique(result["step"]), [0, 1, 2, 3])
     assert abs(push.value) < 1e-3
+
+
+def _pulled():
+    bar = strip(10.0, 2.0, 1.0, (2, 1))
+    metal = mt.Metal(206e3, 0.3, hardening=mt.Linear(200.0, 1000.0), rate=mt.CowperSymonds(40.0, 5.0))
+    model = Model(bar, "ANS3DEAS", material=metal, thickness_order=1, thickness_points=2)
+    model.fix("x0")
+    return model, model.prescribe("x1", "x", "pull")
+
+
+def test_the_time_of_an_arc_is_felt_by_a_metal_with_a_rate():
+    forces = {}
+    for time in (1e3, 1.0, 1e-3):
+        model, pull = _pulled()
+        result = solve(model, Arc(pull, 0.2, increment=0.2, grow=1.0, time=time), options=TIGHT, frames=0)
+        np.testing.assert_allclose(np.diff(result["time"])[:2], 0.2 * time, rtol=1e-10)
+        other, moved = _pulled()
+        steps = [
+            Move(moved, value, steps=1, time=took)
+            for value, took in zip(result["pull"][1:], np.diff(result["time"]), strict=True)
+        ]
+        again = solve(other, steps, options=TIGHT, frames=0)
+        np.testing.assert_allclose(result["pull_force"], again["pull_force"], rtol=1e-9)
+        forces[time] = result["pull_force"][-1]
+    assert forces[1e-3] > 1.05 * forces[1.0] > 1.05**2 * forces[1e3]
+
+
+@pytest.mark.parametrize("time", [0.0, -1.0, np.inf])
+def test_an_arc_that_takes_no_time_is_refused(time):
+    _, pull = _pulled()
+    with pytest.raises(InvalidValue, match="time of a step"):
+        Arc(pull, 0.2, time=time)

@@ -31,7 +31,7 @@ struct Bead {
                 {"stored", 1},     {"slip", 1},  {"work", 1},  {"work of the lift", 1}};
     }
 
-    double stiffness() const { return penalty; }
+    double stiffness(const double*) const { return penalty; }
     double reach(const double*) const { return off; }
 
     /// The place, at z in the frame of the tool, is beside the band or off the tool.

@@ -169,7 +169,7 @@ class ContactBlockOf final : public ContactBlock {
             found.stored += area_[q] * rubbing.stored;
             found.contact_work += area_[q] * rule_.contact_work(history + of_law_);
             if (!reaction.held) return;
-            round_off.add(e, weight_of_errors(q), values_at(e, q));
+            round_off.add(e, weight_of_errors(q, history), values_at(e, q));
             const Vec3 &x = locator_.positions()[at(q)], &n = locator_.normals()[at(q)];
             found.active[q] = reaction.slipping ? 2 : 1;
             found.points.push_back(q);
@@ -178,6 +178,7 @@ class ContactBlockOf final : public ContactBlock {
             found.gap.push_back(rule_.gap(*law_, locator_, e, i, workspace, history));
             found.share.push_back(rule_.share(workspace, i)), found.pressure.push_back(reaction.pressure);
             found.elastic_slip.push_back(locator_.pose().turn(rubbing.elastic_slip));
+            found.tangential_stiffness.push_back(rubbing.stiffness);
             found.slip.push_back(rubbing.slip);
             found.area.push_back(area_[q]);
             Vec3 force;  // (pressure area) n, in this order: that of the forces at nodes
@@ -227,8 +228,9 @@ class ContactBlockOf final : public ContactBlock {
 
     double round_off_squared() override {
         RoundOff round_off;
-        for_each_held([&](int e, int q, const Reaction&, const Workspace&) {
-            round_off.add(e, weight_of_errors(q), values_at(e, q));
+        for_each_near([&](int e, int q, const Workspace& workspace, const double* history) {
+            if (workspace.reactions[q - e * per_facet()].held)
+                round_off.add(e, weight_of_errors(q, history), values_at(e, q));
         });
         return round_off.squared();
     }
@@ -342,7 +344,9 @@ class ContactBlockOf final : public ContactBlock {
         for (int q = 0; q < points(); ++q) found[q] = values[at(q)];
         return found;
     }
-    double weight_of_errors(int q) const { return law_->stiffness() * area_[q] * largest_length(q); }
+    double weight_of_errors(int q, const double* history) const {
+        return law_->stiffness(history) * area_[q] * largest_length(q);
+    }
     const Values& values_at(int e, int q) const { return locator_.shapes(e)[q - e * per_facet()]; }
 
     double reach(int e) const { return law_->reach(per_facet(), history_.trial(e), history_.size()); }

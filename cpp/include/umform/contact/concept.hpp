@@ -40,6 +40,7 @@ struct Rubbing {
     Vec3 elastic_slip{};  // now, in the frame of the tool
     double slip = 0.0;    // distance slid in all
     double stored = 0.0, work = 0.0;
+    double stiffness = 0.0;  // traction per elastic slip
 };
 
 /// A law answers at one place. Its history begins with the multiplier of the normal direction. `state` is the converged history,
@@ -57,7 +58,7 @@ concept PlaceLaw =
         { L::follows_places } -> std::convertible_to<bool>;
         { L::quantities() } -> std::same_as<std::vector<Quantity>>;
         { mutable_law.penalty } -> std::same_as<double&>;
-        { law.stiffness() } -> std::same_as<double>;
+        { law.stiffness(state) } -> std::same_as<double>;
         { law.reach(trial) } -> std::same_as<double>;
         { law.respond(place, 1.0, state, trial, reaction) } -> std::same_as<bool>;
     };
@@ -89,8 +90,8 @@ class ContactLaw {
     /// Pressure per penetration.
     virtual double penalty() const = 0;
     virtual void set_penalty(double value) = 0;
-    /// Largest traction per way of a place in any direction.
-    virtual double stiffness() const = 0;
+    /// Largest traction per way of a place in any direction, from its history.
+    virtual double stiffness(const double* history) const = 0;
     /// Largest gap at which one of `count` places can be held, from rows of `size` numbers.
     virtual double reach(int count, const double* trial, int size) const = 0;
     /// Reactions at `count` places times their weights, or as they are without weights.
@@ -118,7 +119,7 @@ class ContactLawOf final : public ContactLaw {
     std::vector<Quantity> quantities() const override { return Law::quantities(); }
     double penalty() const override { return law_.penalty; }
     void set_penalty(double value) override { law_.penalty = value; }
-    double stiffness() const override { return law_.stiffness(); }
+    double stiffness(const double* history) const override { return law_.stiffness(history); }
     double reach(int count, const double* trial, int size) const override {
         double largest = law_.reach(trial);
         for (int q = 1; q < count; ++q) largest = std::max(largest, law_.reach(trial + q * size));

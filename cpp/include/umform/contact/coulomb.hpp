@@ -12,7 +12,8 @@ namespace umform {
 /// stiffness; what is more than the bound slips. All that is remembered is in the frame of the tool. eqs. (4.43) to (4.47)
 struct Coulomb {
     double penalty;
-    double ratio;  // tangential stiffness over penalty
+    double ratio;    // tangential stiffness over penalty of a place that the tool did not hold
+    double allowed;  // elastic slip at the bound
     std::shared_ptr<const FrictionLaw> friction;
 
     static constexpr bool symmetric = false;
@@ -26,10 +27,11 @@ struct Coulomb {
                 {"tangential multiplier", 3},
                 {"change of tangential multiplier", 3},
                 {"slip", 1},
-                {"friction work", 1}};
+                {"friction work", 1},
+                {"tangential stiffness", 1}};
     }
 
-    double stiffness() const { return penalty * std::max(1.0, ratio); }
+    double stiffness(const double* history) const { return std::max(penalty, history[Stiffness]); }
     double reach(const double* trial) const { return trial[Multiplier] / penalty; }
 
     /// The tool does not hold the place, which is at z in its frame.
@@ -37,6 +39,7 @@ struct Coulomb {
         std::fill(trial + Held, trial + Change, 0.0);
         put(trial + Where, z);
         trial[Slip] = state[Slip], trial[Work] = state[Work];
+        trial[Stiffness] = ratio * penalty;
     }
 
     /// Puts the multipliers that were wanted into the history that was read.
@@ -51,8 +54,8 @@ struct Coulomb {
     Rubbing rubbing(const double* history) const {
         const Vec3 t = at(history + Traction), lambda = at(history + Tangential);
         Vec3 elastic;
-        for (int k = 0; k < 3; ++k) elastic[k] = (lambda[k] - t[k]) / tangential_stiffness();
-        return {elastic, history[Slip], stored(history), history[Work]};
+        for (int k = 0; k < 3; ++k) elastic[k] = (lambda[k] - t[k]) / tangential_stiffness(history);
+        return {elastic, history[Slip], stored(history), history[Work], tangential_stiffness(history)};
     }
 
     /// Lets multipliers carry a traction at a place that is held, as far as it points along the tool. eq. (4.50)
@@ -82,40 +85,53 @@ struct Coulomb {
                Reaction& reaction) const {
         const Vec3 &n = place.n, z = place.pose.to_tool(place.x);
         const bool held = state[Held] != 0.0;
-        const double eps = tangential_stiffness();
         const Facing facing(place);
         const Slide slide(place, facing, at(state + Where), held);
         const Carried before(place.pose, facing, sum(held ? at(state + Traction) : Vec3{}, at(trial + Change)),
                              at(state + Normal), held);
+        const Bound bound = friction->bound(facing.scale * pressure, state[Slip] + slide.length, z);
+        // Never softer than before, so that none of it gives energy back. eq. (4.174)
+        const bool stiffens = bound.value > tangential_stiffness(state) * allowed;
+        const double eps = stiffens ? bound.value / allowed : tangential_stiffness(state);
         Vec3 t, m{};
         for (int k = 0; k < 3; ++k) t[k] = before.value[k] - eps * slide.D[k];
         const double size = std::sqrt(dot(t, t));
-        const Bound bound = friction->bound(facing.scale * pressure, state[Slip] + slide.length, z);
         const bool slips = size > bound.value;
         const double part = slips ? bound.value / size : 1.0;
         if (slips)
             for (int k = 0; k < 3; ++k) m[k] = t[k] / size, t[k] = bound.value * m[k];
 
-        // At this pressure dt = dt_trial, or m ds + s/|t_trial| (1 - m m^T) dt_trial. eq. (4.47)
+        // dt = dt_trial, or m ds + s/|t_trial| (1 - m m^T) dt_trial, at this pressure and by it. eq. (4.47)
+        Vec3 d_stiff{}, by_pressure{};
+        if (stiffens)
+            for (int k = 0; k < 3; ++k) d_stiff[k] = -slide.D[k] / allowed;
+        const Vec3 d_scale = facing.scale == 1.0 ? Vec3{} : product(place.H, facing.n);
+        const double s_of_p = bound.by_pressure * facing.scale;
+        const auto returned = [&](const Vec3& d_trial, double ds) {
+            Vec3 d = d_trial;
+            if (!slips) return d;
+            const double along = dot(m, d_trial);
+            for (int k = 0; k < 3; ++k) d[k] = m[k] * ds + part * (d_trial[k] - m[k] * along);
+            return d;
+        };
         Mat3 dt;
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) dt(i, j) = before.d(i, j) - eps * slide.d(i, j);
-        if (slips) {
-            const Vec3 d_scale = facing.scale == 1.0 ? Vec3{} : product(place.H, facing.n);
-            for (int j = 0; j < 3; ++j) {
-                const double dp = pressure * d_scale[j];
-                const double ds = bound.by_slip * slide.d_length(j) + bound.by_pressure * dp;
-                const double along = m[0] * dt(0, j) + m[1] * dt(1, j) + m[2] * dt(2, j);
-                for (int i = 0; i < 3; ++i) dt(i, j) = m[i] * ds + part * (dt(i, j) - m[i] * along);
-            }
+        for (int j = 0; j < 3; ++j) {
+            const double ds = bound.by_slip * slide.d_length(j) + bound.by_pressure * pressure * d_scale[j];
+            Vec3 d_trial;
+            for (int i = 0; i < 3; ++i) d_trial[i] = before.d(i, j) - eps * slide.d(i, j) + d_stiff[i] * ds;
+            const Vec3 column = returned(d_trial, ds);
+            for (int i = 0; i < 3; ++i) dt(i, j) = column[i];
         }
+        for (int k = 0; k < 3; ++k) by_pressure[k] = d_stiff[k] * s_of_p;
+        by_pressure = returned(by_pressure, s_of_p);
         reaction.slipping = slips;
         reaction.pressure = weight * pressure;
         for (int i = 0; i < 3; ++i) {
             reaction.tangential[i] = weight * t[i];
-            reaction.by_pressure[i] = weight * (n[i] + (slips ? bound.by_pressure * facing.scale * m[i] : 0.0));
+            reaction.by_pressure[i] = weight * (n[i] + by_pressure[i]);
             for (int j = 0; j < 3; ++j) reaction.K[i][j] = -weight * (pressure * place.H(i, j) + dt(i, j));
         }
+        trial[Stiffness] = eps;
         remember(place.pose, facing, z, t, slide, state, trial);
     }
 
@@ -130,10 +146,13 @@ struct Coulomb {
         Tangential = 11,
         Change = 14,
         Slip = 17,
-        Work = 18
+        Work = 18,
+        Stiffness = 19
     };
 
-    double tangential_stiffness() const { return ratio * penalty; }
+    double tangential_stiffness(const double* history) const {
+        return history[Held] != 0.0 ? history[Stiffness] : ratio * penalty;
+    }
     static Vec3 at(const double* history) { return {history[0], history[1], history[2]}; }
     static void put(double* history, const Vec3& value) { std::copy(value.begin(), value.end(), history); }
     static Vec3 sum(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
@@ -141,7 +160,7 @@ struct Coulomb {
     /// Energy of the elastic slip, (t^2 - lambda^2) / (2 stiffness) per area.
     double stored(const double* history) const {
         const Vec3 t = at(history + Traction), lambda = at(history + Tangential);
-        return 0.5 * (dot(t, t) - dot(lambda, lambda)) / tangential_stiffness();
+        return 0.5 * (dot(t, t) - dot(lambda, lambda)) / tangential_stiffness(history);
     }
 
     /// The new history. The work of friction is that of the mean traction along the way, less what is stored. eq. (4.49)

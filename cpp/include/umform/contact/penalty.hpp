@@ -12,7 +12,7 @@ struct Penalty {
     static constexpr bool symmetric = true, follows_places = false;
     static std::vector<Quantity> quantities() { return {{"multiplier", 1}}; }
 
-    double stiffness() const { return penalty; }
+    double stiffness(const double*) const { return penalty; }
     double reach(const double* trial) const { return trial[0] / penalty; }
 
     /// A place is held where its gap less multiplier over penalty, g~, is not positive (a tool that just touches can hold):

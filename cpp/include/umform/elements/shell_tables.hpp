@@ -1,6 +1,8 @@
 // What is the same for all elements of a kind, computed once: shape functions, tying weights, values of the modes.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "umform/elements/quadrature.hpp"
@@ -117,23 +119,43 @@ struct ShellTables {
                     position[term.component] = static_cast<int>(enhanced.size());
                     enhanced.push_back(term.component);
                 }
+        const std::vector<double> means = legendre_means(technology, thickness);
         for (const double t : thickness.x)
             for (const double s : surface_rule.x)
                 for (const double r : surface_rule.x) {
                     std::vector<ModeEntry>& of_point = entries.emplace_back();
-                    for (int m = 0; m < modes; ++m) add_entries(technology.modes[m], m, r, s, t, position, of_point);
+                    for (int m = 0; m < modes; ++m)
+                        add_entries(technology.modes[m], m, {r, s, t}, means, position, of_point);
                 }
         group_modes();
     }
 
+    /// Mean of each Legendre polynomial of the modes under the rule; zero, but for round-off, where the rule is exact. A mean
+    /// that is left would let a constant stress work on the modes. eq. (2.48)
+    static std::vector<double> legendre_means(const Technology& technology, const Rule& thickness) {
+        int most = 0;
+        for (const Mode& mode : technology.modes)
+            for (const Term& term : mode) most = std::max(most, term.c);
+        std::vector<double> means(most + 1, 0.0);
+        for (int c = 1; c <= most; ++c) {
+            for (int k = 0; k < thickness.size(); ++k)
+                means[c] += 0.5 * thickness.w[k] * legendre(c, thickness.x[k]).value;
+            if (std::abs(means[c]) < 1e-14) means[c] = 0.0;
+        }
+        return means;
+    }
+
     /// Values of a mode at a Gauss point, but for those that are zero: of a polynomial with its roots at other points nothing is
     /// left but the round-off of its terms.
-    void add_entries(const Mode& mode, int number, double r, double s, double t, const std::array<int, 6>& position,
-                     std::vector<ModeEntry>& of_point) {
+    void add_entries(const Mode& mode, int number, const Vec<double, 3>& at, const std::vector<double>& means,
+                     const std::array<int, 6>& position, std::vector<ModeEntry>& of_point) {
         for (const int component : enhanced) {
             double value = 0.0, size = 0.0;
             for (const Term& term : mode)
-                if (term.component == component) value += term(r, s, t), size += std::abs(term(r, s, t));
+                if (term.component == component) {
+                    const double part = term(at[0], at[1], at[2], means[term.c]);
+                    value += part, size += std::abs(part);
+                }
             if (std::abs(value) > 1e-14 * size) of_point.push_back({position[component], number, value});
         }
     }

@@ -22,8 +22,9 @@ struct Term {
     double factor;
     int a, b, c;
 
-    double operator()(double r, double s, double t) const {
-        return factor * std::pow(r, a) * std::pow(s, b) * legendre(c, t).value;
+    /// With the mean of P_c under the rule taken off. eq. (2.48)
+    double operator()(double r, double s, double t, double mean) const {
+        return factor * std::pow(r, a) * std::pow(s, b) * (legendre(c, t).value - mean);
     }
 };
 

@@ -47,10 +47,7 @@ struct Metal {
         const Real volume = elastic[0] + elastic[1] + elastic[2];
         const PlasticStart<Real> start = begin(elastic, state, step);
         const PlasticIncrement<Real> none(parts, start, 0.0);
-        Deviator<Real> xi;
-        for (int i = 0; i < 5; ++i) xi[i] = none.b[i] - start.inner[i];
-        Mask<Real> plastic = !(yield.value(xi) <= none.y.value * (1.0 + plastic_margin));
-        if (parts.rate.active() && !(step > 0.0)) plastic = false;  // no time to flow
+        const Mask<Real> plastic = flows(start, none, step);
 
         std::copy_n(state, state_size, trial);
         PlasticFlow<Real> flow;
@@ -94,6 +91,17 @@ struct Metal {
                 plastic_work(parts.hardening, state[6]) + (parts.associated_only() ? 0.0 : state[7])};
     }
 
+    /// Residuals, over the stresses, at the states that the return map of a point goes through; none where it does not flow.
+    std::vector<double> residuals(const Voigt& h, const double* state, double step) const {
+        Voigt elastic;
+        for (int p = 0; p < 6; ++p) elastic[p] = h[p] - state[p];
+        const PlasticStart<double> start = begin(elastic, state, step);
+        std::vector<double> found;
+        if (flows(start, PlasticIncrement<double>(parts, start, 0.0), step))
+            return_map(start, true, [&](double residual) { found.push_back(residual); });
+        return found;
+    }
+
   private:
     /// As in J2.
     static constexpr double plastic_margin = 1e-10;
@@ -102,11 +110,20 @@ struct Metal {
     /// Where the history of two surfaces begins.
     int surfaces_at() const { return 8 + 6 * parts.back_stress.count(); }
 
+    /// Whether the trial state lies outside of the yield surface; a metal with a rate needs time to flow.
     template <class Real>
-    PlasticFlow<Real> return_map(const PlasticStart<Real>& start, Mask<Real> plastic) const {
+    Mask<Real> flows(const PlasticStart<Real>& start, const PlasticIncrement<Real>& none, double step) const {
+        Deviator<Real> xi;
+        for (int i = 0; i < 5; ++i) xi[i] = none.b[i] - start.inner[i];
+        if (parts.rate.active() && !(step > 0.0)) return false;
+        return !(yield.value(xi) <= none.y.value * (1.0 + plastic_margin));
+    }
+
+    template <class Real, class Watch = NoWatch>
+    PlasticFlow<Real> return_map(const PlasticStart<Real>& start, Mask<Real> plastic, const Watch& watch = {}) const {
         if constexpr (std::is_same_v<Yield, QuadraticYield>)
-            if (!two_surfaces()) return quadratic_return_map(parts, yield, start, plastic);
-        return general_return_map(parts, yield, start, plastic);
+            if (!two_surfaces()) return quadratic_return_map(parts, yield, start, plastic, watch);
+        return general_return_map(parts, yield, start, plastic, watch);
     }
 
     template <class Real>

@@ -76,6 +76,10 @@ struct PlasticIncrement {
     }
 };
 
+/// Watches nothing. In its place, for one point, one that takes the residual at each state that the Newton method of a return map
+/// accepts.
+struct NoWatch {};
+
 /// What a return map finds.
 template <class Real>
 struct PlasticFlow {

@@ -186,6 +186,11 @@ class ContactFound(Found):
         return self._spread(self.held.elastic_slip)
 
     @cached_property
+    def tangential_stiffness(self) -> Floats:
+        """Traction per elastic slip of the points that are held, zero elsewhere, shape (n,). eq. (4.174)"""
+        return self._spread(self.held.tangential_stiffness)
+
+    @cached_property
     def slip(self) -> Floats:
         """Distances slid so far by the points that are held, zero elsewhere, shape (n,)."""
         return self._spread(self.held.slip)

@@ -224,7 +224,7 @@ class Contact(PairPoints):
         self._close(found, found.share * self._in_basis(found.held_gap, found), change)
         self.block.multipliers = np.maximum(self._in_basis(found.pressure, found), 0.0)
         if self.friction is not None:  # points that stick keep their traction, and go back by their elastic slip
-            stiffness = self._settings.ratio * self.penalty * found.area * (found.status == 1)
+            stiffness = found.tangential_stiffness * found.area * (found.status == 1)
             self._spread(stiffness[:, None] * self._in_basis(found.elastic_slip, found), change)
             self.block.augment(self._in_basis(found.friction, found))
 

@@ -125,7 +125,9 @@ class PairPoints(Term):
     def _law(self) -> _core.ContactLaw:
         if self.friction is None:
             return _core.penalty_law(self.penalty)
-        return _core.coulomb_law(self.penalty, self._settings.ratio, friction_kernel(self.friction))
+        # Multipliers take the elastic slip away and need no stiffness that follows the pressure. eq. (4.174)
+        slip = np.inf if self.augmented else self.slip
+        return _core.coulomb_law(self.penalty, self._settings.ratio, slip, friction_kernel(self.friction))
 
     @property
     def friction(self) -> AnyFriction | None:

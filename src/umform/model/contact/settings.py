@@ -55,7 +55,8 @@ class ContactSettings:
     slip : float
         Allowed elastic slip.
     ratio : float
-        Tangential stiffness over the penalty, so that the pressure that is expected slips at that elastic slip.
+        Tangential stiffness over the penalty at first touch, so that the pressure that is expected slips at that
+        elastic slip.
     cells : int, optional
         Cells per direction and facet; None at points.
     ripple : float, optional

@@ -55,20 +55,25 @@ class Press:
         Its length.
     gauge : Support
         What holds the part when the tools have opened.
+    order : tuple of tuples of str
+        Names of the tools that open, those of one step together.
     """
 
     hold: Hold | None
     stroke: ToolMotion
     way: float
     gauge: Support
+    order: tuple[tuple[str, ...], ...] = (("die", "holder", "punch"),)
 
     def closing(self) -> list[Step]:
         """Steps from the open tools to the end of the stroke."""
         return [*([] if self.hold is None else [self.hold.step()]), Move(self.stroke, to=self.way)]
 
-    def opening(self, model: Model) -> Step:
-        """The step that opens all tools at once, so that the part springs back."""
-        return Free(list(model.tools), steps=6, on=self.gauge)
+    def opening(self, model: Model) -> list[Step]:
+        """Steps that open the tools, so that the part springs back; the gauge holds it from the first one on."""
+        tools = {tool.name: tool for tool in model.tools}
+        first, *rest = ([tools[name] for name in names] for names in self.order)
+        return [Free(first, steps=6, on=self.gauge), *(Free(group, steps=6) for group in rest)]
 
 
 def held_by(model: Model, holder: Tool, force: float | None, *, blocks: bool = True) -> Hold | None:

@@ -150,7 +150,7 @@ class UBend:
         model.symmetry("x0", "x")
         model.fix(np.arange(len(model.mesh.points)), "y")
         deep = 2.0 * self.way + 20.0 * t
-        rule: dict[str, Any] = {"points": self.contact_points, "friction": self.friction, "slip": 0.005 * t}
+        rule: dict[str, Any] = {"points": self.contact_points, "friction": self.friction}
         die = model.tool("die", UDie(self.opening, deep, self.die_edge, self.die_edge))
         model.contact("lower", die, name="on_die", penalty=self.penalty, **rule)
         holder = model.tool("holder", Plane((0.0, 0.0, t), (0.0, 0.0, -1.0)))

@@ -22,6 +22,7 @@ from umform.steps.arc_length.equation import Line
 from umform.steps.arc_length.path import Path
 from umform.steps.increment import last_residuals
 from umform.steps.loop import Run
+from umform.steps.move import check_time
 
 log = logging.getLogger("umform.arc")
 
@@ -35,8 +36,8 @@ class Arc:
     The load parameter goes from 0, where the controls stand, to 1, where they are at ``to``, and is an unknown: it
     turns back where the load does (snap-through) and the displacements turn back where they do (snap-back). The step
     ends when the load parameter reaches 1, exactly; or after ``most`` increments, or when ``until`` says so. The time
-    goes on with the length of the path, by ``increment`` in the first increment. Limit points and bifurcation points
-    are listed in ``result.events``.
+    goes on with the length of the path, by ``increment * time`` in the first increment. Limit points and bifurcation
+    points are listed in ``result.events``.
 
     Parameters
     ----------
@@ -59,6 +60,9 @@ class Arc:
         Number of increments at which the step ends with a warning.
     until : callable, optional
         Asked with the model after each converged increment; True ends the step.
+    time : float
+        What the way to ``to`` takes at the pace of the first increment, for metals with a rate: the path is followed
+        at a constant speed, that of its arc length. Near a limit point a control slows down, and goes back behind it.
 
     Notes
     -----
@@ -92,6 +96,7 @@ class Arc:
     cuts: int = 10
     most: int = 200
     until: Callable[[Model], bool] | None = None
+    time: float = 1.0
 
     def __post_init__(self) -> None:
         if not 0.0 < self.increment <= 1.0:
@@ -104,6 +109,7 @@ class Arc:
             value = getattr(self, name)
             if not isinstance(value, int) or value < least:
                 raise InvalidValue(f"{name} must be a whole number, {least} or more", value=value)
+        check_time("Arc", self.time)
         if len(self.targets()) != len(self.moved()) or len(set(self.moved())) != len(self.moved()):
             raise InvalidValue(
                 "give one target for each control, and each control once",
@@ -158,7 +164,7 @@ class Following:
     def recall(cls, run: Run, step: Arc, memory: dict[str, Any]) -> Self:
         """The loop as it stood."""
         line = Line(step.moved(), memory["path"]["starts"], step.targets())
-        path = Path.recall(run, line, step.increment, memory["path"])
+        path = Path.recall(run, line, step.increment, step.time, memory["path"])
         critical = CriticalPoints(run.result, path.line.text, f"step {run.number}")
         critical.recall(path.state, memory["critical"])
         return cls(path, critical, memory["length"], memory["count"], memory["done"])
@@ -226,7 +232,7 @@ def _say_how_it_ended(run: Run, step: Arc, number: int, path: Path, ended: bool)
 def _started(run: Run, step: Arc) -> Path:
     line = Line(step.moved(), [control.value for control in step.moved()], step.targets())
     try:
-        return Path.begin(run, line, step.increment, spherical=step.kind == "spherical")
+        return Path.begin(run, line, step.increment, time=step.time, spherical=step.kind == "spherical")
     except Failed as failure:
         raise _no_convergence(failure, f"step {run.number}, at its beginning") from None
 

@@ -42,6 +42,8 @@ class Path:
         First increment of the load parameter along the tangent.
     start_time : float
         Time at the beginning of the step.
+    time : float
+        What the way to the end of the line takes at the pace of the first increment.
     first : float
         First arc length.
     state : PathState
@@ -53,11 +55,12 @@ class Path:
     equation: ArcLength
     increment: float
     start_time: float
+    time: float
     first: float
     state: PathState
 
     @classmethod
-    def begin(cls, run: Run, line: Line, increment: float, *, spherical: bool) -> Self:
+    def begin(cls, run: Run, line: Line, increment: float, *, time: float, spherical: bool) -> Self:
         """The path from the present state.
 
         Parameters
@@ -68,11 +71,13 @@ class Path:
             The load parameter and what it moves.
         increment : float
             First increment of the load parameter along the tangent.
+        time : float
+            What the way to the end of the line takes at the pace of the first increment.
         spherical : bool
             Whether the load parameter counts in the arc length. eq. (5.22)
         """
         model, nothing = run.model, PathState(0.0, 0.0, np.empty(0), 0.0, None)
-        path = cls(model, run.newton, ArcLength(line), increment, model.time, 0.0, nothing)
+        path = cls(model, run.newton, ArcLength(line), increment, model.time, time, 0.0, nothing)
         with model.with_term(path.equation):
             evaluation = path.newton.guarded(lambda: model.evaluate(model.x))
             tangent, found = path.newton.guarded(lambda: path._tangent(evaluation))
@@ -92,11 +97,12 @@ class Path:
         return path
 
     @classmethod
-    def recall(cls, run: Run, line: Line, increment: float, memory: dict[str, Any]) -> Self:
+    def recall(cls, run: Run, line: Line, increment: float, time: float, memory: dict[str, Any]) -> Self:
         """The path as it stood."""
         state = PathState(**memory["state"])
         line.value = state.fraction
-        path = cls(run.model, run.newton, ArcLength(line), increment, memory["start_time"], memory["first"], state)
+        starts = memory["start_time"], time, memory["first"]
+        path = cls(run.model, run.newton, ArcLength(line), increment, *starts, state)
         path.equation.load_weight = memory["load_weight"]
         return path
 
@@ -189,4 +195,4 @@ class Path:
         return Manner(line_search=False, reuses=False, mixed=self.newton.mixed)
 
     def _set_time(self, arc: float) -> None:
-        self.model.time = self.start_time + self.increment * arc / self.first
+        self.model.time = self.start_time + self.time * self.increment * arc / self.first

@@ -133,20 +133,26 @@ class Yld2004 {
         const Real scale = sigma / (exponent() * sum);
         std::array<Deviator<Real>, 6> half;
         n = Deviator<Real>{0.0, 0.0, 0.0, 0.0, 0.0};
+        // Shears do not change the traces, the invariants 0 and 3.
         for (int r = 0; r < 6; ++r)
             for (int i = 0; i < 5; ++i) {
-                n[i] += scale * w.first[r] * (*de[r])[i];
                 Real total = 0.0;
-                for (int q = 0; q < 6; ++q) total += w.second(r, q) * (*de[q])[i];
+                for (int q = 0; q < 6; ++q)
+                    if (i < 2 || q % 3 != 0) total += w.second(r, q) * (*de[q])[i];
                 half[r][i] = total;
             }
         Mat<Real, 5, 5> curvature;
-        for (int i = 0; i < 5; ++i)
+        for (int i = 0; i < 5; ++i) {
+            for (int r = 0; r < 6; ++r)
+                if (i < 2 || r % 3 != 0) n[i] += w.first[r] * (*de[r])[i];
+            n[i] *= scale;
             for (int j = i; j < 5; ++j) {
                 Real total = 0.0;
-                for (int r = 0; r < 6; ++r) total += (*de[r])[i] * half[r][j];
+                for (int r = 0; r < 6; ++r)
+                    if (i < 2 || r % 3 != 0) total += (*de[r])[i] * half[r][j];
                 curvature(i, j) = curvature(j, i) = total;
             }
+        }
         a.add_curvature(w.first[1], w.first[2], curvature);
         b.add_curvature(w.first[4], w.first[5], curvature);
         const Real inverse = 1.0 / size, rank_one = (exponent() - 1.0) / sigma;
@@ -201,26 +207,31 @@ class Yld2004 {
         for (int side = 0; side < 2; ++side) {
             const auto& own = side == 0 ? a : b;
             const auto& other = side == 0 ? b : a;
+            std::array<Real, TransformedStress<Real>::most + 1> scaled;
+            for (int k = 1; k <= n; ++k) scaled[k] = (weight_[k] * k) * other.p[n - k];
             for (int r = 1; r <= 3; ++r) {
                 Real sum = 0.0;
-                for (int k = r; k <= n; ++k) sum += weight_[k] * k * own.h[k - r] * other.p[n - k];
+                for (int k = r; k <= n; ++k) sum += scaled[k] * own.h[k - r];
                 w.first[3 * side + r - 1] = r % 2 == 1 ? sum : -sum;
             }
             std::array<Real, 7> by_order;
             for (int order = 2; order <= 6; ++order) {
                 Real sum = 0.0;
-                for (int k = order; k <= n; ++k) sum += weight_[k] * k * own.g[k - order] * other.p[n - k];
+                for (int k = order; k <= n; ++k) sum += scaled[k] * own.g[k - order];
                 by_order[order] = order % 2 == 0 ? sum : -sum;
             }
             for (int r = 0; r < 3; ++r)
                 for (int q = 0; q < 3; ++q) w.second(3 * side + r, 3 * side + q) = by_order[r + q + 2];
         }
-        for (int r = 1; r <= 3; ++r)
+        for (int r = 1; r <= 3; ++r) {
+            std::array<Real, TransformedStress<Real>::most + 1> scaled;
+            for (int k = r; k < n; ++k) scaled[k] = (weight_[k] * (k * (n - k))) * a.h[k - r];
             for (int q = 1; q <= 3; ++q) {
                 Real sum = 0.0;
-                for (int k = r; k <= n - q; ++k) sum += weight_[k] * (k * (n - k)) * a.h[k - r] * b.h[n - k - q];
+                for (int k = r; k <= n - q; ++k) sum += scaled[k] * b.h[n - k - q];
                 w.second(r - 1, q + 2) = w.second(q + 2, r - 1) = (r + q) % 2 == 0 ? sum : -sum;
             }
+        }
         return w;
     }
 

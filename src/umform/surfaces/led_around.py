@@ -1,0 +1,98 @@
+"""A profile led around a rectangle with rounded corners: punch and die of a square cup."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from umform import _core
+from umform.errors import InvalidValue
+from umform.surfaces.crossings import refuse_crossings
+from umform.surfaces.directions import Direction, Point, point, positive, right_angle
+from umform.surfaces.profile import Profile
+from umform.surfaces.segments import Line
+from umform.surfaces.swept import refuse_endless_arcs
+from umform.surfaces.tool import Tool
+
+
+@dataclass(frozen=True)
+class LedAround(Tool):
+    """A profile led around a rectangle with rounded corners. eqs. (4.26), (4.27)
+
+    Parameters
+    ----------
+    profile : Profile
+        The section: its x is the distance outwards from the outline of the rectangle, its y goes across. It is open,
+        begins and ends with a line that extends to infinity, and is flat where it lies deeper inside of the rectangle
+        than its corners are round.
+    size : tuple of float
+        Sides of the rectangle.
+    corner : float
+        Radius of its corners.
+    origin : tuple of float
+        Centre of the rectangle, at the origin of the profile.
+    x, y : str or tuple of float
+        Directions of the sides, at right angles; the y of the profile goes along x cross y.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> section = uf.Profile.from_corners([(-9, 0), (0, 0), (0, 50)], radii=[0, 8, 0], closed=False)
+    >>> punch = uf.LedAround(section, size=(70, 70), corner=10)
+    >>> float(punch.gap([(36.0, 3.0, 20.0)])[0][0])
+    1.0
+    """
+
+    profile: Profile
+    size: tuple[float, float]
+    corner: float
+    origin: Point = (0.0, 0.0, 0.0)
+    x: Direction = "x"
+    y: Direction = "y"
+
+    def kernel(self) -> _core.Surface:
+        """The surface as the kernels take it."""
+        x, y = right_angle(self.x, self.y, "LedAround")
+        half = np.array(
+            [0.5 * positive(side, "LedAround.size", "side") for side in point(self.size, "LedAround.size", 2)]
+        )
+        if positive(self.corner, "LedAround.corner") > half.min() * (1.0 + 1e-12):
+            raise InvalidValue(
+                "the radius of the corners must be at most half of the shorter side",
+                where="LedAround.corner",
+                value=f"{self.corner}, half of the side {half.min()}",
+                cause="a diameter for a radius, or half of the sides in place of the sides",
+                remedy="a smaller radius, or a larger rectangle",
+            )
+        self._refuse_profile()
+        rows = np.array([segment.row() for segment in self.profile.segments])
+        core = np.maximum(half - self.corner, 0.0)
+        axes = np.array([x, y, np.cross(x, y)])
+        return _core.led_around(rows, point(self.origin, "LedAround.origin"), axes, core.tolist(), float(self.corner))
+
+    def _refuse_profile(self) -> None:
+        """Open, its ends infinite lines, and flat inside of the centres of the corners."""
+        if self.profile.closed:
+            raise InvalidValue(
+                "a profile that is led around a rectangle must be open",
+                where="LedAround.profile",
+                remedy="closed=False; its first and last line extend to infinity",
+            )
+        segments = self.profile.segments
+        refuse_endless_arcs(segments[0], segments[-1], "LedAround")
+        refuse_crossings(segments, False, (True, True), "LedAround")
+        least = -self.corner - 1e-9 * self.profile.size
+        outwards = -segments[0].tangents()[0][0], segments[-1].tangents()[1][0]
+        for i, segment in enumerate(segments):
+            ends = [segment.start[0], segment.end[0]]
+            endless = (i == 0 and outwards[0] < 0.0) or (i == len(segments) - 1 and outwards[1] < 0.0)
+            flat = isinstance(segment, Line) and segment.start[1] == segment.end[1]
+            if not flat and (endless or min(ends) < least):
+                raise InvalidValue(
+                    "the profile must be flat where it is deeper inside of the rectangle than its corners are round",
+                    where=f"segment {i} of LedAround.profile",
+                    value=f"x = {min(ends):.6g}, corners of radius {self.corner:g}",
+                    cause="there the tool would have an edge along the diagonals",
+                    remedy="a larger radius of the corners, or smaller ones of the profile",
+                )
