@@ -50,11 +50,16 @@ def bead(
     flow_curve: FlowCurve = None,
     draw: Annotated[float | None, option("Way of the strip; default 1.5 times the way through.", SOLUTION)] = None,
     element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND8",
-    elements: Annotated[float, option("Elements on a quarter turn of the sharper radius.", SOLUTION)] = 20.0,
+    elements: Annotated[float, option("Elements on a quarter turn of the sharper radius.", SOLUTION)] = 14.0,
     contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 4,
     extrapolate: Annotated[
-        bool, option("Run a coarser mesh too: forces extrapolated to elements of zero length, and the error.", SOLUTION)
-    ] = False,
+        bool,
+        option(
+            "Run two coarser meshes too: forces extrapolated to elements of zero length, and their error.",
+            SOLUTION,
+            "--extrapolate/--no-extrapolate",
+        ),
+    ] = True,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,

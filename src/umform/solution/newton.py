@@ -147,7 +147,7 @@ class Newton:
             self.system.revert()
             what = ", ".join(filter(None, (error.what, error.where)))
             cause = Cause.SINGULAR if isinstance(error, SingularMatrix) else Cause.OTHER
-            raise Failed(what, [], cause) from error
+            raise Failed(what, [], cause, getattr(error, "motion", None)) from error
         except BaseException:  # an error of a user's function or an interrupt too leaves no trace
             self.system.revert()
             raise

@@ -209,8 +209,9 @@ def equilibrium(increment: Increment) -> Converged:
             return converged
     increment.habits.learn_of_cut({name: failure.cause for name, failure in failures.items()})
     plain = [failure for name, failure in failures.items() if name != "softer penalties"]
-    if any(failure.cause is Cause.SINGULAR for failure in plain):
-        plain[-1].cause = Cause.SINGULAR
+    for one in plain:
+        if one.cause is Cause.SINGULAR:
+            plain[-1].cause, plain[-1].motion = Cause.SINGULAR, one.motion
     raise plain[-1]
 
 
