@@ -6,6 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self
 
+#: Two limits may agree by chance: no error is taken as smaller than this part of what was extrapolated.
+_LEAST = 0.2
+
 
 @dataclass(frozen=True)
 class Limit:
@@ -18,7 +21,8 @@ class Limit:
     off : float
         Distance of the finer mesh from it, over the limit: the estimate of the error of that mesh.
     error : float, optional
-        Distance from the limit of the two coarser ones of three meshes: the estimate of its own error.
+        Estimate of its own error: the distance from the limit of the two coarser ones of three meshes, or a fifth of
+        what was extrapolated if that is more.
     """
 
     value: float
@@ -35,7 +39,7 @@ class Limit:
     def of_three(cls, numbers: Sequence[float], refined: float) -> Self:
         """From the numbers of three meshes, each finer by the same ratio, and how far the first two miss it."""
         before, last = cls.of(numbers[0], numbers[1], refined), cls.of(numbers[1], numbers[2], refined)
-        return cls(last.value, last.off, abs(last.value - before.value))
+        return cls(last.value, last.off, max(abs(last.value - before.value), _LEAST * abs(numbers[2] - last.value)))
 
 
 @dataclass(frozen=True)
