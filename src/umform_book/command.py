@@ -10,11 +10,11 @@ import typer
 from umform.cli.root import Debug, Verbose, console
 
 if TYPE_CHECKING:
-    from umform_book.writing import Outcome
+    from umform_book.outcome import Outcome
 
 
 def verify(
-    case: Annotated[list[str] | None, typer.Argument(help="Names of cases; none: list them.")] = None,
+    case: Annotated[list[str] | None, typer.Argument(help="Names of cases; without them, list all.")] = None,
     everything: Annotated[bool, typer.Option("--all", help="Run all cases and write the summary.")] = False,
     short: Annotated[bool, typer.Option("--short", help="Run the short meshes only.")] = False,
     out: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder for the pages.")] = Path("results/verification"),
@@ -63,7 +63,9 @@ def _show_page(path: Path) -> None:
     """The page as the terminal can show it."""
     from rich.markdown import Markdown
 
-    console().print(Markdown(path.read_text(encoding="utf-8")))
+    from umform_book.markdown import unfolded
+
+    console().print(Markdown(unfolded(path.read_text(encoding="utf-8"))))
 
 
 def _show_verdicts(outcomes: dict[str, Outcome], out: Path) -> None:

@@ -157,9 +157,9 @@ def run(page: Page) -> None:
     with_the_sheet(page)
     against_the_sheet(page)
     page.text(
-        "A straight first guess would end R (angle)^2/2 beside the arc, 30 times the allowed elastic slip at 5 degrees "
-        "on the cylinder: all points would slip, and nothing would hold the sheet. The guess goes round with the tool, "
-        "see eq. (4.178) of the theory."
+        "A straight predictor would end R (angle)^2/2 beside the arc, 38 times the allowed elastic slip at 5 degrees "
+        "on the cylinder: all points would slip, and nothing would hold the sheet. The predictor rotates with the "
+        "tool, see eq. (4.178) of the theory."
     )
 
 
@@ -168,17 +168,18 @@ CASE = Case(
     title="Tools that turn with the sheet and against it",
     problem=f"""
 A plate of {LENGTH:g} x {WIDTH:g} x {HEIGHT:g}, E = {E:g}, under a pressure of {PRESSURE:g} on its upper face, mu =
-{MU:g}, penalty {PENALTY:g}, elastic slip allowed {SLIP:g}. *With the sheet:* nothing but friction holds the plate to
-a plane, or a curved one to a cylinder of R = {RADIUS:g}, nu = {NU:g}; the tool turns once, in 8 to 180 increments.
-*Against the sheet:* the plate is held and the plane turns by 0.04 about a point on the x axis; nu = 0, elastic slip
-allowed {SLIP / 1000:g}.
+{MU:g}, penalty {PENALTY:g}, allowed elastic slip {SLIP:g}.
+
+* With the sheet: only friction holds the plate to a plane, or a curved one to a cylinder of R = {RADIUS:g}, nu =
+  {NU:g}; the tool turns once, in 8 to 180 increments.
+* Against the sheet: the plate is held and the plane turns by 0.04 about a point on the x axis; nu = 0, allowed elastic
+  slip {SLIP / 1000:g}.
 """,
     reference="""
-With the sheet: every node is where the turn takes it, and friction does no work; to round-off. Against: each point
-slips in the direction of the turn; force and moment over mu N are the means of that direction and of its moment over
-the plate, by numerical integration. Own uncertainty: the pressure is uniform to round-off; two points per direction
-and facet do not see the jump of the direction at the pivot, an error of the order of the third power of the length of
-a facet over that of the plate.
+With the sheet: every node follows the rotation and friction does no work, to round-off. Against: each point slips in
+the direction of the rotation; force and moment over mu N are means over the plate, by numerical integration.
+Uncertainty: two points per direction and facet do not resolve the jump of the direction at the pivot, an error of third
+order in the length of a facet over that of the plate.
 """,
     run=run,
     cost=13.0,
