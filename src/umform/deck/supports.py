@@ -9,6 +9,7 @@ from pydantic import Field
 
 from umform.deck.parts import Axis, Name, Part, Vector, Way
 from umform.deck.selection import Selection, nodes_of
+from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.axes import Axes, cylindrical
 from umform.model.support import Support as Held
@@ -101,11 +102,23 @@ class Rigid(Part):
     """Name, by which a step puts it in place."""
     nodes: Selection = "all"
     """Nodes that may be held: three that are not on a line, or all."""
+    instead_of: list[Name] = []
+    """Names of supports that the same step frees: it may hold their nodes."""
 
     def add_to(self, model: Model) -> Held:
         """Let the support wait."""
         nodes = "all" if self.nodes == "all" else nodes_of(model.mesh, self.nodes)
-        return model.hold_rigid(nodes, self.name)
+        there = {support.name: support for support in model.supports}
+        unknown = [name for name in self.instead_of if name not in there]
+        if unknown:
+            raise InvalidValue(
+                "a rigid support takes the place of supports that the deck names",
+                where=f"support {self.name}, instead_of",
+                value=", ".join(unknown),
+                cause="a name that no support has, or that of another rigid one",
+                remedy=f"names of supports: {', '.join(there) or 'there are none'}",
+            )
+        return model.hold_rigid(nodes, self.name, instead_of=[there[name] for name in self.instead_of])
 
 
 Support = Annotated[Fix | Symmetry | Hinge | Director | Rigid, Field(discriminator="kind")]

@@ -18,7 +18,7 @@ from umform.model.checks import check_model
 from umform.model.contact import Contact
 from umform.model.dead_load import Load
 from umform.model.gauge import gauge_dofs
-from umform.model.kept_gap import stop_at_gap
+from umform.model.kept_gap import check_kept_gaps, stop_at_gap
 from umform.model.opening import put_tool_back
 from umform.model.press import check_stiffness
 from umform.model.rest import Rest
@@ -140,7 +140,9 @@ class Model(Standing):
         else:
             removal.put_back(self, thing, here=here)
 
-    def hold_rigid(self, nodes: Selector = "all", name: str = "") -> Support:
+    def hold_rigid(
+        self, nodes: Selector = "all", name: str = "", *, instead_of: Support | Sequence[Support] = ()
+    ) -> Support:
         """A support of as few degrees of freedom as hold the sheet as a rigid body; a step Free puts it in place.
 
         It holds six of them, at three nodes for one, or what the supports of the model leave free; until ``Free(...,
@@ -152,6 +154,8 @@ class Model(Standing):
             Nodes that may be held: three that are not on a line, or all, of which those far apart are taken.
         name : str, optional
             Name of the support.
+        instead_of : Support or sequence of Support, optional
+            Supports that the same step Free takes away: it may hold their nodes.
 
         Raises
         ------
@@ -160,7 +164,8 @@ class Model(Standing):
         """
         everything = isinstance(nodes, str) and nodes == "all"
         ids = np.arange(len(self.mesh.points), dtype=np.int32) if everything else self.mesh.nodes(nodes)
-        dofs = gauge_dofs(self, ids)
+        gone = [instead_of] if isinstance(instead_of, Support) else list(instead_of)
+        dofs = gauge_dofs(self, ids, gone)
         return self.wait(unique(dofs // 3).astype(np.int32), dofs, name)
 
     def rest(self, stiffness: float | None = None, name: str = "rest", *, motions: str = "") -> Rest:
@@ -207,9 +212,12 @@ class Model(Standing):
             If the tools do not face each other, are nearer already, or move apart from each other.
         """
         other = to if isinstance(to, Tool) else to.tool
-        at, below = stop_at_gap(self, self.press_of(force), other, gap)
+        press = self.press_of(force)
+        at, below = stop_at_gap(self, press, other, gap)
         self.stop(force, at, below=below)
+        press.gaps.append(other)
 
     def check(self) -> None:
         """Refuse what cannot be solved before time is spent on it, see :func:`umform.model.checks.check_model`."""
         check_model(self)
+        check_kept_gaps(self)
