@@ -161,7 +161,7 @@ class Mesh:
             if selector in self.sets:
                 ids = np.asarray(self.sets[selector], dtype=np.int32)
             elif selector in self.faces:
-                rows = self.faces[selector]
+                rows = np.asarray(self.faces[selector], dtype=np.int32)
                 ids = unique(np.concatenate([self._face_nodes(face) for face in rows])) if len(rows) else rows.ravel()
             else:
                 raise _unknown("node", selector, [*self.sets, *self.faces])

@@ -129,7 +129,7 @@ class Model(Standing):
         """A load of the forces that nothing balances at the present state, for a stage that begins there.
 
         Tools and supports of the stage before, and metal that was cut off, exerted them. Supports and tools of the
-        present stage must be there already. Move the load to zero to let the part spring back, see docs/trimming.md.
+        present stage must be there already. Move the load to zero to let the part spring back, see docs/operations.md.
 
         Parameters
         ----------

@@ -1,7 +1,7 @@
 """Trimming: a line parts the sheet, and the elements beyond it go.
 
 What stays keeps its state. The forces that the metal beyond the line exerted become a dead load, which a stage then
-takes to zero. docs/trimming.md
+takes to zero. docs/operations.md
 """
 
 from __future__ import annotations
