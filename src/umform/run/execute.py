@@ -8,9 +8,10 @@ from functools import partial
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from umform.errors import InvalidValue
+from umform.errors import InvalidValue, NoConvergence
 from umform.model import Model
 from umform.progress import Tick, progress_bar
+from umform.results.bottoming import warn_of_bottoming
 from umform.results.cells import tell_of_cells
 from umform.results.penetration import warn_of_contact
 from umform.results.rest import tell_of_rest
@@ -271,10 +272,13 @@ def taken(
                 run.number, run.loop = run.number + 1, None
             if last:
                 warn_of_contact(run.model, result)
+                warn_of_bottoming(run.model, result)
                 tell_of_rest(run.model, result)
             _pause(run, start, checkpoints, stop, last=last)
         except BaseException as error:  # whatever ends the run: what was reached is kept with the error
             result.seconds = clock.perf_counter() - start
+            if isinstance(error, NoConvergence):
+                warn_of_bottoming(run.model, result)
             error.result = result  # type: ignore[attr-defined]
             raise
 
