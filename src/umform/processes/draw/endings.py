@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from umform.errors import NoConvergence
-from umform.results.forming import FormingLimit, distance_from, forming_fields
 from umform.results.bottoming import bottoming
+from umform.results.forming import FormingLimit, distance_from, forming_fields
 from umform.run import Result
 
 if TYPE_CHECKING:
@@ -77,8 +77,9 @@ def ending_of(case: Cup | UBend, result: Result, limit: FormingLimit, failure: N
         return Ending("wrinkled", text, early)
     bottom = bottoming(result["stroke"], result["punch_fz"])
     if bottom is not None:
-        text = f"the punch bottoms at a stroke of {abs(bottom.at):.4g}{reached}: its force rises from {bottom.before:.4g} to "
-        return Ending("bottomed", f"{text}{bottom.largest:.4g}; a shorter stroke, or more clearance", early)
+        text = f"the punch bottoms at a stroke of {abs(bottom.at):.4g}{reached}: its force rises from"
+        remedy = "a shorter stroke, or more clearance"
+        return Ending("bottomed", f"{text} {bottom.before:.4g} to {bottom.largest:.4g}; {remedy}", early)
     if early:
         return Ending("solver", f"the run cannot be continued{reached}: {failure}", True)
     return None
