@@ -21,13 +21,16 @@ PACKAGE   := $(shell find CMakeLists.txt pyproject.toml cpp src \
 CPP       := $(shell find cpp -name '*.hpp' -o -name '*.cpp')
 CPP_TESTS := $(wildcard tests/cpp/*.hpp tests/cpp/*.cpp tests/cpp/*/*.hpp tests/cpp/*/*.cpp)
 
+# Where each commit is checked, a warning of the compiler is an error; a newer compiler of a user's may warn.
+STRICT := $(if $(CI),--config-settings=cmake.define.UMFORM_STRICT=ON)
+
 export CMAKE_BUILD_PARALLEL_LEVEL := $(JOBS)
 unexport PYTHONPATH PYTHONHOME
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-stubs lint-format lint-cpp stubs \
+.PHONY: help env dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-stubs lint-format lint-cpp stubs \
         format docs wheel bench dome robust ubend cup compare peers clean
 
 help:  ## show this help
@@ -51,7 +54,7 @@ $(VENV)/.tools: pyproject.toml tools/check_machine.py tools/requirements.py
 $(VENV)/.package: $(VENV)/.tools $(PACKAGE)
 	$(SAY) 'Compiling and installing umform with $(JOBS) jobs (a minute or two the first time)'
 	@touch $@.new
-	@$(PIP) install --no-build-isolation --config-settings=build-dir=$(BUILD) .
+	@$(PIP) install --no-build-isolation --config-settings=build-dir=$(BUILD) $(STRICT) .
 	@mv $@.new $@
 
 $(VENV)/.dev: $(VENV)/.tools
@@ -72,14 +75,17 @@ bench: env  ## time kernels, a run and the sparse solvers; the numbers go to bui
 	@$(BIN)/python benchmarks/sparse.py --json $(JSON)
 
 dome: env  ## a sphere pressed into sheets of up to 160 000 elements: time, memory, evaluations thrown away (an hour)
-	@$(BIN)/python benchmarks/dome.py --json build/dome.json --plot docs/images/dome.png --page docs/performance.md $(ARGS)
+	@$(BIN)/python benchmarks/dome.py --json build/dome.json --plot docs/images/dome.png --page docs/performance-increments.md $(ARGS)
+	@$(BIN)/python tools/performance_numbers.py
 
-robust: env  ## 300 random jobs and how many arrive (some 10 minutes of CPU); writes docs/robust-rate.md
+robust: env  ## 300 random jobs and how many finish (some 10 minutes of CPU); writes docs/robust-rate.md
 	@$(BIN)/python benchmarks/robust.py --json build/robust.json --page docs/robust-rate.md $(ARGS)
+	@$(BIN)/python tools/performance_numbers.py
 
 ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter of an hour)
 	$(SAY) 'Drawing the U-bend'
-	@$(BIN)/python benchmarks/ubend.py --page docs/performance.md $(ARGS)
+	@$(BIN)/python benchmarks/ubend.py --page docs/performance-codes.md $(ARGS)
+	@$(BIN)/python tools/performance_numbers.py
 
 cup: env  ## the cup of the ESAFORM benchmark 2021 on finer meshes (a quarter of an hour)
 	$(SAY) 'Drawing the cup'
@@ -89,7 +95,8 @@ compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)
 
 peers: env  ## the same work in other codes that are installed, CalculiX first (some 15 minutes of CPU)
-	@$(BIN)/python benchmarks/peers/run.py --out benchmarks/peers/results.md --page docs/performance.md $(ARGS)
+	@$(BIN)/python benchmarks/peers/run.py --out benchmarks/peers/results.md --page docs/performance-codes.md $(ARGS)
+	@$(BIN)/python tools/performance_numbers.py
 
 # ---- test ----
 
@@ -109,6 +116,16 @@ test-python: dev  ## tests of the installed package
 
 test-long: dev  ## the long verification runs
 	@$(BIN)/pytest -q -m long $(ARGS)
+
+test-clang: dev  ## build the kernels with clang, warnings as errors, and test them (skipped without clang)
+	$(SAY) 'Testing a build by clang'
+	@bash tools/clang.sh $(BIN)/python release
+
+sanitize: dev  ## tests with clang's sanitizers: addresses, undefined behaviour, threads (an hour)
+	$(SAY) 'Testing with AddressSanitizer and UndefinedBehaviorSanitizer'
+	@bash tools/clang.sh $(BIN)/python address
+	$(SAY) 'Testing with ThreadSanitizer'
+	@bash tools/clang.sh $(BIN)/python thread
 
 BENDING := tests/verification/test_free_bending.py
 PARDISO_TESTS := tests/python/solvers tests/python/test_threads.py '$(BENDING)::test_forces_of_the_table[12x1 MI9K3DEAS 3]' \

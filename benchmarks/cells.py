@@ -18,7 +18,7 @@ from cell_cases import PROBLEMS, Curve, Problem, Rule
 from umform.errors import NoConvergence
 from umform.plotting import house_style
 
-PAGE, FIGURE = Path("docs/cells.md"), Path("docs/images/cells.png")
+PAGE, FIGURE = Path("docs/performance-cells.md"), Path("docs/images/cells.png")
 FINEST = 20
 
 #: Where the law is asked, by what it is called in the tables.

@@ -1,6 +1,6 @@
 """Increments at a pace beside equal ones: iterations, and how far the forces are from those of four times as many.
 
-``python benchmarks/pace.py --page docs/performance.md`` writes the table between the marks of the page.
+``python benchmarks/pace.py --page docs/performance-increments.md`` writes the table between the marks of the page.
 """
 
 from __future__ import annotations

@@ -14,25 +14,25 @@ from jobs import COUNT, job
 EXPLANATIONS = Path(__file__).with_name("robust_failures.toml")
 GOAL, HANGS = 0.995, ("hang", "out of time")
 
-_PAGE = """# How many jobs arrive
+_PAGE = """# How many jobs finish
 
-{count} jobs are drawn at random, as users give them: bends with the metals, dies and punches of a shop, to a stroke
-or to an angle; strips over cylinders; strips between tools whose sections are drawn; plates under balls, plungers and
-rings; with elements, penalties, contact points and multipliers at random. A job has arrived if its steps are at their
-end, and forces and energies balance. Its number alone makes it again.
+{count} random jobs resemble those of users: bends with the metals, dies and punches of a workshop, to a stroke or to
+an angle; strips over cylinders; strips between tools with drawn sections; plates under balls, plungers and rings.
+Elements, penalties, contact points and multipliers are random. A job has finished if all its steps are complete and
+forces and energies balance. The number of a job defines it completely.
 
 ```console
 python benchmarks/robust.py --page docs/robust-rate.md     # or: make robust
 python benchmarks/robust.py --job 117
 ```
 
-{rate:.1%} arrive; the goal is {goal:.1%}, and that none hangs: {verdict}.
+{rate:.1%} finish; the goal is {goal:.1%} and no job that hangs: {verdict}.
 
 {table}
 
-Evaluations are those of residual and tangent; thrown away are those of attempts of Newton's method that failed.
+Evaluations are those of residual and tangent. "Thrown away" are those of failed attempts of Newton's method.
 
-## Those that do not arrive
+## Jobs that do not finish
 
 {failures}
 """
@@ -88,7 +88,7 @@ def table(outcomes: _Outcomes) -> str:
     """Jobs of each kind and how they ended, in Markdown."""
     kinds = list(dict.fromkeys(one["kind"] for one in outcomes))
     rows = [
-        "| jobs | number | arrived | CPU s, middle | CPU s, most | evaluations | thrown away |",
+        "| jobs | number | finished | CPU s, median | CPU s, most | evaluations | thrown away |",
         "|---" + "|---:" * 6 + "|",
     ]
     for kind in [*kinds, "all"]:
@@ -128,5 +128,5 @@ def page(outcomes: _Outcomes) -> str:
         goal=GOAL,
         verdict="met" if share >= GOAL and not hangs else "missed",
         table=table(outcomes),
-        failures="\n".join(explained or ["All do."]),
+        failures="\n".join(explained or ["All finish."]),
     )

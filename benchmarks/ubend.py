@@ -1,6 +1,6 @@
 """The U-bend of NUMISHEET 93 in plane strain: 70 mm of stroke under a holder with friction, beside CalculiX.
 
-    python benchmarks/ubend.py --page docs/performance.md
+    python benchmarks/ubend.py --page docs/performance-codes.md
     python benchmarks/ubend.py --calculix 600        # with so many seconds for CalculiX
 
 Half of a blank of 350 x 35 x 0.78 mm, one millimetre of its width. Tools and hardening are those widely used for the

@@ -156,7 +156,7 @@ def check_processes(processes: int | None) -> None:
             where="processes",
             value=processes,
             cause="zero or a sign",
-            remedy="leave it out: then there are as many as processors",
+            remedy="omit it: then there are as many as processors",
         )
 
 

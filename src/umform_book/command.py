@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def verify(
-    case: Annotated[list[str] | None, typer.Argument(help="Names of cases; none: list them.")] = None,
+    case: Annotated[list[str] | None, typer.Argument(help="Names of cases; without them, list all.")] = None,
     everything: Annotated[bool, typer.Option("--all", help="Run all cases and write the summary.")] = False,
     short: Annotated[bool, typer.Option("--short", help="Run the short meshes only.")] = False,
     out: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder for the pages.")] = Path("results/verification"),

@@ -126,7 +126,7 @@ def test_no_convergence_ends_all_with_one_message_and_whole_files(deck, tmp_path
     done = mpi.start(3, *UMFORM, "run", deck, "--out", tmp_path, "--solver", "petsc", *SHORT, *few)
     assert done.returncode == 1
     assert done.stderr.count("Newton's method did not converge") == 1
-    assert done.stderr.count("what was reached is written") == 1
+    assert done.stderr.count("the results so far are written") == 1
     assert len(history(tmp_path)["punch"]) >= 1
     with h5py.File(tmp_path / "fields.vtkhdf") as file:
         assert file["VTKHDF/Steps"].attrs["NSteps"] >= 1

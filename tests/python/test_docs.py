@@ -112,9 +112,9 @@ def _names(requirements: list[str]) -> set[str]:
     return {re.match(r"[\w-]+", requirement)[0].replace("-", "_") for requirement in requirements}
 
 
-def test_the_numbers_of_the_readme_are_those_of_the_verification_book() -> None:
-    script = ROOT / "tools" / "readme_numbers.py"
-    assert subprocess.run([sys.executable, str(script), "--check"], check=False).returncode == 0
+@pytest.mark.parametrize("script", ["readme_numbers.py", "performance_numbers.py"])
+def test_summaries_quote_the_numbers_of_their_pages(script: str) -> None:
+    assert subprocess.run([sys.executable, str(ROOT / "tools" / script), "--check"], check=False).returncode == 0
 
 
 def test_links_between_pages_lead_somewhere() -> None:

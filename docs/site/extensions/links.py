@@ -10,6 +10,8 @@ from sphinx.application import Sphinx
 
 #: Pages whose links, in their order, are the chapters below them.
 CONTENTS = {"README", "tutorials/README", "theory/README", "verification/README"}
+#: Pages with pages of details, which are named NAME-*.md and are chapters below it.
+DETAILED = {"performance"}
 #: Pages of the root of the repository, and the pages of the site that show them.
 SHOWN = {
     "README.md": "index",
@@ -23,11 +25,12 @@ TREE = ":::{{toctree}}\n:hidden:\n\n{}\n:::\n"
 
 
 def chapters(file: Path, text: str) -> list[str]:
-    """Pages of the folder of a page: those that it links to in their order, then the others."""
+    """Pages of the folder of a page, or its details: those that it links to in their order, then the others."""
     linked = [target for target, _ in LINK.findall(text) if "/" not in target]
-    present = sorted(path.name for path in file.parent.glob("*.md"))
-    listed = dict.fromkeys([*(name for name in linked if name in present), *present])
-    return [name for name in listed if name not in (file.name, "index.md")]
+    present = {path.name for path in file.parent.glob("*.md")} - {file.name, "index.md"}
+    details = {name for name in present if any(name.startswith(f"{page}-") for page in DETAILED)}
+    present = details if file.stem in DETAILED else present - details
+    return list(dict.fromkeys([*(name for name in linked if name in present), *sorted(present)]))
 
 
 def with_links_of(text: str, folder: Path, page: Path, docs: Path) -> str:
@@ -56,7 +59,7 @@ def read_page(app: Sphinx, page: str, source: list[str]) -> None:
         if shown == page:
             app.env.note_dependency(str(docs.parent / name))
             source[0] += "\n" + with_links_of((docs.parent / name).read_text(), docs.parent, file, docs)
-    if page in CONTENTS:
+    if page in CONTENTS | DETAILED:
         source[0] += "\n" + TREE.format("\n".join(chapters(file, source[0])))
 
 

@@ -34,8 +34,10 @@ def bead(
     radius: Annotated[float, option("Radius of the tip of the bead.", _TOOLS)] = 5.5,
     height: Annotated[float, option("Height of the bead above its flat.", _TOOLS)] = 6.0,
     groove_radius: Annotated[float, option("Radius of the edges of the groove.", _TOOLS)] = 5.0,
-    groove: Annotated[float | None, option("Width of the groove; default: bead, sheet and 10 % air.", _TOOLS)] = None,
-    gap: Annotated[float | None, option("Air beside the sheet between the flats; default 5 %.", _TOOLS)] = None,
+    groove: Annotated[float | None, option("Width of the groove; default: bead plus 2.2 thicknesses.", _TOOLS)] = None,
+    gap: Annotated[
+        float | None, option("Clearance between sheet and closed flats; default 5 % of the thickness.", _TOOLS)
+    ] = None,
     friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.1,
     thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 0.8,
     material: Material = None,
@@ -48,12 +50,14 @@ def bead(
     hardening_modulus: Modulus = None,
     swift: SwiftCurve = None,
     flow_curve: FlowCurve = None,
-    draw: Annotated[float | None, option("Way of the strip; default 1.5 times the way through.", SOLUTION)] = None,
+    draw: Annotated[
+        float | None, option("Distance that the strip is drawn; default 1.5 times the length in the bead.", SOLUTION)
+    ] = None,
     element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND8",
-    elements: Annotated[float, option("Elements on a quarter turn of the sharper radius.", SOLUTION)] = 20.0,
+    elements: Annotated[float, option("Elements per quarter turn of the smaller radius.", SOLUTION)] = 20.0,
     contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 4,
     extrapolate: Annotated[
-        bool, option("Run a coarser mesh too: forces extrapolated to elements of zero length, and the error.", SOLUTION)
+        bool, option("Also run a coarser mesh: extrapolated forces and their error.", SOLUTION)
     ] = False,
     overwrite: Overwrite = False,
     timing: Timed = False,
@@ -113,7 +117,7 @@ def _what_was_reached(out: Path) -> Iterator[None]:
         reached = getattr(stop, "result", None)
         if reached is not None and reached.frames:
             files = [reached.write(out / name) for name in ("history.csv", "bead.vtkhdf")]
-            stop.add_note(f"  what was reached is in {out}: {', '.join(file.name for file in files)}")
+            stop.add_note(f"  results so far are in {out}: {', '.join(file.name for file in files)}")
         raise
 
 

@@ -40,15 +40,15 @@ def bend(
         str | None,
         typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/bend."),
     ] = None,
-    angle: Annotated[float | None, option("Find the stroke that leaves this angle in degrees.", _GOAL)] = None,
+    angle: Annotated[float | None, option("Find the stroke for this angle after springback, degrees.", _GOAL)] = None,
     stroke: Annotated[float | None, option("Bend to this stroke in mm.", _GOAL)] = None,
-    table: Annotated[str | None, option("Strokes of a bending table: first:last:step, as 4:6:0.5.", _GOAL)] = None,
-    budget: Annotated[bool, option("Run again with refinements, and show what they change.", _GOAL)] = False,
+    table: Annotated[str | None, option("Strokes of a bending table: first:last:step, such as 4:6:0.5.", _GOAL)] = None,
+    budget: Annotated[bool, option("Error budget: repeat with refinements and show the changes.", _GOAL)] = False,
     opening: Annotated[float, option("Opening of the die.", _TOOLS)] = 16.0,
     die_angle: Annotated[float, option("Angle of the die.", _TOOLS)] = 85.0,
-    die_radius: Annotated[float, option("Radius of its shoulders.", _TOOLS)] = 2.0,
+    die_radius: Annotated[float, option("Radius of the die shoulders.", _TOOLS)] = 2.0,
     punch_angle: Annotated[float, option("Angle of the punch.", _TOOLS)] = 85.0,
-    punch_radius: Annotated[float, option("Radius of its tip.", _TOOLS)] = 1.5,
+    punch_radius: Annotated[float, option("Radius of the punch tip.", _TOOLS)] = 1.5,
     thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 2.0,
     width: Annotated[float | None, option("Length of the bend; default: plane strain.", SHEET)] = None,
     material: Material = None,
@@ -63,16 +63,18 @@ def bend(
     flow_curve: FlowCurve = None,
     element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND18",
     layers: Annotated[int, option("Elements through the thickness.", SOLUTION)] = 2,
-    thickness_points: Annotated[int, option("Points through the thickness of a layer.", SOLUTION)] = 6,
-    elements_per_thickness: Annotated[float, option("Elements on a length of one thickness.", SOLUTION)] = 3.0,
+    thickness_points: Annotated[int, option("Thickness points per layer.", SOLUTION)] = 6,
+    elements_per_thickness: Annotated[float, option("Elements per thickness along the sheet.", SOLUTION)] = 3.0,
     width_elements: Annotated[int, option("Elements over half of the width.", SOLUTION)] = 3,
     contact_points: Annotated[str, option("Contact points per direction and facet, or auto.", SOLUTION)] = "auto",
     penalty: Annotated[float | None, option("Contact pressure per penetration.", SOLUTION)] = None,
     penetration: Annotated[
-        float | None, option("Penetration allowed, in place of a penalty; default thickness / 200.", SOLUTION)
+        float | None, option("Allowed penetration instead of a penalty; default thickness / 200.", SOLUTION)
     ] = None,
-    increment: Annotated[float, option("Way of the punch in an increment, over the opening.", SOLUTION)] = 0.00625,
-    tolerance: Annotated[float, option("Of the angle that is looked for, in degrees.", SOLUTION)] = 0.02,
+    increment: Annotated[
+        float, option("Displacement of the punch per increment, over the opening.", SOLUTION)
+    ] = 0.00625,
+    tolerance: Annotated[float, option("Tolerance of --angle in degrees.", SOLUTION)] = 0.02,
     processes: Annotated[int | None, option("Runs of the budget at a time.", SOLUTION)] = None,
     print_deck: Annotated[
         bool, typer.Option("--print-deck", help="Print the bend as a deck for `umform run`, and run nothing else.")
@@ -83,9 +85,9 @@ def bend(
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
-    """Bend a sheet in a V-die in the air, and unload it.
+    """Air-bend a sheet in a V-die, and unload it.
 
-    Give the stroke, or the angle that is wanted after springback. Each number is defined in docs/air-bending.md.
+    Give the stroke, or the angle after springback. Each number is defined in docs/air-bending.md.
     """
     from umform.io.folders import folder_for
     from umform.io.staging import staging
@@ -153,7 +155,7 @@ def bend(
             with printing(f"the files of the bend are in {place}"):
                 _show(done, rows, errors, note)
         except KeyboardInterrupt as stop:
-            stop.add_note(f"  what was reached is in {place}: all but the budget")
+            stop.add_note(f"  results so far are in {place}: all but the budget")
             raise
         finally:  # also if nobody reads the table
             with done.result.timing.files:
@@ -197,7 +199,7 @@ def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
         if reached is not None and reached.frames:
             files += [reached.write(out / name) for name in ("history.csv", "bend.vtkhdf")]
         if files:
-            stop.add_note(f"  what was reached is in {out}: {', '.join(file.name for file in files)}")
+            stop.add_note(f"  results so far are in {out}: {', '.join(file.name for file in files)}")
         raise
 
 

@@ -17,15 +17,13 @@ if TYPE_CHECKING:
     from umform.deck import Deck
     from umform.deck.findings import Finding
 
-DeckFile = Annotated[Path, typer.Argument(metavar="DECK", help="A deck: one TOML file.")]
+DeckFile = Annotated[Path, typer.Argument(metavar="DECK", help="Deck, a TOML file.")]
 Changes = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="Another value of a key, as steps.0.increments=5; repeatable."),
+    typer.Option("--set", metavar="KEY=VALUE", help="Set a key of the deck, such as steps.0.increments=5; repeatable."),
 ]
 
-Force = Annotated[
-    bool, typer.Option("--force", help="Run in spite of numbers that cannot be meant; they become warnings.")
-]
+Force = Annotated[bool, typer.Option("--force", help="Run despite implausible numbers: these errors become warnings.")]
 
 
 @app.command("check")

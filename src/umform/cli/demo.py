@@ -17,7 +17,7 @@ from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
 if TYPE_CHECKING:
     from umform.processes.bending.showcase import Outcome
 
-demos = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", help="Run an example and show what comes out.")
+demos = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", help="Run an example and show the results.")
 app.add_typer(demos, name="demo")
 
 _RUNS, _STRIP, _MATERIAL, _SOLUTION = "Which runs", "Strip and tool (mm)", "Material (MPa)", "Solution"
@@ -32,8 +32,8 @@ def free_bending(
             metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/free-bending."
         ),
     ] = None,
-    mesh: Annotated[list[str] | None, option("Elements along and across, as 24x1; may be repeated.", _RUNS)] = None,
-    element: Annotated[list[str] | None, option("Element of the catalogue; may be repeated.", _RUNS)] = None,
+    mesh: Annotated[list[str] | None, option("Elements along and across, such as 24x1; repeatable.", _RUNS)] = None,
+    element: Annotated[list[str] | None, option("Element of the catalogue; repeatable.", _RUNS)] = None,
     contact: Annotated[
         list[str] | None, option("Contact points per direction and facet, or nodes; may be repeated.", _RUNS)
     ] = None,
@@ -45,8 +45,10 @@ def free_bending(
     width: Annotated[float, option("Width of the strip.", _STRIP)] = Default.width,
     thickness: Annotated[float, option("Thickness of the strip.", _STRIP)] = Default.thickness,
     radius: Annotated[float, option("Radius of the cylinder.", _STRIP)] = Default.radius,
-    tool_x: Annotated[float, option("x of its axis.", _STRIP)] = Default.tool_x,
-    tool_z: Annotated[float | None, option("z of its axis; default: it touches the strip.", _STRIP)] = None,
+    tool_x: Annotated[float, option("x of the cylinder axis.", _STRIP)] = Default.tool_x,
+    tool_z: Annotated[
+        float | None, option("z of the cylinder axis; default: in contact with the strip.", _STRIP)
+    ] = None,
     kappa: Annotated[float, option("Bulk modulus.", _MATERIAL)] = Default.kappa,
     mu: Annotated[float, option("Shear modulus.", _MATERIAL)] = Default.mu,
     yield_stress: Annotated[float, option("Yield stress.", _MATERIAL)] = Default.yield_stress,
@@ -57,7 +59,7 @@ def free_bending(
     unload: Annotated[bool, option("Release to zero force.", _SOLUTION)] = Default.unload,
     solver: Annotated[str, option("auto, multifrontal, banded, pardiso or superlu.", _SOLUTION)] = Default.solver,
     line_search: Annotated[
-        bool, option("Shorten Newton's increments that go too far.", _SOLUTION, "--line-search/--no-line-search")
+        bool, option("Line search of Newton's method.", _SOLUTION, "--line-search/--no-line-search")
     ] = Default.line_search,
     processes: Annotated[int | None, option("Runs at a time; default: the processors.", _SOLUTION)] = None,
     print_deck: Annotated[
@@ -72,8 +74,8 @@ def free_bending(
 
     Without options, the 14 runs of the example: 8-node elements on 24x1 and 48x2, 18-node elements on 12x1 and 24x2,
     with contact at the nodes and at two numbers of Gauss points, and a cubic thickness strain on the fine meshes.
-    What is said of mesh, element and contact selects runs; a thickness option replaces the cubic ones; all other
-    options hold for all runs.
+    Options of mesh, element and contact select runs; a thickness option replaces the cubic ones; all other options
+    apply to all runs.
     """
     logging.getLogger("umform").addHandler(logging.NullHandler())  # warnings are printed with the name of their run
     from umform.io.folders import folder_for
@@ -155,5 +157,5 @@ def _show(outcome: Outcome, out: Path, *, timing: bool) -> None:
     for run in failed:
         typer.echo(f"umform: {run.case.name}: {as_typed(run.failure)}", err=True)
     if failed:
-        typer.echo(f"  what was reached before is in {out}", err=True)
+        typer.echo(f"  earlier results are in {out}", err=True)
         raise typer.Exit(1)

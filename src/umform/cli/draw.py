@@ -27,11 +27,13 @@ app.add_typer(group, name="draw")
 
 Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
 LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]
-Stroke = Annotated[float | None, option("Way of the punch; default: a whole cup, a fifth of the blank of a U.", _TOOLS)]
-Coarse = Annotated[bool, typer.Option("--coarse", help="A coarse mesh: a first look in seconds.")]
-Turn = Annotated[float | None, option("Largest angle in degrees that an element turns over a radius.", SOLUTION)]
+Stroke = Annotated[
+    float | None, option("Stroke of the punch; default: the full cup, or a fifth of the blank for a U.", _TOOLS)
+]
+Coarse = Annotated[bool, typer.Option("--coarse", help="Coarse mesh, for a first result in seconds.")]
+Turn = Annotated[float | None, option("Largest angle in degrees that an element turns over a tool radius.", SOLUTION)]
 Layers = Annotated[int, option("Elements through the thickness.", SOLUTION)]
-ThicknessPoints = Annotated[int | None, option("Points through the thickness of a layer.", SOLUTION)]
+ThicknessPoints = Annotated[int | None, option("Thickness points per layer.", SOLUTION)]
 
 
 @group.command()
@@ -39,11 +41,13 @@ def cup(
     out: Out = None,
     coarse: Coarse = False,
     punch: Annotated[float, option("Diameter of the punch.", _TOOLS)] = 60.0,
-    punch_edge: Annotated[float, option("Radius of its edge.", _TOOLS)] = 5.0,
+    punch_edge: Annotated[float, option("Edge radius of the punch.", _TOOLS)] = 5.0,
     opening: Annotated[float, option("Diameter of the opening of the die.", _TOOLS)] = 62.4,
-    die_edge: Annotated[float, option("Radius of its edge.", _TOOLS)] = 10.0,
-    holder_force: Annotated[float, option("Force of the holder; 0: it keeps its gap.", _TOOLS)] = 40e3,
-    holder_gap: Annotated[float | None, option("Least distance of holder and die; default 1.04 t.", _TOOLS)] = None,
+    die_edge: Annotated[float, option("Edge radius of the die.", _TOOLS)] = 10.0,
+    holder_force: Annotated[float, option("Force of the holder; 0: fixed at its gap.", _TOOLS)] = 40e3,
+    holder_gap: Annotated[
+        float | None, option("Smallest distance between holder and die; default 1.04 t.", _TOOLS)
+    ] = None,
     friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.09,
     stroke: Stroke = None,
     blank: Annotated[float, option("Diameter of the blank.", SHEET)] = 107.5,
@@ -103,9 +107,9 @@ def u(
     out: Out = None,
     coarse: Coarse = False,
     punch: Annotated[float, option("Width of the punch.", _TOOLS)] = 50.0,
-    punch_edge: Annotated[float, option("Radius of its edges.", _TOOLS)] = 5.0,
+    punch_edge: Annotated[float, option("Edge radius of the punch.", _TOOLS)] = 5.0,
     opening: Annotated[float, option("Opening of the die.", _TOOLS)] = 52.0,
-    die_edge: Annotated[float, option("Radius of its edges.", _TOOLS)] = 5.0,
+    die_edge: Annotated[float, option("Edge radius of the die.", _TOOLS)] = 5.0,
     holder_force: Annotated[float, option("Force of the holder.", _TOOLS)] = 2450.0,
     friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.144,
     stroke: Stroke = None,

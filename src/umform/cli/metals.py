@@ -71,7 +71,7 @@ def _curve(hardening: object) -> str:
 
 
 @metals.command()
-def show(name: Annotated[str, typer.Argument(help="Name of a sheet metal, `umform metal list` has them.")]) -> None:
+def show(name: Annotated[str, typer.Argument(help="Name of a sheet metal: see `umform metal list`.")]) -> None:
     """Show a sheet metal: numbers, source, deck and Python."""
     from umform import sheet_metals
     from umform.calibration.code import deck_block, python_code
@@ -123,7 +123,7 @@ def fit(
     young: Annotated[float, _option("Young's modulus in MPa.", _LAW)],
     poisson: Annotated[float, _option("Poisson's ratio.", _LAW)] = 0.3,
     angles: Annotated[
-        Path | None, _option("Columns angle, stress, r; a row whose angle is biaxial has the biaxial point.", _MEASURED)
+        Path | None, _option("Columns angle, stress, r; the row biaxial has the biaxial stress.", _MEASURED)
     ] = None,
     tension: Annotated[
         Path | None, _option("Columns strain (or plastic_strain) and stress, up to the largest force.", _MEASURED)
@@ -134,7 +134,7 @@ def fit(
     ] = False,
     percent: Annotated[bool, typer.Option("--percent", help="Strains in per cent.", rich_help_panel=_MEASURED)] = False,
     yield_function: Annotated[str, _option("hill48 or yld2004, fitted to --angles.", _LAW)] = "hill48",
-    exponent: Annotated[float, _option("Of Yld2004: 6 for steel, 8 for aluminium.", _LAW)] = 8.0,
+    exponent: Annotated[float, _option("Exponent of Yld2004: 6 for steel, 8 for aluminium.", _LAW)] = 8.0,
     hardening: Annotated[
         str, _option("swift, voce, linear-voce, linear, perfect, table, or auto: the best of the first three.", _LAW)
     ] = "auto",
@@ -148,7 +148,7 @@ def fit(
     overwrite: Overwrite = False,
     debug: Debug = False,
 ) -> None:
-    """Fit a law to measurements; say how well each number is determined.
+    """Fit a law to measurements, with the error of each constant.
 
     The files and the law are described in docs/materials.md.
     """

@@ -12,14 +12,14 @@ from umform.cli.root import Debug, app, console
 
 @app.command()
 def new(
-    template: Annotated[str | None, typer.Argument(help="Name of a template; none: list them.")] = None,
+    template: Annotated[str | None, typer.Argument(help="Name of a template; without it, list them.")] = None,
     out: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write the deck, and beside it the files that it reads.")
+        Path | None, typer.Option(metavar="FILE", help="Write the deck and the files that it reads.")
     ] = None,
     schema: Annotated[bool, typer.Option("--schema", help="Print the JSON schema of decks, for editors.")] = False,
     debug: Debug = False,
 ) -> None:
-    """Print a deck to start from: `umform new air-bending > deck.toml`."""
+    """Print a template deck: `umform new air-bending > deck.toml`."""
     from umform.deck import templates
 
     if schema:

@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 def plot(
     runs: Annotated[list[Path], typer.Argument(metavar="RUN...", help="history.csv of runs, or their folders.")],
     x: Annotated[str, typer.Option("--x", help="Column along the horizontal axis.")] = "time",
-    y: Annotated[list[str] | None, typer.Option("--y", help="Column along the vertical axis; may come again.")] = None,
+    y: Annotated[list[str] | None, typer.Option("--y", help="Column along the vertical axis; repeatable.")] = None,
     out: Annotated[Path, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")] = Path("comparison.png"),
     debug: Debug = False,
 ) -> None:
     """Compare histories of several runs.
 
-    Runs have colours, columns have kinds of lines. Without --y all columns are listed.
+    Colours show runs, line styles show columns. Without --y, list all columns.
     """
     from umform.io.histories import read_histories
 

@@ -17,19 +17,19 @@ from umform.cli.warnings import print_warnings_once
 @app.command(cls=WithPetscOptions)
 def resume(
     ctx: typer.Context,
-    checkpoint: Annotated[Path, typer.Argument(metavar="CHECKPOINT", help="The file that `umform run` has left.")],
+    checkpoint: Annotated[Path, typer.Argument(metavar="CHECKPOINT", help="Checkpoint of `umform run`.")],
     out: Annotated[
-        str | None, typer.Option(metavar="FOLDER", help="Folder for what comes out; default: that of the run.")
+        str | None, typer.Option(metavar="FOLDER", help="Folder for the results; default: that of the run.")
     ] = None,
     every: Every = 60.0,
     overwrite: Overwrite = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
-    """Take up a run that was stopped or killed: what comes out is what it would have given, to the last bit.
+    """Continue a stopped or killed run from its checkpoint, with the same results to the last bit.
 
-    The checkpoint holds the deck. A mesh file that the deck reads must still be there, and be the same. A run on many
-    ranks goes on with `mpiexec`, on as many ranks as you like.
+    The checkpoint contains the deck. Mesh files of the deck must exist unchanged. With `mpiexec`, a run on many ranks
+    continues on any number of ranks.
     """
     from umform.deck import running
     from umform.deck.kept import Kept

@@ -164,7 +164,7 @@ Verbose = Annotated[
     int, typer.Option("--verbose", "-v", count=True, callback=_log, help="Log each increment; -vv each iteration.")
 ]
 Debug = Annotated[bool, typer.Option("--debug", callback=_remember_debug, help="Show the traceback of an error.")]
-Overwrite = Annotated[bool, typer.Option("--overwrite", help="Write over the results of another run.")]
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Overwrite results of another run.")]
 Version = Annotated[
     bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Show the version and exit.")
 ]

@@ -1,4 +1,4 @@
-"""``umform run``: solve a deck and write what comes out."""
+"""``umform run``: solve a deck and write the results."""
 
 from __future__ import annotations
 
@@ -21,9 +21,7 @@ if TYPE_CHECKING:
     from umform.deck.running import Outcome
     from umform.run import Result
 
-Every = Annotated[
-    float, typer.Option(metavar="SECONDS", help="Seconds between two checkpoints; 0: one after each increment.")
-]
+Every = Annotated[float, typer.Option(metavar="SECONDS", help="Seconds between checkpoints; 0: after each increment.")]
 
 
 @app.command(cls=WithPetscOptions)
@@ -31,13 +29,13 @@ def run(
     ctx: typer.Context,
     deck: DeckFile,
     out: Annotated[
-        str | None, typer.Option(metavar="FOLDER", help="Folder for what comes out; default: that of the deck.")
+        str | None, typer.Option(metavar="FOLDER", help="Folder for the results; default: that of the deck.")
     ] = None,
-    solver: Annotated[str | None, typer.Option(help="Another sparse solver than that of the deck.")] = None,
+    solver: Annotated[str | None, typer.Option(help="Sparse solver, instead of that in the deck.")] = None,
     changes: Changes = None,
     checkpoint: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Keep the state of the run here; default: checkpoint.h5 beside the results."),
+        typer.Option(metavar="FILE", help="Checkpoint of the run; default: checkpoint.h5 in the folder of results."),
     ] = None,
     every: Every = 60.0,
     overwrite: Overwrite = False,
@@ -48,12 +46,12 @@ def run(
 ) -> None:
     """Solve a deck: history, fields, report, pictures, and a copy of the deck.
 
-    What was reached is written even if Newton's method gives up (exit code 1) or Ctrl-C ends the run (130). A run that
-    was stopped goes on with `umform resume`. Results of another run are not overwritten: the default folder gets a
-    number, a folder of `--out` is refused.
+    If Newton's method fails (exit code 1) or Ctrl-C stops the run (130), the results so far are written.
+    `umform resume` continues a stopped run. Results of another run are not overwritten: the default folder gets a
+    number, an existing folder of `--out` is refused.
 
-    On many ranks: `mpiexec -n 4 umform run deck.toml --solver petsc`, with options of PETSc by their prefix, such as
-    `-umform_ksp_type cg -umform_pc_type gamg` (docs/parallel.md).
+    On many ranks: `mpiexec -n 4 umform run deck.toml --solver petsc`. Options of PETSc take the prefix `-umform_`, such
+    as `-umform_ksp_type cg -umform_pc_type gamg` (docs/parallel.md).
     """
     from umform.deck import running
 
@@ -128,10 +126,10 @@ def end(outcome: Outcome) -> None:
     if outcome.checkpoint:
         error.add_note(f"  go on with: umform resume {shlex.quote(str(outcome.checkpoint))}")
     if isinstance(error, KeyboardInterrupt):
-        say_of(error, "interrupted; what was reached is written")
+        say_of(error, "interrupted; the results so far are written")
         raise typer.Exit(INTERRUPTED)
     if isinstance(error, UmformError):
         typer.echo(f"umform: {error}", err=True)
-        typer.echo("  what was reached is written", err=True)
+        typer.echo("  the results so far are written", err=True)
         raise typer.Exit(1)
     raise error

@@ -37,7 +37,7 @@ def sweep(
         list[str] | None,
         typer.Option(
             metavar="NAME",
-            help="Column of the history, as punch_force:max (last, min, max, peak, sum), or springback; repeatable.",
+            help="Column of the history, such as punch_force:max (or last, min, peak, sum), or springback; repeatable.",
         ),
     ] = None,
     changes: Changes = None,
@@ -45,16 +45,16 @@ def sweep(
         str | None, typer.Option(metavar="FOLDER", help="Folder for table, plot and jobs; default: results/DECK-sweep.")
     ] = None,
     processes: Annotated[int | None, typer.Option(help="Jobs at a time; default: as many as processors.")] = None,
-    files: Annotated[bool, typer.Option("--files", help="Each job writes what the deck asks for.")] = False,
-    retry: Annotated[bool, typer.Option("--retry", help="Run again what was refused or did not converge.")] = False,
+    files: Annotated[bool, typer.Option("--files", help="Write all files of the deck for each job.")] = False,
+    retry: Annotated[bool, typer.Option("--retry", help="Repeat jobs that were refused or did not converge.")] = False,
     force: Force = False,
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
     """Run a deck over all combinations of values of some of its keys: one table, one plot.
 
-    Keys are named as in `--set`, or by their last part where no other key ends like that. The same command again goes
-    on with a sweep that was stopped or killed; more values run only the new jobs. Failures are rows with a reason.
+    Name keys as in `--set`, or by their last part if that is unique. The same command continues a stopped sweep; with
+    more values it runs only the new jobs. A failure is a row with its reason.
     """
     from umform.sweeps import sweep as run_sweep
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from umform.attempts import Attempts
     from umform.timing import Timing
 
-Timed = Annotated[bool, typer.Option("--timing", help="Show where the time went.")]
+Timed = Annotated[bool, typer.Option("--timing", help="Show the time of each part.")]
 
 
 def show_timing(timing: Timing, title: str = "Where the time went") -> None:

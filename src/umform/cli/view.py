@@ -35,12 +35,14 @@ _BAR = {
 @app.command()
 def view(
     file: Annotated[Path, typer.Argument(metavar="FILE.vtkhdf", help="Fields of a run, or the folder of a run.")],
-    field: Annotated[str | None, typer.Option(help="Field to colour by; of a vector, its length.")] = None,
+    field: Annotated[str | None, typer.Option(help="Field to colour by; the length of a vector.")] = None,
     frame: Annotated[int, typer.Option(help="Frame: 0 is the first, -1 the last.")] = -1,
     rolling: Annotated[
-        bool, typer.Option("--rolling/--no-rolling", help="Lines along the rolling direction, if the file has it.")
+        bool, typer.Option("--rolling/--no-rolling", help="Draw the rolling direction, if the file has it.")
     ] = True,
-    png: Annotated[Path | None, typer.Option(metavar="OUT.png", help="Write a picture, open no window.")] = None,
+    png: Annotated[
+        Path | None, typer.Option(metavar="OUT.png", help="Write a picture instead of opening a window.")
+    ] = None,
     debug: Debug = False,
 ) -> None:
     """Show the deformed sheet of a run, coloured by a field.

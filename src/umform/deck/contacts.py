@@ -159,7 +159,7 @@ class ContactPart(Part):
     cells: Cells | None = None
     """Instead of points: cells per direction of a face, over which the pressure is integrated, 1 to 20, or auto."""
     ripple: Positive | None = None
-    """Ripple of the force that is wanted of cells = auto, as a part of it; by default 0.001."""
+    """Allowed ripple for cells = auto, as a fraction of the force; default 0.001."""
     friction: AnyFriction | None = None
     """Coefficient of friction, or a law."""
     slip: Positive | None = None
@@ -174,7 +174,7 @@ class ContactPart(Part):
         if self.points is not None and self.cells is not None:
             raise PydanticCustomError("cells", "give points or cells, and not both")
         if self.ripple is not None and (self.cells != "auto" or self.ripple >= 1.0):
-            raise PydanticCustomError("ripple", "a ripple below 1 is wanted with cells = auto only")
+            raise PydanticCustomError("ripple", "a ripple needs cells = auto and must be below 1")
         return self
 
     def add_to(self, model: Model, tool: Tool, name: str) -> Contact:

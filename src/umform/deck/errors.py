@@ -87,4 +87,4 @@ def nearest(word: object, known: Iterable[str]) -> str:
 def slip(word: object, known: Iterable[str], otherwise: str = "another word than those known") -> str:
     """The likely cause of an unknown word."""
     near = nearest(word, known)
-    return f"a slip of the pen: did you mean {near}?" if near else otherwise
+    return f"a typing error: did you mean {near}?" if near else otherwise

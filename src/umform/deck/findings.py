@@ -88,7 +88,7 @@ def accept(findings: Iterable[Finding], *, force: bool = False) -> list[str]:
             Implausible(
                 finding.text,
                 where=finding.about,
-                cause="another unit, or a slip of the pen",
+                cause="another unit, or a typing error",
                 remedy=f"{finding.remedy}; --force runs it all the same",
             )
             for finding in errors

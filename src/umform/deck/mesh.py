@@ -19,7 +19,7 @@ from umform.mesh import Floats, Mesh
 Divisions = Annotated[int, Field(ge=1, le=100_000)]
 Lines = Annotated[list[float], Field(min_length=2, max_length=100_001)]
 
-#: More cells than this are refused: a slip of the pen should not fill the memory.
+#: More cells than this are refused: a typing error should not fill the memory.
 _MOST_CELLS = 1_000_000
 
 

@@ -17,7 +17,7 @@ from umform.deck.source import Source
 
 _UNIONS = (Union, types.UnionType)
 _BEYOND = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
-_CAUSES = dict.fromkeys(_BEYOND, "a sign, another unit, or a slip of the pen") | {
+_CAUSES = dict.fromkeys(_BEYOND, "a sign, another unit, or a typing error") | {
     "float_type": "a word or a truth value",
     "int_type": "a fraction, a word or a truth value",
     "finite_number": "inf or nan",
@@ -116,7 +116,7 @@ def _wrong_kind(source: Source, path: Path, given: Any, context: Mapping[str, An
         )
     if key not in given:
         near = next((word for word in given if nearest(word, [key])), "")
-        cause = f"a slip of the pen: {near} for {key}" if near else "it was left out"
+        cause = f"a typing error: {near} for {key}" if near else "it was left out"
         return _missing(source, path, key, f", one of {', '.join(known)}" if known else "", cause)
     return DeckKey(
         f"this {key} is unknown",

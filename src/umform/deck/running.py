@@ -1,4 +1,4 @@
-"""Run a deck, or take its run up, and write what comes out; what was reached is written whatever ends the run."""
+"""Run a deck, or resume its run, and write the results; those so far are written whatever ends the run."""
 
 from __future__ import annotations
 

@@ -95,9 +95,7 @@ def read_tree(path: str | os.PathLike[str], kind: str, *, part: str | None = Non
 
 
 def _problem(path: str | os.PathLike[str], what: str, cause: str) -> FileProblem:
-    return FileProblem(
-        what, where=str(path), cause=cause, remedy="check the path; else a copy of before, or begin anew"
-    )
+    return FileProblem(what, where=str(path), cause=cause, remedy="check the path; use an older copy, or start again")
 
 
 def _write(group: h5py.Group, name: str, value: Any) -> None:

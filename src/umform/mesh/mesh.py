@@ -287,6 +287,6 @@ def _unknown(kind: str, name: str, known: Sequence[str]) -> UnknownSet:
     return UnknownSet(
         f"the mesh has no {kind} set of that name",
         value=name,
-        cause="a slip of the pen, or a set lost in the mesh file",
+        cause="a typing error, or a set lost in the mesh file",
         remedy="known sets: " + (", ".join(sorted(set(known))) or "none"),
     )

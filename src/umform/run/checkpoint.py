@@ -206,7 +206,7 @@ def _refuse_another_run(path: str | PathLike[str], there: dict[str, str], here: 
         where=str(path),
         value="different: " + ", ".join(different),
         cause=f"{part}: {_around(there.get(part, ''), here[part])}",
-        remedy="take it up with what it was begun with, the same files too, or begin anew",
+        remedy="resume with the same deck, model and files as at the start, or start again without the checkpoint",
     )
 
 

@@ -4,7 +4,7 @@ The tangent changes by what the last increment is relative to the one before; by
 factors bring residual and increment down in each iteration, new ones quadratically. Both are counted up to the
 tolerances, and each iteration weighed: 1 for evaluation and solve, and the cost of a factorisation on top. That cost is
 estimated from the entries of the factors, never from a clock: a run repeats to the last bit.
-docs/performance.md, Solving
+docs/performance-solving.md
 """
 
 from __future__ import annotations

@@ -40,7 +40,7 @@ def library() -> ctypes.CDLL:
             "MKL is installed, but cannot be loaded",
             where=str(path),
             cause=str(error),
-            remedy="install the package mkl anew, or remove it: umform then takes the solvers of SciPy",
+            remedy="reinstall the package mkl, or remove it: umform then uses its own solver",
         ) from error
     loaded.MKL_Set_Interface_Layer(_LP64)
     if sys.platform == "linux" and "MKL_THREADING_LAYER" not in os.environ:

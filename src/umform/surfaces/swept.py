@@ -134,7 +134,7 @@ class Revolved(Tool):
                 where="Revolved.profile",
                 value=f"segments {on_axis}",
                 cause="a part of the outline that the turning makes a line in space",
-                remedy="leave it out: an open profile may end on the axis",
+                remedy="omit it: an open profile may end on the axis",
             )
         if not self.profile.closed:
             return self._open_meridian(segments)

@@ -232,5 +232,5 @@ def _check_executor(executor: Executor | None, processes: int | None) -> None:
             where="processes",
             value=processes,
             cause="a number of processes beside an executor",
-            remedy="leave it out, and make the executor with that many workers",
+            remedy="omit it, and make the executor with that many workers",
         )

@@ -128,7 +128,7 @@ def test_the_page_has_the_rate_and_each_failure(script, monkeypatch):
     page = script("robust_page")
     monkeypatch.setattr(page, "explanations", lambda: {1: "a limit point"})
     text = page.page([outcome(0), outcome(1, "no convergence"), outcome(28), outcome(29)])
-    assert "\n75.0% arrive; the goal is 99.5%, and that none hangs: missed.\n" in text
+    assert "\n75.0% finish; the goal is 99.5% and no job that hangs: missed.\n" in text
     assert "| air bend | 2 | 50.0% | 2.0 | 2.0 | 20 | 50% |" in text
     assert "* **Job 1**, air bend, no convergence: a limit point" in text
 

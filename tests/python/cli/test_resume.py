@@ -114,7 +114,7 @@ def test_ctrl_c_ends_after_the_increment_with_whole_files_and_says_how_to_go_on(
     finally:
         run.kill()
         run.stderr.close()
-    assert "what was reached is written" in said
+    assert "the results so far are written" in said
     assert f"go on with: umform resume '{kept}'" in said
     assert {path.name for path in out.iterdir()} == {"history.csv", "fields.vtkhdf", "as-run.toml"}
     reached = (out / "history.csv").read_text().splitlines()
@@ -232,7 +232,7 @@ def test_ctrl_c_ends_a_bend_after_the_increment_with_what_was_reached(tmp_path):
         run.kill()
         run.stderr.close()
     assert run.wait() == 130
-    assert "what was reached is in" in said
+    assert "results so far are in" in said
     assert "Traceback" not in said
     assert len((tmp_path / "history.csv").read_text().splitlines()) > 5
     with h5py.File(tmp_path / "bend.vtkhdf") as file:

@@ -55,7 +55,7 @@ def test_sigterm_ends_a_run_as_ctrl_c_does(deck, tmp_path):
     run.terminate()
     _, said = run.communicate(timeout=60)
     assert run.returncode == cli.INTERRUPTED, said
-    assert "interrupted; what was reached is written" in said
+    assert "interrupted; the results so far are written" in said
     assert "given up" not in said
     assert f"go on with: umform resume {tmp_path / 'out' / 'checkpoint.h5'}" in said
     names = {path.name for path in (tmp_path / "out").iterdir()}
@@ -149,7 +149,7 @@ def test_ctrl_c_keeps_the_rows_of_a_bending_table(monkeypatch, tmp_path):
     run = table_interrupted_by(KeyboardInterrupt(), monkeypatch, tmp_path)
     assert run.exit_code == cli.INTERRUPTED
     assert run.stderr.count("umform:") == 1
-    assert f"what was reached is in {tmp_path / 'out'}: table.csv" in run.stderr
+    assert f"results so far are in {tmp_path / 'out'}: table.csv" in run.stderr
     with (tmp_path / "out" / "table.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [float(row["stroke"]) for row in rows] == pytest.approx([0.4, 0.6])

@@ -89,7 +89,7 @@ def test_no_convergence_writes_what_was_reached(deck, tmp_path, monkeypatch):
     answer = umform("run", deck, "--out", tmp_path / "out", *changes)
     assert answer.exit_code == 1
     assert "did not converge" in answer.output
-    assert "what was reached is written" in answer.output
+    assert "the results so far are written" in answer.output
     assert whole(tmp_path / "out") == FILES
     assert len(rows(tmp_path / "out")) == 3
 
@@ -106,7 +106,7 @@ def test_interrupt_writes_what_was_reached(deck, tmp_path, monkeypatch):
     monkeypatch.setattr(Newton, "solve", interrupted)
     answer = umform("run", deck, "--out", tmp_path / "out", "--set", "steps.0.increments=9")
     assert answer.exit_code == 130
-    assert "interrupted; what was reached is written" in answer.output
+    assert "interrupted; the results so far are written" in answer.output
     assert whole(tmp_path / "out") == FILES  # cut off within its first minute: there is no checkpoint yet
     assert len(rows(tmp_path / "out")) == 4
 

@@ -218,7 +218,7 @@ def test_a_sheet_that_springs_back_flat_gives_what_is_known(stroke, ratio, tmp_p
     typed = ["bend", "--stroke", stroke, "--table", "0.005:0.015:0.01", *TYPED, "--out", str(tmp_path)]
     done = CliRunner().invoke(app, typed)
     assert done.exit_code == 0, done.output
-    assert "K-factor and all that rests on them cannot be told" in done.stderr
+    assert "K-factor and what follows cannot be determined" in done.stderr
     assert re.search(r"K-factor +–", done.stdout)
     record = json.loads((tmp_path / "bend.json").read_text())
     measures = record["measures"]
@@ -228,7 +228,7 @@ def test_a_sheet_that_springs_back_flat_gives_what_is_known(stroke, ratio, tmp_p
     assert measures["springback_ratio"] == ratio
     assert {measures[name] for name in ("radius", "k_factor", "bend_deduction")} == {None}
     assert record["table"][0]["k_factor"] is None
-    assert "cannot be told" in (tmp_path / "report.html").read_text()
+    assert "cannot be determined" in (tmp_path / "report.html").read_text()
 
 
 def test_the_command_takes_a_metal_of_the_library(tmp_path):

@@ -29,7 +29,7 @@ def checked_cells(cells: int | str | None, ripple: float | None, where: str) -> 
             remedy="cells='auto'",
         )
     if ripple is not None and not 0.0 < ripple < 1.0:
-        raise InvalidValue("the ripple that is wanted is a part of the force below 1", where=where, value=ripple)
+        raise InvalidValue("the allowed ripple is a fraction of the force below 1", where=where, value=ripple)
     if cells is None or cells == "auto":
         return cells
     if isinstance(cells, bool | str) or cells not in range(1, MOST + 1):

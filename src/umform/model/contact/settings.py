@@ -145,7 +145,7 @@ def _friction_law(friction: AnyFriction | None, slip: float | None, where: str) 
             where=where,
             value=slip,
             cause="a sign or a missing value",
-            remedy="leave it away: 1/200 of the thickness of the sheet is allowed then",
+            remedy="omit it: 1/200 of the thickness of the sheet is allowed then",
         )
     if friction is None or (isinstance(friction, int | float) and friction == 0):
         return None
@@ -255,7 +255,7 @@ def _check(penalty: float | None, penetration: float | None, augmented: bool, to
             where=where,
             value=penalty,
             cause="a sign or a missing value",
-            remedy="leave it away, and give the penetration that you allow if the default will not do",
+            remedy="omit it, and give the penetration that you allow if the default will not do",
         )
     if penetration is not None and not (np.isfinite(penetration) and penetration > 0):
         raise InvalidValue("the penetration that is allowed must be positive", where=where, value=penetration)

@@ -136,9 +136,7 @@ class AirBend:
         deep = (
             f"the tools penetrate by {self.penetration:.3g}: so much of the stroke is lost; take a smaller penetration"
         )
-        flat = (
-            "the sheet springs back flat: radius, K-factor and all that rests on them cannot be told: a larger stroke"
-        )
+        flat = "the sheet springs back flat: radius, K-factor and what follows cannot be determined: a larger stroke"
         exceeded = any("the penetration of" in warning for warning in self.result.warnings)
         found = {
             lying: self.against,

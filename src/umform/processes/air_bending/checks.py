@@ -33,7 +33,7 @@ class Geometry(Protocol):
 
     @property
     def die_radius(self) -> float:
-        """Radius of its shoulders."""
+        """Radius of the die shoulders."""
 
     @property
     def punch_angle(self) -> float:
@@ -41,7 +41,7 @@ class Geometry(Protocol):
 
     @property
     def punch_radius(self) -> float:
-        """Radius of its tip."""
+        """Radius of the punch tip."""
 
     @property
     def material(self) -> Any:
@@ -163,7 +163,7 @@ def _check_proportions(case: Geometry) -> None:
             "penalty",
             "the penalty is so stiff that the run would creep",
             f"it is {case.penalty * case.thickness / case.material.E:.3g} times E / thickness",
-            "leave it out: it follows from the penetration that is allowed",
+            "omit it: it follows from the penetration that is allowed",
         )
 
 

@@ -43,7 +43,7 @@ RULES: dict[str, Rule] = {
     "die_radius": length("the radius of the shoulders", "in mm, such as 2"),
     "punch_angle": _of_flanks("punch"),
     "punch_radius": length("the radius of the tip", "in mm, such as 1.5"),
-    "width": length("the length of the bend", "in mm, such as 50; leave it out for plane strain").optional(),
+    "width": length("the length of the bend", "in mm, such as 50; omit it for plane strain").optional(),
     "stroke": length("the way of the punch", "in mm, downwards, such as 6").optional(),
     "material": plastic_material("air bending"),
     "rolling": ROLLING,
@@ -62,10 +62,8 @@ RULES: dict[str, Rule] = {
         "more points than there are rules for, or all points of a facet instead of those of one direction",
         "auto, or such as 5",
     ),
-    "penalty": length(
-        "the penalty", "pressure per penetration; leave it out: it follows from the penetration"
-    ).optional(),
-    "penetration": length("the penetration", "such as thickness / 500; leave it out for thickness / 200").optional(),
+    "penalty": length("the penalty", "pressure per penetration; omit it: it follows from the penetration").optional(),
+    "penetration": length("the penetration", "such as thickness / 500; omit it for thickness / 200").optional(),
     "increment": Rule(
         lambda value: number(value) and _SMALLEST_INCREMENT <= value <= _LARGEST_INCREMENT,
         f"an increment is {_SMALLEST_INCREMENT:g} to {_LARGEST_INCREMENT:g} of the opening",

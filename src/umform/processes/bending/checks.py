@@ -38,7 +38,7 @@ RULES: dict[str, Rule] = {
         lambda value: value is None or number(value),
         "the z of the axis of the cylinder must be a finite number",
         "a missing value",
-        "leave it out: then the cylinder touches the strip",
+        "omit it: then the cylinder touches the strip",
     ),
     "kappa": _mpa("the bulk modulus", "175000"),
     "mu": _mpa("the shear modulus", "80770"),
@@ -88,7 +88,7 @@ RULES: dict[str, Rule] = {
     "thickness_rule": Rule(
         lambda value: value in ("gauss", "lobatto", "split"),
         "unknown thickness rule",
-        "a slip of the pen",
+        "a typing error",
         "gauss, lobatto or split",
     ),
     "thickness_order": Rule(

@@ -29,7 +29,7 @@ class FreeBending:
     length, width, thickness : float
         Half strip: x from 0 to length, y from 0 to width, mid-surface at z = 0.
     radius, tool_x : float
-        Cylinder and the x of its axis.
+        Cylinder and the x of the cylinder axis.
     tool_z : float, optional
         z of its axis; by default it just touches the strip.
     kappa, mu : float

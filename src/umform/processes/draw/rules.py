@@ -14,10 +14,10 @@ COMMON: dict[str, Rule] = {
         positive,
         "the force of the holder must be positive",
         "a sign",
-        "in N, such as 40e3; leave it out for a holder that keeps its distance",
+        "in N, such as 40e3; omit it for a holder that keeps its distance",
     ).optional(),
     "friction": FRICTION,
-    "stroke": length("the stroke", "in mm; leave it out for a whole cup or the usual U-bend").optional(),
+    "stroke": length("the stroke", "in mm; omit it for a whole cup or the usual U-bend").optional(),
     "turn": Rule(
         lambda value: number(value) and 1.0 <= value <= 45.0,
         "the angle that an element turns over a radius lies between 1 and 45 degrees",

@@ -29,15 +29,15 @@ RULES: dict[str, Rule] = {
     "radius": length("the radius of the bead", "in mm, such as 5.5"),
     "height": length("the height of the bead", "in mm, such as 6"),
     "groove_radius": length("the radius of the edges of the groove", "in mm, such as 5"),
-    "groove": length("the width of the groove", "in mm; leave it out for bead, sheet and 10 % of air").optional(),
+    "groove": length("the width of the groove", "in mm; omit it for bead, sheet and 10 % of air").optional(),
     "gap": Rule(
         lambda value: number(value) and value >= 0.0,
         "the gap beside the sheet between the flats must be zero or more",
         "a sign, or the distance of the flats in place of the air beside the sheet",
-        "in mm, such as 0.04; leave it out for 5 % of the thickness",
+        "in mm, such as 0.04; omit it for 5 % of the thickness",
     ).optional(),
     "friction": FRICTION,
-    "draw": length("the way that the strip is drawn", "in mm; leave it out for 1.5 times the way through").optional(),
+    "draw": length("the way that the strip is drawn", "in mm; omit it for 1.5 times the way through").optional(),
     "elements": Rule(
         lambda value: positive(value) and 2.0 <= value <= 100.0,
         "the number of elements on a quarter turn of the sharper radius lies between 2 and 100",
@@ -117,7 +117,7 @@ def check_geometry(case: Geometry) -> None:
             where="groove",
             value=case.width,
             cause=f"bead and two thicknesses take {least:.4g}",
-            remedy="a wider groove, or leave it out",
+            remedy="a wider groove, or omit it",
         )
     if case.draw is not None and case.draw < 1.2 * case.through:
         raise InvalidValue(
@@ -125,5 +125,5 @@ def check_geometry(case: Geometry) -> None:
             where="draw",
             value=case.draw,
             cause=f"the way through the bead is {case.through:.4g}",
-            remedy=f"{1.2 * case.through:.4g} at least, or leave it out",
+            remedy=f"{1.2 * case.through:.4g} at least, or omit it",
         )
