@@ -19,7 +19,7 @@ SECTION = uf.UDie(opening=44, depth=20, shoulder_radius=5, bottom_radius=5)
 STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(strength=567.0, offset=0.0071, exponent=0.264))
 
 #: The drawn rail: length, sway and width of the die, its radius, clearance with the punch, half the width of the blank.
-RAIL, RAIL_SWAY, HALF, RADIUS, CLEARANCE, BLANK = 200.0, 25.0, 37.5, 5.0, 1.06, 85.0
+RAIL, RAIL_SWAY, HALF, RADIUS, CLEARANCE, BLANK = 200.0, 25.0, 37.5, 5.0, 1.058, 85.0
 SHEET, HOLDER_FORCE, MU, PENALTY = 0.92, 60e3, 0.11, 2e3
 
 
@@ -68,7 +68,7 @@ def press(die: uf.Triangulated, depth: float, cells: tuple[int, int] = (18, 14))
 
 def blank(turn: float, along: int) -> uf.Mesh:
     """A blank whose lines follow the S, and turn by no more than an angle over the radii that metal slides over."""
-    over = uf.mesh.Bent(HALF - CLEARANCE - RADIUS, HALF + RADIUS + 32.0, RADIUS + 0.5 * SHEET, "die and punch")
+    over = uf.mesh.Bent(HALF - 6.5, 2.0 * HALF, RADIUS + 0.5 * SHEET, "die and punch")
     sizes = uf.mesh.bending_sizes(0.0, BLANK, [over], turn=turn, largest=10.0)
     print(sizes)
     lines = np.r_[-sizes.ends[:0:-1], sizes.ends]
