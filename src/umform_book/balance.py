@@ -1,4 +1,4 @@
-"""What every nonlinear run is asked: do work and forces balance, does Newton converge quadratically, or why not?"""
+"""Balance of work and forces of a nonlinear run, and the order of Newton's method."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import numpy as np
 
 from umform_book.newton_order import NewtonOrder, measure
 
-#: An imbalance of the forces above this is no round-off.
+#: An imbalance of the forces above this is not round-off.
 _AT_REST = 1e-6
-#: Part of the largest energy below which a sheet bears nothing: its forces are round-off, and not in balance.
+#: Part of the largest energy below which a sheet is unloaded: its forces are round-off.
 _NOTHING = 1e-12
 
 if TYPE_CHECKING:

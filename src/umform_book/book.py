@@ -14,14 +14,17 @@ from pathlib import Path
 from umform.errors import InvalidValue, UmformError
 from umform.io.atomic import write_problem
 from umform.pool import check_processes, run_all
+from umform_book.balance_tables import balance_page
 from umform_book.case import Case, Chapter
 from umform_book.checks import Verdict
 from umform_book.errata import errata_text
+from umform_book.outcome import Outcome
 from umform_book.page import Page
+from umform_book.summary import summary_text
 from umform_book.which_element import which_element_text
-from umform_book.writing import Outcome, failed_text, page_text, summary_text, write_text
+from umform_book.writing import failed_text, page_text, write_text
 
-#: Resultant of the external forces over the sum of their sizes that Newton's tolerance leaves at most.
+#: Largest resultant of the external forces over the sum of their sizes that Newton's tolerance leaves.
 BALANCED = 1e-6
 
 #: Folders of the chapters, in the order of the book.
@@ -73,7 +76,7 @@ def chosen(names: Sequence[str]) -> list[Case]:
 
 @dataclass(frozen=True)
 class Order:
-    """What a process is asked to do."""
+    """A case for a process to run."""
 
     name: str
     folder: Path
@@ -83,7 +86,7 @@ class Order:
 def run_case(order: Order, tick: Callable[[str, float], None] = lambda what, done: None) -> Outcome:
     """Run a case and write its page and pictures into a folder."""
     case = cases()[order.name]
-    logging.getLogger("umform").addHandler(logging.NullHandler())  # warnings of runs belong on pages, if anywhere
+    logging.getLogger("umform").addHandler(logging.NullHandler())  # no warnings on the console
     page = Page(case, order.folder / "images", order.short, tick)
     start = clock.perf_counter()
     case.run(page)
@@ -103,7 +106,7 @@ def run_cases(
     processes: int | None = None,
     tick: Callable[[str, float], None] = lambda what, done: None,
 ) -> dict[str, Outcome]:
-    """Run cases and write their pages; the summary too if all cases were run.
+    """Run cases and write their pages; if all cases are run, also the summary.
 
     Parameters
     ----------
@@ -116,12 +119,12 @@ def run_cases(
     processes : int, optional
         How many run at a time; default: the processors.
     tick : callable
-        Called with what is done and which part of the whole it is.
+        Progress: called with a label and the fraction that is done.
 
     Returns
     -------
     dict of str to Outcome
-        A case that fails has an outcome that says why; the others go on.
+        A case that fails has an outcome with the reason; the others still run.
 
     Raises
     ------
@@ -149,13 +152,14 @@ def run_cases(
     outcomes = {outcome.name: outcome for outcome in found}
     if set(outcomes) == set(cases()):
         write_text(folder / "README.md", summary_text(chapters(), outcomes))
+        write_text(folder / "balance.md", balance_page(chapters(), outcomes))
         write_text(folder / "which-element.md", which_element_text(outcomes))
         write_text(folder / "errata.md", errata_text(outcomes))
     return outcomes
 
 
 def _failed(order: Order, error: Exception) -> Outcome:
-    """A red case; its page says why, in the place of one of before."""
-    said = str(error) if isinstance(error, UmformError) else f"{type(error).__name__}: {error}"
-    write_text(order.folder / f"{order.name}.md", failed_text(cases()[order.name], said))
-    return Outcome(order.name, Verdict.RED, failure=said)
+    """A red case; its page gives the reason and replaces the old one."""
+    message = str(error) if isinstance(error, UmformError) else f"{type(error).__name__}: {error}"
+    write_text(order.folder / f"{order.name}.md", failed_text(cases()[order.name], message))
+    return Outcome(order.name, Verdict.RED, failure=message)

@@ -24,9 +24,11 @@ class Case:
     run : callable
         Computes, and enters into a :class:`umform_book.page.Page` what came out.
     cost : float
-        Seconds that the whole case takes on one core, about; the dearest cases start first.
+        Approximate seconds of the whole case on one core; the longest cases start first.
     own : str
-        What of the reference umform has computed itself; empty where nothing.
+        The part of the reference that umform itself computed; empty if none.
+    picture : str
+        Name of the picture that stands first on the page; default: the first one.
     """
 
     name: str
@@ -36,6 +38,7 @@ class Case:
     run: Callable[[Any], None]
     cost: float = 10.0
     own: str = ""
+    picture: str = ""
 
 
 @dataclass(frozen=True)

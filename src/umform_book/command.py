@@ -10,7 +10,7 @@ import typer
 from umform.cli.root import Debug, Verbose, console
 
 if TYPE_CHECKING:
-    from umform_book.writing import Outcome
+    from umform_book.outcome import Outcome
 
 
 def verify(
@@ -63,7 +63,9 @@ def _show_page(path: Path) -> None:
     """The page as the terminal can show it."""
     from rich.markdown import Markdown
 
-    console().print(Markdown(path.read_text(encoding="utf-8")))
+    from umform_book.markdown import unfolded
+
+    console().print(Markdown(unfolded(path.read_text(encoding="utf-8"))))
 
 
 def _show_verdicts(outcomes: dict[str, Outcome], out: Path) -> None:

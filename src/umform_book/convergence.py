@@ -69,7 +69,7 @@ def _plot(title: str, found: Mapping[Variant, Mapping[int, float]], divisions: S
         figure = Figure(figsize=(6.2, 3.6), layout="constrained")
         axes = figure.add_subplot()
         for variant, row in found.items():
-            numbers = np.array([row.get(number, np.nan) for number in divisions])
+            numbers = np.round([row.get(number, np.nan) for number in divisions], 6)  # no round-off
             style = "--" if variant.options.get("tie_E33") else "-"
             axes.plot(
                 divisions, numbers, style, marker="o", markersize=3, color=colour.get(variant.name), label=variant.label

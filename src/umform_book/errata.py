@@ -1,43 +1,68 @@
-"""The errata page: every check that is known to miss in this run, and the limits that no check can show."""
+"""The page of known defects: checks that miss, by page and cause; expected failures; limits that no check shows."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
-from umform_book.checks import Verdict
-from umform_book.writing import Outcome, markdown_table
+from umform_book.checks import Check, Verdict
+from umform_book.markdown import folded
+from umform_book.outcome import Outcome
+from umform_book.writing import worst
 
 _LIMITS = """\
 ## Limits that no check shows
 
-* Rigid, frictionless tools; one material and one element type in a model.
-* Statics: there is no mass and no inertia.
-* Penalty contact: a sheet sinks into a tool by pressure / penalty.
-* The plastic law is isotropic: no anisotropy of rolled sheet, no Bauschinger effect in reverse bending.
-* With a penalty of 1000 E/h and more a run may be cut a hundred times and more on its way; the automatic
-  penalty is softer.
-* A strip that is 10000 times as long as thick, of elements 300 times as long as thick, has a condition number above
-  1e16: its first touch ends as a singular matrix.
-* In air bending one layer of elements bends more sharply than two or more at the same stroke: take two layers. See
-  air-bend-mesh for the cause; two layers leave an angle some 0.6 degrees smaller than a stack of eight does.
-* Results after the onset of necking or of a plastic hinge without hardening depend on the mesh: the law has no length.
+* Tools are rigid. A model has one type of element.
+* Statics only: no mass, no inertia.
+* Penalty contact: a sheet penetrates a tool by pressure / penalty. With a penalty of 1000 E/h and more a run may be
+  cut into a hundred increments and more; the automatic penalty is softer.
+* A strip 10000 times as long as thick, of elements 300 times as long as thick, has a condition number above 1e16:
+  its first contact ends with a singular matrix.
+* Air bending: one layer of elements bends more sharply than two or more at the same stroke. Take two layers; their
+  angle is some 0.6 degrees smaller than that of a stack of eight ([cause](air-bend-mesh.md)).
+* After the onset of necking, or of a plastic hinge without hardening, results depend on the mesh: the laws have no
+  internal length.
 """
 
 
 def errata_text(outcomes: Mapping[str, Outcome]) -> str:
     """Markdown of the page."""
-    rows = [
-        (f"[{outcome.name}]({outcome.name}.md)", check.what, check.cells()[3], check.cells()[4], check.cause)
-        for outcome in outcomes.values()
-        for check in outcome.checks
-        if check.verdict is not Verdict.GREEN
-    ]
+    expected = _by_page(outcomes, (Verdict.EXPECTED,))
+    failed = ", ".join(outcome.name for outcome in outcomes.values() if outcome.failure)
     parts = [
         "# Known defects",
-        "Every check of the last run that missed what was expected of it, with its cause where it is known. What is "
-        "not in this table was within its tolerance.",
-        markdown_table(("case", "what", "deviation", "expected within", "cause"), rows) if rows else "None.",
-        _LIMITS,
+        "All checks of the last run that miss, by page and cause, with the worst of each cause.",
+        "## Misses",
+        _by_page(outcomes, (Verdict.AMBER, Verdict.RED)) or "None.",
+        f"Without a result, because the run failed: {failed}." if failed else "",
+        "## Expected failures",
+        "Theory predicts that these elements fail these tests. They count as green, and a pass would be amber.",
+        folded("All expected failures", expected) if expected else "None.",
+        _LIMITS.strip(),
         "[All cases](README.md)",
     ]
-    return "\n\n".join(parts) + "\n"
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def _by_page(outcomes: Mapping[str, Outcome], verdicts: Sequence[Verdict]) -> str:
+    """A list of pages; below each, a line for each cause."""
+    lines = []
+    for outcome in outcomes.values():
+        causes: dict[str, list[Check]] = {}
+        for check in outcome.checks:
+            if check.verdict in verdicts:
+                causes.setdefault(check.note, []).append(check)
+        if causes:
+            lines.append(f"* [{outcome.name}]({outcome.name}.md)")
+            lines += [f"  * {_line(cause, checks)}" for cause, checks in causes.items()]
+    return "\n".join(lines)
+
+
+def _line(cause: str, checks: Sequence[Check]) -> str:
+    """The worst check of a cause, how many there are, and the cause."""
+    check = worst(checks)
+    assert check is not None
+    number = f" (worst of {len(checks)})" if len(checks) > 1 else ""
+    return f"{check.what}: {check.miss}, limit {check.limit}{number}." + (
+        f" {cause[0].upper()}{cause[1:]}." if cause else ""
+    )

@@ -1,4 +1,4 @@
-"""Order of Newton's method, measured increment by increment, and what happened where it is below two."""
+"""Order of Newton's method, measured for each increment, and the reason where it is below two."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from umform.solution.records import Iteration
 
-#: An order below this is low, and asks for a reason.
+#: An order below this is low and needs a reason.
 LOW = 1.8
 #: Residual over error tells which kind of error is left: by more than so much up or down it is another kind.
 _ANOTHER_KIND = 2.0
@@ -20,15 +20,14 @@ _ANOTHER_KIND = 2.0
 _CONVERGING = 3.0
 
 CONTACT, FLOW, SEARCH, TURNS, FEW, OPEN = "contact", "flow", "search", "turns", "few", "open"
-#: What the words stand for, in the order in which they are asked.
+#: Meaning of the words, in the order in which they are tried.
 REASONS = {
-    CONTACT: "contact points came or went",
-    FLOW: "points of the material began or ceased to flow",
-    SEARCH: "the line search shortened an increment",
-    TURNS: "stiff and soft errors (membrane and bending) in turns: residual over error went up and down again by more "
-    "than a factor of two each",
-    FEW: "these two steps are the first that converge: before them is the start of the increment, or an error that did "
-    "not fall to a third, so that the first of the three errors need not be small",
+    CONTACT: "contact points entered or left",
+    FLOW: "material points started or stopped to flow",
+    SEARCH: "the line search shortened a step",
+    TURNS: "stiff and soft errors (membrane and bending) alternate: residual over error rose and fell by more than a "
+    "factor of two",
+    FEW: "only the last two steps converge, so the first of their three errors need not be small",
     OPEN: "none of these",
 }
 

@@ -12,6 +12,8 @@ from umform.plotting import plot_shape, save
 from umform_book.balance import BalanceRow, balance_row
 from umform_book.case import Case
 from umform_book.checks import Check, Verdict
+from umform_book.markdown import folded, markdown_table
+from umform_book.printed import rounded_coordinates, shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -46,6 +48,8 @@ class Page:
         Folder for pictures; without one, none are drawn.
     short : bool
         Whether only the short meshes are run.
+    main : str
+        The picture that stands first (Markdown).
     """
 
     case: Case
@@ -57,11 +61,13 @@ class Page:
     balances: list[BalanceRow] = field(default_factory=list)
     studies: list[StudyRecord] = field(default_factory=list)
     pictures: list[Path] = field(default_factory=list)
+    main: str = ""
 
     @property
     def verdict(self) -> Verdict:
-        """The worst of all checks; without any check nothing is proved."""
-        return max((check.verdict for check in self.checks), default=Verdict.RED)
+        """The worst of all checks, where an expected failure counts as green; without any check nothing is proved."""
+        worst = max((check.verdict for check in self.checks), default=Verdict.RED)
+        return Verdict.GREEN if worst is Verdict.EXPECTED else worst
 
     # What a case calls ------------------------------------------------------------------------------------------
 
@@ -97,18 +103,13 @@ class Page:
         self.blocks.append(markdown)
 
     def heading(self, title: str) -> None:
-        """Begin a section."""
-        self.blocks.append(f"## {title}")
+        """Begin a section of the results."""
+        self.blocks.append(f"### {title}")
 
     def table(self, title: str, columns: Sequence[str], rows: Iterable[Sequence[Cell]]) -> None:
-        """Add a table; numbers are shown with four digits, None as a dash."""
-        lines = [
-            tuple(columns),
-            ("---",) + ("---:",) * (len(columns) - 1),
-            *(tuple(_shown(c) for c in r) for r in rows),
-        ]
-        text = "\n".join(f"| {' | '.join(line)} |" for line in lines)
-        self.blocks.append(f"**{title}**\n\n{text}" if title else text)
+        """Add a table, folded if it is long; numbers have four digits, None is a dash."""
+        lines = [tuple(_cell(cell) for cell in row) for row in rows]
+        self.blocks.append(folded(title, markdown_table(columns, lines, numbers=True), len(lines)))
 
     def check(
         self,
@@ -120,21 +121,25 @@ class Page:
         relative: bool = True,
         known: float = 0.0,
         cause: str = "",
+        theory: str = "",
     ) -> Check:
         """Compare a number with its reference, see :class:`Check`."""
-        check = Check(what, float(found), float(reference), within, relative, known, cause)
+        check = Check(what, float(found), float(reference), within, relative, known, cause, theory)
         self.checks.append(check)
         return check
 
-    def at_most(self, what: str, found: float, limit: float, *, known: float = 0.0, cause: str = "") -> Check:
+    def at_most(
+        self, what: str, found: float, limit: float, *, known: float = 0.0, cause: str = "", theory: str = ""
+    ) -> Check:
         """Check that an error, which should be zero, is not above a limit."""
-        return self.check(what, found, 0.0, limit, relative=False, known=known, cause=cause)
+        return self.check(what, found, 0.0, limit, relative=False, known=known, cause=cause, theory=theory)
 
     def figure(self, name: str, figure: Figure, caption: str) -> None:
         """Add a plot."""
         if self.images is None:
             return
         path = save(figure, self.images / f"{self.case.name}-{name}.svg")
+        path.write_text(rounded_coordinates(path.read_text(encoding="utf-8")), encoding="utf-8")
         self._show(path, caption)
 
     def shape(
@@ -154,13 +159,18 @@ class Page:
         self._show(path, caption)
 
     def _show(self, path: Path, caption: str) -> None:
+        """Add a picture; the main one of the case stands first on the page instead."""
+        block = f"![{caption}](images/{path.name})\n\n*{caption}*"
+        wanted = self.case.picture
+        first = path.stem == f"{self.case.name}-{wanted}" if wanted else not self.pictures
         self.pictures.append(path)
-        self.blocks.append(f"![{caption}](images/{path.name})\n\n*{caption}*")
+        if first:
+            self.main = block
+        else:
+            self.blocks.append(block)
 
 
-def _shown(cell: Cell) -> str:
+def _cell(cell: Cell) -> str:
     if cell is None:
         return "-"
-    if isinstance(cell, float):
-        return f"{cell:.4g}" if cell == cell else "-"
-    return str(cell)
+    return shown(cell) if isinstance(cell, float) else str(cell)

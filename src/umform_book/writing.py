@@ -1,53 +1,20 @@
-"""The book as Markdown: a page for each case, and the summary that all pages hang on."""
+"""The page of a case as Markdown: verdict and picture first, then problem, reference, results, checks, balance."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from umform.io.atomic import PendingFile
-from umform.report.versions import versions
-from umform_book.balance import BalanceRow
-from umform_book.case import Case, Chapter
+from umform_book.balance_tables import balance_line, balance_table
+from umform_book.case import Case
 from umform_book.checks import Check, Verdict
-from umform_book.newton_order import LOW, REASONS
-from umform_book.page import Page, StudyRecord
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What is left of a page once it is written; can be sent from process to process.
-
-    Attributes
-    ----------
-    name : str
-        The case.
-    verdict : Verdict
-        Its verdict.
-    checks : tuple of Check
-        Its checks.
-    balances : tuple of BalanceRow
-        Balance of each nonlinear run.
-    studies : tuple of StudyRecord
-        Numbers of each element on each mesh.
-    seconds : float
-        How long it took.
-    failure : str
-        Why it has no page, or is cut short.
-    """
-
-    name: str
-    verdict: Verdict
-    checks: tuple[Check, ...] = ()
-    balances: tuple[BalanceRow, ...] = ()
-    studies: tuple[StudyRecord, ...] = ()
-    seconds: float = 0.0
-    failure: str = ""
+from umform_book.markdown import folded, markdown_table
+from umform_book.page import Page
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a file, whole or not at all."""
+    """Write a whole file or none."""
     with PendingFile(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
@@ -57,123 +24,92 @@ def page_text(page: Page) -> str:
     case = page.case
     parts = [
         f"# {case.title}",
-        f"Verdict: **{page.verdict.mark}** · made by `umform verify {case.name}`",
+        f"**{page.verdict.mark}** · {counted(page.checks)} · `umform verify {case.name}`",
+        worst_sentence(page.checks),
+        page.main,
         "## Problem",
         case.problem.strip(),
         "## Reference",
         case.reference.strip(),
-        *own_reference(case),
-        "## What came out",
-        *page.blocks,
+        f"**Own reference:** {case.own}." if case.own else "",
+        *(["## Results", *page.blocks] if page.blocks else []),
         "## Checks",
-        markdown_table(
-            ("what", "reference", "found", "deviation", "expected within", "verdict"),
-            [check.cells() for check in page.checks],
-        ),
+        *_checks(page.checks),
     ]
     if page.balances:
-        parts += ["## Balance", _BALANCE, balance_table(page.balances)]
-    return "\n\n".join(parts) + "\n\n[All cases](README.md)\n"
+        parts += [
+            "## Balance",
+            balance_line(page.balances),
+            folded("Balance of each run", balance_table(page.balances)),
+        ]
+    return "\n\n".join(part for part in parts if part) + "\n\n[All cases](README.md)\n"
 
 
-def own_reference(case: Case) -> list[str]:
-    """The sentence that says what of the reference is umform's own."""
-    return [f"**Own reference:** {case.own}."] if case.own else []
-
-
-def failed_text(case: Case, said: str) -> str:
+def failed_text(case: Case, message: str) -> str:
     """Markdown of the page of a case that could not be run to its end."""
-    mark = Verdict.RED.mark
-    return (
-        f"# {case.title}\n\nVerdict: **{mark}** · the run of `umform verify {case.name}` failed:\n\n```\n{said}\n```\n"
-    )
+    return f"# {case.title}\n\n**{Verdict.RED.mark}** · `umform verify {case.name}` failed:\n\n```\n{message}\n```\n"
 
 
-_BALANCE = (
-    "External work against stored, dissipated and contact energy (largest drift over the largest energy; where a sheet "
-    "begins inside of a tool, from the first equilibrium on, since it springs off the tool before); resultant "
-    "of all external forces and moments over the sum of their sizes; order of Newton's method: median of the order of "
-    "the last steps, over so many increments as have enough iterations to tell one (in brackets). The last column says "
-    f"how many increments have an order below {LOW:g}, by what was recorded in their last two steps. Orders far above "
-    "2 belong to problems that are linear but for contact: once the active set is right, one step lands on the answer. "
-    "Reasons: " + "; ".join(f"*{word}*: {meaning}" for word, meaning in REASONS.items()) + "."
-)
+def counted(checks: Sequence[Check]) -> str:
+    """How many checks hold, and how many fail as theory predicts."""
+    expected = sum(check.verdict is Verdict.EXPECTED for check in checks)
+    green = sum(check.verdict is Verdict.GREEN for check in checks)
+    failures = f", {expected} expected failure{'s' * (expected > 1)}" if expected else ""
+    return f"{green} of {len(checks) - expected} checks hold{failures}"
 
 
-def balance_table(rows: Sequence[BalanceRow], with_case: bool = False) -> str:
-    """Balances as a table."""
-    columns = ("run", "increments", "iterations", "drift", "force", "moment", "order of Newton", "low, and why")
-    cells = [
+def worst(checks: Iterable[Check]) -> Check | None:
+    """The check that misses most, or is nearest to its limit; expected failures count only if nothing else is there.
+
+    Round-off does not choose: of checks far inside of their limits, the first one counts.
+    """
+
+    def badness(check: Check) -> tuple[bool, Verdict, float]:
+        return check.verdict is not Verdict.EXPECTED, check.verdict, max(round(check.share, 3), 0.01)
+
+    return max(checks, key=badness, default=None)
+
+
+def worst_sentence(checks: Sequence[Check]) -> str:
+    """What misses, or what is nearest to its limit."""
+    check = worst(checks)
+    if check is None:
+        return "There is no check."
+    what = f"{check.what}: {check.miss}, limit {check.limit}"
+    if check.verdict is Verdict.GREEN:
+        return f"Nearest to its limit: {what}."
+    begin = {Verdict.EXPECTED: "Fails as expected", Verdict.AMBER: "Misses most"}.get(check.verdict, "Fails")
+    cause = f" Cause: {check.note}." if check.note else ""
+    return f"{begin}: {what}.{cause}"
+
+
+def _checks(checks: Sequence[Check]) -> list[str]:
+    """Checks that miss, expected failures, checks that hold, causes; long tables are folded."""
+    notes = list(dict.fromkeys(check.note for check in checks if check.note))
+    groups = {
+        "Checks that miss": (Verdict.RED, Verdict.AMBER),
+        "Expected failures": (Verdict.EXPECTED,),
+        "Checks that hold": (Verdict.GREEN,),
+    }
+    parts = []
+    for title, verdicts in groups.items():
+        group = [check for check in checks if check.verdict in verdicts]
+        if group:
+            rows = 0 if Verdict.AMBER in verdicts else len(group)
+            parts.append(folded(f"{title}: {len(group)}", _check_table(group, notes), rows))
+    if notes:
+        causes = "\n".join(f"{number}. {note}" for number, note in enumerate(notes, 1))
+        parts.append(f"**Causes**\n\n{causes}")
+    return parts
+
+
+def _check_table(checks: Sequence[Check], notes: Sequence[str]) -> str:
+    """Checks as a table; a number in brackets names the cause."""
+    rows = [
         (
-            f"[{row.case}]({row.case}.md): {row.run}" if with_case else row.run,
-            str(row.increments),
-            str(row.iterations),
-            f"{row.drift:.1e}",
-            f"{row.force:.1e}",
-            f"{row.moment:.1e}",
-            "-" if row.newton.order is None else f"{row.newton.order:.2f} ({row.newton.measured})",
-            row.newton.why(),
+            *check.cells()[:-1],
+            f"{check.verdict.mark} ({notes.index(check.note) + 1})" if check.note else check.cells()[-1],
         )
-        for row in rows
+        for check in checks
     ]
-    return markdown_table(columns, cells)
-
-
-def summary_text(chapters: Sequence[Chapter], outcomes: Mapping[str, Outcome]) -> str:
-    """Markdown of the summary: the verdict of every case, and the balances of all nonlinear runs."""
-    found = [outcome for outcome in outcomes.values() if not outcome.failure]
-    count = {verdict: sum(outcome.verdict is verdict for outcome in outcomes.values()) for verdict in Verdict}
-    parts = [
-        "# Verification book",
-        _INTRODUCTION,
-        f"**{len(outcomes)} cases: " + ", ".join(f"{number} {v.mark}" for v, number in count.items()) + f"**; "
-        f"{sum(len(outcome.checks) for outcome in found)} checks. "
-        f"They took {sum(outcome.seconds for outcome in found) / 60:.0f} minutes, one after the other.",
-    ]
-    for chapter in chapters:
-        rows = [_summary_row(case, outcomes[case.name]) for case in chapter.cases if case.name in outcomes]
-        if rows:
-            parts += [
-                f"## {chapter.title}",
-                chapter.about,
-                markdown_table(("case", "verdict", "checks", "worst"), rows),
-            ]
-    balances = [row for outcome in found for row in outcome.balances]
-    if balances:
-        parts += ["## Balance of all nonlinear runs", _BALANCE, balance_table(balances, with_case=True)]
-    made_with = {name: version for name, version in versions().items() if name != "platform"}
-    parts += ["Made with " + ", ".join(f"{name} {version}" for name, version in made_with.items()) + "."]
-    return "\n\n".join(parts) + "\n"
-
-
-_INTRODUCTION = """\
-Every number on these pages comes from a run: `make verification` runs all cases and writes all pages anew,
-`umform verify` lists the cases, `umform verify NAME` runs one. **Green**: all checks are within what is expected of the
-element on that mesh. **Amber**: a check misses by no more than is known, and the page says why. **Red**: it misses. An
-amber is not a green that was talked up: read the cause before you use that element there. **Own reference**: umform has
-computed the reference, or a part of it, itself, on a finer mesh or with another element; the page says which part.
-
-[Which element should I take?](which-element.md) is drawn from these tables, [known defects](errata.md) are kept
-honest."""
-
-
-def _summary_row(case: Case, outcome: Outcome) -> tuple[str, ...]:
-    name = f"[{case.title}]({case.name}.md)" + (" · own reference" if case.own else "")
-    if outcome.failure:
-        return name, Verdict.RED.mark, "-", outcome.failure.splitlines()[0]
-    green = sum(check.verdict is Verdict.GREEN for check in outcome.checks)
-    worst = max(outcome.checks, key=_badness, default=None)
-    said = "no check" if worst is None else f"{worst.what}: {worst.cells()[3]} ({worst.cells()[4]} expected)"
-    return name, outcome.verdict.mark, f"{green} of {len(outcome.checks)} green", said
-
-
-def _badness(check: Check) -> tuple[Verdict, float]:
-    """How far a check is off, in parts of what is expected of it; one that must be exact counts as none where it is."""
-    parts = abs(check.deviation) / check.within if check.within > 0.0 else float(check.deviation != 0.0)
-    return check.verdict, parts
-
-
-def markdown_table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A table in Markdown."""
-    lines = [tuple(columns), ("---",) * len(columns), *rows]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+    return markdown_table(("what", "reference", "found", "deviation", "limit", "verdict"), rows)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from umform_book.checks import Check, Verdict
+from umform_book.printed import about, bounded, rounded_coordinates, shown
 
 
 @pytest.mark.parametrize(
@@ -32,7 +33,7 @@ def test_a_negative_reference():
 def test_an_absolute_error():
     check = Check("error", 2e-11, 0.0, 1e-10, relative=False)
     assert check.verdict is Verdict.GREEN
-    assert check.cells()[3] == "+2.00e-11"
+    assert check.cells()[2:5] == ("below 1e-10", "-", "1e-10")
 
 
 def test_nothing_is_relative_to_zero():
@@ -46,7 +47,68 @@ def test_a_known_deviation_has_a_cause(options):
         Check("load", 1.0, 1.0, 0.1, **options)
 
 
-def test_the_cause_stands_in_the_table_only_where_it_is_needed():
+def test_the_cause_is_noted_only_where_it_is_needed():
     known = {"known": 0.5, "cause": "the sun"}
-    assert "the sun" in Check("load", 1.2, 1.0, 0.1, **known).cells()[-1]
-    assert "the sun" not in Check("load", 1.0, 1.0, 0.1, **known).cells()[-1]
+    assert Check("load", 1.2, 1.0, 0.1, **known).note == "the sun"
+    assert Check("load", 1.0, 1.0, 0.1, **known).note == ""
+
+
+@pytest.mark.parametrize(
+    ("found", "verdict"),
+    [(0.8, Verdict.EXPECTED), (0.99, Verdict.AMBER), (0.4, Verdict.RED), (float("nan"), Verdict.RED)],
+)
+def test_an_expected_failure_has_a_size_and_a_pass_is_shown(found, verdict):
+    check = Check("locking", found, 1.0, 0.02, known=0.5, cause="it locks", theory="MacNeal 1987")
+    assert check.verdict is verdict
+    assert ("passes, but theory predicts" in check.note) == (found == 0.99)
+    assert ("it locks (MacNeal 1987)" in check.note) == (verdict is not Verdict.RED)
+
+
+def test_an_expected_failure_has_a_cause():
+    with pytest.raises(ValueError, match="expected failure"):
+        Check("locking", 0.8, 1.0, 0.02, theory="MacNeal 1987")
+
+
+@pytest.mark.parametrize(
+    ("value", "limit", "text"),
+    [
+        (7.4e-15, 1e-12, "below 1e-12"),
+        (7.2e-15, 1e-12, "below 1e-12"),
+        (0.0, 1e-10, "below 1e-10"),
+        (-3e-11, 1e-10, "below 1e-10"),
+        (6.45e-10, 1e-9, "below 1e-9"),
+        (2.4e-10, 1e-6, "below 1e-6"),
+        (7.4e-15, 1e-2, "below 1e-12"),
+        (2.7e-13, 1e-2, "below 1e-12"),
+        (2e-11, 1e-2, ""),  # not far enough below to be round-off
+        (3e-5, 1e-2, ""),
+        (2e-10, 1e-10, ""),  # a miss is printed
+        (0.0, 0.0, ""),  # a count
+        (0.0, 1.0, ""),
+        (float("nan"), 1e-10, ""),
+    ],
+)
+def test_round_off_is_printed_as_a_bound(value, limit, text):
+    assert bounded(value, limit) == text
+
+
+def test_numbers_of_tables():
+    assert [shown(value) for value in (0.0, 1e-15, -1e-15, 5e-11, 1.23456e-9, 0.123456, float("nan"))] == [
+        "0",
+        "below 1e-10",
+        "below 1e-10",
+        "below 1e-10",
+        "1.235e-09",
+        "0.1235",
+        "-",
+    ]
+    assert [about(count) for count in (7, 99, 903, 1248, 0)] == [7, 99, 900, 1200, 0]
+
+
+def test_coordinates_of_pictures_hide_the_last_digits():
+    one, other = '<path d="M 50.144561 13.192073"/>', '<path d="M 50.144560 13.192074"/>'
+    assert rounded_coordinates(one) == rounded_coordinates(other) == '<path d="M 50.14 13.19"/>'
+    used = '<path clip-path="url(#{0})"/><use xlink:href="#{0}"/><clipPath id="{0}">'
+    assert rounded_coordinates(used.format("pbcd305e4af")) == used.format("p0")
+    kept = '<g transform="scale(0.015625)" width="446.4pt" version="1.1">'
+    assert rounded_coordinates(kept) == kept

@@ -1,11 +1,12 @@
 """All commands: the application with those of umform, and with those that other packages offer."""
 
-from umform.cli import bead, bend, check, demo, draw, elements, metals, new, plot, resume, run, sweep, view
+from umform.cli import bead, bench, bend, check, demo, draw, elements, metals, new, plot, resume, run, sweep, view
 from umform.cli.root import app
 
 __all__ = [
     "app",
     "bead",
+    "bench",
     "bend",
     "check",
     "demo",

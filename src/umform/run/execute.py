@@ -19,6 +19,7 @@ from umform.run.checked import checked
 from umform.run.interrupt import Interrupt, gentle_interrupt
 from umform.run.loose import carry_loose_sheet, note_springs
 from umform.run.result import Result
+from umform.run.watching import show
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 from umform.steps import Step
@@ -302,6 +303,7 @@ def _finish(run: Run, step: Step) -> None:
 def _pause(run: Run, start: float, checkpoints: Checkpoints | None, stop: Interrupt, *, last: bool = False) -> None:
     """Between two increments: write a checkpoint if it is time to, and stop if somebody has asked to."""
     run.result.seconds, ranks = clock.perf_counter() - start, run.model.ranks
+    show(run)
     asked = ranks.any(stop.asked)
     if checkpoints is not None and (last or asked or ranks.any(checkpoints.due())):
         with run.result.timing.output:

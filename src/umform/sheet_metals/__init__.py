@@ -14,7 +14,7 @@ from umform.sheet_metals.cyclic_fit import fit_chaboche, fit_cycles, fit_tests, 
 from umform.sheet_metals.directional_fit import Directions, balanced, fit_hill48, fit_yld2004, uniaxial
 from umform.sheet_metals.flow_curve import read_flow_curve
 from umform.sheet_metals.least_squares import Fit
-from umform.sheet_metals.library import cards, get, names
+from umform.sheet_metals.library import cards, get, names, of_certificate
 from umform.sheet_metals.sheet_metal import SheetMetal
 from umform.sheet_metals.tensile_test import (
     TensileTest,
@@ -47,6 +47,7 @@ __all__ = [
     "fit_yoshida_uemori",
     "get",
     "names",
+    "of_certificate",
     "read_flow_curve",
     "swift_from_tensile_test",
     "tensile_test",

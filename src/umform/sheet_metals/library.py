@@ -27,6 +27,7 @@ _RULES = {
     "steel": "strain 0.6 (1 - R/Rm) at the largest force [YunGardner2017]",
     "stainless": "strain 1 - R/Rm at the largest force [EN1993_4_2006]",
     "aluminium": "strain 0.30 - 0.22 R/400 at the largest force [EN1999_2007]",
+    "measured": "Ag as it was measured",
 }
 
 
@@ -107,15 +108,65 @@ def _strain_at_largest_force(row: dict[str, Any]) -> float:
             return 0.6 * (1.0 - ratio)
         case "stainless":
             return 1.0 - ratio
+        case "measured":
+            return float(row["measured"])
         case _:
             return 0.30 - 0.22 * R / 400.0
 
 
+def of_certificate(
+    name: str, yield_stress: float, tensile_strength: float, uniform_elongation: float | None = None
+) -> SheetMetal:
+    """Sheet metal of the library with R, Rm and Ag of a coil; a Voce curve where no Swift curve goes through them.
+
+    Parameters
+    ----------
+    name : str
+        The metal that the coil is of; one whose curve is derived from a standard.
+    yield_stress, tensile_strength : float
+        Re or Rp0.2, and Rm of the certificate, in MPa.
+    uniform_elongation : float, optional
+        Ag as a fraction; default: by the rule of the metal, from R and Rm.
+
+    Raises
+    ------
+    InvalidValue
+        If the metal is a published card, or no curve of its kind has these properties.
+
+    Examples
+    --------
+    >>> coil = of_certificate("DC04", 160, 295)
+    >>> coil.tensile_strength
+    295.0
+    """
+    metal = get(name)
+    if metal.name in card_rows():
+        raise InvalidValue(
+            "a published card has a law of its own, which R and Rm do not determine",
+            where="material",
+            value=name,
+            cause="the numbers of a coil are given beside it",
+            remedy=f"one of {', '.join(names())}",
+        )
+    row = {**_data()[metal.name], "yield_stress": yield_stress, "tensile_strength": tensile_strength}
+    if uniform_elongation is not None:
+        row |= {"uniform": "measured", "measured": uniform_elongation + tensile_strength / float(row["young"])}
+    row |= {"basis": "numbers of a coil", "source": f"R, Rm of a coil; all else as {metal.name}: {metal.source}"}
+    try:
+        return _from_row(metal.name, row)
+    except InvalidValue:
+        if row["curve"] == "Voce":
+            raise
+        return _from_row(metal.name, row | {"curve": "Voce"})
+
+
 @cache
 def _made(name: str) -> SheetMetal:
-    if name in card_rows():
-        return made_card(name)
-    row = _data()[name]
+    return made_card(name) if name in card_rows() else _from_row(name, _data()[name])
+
+
+def _from_row(name: str, row: dict[str, Any]) -> SheetMetal:
+    """Sheet metal whose curve goes through R, Rm and the strain at the largest force."""
     young, strength = float(row["young"]), float(row["tensile_strength"])
     elongation = _strain_at_largest_force(row) - strength / young
     curve = _CURVES[row["curve"]](float(row["yield_stress"]), strength, elongation, young)

@@ -5,6 +5,6 @@ from umform_book.case import Chapter
 
 CHAPTER = Chapter(
     "Air bending",
-    "The press brake of `umform bend`: what sharp bends need, closed forms, rules of the shop, meshes, smooth curves.",
+    "The press brake of `umform bend`: sharp bends, closed forms, workshop formulas, meshes, smooth curves.",
     (sharpness.CASE, wide_sheet.CASE, shop_formulas.CASE, mesh_study.CASE, smoothness.CASE),
 )

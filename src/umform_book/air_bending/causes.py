@@ -6,14 +6,16 @@ from typing import TypedDict
 
 #: air-bend-mesh shows it.
 ONE_LAYER = (
-    "the straight normals of one layer do not see the stress through the thickness and the shear under the punch, by "
-    "which the sheet bears a larger moment there: the hinge is too sharp, see air-bend-mesh"
+    "one layer is a shell with straight normals: it lacks the stress through the thickness and the shear under the "
+    "punch, which raise the moment there, and its hinge is too sharp (see air-bend-mesh)"
 )
+#: Shell theory holds if a state changes over a length that is large against the thickness, which a punch does not.
+ONE_LAYER_THEORY = "Koiter, Theory of Thin Elastic Shells, IUTAM 1960, 12-33: error of order (h/L)^2 with L about h"
 
 #: air-bend-wide-sheet shows it.
 LAYERS = (
-    "fibre positions are straight and the stress through the thickness is one number in each layer; in one layer the "
-    "two errors nearly cancel, eq. (2.32), in two or more they do not, and fade with their number"
+    "straight fibres, and one stress through the thickness in each layer; in one layer the two errors nearly cancel, "
+    "eq. (2.32); in more layers they do not, and fall with the number of layers"
 )
 
 

@@ -39,12 +39,12 @@ class Band:
 
 
 _TENSILE = (
-    "the metal hardens beyond the strains of the bend, and the rule reckons with its tensile strength: the flow stress "
-    "up to a strain of 0.2 is a smaller part of it than for mild steel, and the force is smaller by the same part"
+    "the rule uses the tensile strength, but this metal hardens beyond the strains of the bend: its flow stress up to "
+    "a strain of 0.2 is a smaller part of the tensile strength than for mild steel, and so is the force"
 )
 _CIRCLE = (
     "an air bend is no arc: in a wide die the curvature fades along the leg, R is that of the circle that fits the "
-    "middle, and K takes what R does not hold; the neutral fibre lies where the tables have it"
+    "middle, and K absorbs the difference; the neutral fibre agrees with the tables"
 )
 #: Wikipedia, "Bending (metalworking)", table of K-factors for air bending.
 BANDS = (Band(0.0, 0.33, 0.40), Band(1.0, 0.40, 0.45), Band(3.0, 0.50, 0.50))
@@ -91,9 +91,7 @@ def _forces(page: Page, found: dict[str, AirBend]) -> None:
         C = force * bent.case.opening / (Rm * THICKNESS**2)
         rows.append((label, Rm, flow_ratio(bent.case), force, C, rule, force / rule, low, high))
         low_flow = known(0.35, _TENSILE, flow_ratio(bent.case) < 0.95 * flow_ratio(brake(8.0)))
-        page.check(
-            f"{label}: largest force over (1 + 4 t/V) Rm t^2/V, a rule of the shop", force, rule, 0.2, **low_flow
-        )
+        page.check(f"{label}: largest force over (1 + 4 t/V) Rm t^2/V, workshop formula", force, rule, 0.2, **low_flow)
     columns = ("bend", "Rm MPa", "flow stress/Rm", "largest force N/mm", "C = F V/(Rm t^2)", "C = 1 + 4 t/V", "over it")
     page.table("Largest force", (*columns, "C = 1.33", "C = 1.42"), rows)
 
@@ -143,7 +141,7 @@ def run(page: Page) -> None:
         Curve("least published", ratios, [published(r)[0] for r in ratios], "k:"),
         Curve("largest published", ratios, [published(r)[1] for r in ratios], "k--"),
     ]
-    page.figure("k-factor", plot(curves, "R/t", "K"), "K-factor by R/t, and what is published")
+    page.figure("k-factor", plot(curves, "R/t", "K"), "K-factor by R/t, and published values")
     forces = [bent.measures.largest_force / textbook_force(bent.case) for bent in steel]
     flow = [
         bent.measures.largest_force / (flow_ratio(bent.case) * textbook_force(bent.case))
@@ -151,39 +149,38 @@ def run(page: Page) -> None:
         if bent.case.opening == 8.0 * THICKNESS
     ]
     figure = plot([Curve("DC04", OPENINGS, forces, "o-")], "V/t", "force over (1 + 4 t/V) Rm t²/V", level=1.0)
-    page.figure("force", figure, "Largest force over the rule of the shop")
+    page.figure("force", figure, "Largest force over the workshop formula")
     page.text(
-        f"The force is {100 * min(forces):.0f} to {100 * max(forces):.0f} % of the rule for mild steel. Rules choose a "
-        "press: they hold friction and are meant not to be exceeded; here the tools are frictionless. With the flow "
-        f"stress in place of Rm the rule serves all metals: {100 * min(flow):.0f} to {100 * max(flow):.0f} % at "
-        "V/t = 8. The neutral fibre moves outwards with R/t as the tables say. K does not: tables give it with the "
-        "radius of the drawing, and here it belongs to the circle that fits the bend. It falls as that circle gets "
-        "worse. Take the bend deduction, or K together with its R ([air bending](../air-bending.md))."
+        f"The force is {100 * min(forces):.0f} to {100 * max(forces):.0f} % of the formula for mild steel. Formulas "
+        "serve to choose a press: they include friction and are meant as upper bounds; here the tools are "
+        f"frictionless. With the flow stress instead of Rm the formula serves all metals: {100 * min(flow):.0f} to "
+        f"{100 * max(flow):.0f} % at V/t = 8. The neutral fibre moves outwards with R/t as in the tables. K does not: "
+        "tables give it with the radius of the drawing, here it belongs to the circle that fits the bend, and falls "
+        "as the fit gets worse. Use the bend deduction, or K together with its R ([air bending](../air-bending.md))."
     )
     page.shape("shape", steel[0].result, "V/t = 6 after unloading", values="plastic_strain_max", view=(-90, 0))
 
 
 CASE = Case(
     name="air-bend-shop-formulas",
-    title="Air bending: rules of the shop",
+    title="Air bending: workshop formulas",
     problem=f"""
-Sheets of t = {THICKNESS:g} mm in plane strain on the brake of `umform bend`, whose opening V is 6 to 24 thicknesses and
-whose radii go with it, bent to about 90 degrees and unloaded: the metal like DC04; for V/t = 8 also metals of the
-library, by their names there. Largest force; inside radius R and K-factor after unloading. Rm: Considère's rule
-on the hardening curve.
+Sheets of t = {THICKNESS:g} mm in plane strain on the brake of `umform bend`, opening V of 6 to 24 thicknesses with
+radii in proportion, bent to about 90 degrees and unloaded: metal like DC04; for V/t = 8 also metals of the library.
+Measured: largest force; inside radius R and K-factor after unloading. Rm: Considère's rule on the hardening curve.
 """,
     reference="""
-None of these is a reference to be met: they are rules of thumb, and show that the numbers are those of a press brake.
-Force: F = C Rm b t^2 / V with C = 1 + 4 t/V for V/t up to 10 and C = 1 above, as taught in German shops (formula
-sheet "Berechnungen Biegen", scribd.com/doc/125260567); here 1 + 4 t/V is taken for all V/t.
-Makers of press brakes print C = 1.33 to 1.42, others up to 1.6 (machinecalcs.com/press-brake-tonnage-calculator). So
-the rules lie 10 to 20 % apart, and 20 % is what is asked for. Inside radius: 15 to 17 % of V for mild steel
-(artizono.com/press-brake-tonnage-calculator: 16 %). K-factor: DIN 6935 has the correction factor k = 0.65 + 0.5
-log10(R/t) for a fibre at k t/2, that is K = k/2, up to R/t = 5 (as quoted at catia-begin.blogspot.com/2009/02 and in
-Tabellenbuch Metall); air bending of soft to hard metals 0.33 to 0.40 up to R/t = 1, 0.40 to 0.45 up to 3, 0.50 above
-(Wikipedia, "Bending (metalworking)"); Machinery's Handbook, 28th ed.: 0.35, 0.41 (soft steel, aluminium), 0.45 (cold
-rolled steel), as quoted by PTC ("About Bend Tables", support.ptc.com). The range between the least and the largest of
-these is what is asked for.
+Rules of thumb, no exact references: they show that the numbers are those of a press brake.
+
+* Force: F = C Rm b t^2 / V with C = 1 + 4 t/V for V/t up to 10 and C = 1 above (German workshops, formula sheet
+  "Berechnungen Biegen", scribd.com/doc/125260567); here 1 + 4 t/V for all V/t. Makers of press brakes print C = 1.33 to
+  1.42, others up to 1.6 (machinecalcs.com/press-brake-tonnage-calculator). They differ by 10 to 20 %; limit: 20 %.
+* Inside radius: 15 to 17 % of V for mild steel (artizono.com/press-brake-tonnage-calculator: 16 %).
+* K-factor: DIN 6935, k = 0.65 + 0.5 log10(R/t) for a fibre at k t/2, K = k/2, up to R/t = 5 (as quoted at
+  catia-begin.blogspot.com/2009/02 and in Tabellenbuch Metall); soft to hard metals 0.33 to 0.40 up to R/t = 1, 0.40 to
+  0.45 up to 3, 0.50 above (Wikipedia, "Bending (metalworking)"); Machinery's Handbook, 28th ed.: 0.35, 0.41 (soft
+  steel, aluminium), 0.45 (cold rolled steel), as quoted by PTC ("About Bend Tables", support.ptc.com). Limit: the range
+  of these.
 """,
     run=run,
     cost=25.0,

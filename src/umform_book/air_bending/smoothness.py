@@ -21,7 +21,7 @@ from umform_book.page import Page
 THICKNESS = 1.0
 #: Window of J in thicknesses: that of the page bending-contact-points, 0.1 mm for a sheet of 1 mm.
 WINDOW = 0.1
-#: J beyond the smooth curve that is asked for.
+#: Largest J beyond the smooth curve.
 LIMIT = 0.01
 
 
@@ -147,8 +147,8 @@ def _happened(page: Page, run: Run) -> None:
         begin, end = run.corner
         gain = run.F[-1] / np.interp(begin, run.u, run.F)
         page.text(
-            f"Second contact: the legs lay themselves against the flanks from {begin:.3f} to {end:.3f} mm of stroke; "
-            f"to the end of the stroke the force grows to {gain:.1f} times."
+            f"Second contact: the legs meet the flanks from {begin:.3f} to {end:.3f} mm of stroke; the force then "
+            f"grows to {gain:.1f} times until the end."
         )
         page.check("second contact: the force grows to more than twice (1: it does)", float(gain > 2.0), 1.0, 0.0)
     else:
@@ -202,14 +202,12 @@ def run(page: Page) -> None:
     figure = plot(curves, "stroke over h", "force over its largest up to 1.6 h", limits=(0.0, 2.0))
     page.figure("curves", figure, "Force over stroke")
     page.text(
-        "J counts the slope of the curve too: behind the elastic part, and even more where a leg is pressed against a "
-        "flank, most of it is the slope of the smooth curve. What the contact adds is the last column. While the legs "
-        "lay themselves against the flanks the force bends into its new slope within a few hundredths of h; there "
-        "the curve is compared with that of half of the points, in the stroke. Around the shoulder three are what two "
-        "within the expected length of the contact come to: late in the stroke the force is a third of what "
-        "is expected, the contact shorter, and the curve climbs in stairs. So the automatic rule wants six there, "
-        "eq. (4.31). A penalty of E/h is 2 to 5 times the automatic one: the contact is shorter, and five points are "
-        "too few for it."
+        "J includes the slope of the smooth curve; the last column is the part of the contact. While the legs meet "
+        "the flanks, the force changes its slope within a few hundredths of h; there the curve is compared with that "
+        "of half of the points, in the stroke. Around the shoulder three points result from two within the expected "
+        "length of the contact. Late in the stroke the force is a third of the expected one, the contact is shorter, "
+        "and the curve rises in steps: the automatic rule takes six there, eq. (4.31). A penalty of E/h is 2 to 5 "
+        "times the automatic one: the contact is shorter, and five points are too few."
     )
 
 
@@ -217,19 +215,21 @@ CASE = Case(
     name="air-bend-smoothness",
     title="Air bending: lift-off, second contact, sliding around the shoulder",
     problem=f"""
-Sheet of h = {THICKNESS:g} mm like DC04 in plane strain, two layers of BEND18 of 6 points, three elements per thickness
-(sliding: five); increments of 0.05 h. Lift-off: opening 12 h, a tip of 3 h, blunter than the bend gets: the sheet
-bends away from it in the middle. Second contact: opening 8 h, a die of 120 degrees: the legs meet its flanks and are
-pressed against them, in increments of 0.005 h. Sliding: opening 12 h, shoulders of 0.6 h, around which the legs slide.
-Automatic rule, the default of the brake: contact points "auto", penalty from a penetration of h/200. Beside it 5 points
-and a penalty of E/h, and the automatic penalty with fewer points.
+Sheet of h = {THICKNESS:g} mm like DC04, plane strain, two layers of BEND18 of 6 points, three elements per thickness
+(sliding: five), increments of 0.05 h. Automatic contact points and penalty (penetration h/200), the default; beside it
+5 points with a penalty of E/h, and the automatic penalty with fewer points.
+
+* Lift-off: opening 12 h, tip of 3 h, blunter than the bend: the sheet leaves the tip in the middle.
+* Second contact: opening 8 h, die of 120 degrees: the legs are pressed against the flanks, increments of 0.005 h.
+* Sliding: opening 12 h, shoulders of 0.6 h, around which the legs slide.
 """,
     reference=f"""
-None but smoothness. J is that of [bending-contact-points](bending-contact-points.md): the largest change of the force
-within a window of {WINDOW:g} h over the force. The smooth curve is the polynomial of degree {SMOOTH_DEGREE} of least
-squares, on either side of the second contact, where the slope of the true curve jumps. J of the force less that curve
-is what the contact adds, and the waves that no polynomial follows: less than {100 * LIMIT:g} % is asked for.
+Smoothness only. J as in [bending-contact-points](bending-contact-points.md): largest change of the force within
+{WINDOW:g} h over the force. The smooth curve is the least-squares polynomial of degree {SMOOTH_DEGREE}, on either side
+of the second contact, where the true slope jumps. J of the difference is the part of the contact, with waves that no
+polynomial follows. Limit: {100 * LIMIT:g} %.
 """,
     run=run,
+    picture="curves",
     cost=45.0,
 )

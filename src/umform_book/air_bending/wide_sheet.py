@@ -77,21 +77,21 @@ def _pure(page: Page) -> None:
         _judge(page, candidate, found)
     columns = ("element", *(f"R/h = {ratio:g}" for ratio in ratios))
     page.table("Moment over the closed form", columns, rows["moment"])
-    page.table("Fibre that is as long as it was: height over h in the flat sheet", columns, rows["kept"])
-    page.table("Fibre that is at rest and bears no stress: height over h in the flat sheet", columns, rows["resting"])
+    page.table("Fibre of constant length: height over h in the flat sheet", columns, rows["kept"])
+    page.table("Fibre without stress: height over h in the flat sheet", columns, rows["resting"])
     page.table("Springback over the closed form of the curved bar", columns, rows["springback"])
     page.text(
-        "The neutral fibre moves inwards: in the flat sheet the fibre that keeps its length lies kh/8 of the thickness "
-        "inside of the middle, the one that bears no stress kh/4. In the bent sheet the first lies at half of the "
-        "thickness, K = 0.5: a sheet in pure bending keeps its thickness, and K below 0.5 is the work of thinning, in "
-        "the air under the force of the punch. A dash: nearly perfect plasticity leaves the middle of the stack no "
-        "single place, and no equilibrium was found. Where the neutral fibre lies between two thickness points, no "
-        "equilibrium tells its place: it moves in steps, most in one layer."
+        "The neutral fibre moves inwards: in the flat sheet the fibre of constant length lies kh/8 of the thickness "
+        "inside the middle, the one without stress kh/4. In the bent sheet the first lies at half the thickness, K = "
+        "0.5: pure bending keeps the thickness. K below 0.5 results from thinning under the force of the punch. A "
+        "dash: with nearly perfect plasticity the middle of the stack has no unique position, and no equilibrium was "
+        "found. Between two thickness points the position of the neutral fibre is not defined: it moves in steps, "
+        "most in one layer."
     )
 
 
 #: What is left of two errors in a single layer at R/h = 1.
-ONE_SHARP = "straight fibres and one stress through the thickness: in one layer their errors cancel but for 3 %"
+ONE_SHARP = "straight fibres and one stress through the thickness: in one layer their errors cancel up to 3 %"
 
 
 def _judge(page: Page, candidate: Candidate, found: dict[str, dict[float, float]]) -> None:
@@ -188,7 +188,7 @@ def run(page: Page) -> None:
         return
     kh = np.linspace(0.02, 0.7, 50)
     curves = [
-        Curve("as long as it was, in the flat sheet", 1 / kh - 0.5, [pure_bending.kept_fibre(k) for k in kh]),
+        Curve("constant length, in the flat sheet", 1 / kh - 0.5, [pure_bending.kept_fibre(k) for k in kh]),
         Curve("no stress, in the flat sheet", 1 / kh - 0.5, [pure_bending.resting_fibre(k) for k in kh]),
         Curve("no stress, in the bent sheet", 1 / kh - 0.5, [pure_bending.resting_place(k) for k in kh], "--"),
     ]
@@ -209,21 +209,19 @@ CASE = Case(
     name="air-bend-wide-sheet",
     title="Air bending: wide sheet, neutral fibre and springback in closed form",
     problem=f"""
-(a) One element, layers of it and a stack of 16 between two sections of an arc, in plane strain, h = 1, bent from flat
-to an inside radius R of 20 to 1 h by increments of {_INCREMENT:g} of the turn k h, and unloaded: no force along the
-sheet, all radii free (as in [bend-moment](bend-moment.md)). kappa = {KAPPA:g}, mu = {MU:g}, yield stress
-{YIELD_STRESS:g}, hardening modulus {HARDENING:g} MPa: as good as none. One layer has 12 points of the split rule,
-layers have 6 Gauss points. (b) Springback of two air bends of `umform bend`: a sheet of 1 mm over 40 mm, and the
-default.
+* (a) One element, layers, and a stack of 16 between two sections of an arc, plane strain, h = 1, bent from flat to an
+  inside radius R of 20 to 1 h in increments of {_INCREMENT:g} of the turn k h, and unloaded: no force along the sheet,
+  all radii free (as in [bend-moment](bend-moment.md)). kappa = {KAPPA:g}, mu = {MU:g}, yield stress {YIELD_STRESS:g},
+  hardening modulus {HARDENING:g} MPa, nearly none. One layer: 12 points, split rule; layers: 6 Gauss points.
+* (b) Springback of two air bends of `umform bend`: a sheet of 1 mm over 40 mm, and the default.
 """,
     reference="""
-R. Hill, The Mathematical Theory of Plasticity, Oxford 1950: a wide rigid, perfectly plastic sheet keeps its thickness;
-radii 1/k -+ h/2; the fibre of kept length at the radius 1/k, the one without stress at sqrt(a b). Volume is kept, so
-that in the flat sheet they lie at 1/2 - kh/8 and 1/2 - kh/4 of the thickness from the inner face. Moment 2/sqrt(3) y
-h^2/4; the little hardening is summed over 400 fibres of that sheet. Uncertainty: elastic strains, 0.0008 at yield,
-thin the sheet by up to 1 % and its moment by 2 %. Springback: pure bending of a curved bar (Timoshenko & Goodier,
-Theory of Elasticity, section 29) in plane strain, with the moment and radii that were found; for air bends summed
-along the sheet with the moment of the contact forces.
+Hill, The Mathematical Theory of Plasticity, Oxford 1950: a wide rigid, perfectly plastic sheet keeps its thickness;
+radii 1/k -+ h/2; fibre of constant length at 1/k, fibre without stress at sqrt(a b), in the flat sheet 1/2 - kh/8 and
+1/2 - kh/4 of the thickness from the inner face. Moment 2/sqrt(3) y h^2/4; the small hardening is summed over 400
+fibres. Uncertainty: elastic strains, 0.0008 at yield, thin the sheet by up to 1 % and reduce the moment by 2 %.
+Springback: pure bending of a curved bar (Timoshenko & Goodier, Theory of Elasticity, section 29) in plane strain with
+the moment and radii found; for air bends summed along the sheet with the moment of the contact forces.
 """,
     run=run,
     cost=25.0,

@@ -173,9 +173,9 @@ def run(page: Page) -> None:
         by_rules(page, exact)
         by_force(page)
     page.text(
-        f"The line force where the strip leaves the cylinder, {FORCE * np.cos(exact.angle):.3g} of the force of "
-        f"{FORCE:g}, is spread over a few elements by the penalty and by the shear of the strip, so its peak pressure "
-        "has no limit to converge to; its sum and its place have, and they do."
+        f"Where the strip leaves the cylinder, the line force ({FORCE * np.cos(exact.angle):.3g} of {FORCE:g}) is "
+        "spread over a few elements by the penalty and the shear of the strip. Its peak pressure has no limit; its "
+        "sum and its place converge."
     )
     if page.images is not None:
         result = hang(page, EIGHT, 40, 2, frames=1)
@@ -188,18 +188,16 @@ CASE = Case(
     name="contact-beam-on-cylinder",
     title="Elastic strip hanging over a cylinder",
     problem=f"""
-Half of a strip, {LENGTH:g} long, {WIDTH:g} wide, {THICKNESS:g} thick, E = {E:g}, nu = 0, u_y = 0, lies flat on top of
-a rigid frictionless cylinder of R = {RADIUS:g}; x = 0 is a symmetry plane. A dead force at the end pulls it down to F
-= {FORCE:g} (F L R / EI = {FORCE * LENGTH * MIDDLE / EI:.0f}). Penalty {PENALTY:g}. The tool stands {OVERLAP} in the
-strip at first, so that it holds the strip at Gauss points too; results are taken relative to it. Measured: position
-of the end, sum of the normal forces of all contact points and their mean angle, mean pressure on the first half of
-the arc.
+Half of a strip, {LENGTH:g} long, {WIDTH:g} wide, {THICKNESS:g} thick, E = {E:g}, nu = 0, u_y = 0, lies on a rigid
+frictionless cylinder of R = {RADIUS:g}; x = 0 is a symmetry plane. A dead force at the end pulls it down to F =
+{FORCE:g} (F L R / EI = {FORCE * LENGTH * MIDDLE / EI:.0f}). Penalty {PENALTY:g}. The tool starts {OVERLAP} inside the
+strip, so that Gauss points hold it too. Measured: position of the end, sum and mean angle of the normal forces, mean
+pressure on the first half of the arc.
 """,
     reference="""
-Closed form of the elastica, large rotations, inextensible and without shear strain: an arc of curvature 1/R
-(mid-surface) with the pressure T/(R b) of its constant tension T = F sin(angle), a line force F cos(angle) where it
-leaves the cylinder, and an elastica beyond. Its own uncertainty: stretching, shear and penetration of the strip,
-below 0.05 % of its length.
+Elastica with large rotations, inextensible and without shear: an arc of curvature 1/R with the pressure T/(R b) of the
+tension T = F sin(angle), a line force F cos(angle) where it leaves the cylinder, and an elastica beyond. Stretching,
+shear and penetration: below 0.05 % of the length.
 """,
     run=run,
     cost=25.0,

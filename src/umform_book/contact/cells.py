@@ -32,7 +32,7 @@ RULES: dict[str, dict[str, Any]] = {
 }
 #: Strip and tool of the bending; length of the strip on the way that is measured.
 LENGTH, RADIUS, STROKE = 60.0, 20.0, 15.0
-COARSE = "faces of a quarter of the radius: the mesh is 75 % off, and the sheet rides on edges"
+COARSE = "faces as long as a quarter of the radius: the mesh itself is 75 % off, and edges carry the sheet"
 
 
 # A rigid sheet -----------------------------------------------------------------------------------------------
@@ -176,18 +176,17 @@ CASE = Case(
     name="contact-cells",
     title="Contact over cells",
     problem=f"""
-First: a cylinder of R = {RADIUS:g} is moved along a flat sheet that is held, and penetrates it so that the contact has
-a half-width of 2 or 0.8; faces of about 2.5, regular, graded by 1.25 and distorted. Second: the cylinder on a block of
-the page [Hertz](contact-hertz-line.md), with 3 x 3 cells on 4-node faces and 5 x 5 on 9-node faces. Third: half of a
-strip of {LENGTH:g} x 1 x 1, plane strain, ideally plastic (kappa = 175000, mu = 80770, yield stress 160), is bent over
-a cylinder of R = {RADIUS:g} at x = 25 by {STROKE:g}, in 150 increments, with the default penetration and 12, 24 and 48
-elements of ANS3DEAS.
+* A cylinder of R = {RADIUS:g} moves along a held flat sheet and penetrates it to a contact half-width of 2 or 0.8;
+  faces of about 2.5: regular, graded by 1.25, distorted.
+* The cylinder on a block ([Hertz](contact-hertz-line.md)) with 3 x 3 cells on 4-node and 5 x 5 on 9-node faces.
+* Half of a strip of {LENGTH:g} x 1 x 1, plane strain, perfectly plastic (kappa = 175000, mu = 80770, yield stress 160),
+  is bent over a cylinder of R = {RADIUS:g} at x = 25 by {STROKE:g} in 150 increments; default penetration, 12, 24 and
+  48 elements of ANS3DEAS.
 """,
     reference="""
-First: all pressures point to the axis, and by symmetry the resultant is vertical and goes through it. Own uncertainty:
-none but the asymmetry of the circle over the parabola, below 1e-4. Second: the closed form of Hertz, as on its page and
-with its uncertainty. Third: the curve of a mesh of twice the finest number of elements with 10 x 10 Gauss points, which
-has its own ripple of some 0.05 %; and the estimate of (4.121), which the ripple must not exceed.
+First: pressures point to the axis, so the resultant is vertical and passes through it (asymmetry of circle and
+parabola: below 1e-4). Second: Hertz, as on its page. Third: the curve of twice as many elements with 10 x 10 Gauss
+points, whose ripple is some 0.05 %; and the estimate (4.121), which the ripple must not exceed.
 """,
     run=run,
     cost=60.0,

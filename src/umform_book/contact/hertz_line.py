@@ -78,11 +78,9 @@ def by_rules(page: Page) -> None:
     columns = [f"{n} intervals: {what}" for n in meshes for what in ("peak at points", "at nodes", "half-width")]
     page.table("Contact rules; everything over Hertz", ("element, rule", *columns), rows)
     page.text(
-        "The peak at points is the largest penalty times penetration of a single point; the peak at nodes is the "
-        "largest of the averages of eq. (4.38), whose weights are not negative (the same with the nodal rule). "
-        "Three or more points on 4-node faces ask a straight chord to follow a circle: within a face the gap varies "
-        "by h^2/8R, the pressure at the points by the penalty times this, and its largest value says nothing. The "
-        "averages do not feel it."
+        "The peak at points is the largest penalty times penetration; the peak at nodes is the largest average of "
+        "eq. (4.38). On 4-node faces with three or more points the gap between chord and circle varies by h^2/8R, and "
+        "the pressure at points by the penalty times this: its largest value has no meaning. The averages are right."
     )
 
 
@@ -170,20 +168,19 @@ CASE = Case(
     name="contact-hertz-line",
     title="Hertz: cylinder on a block",
     problem="""
-Half of a block, 40 wide and 40 deep, in plane strain (width 1, u_y = 0), E = 1000, nu = 0.3, its base held in z, x =
-0 a symmetry plane. A rigid cylinder of R = 200 is driven in by 0.0115, so that the half-width a of the contact is
-about 1 and the strains stay below 0.3 %. Solid-shells are stacked through the depth; elements of equal size around
-the contact (2, 4 or 8 intervals between nodes over the half-width), growing by 1.35 away from it. Penalty 100 E*/a
-unless the table says otherwise. Measured for the force P that the tool feels: peak pressure, half-width from the
-second moment of the pressure (it is a^2/4 of the force in the closed form), and the outermost point in contact.
+Half of a block, 40 wide and 40 deep, plane strain (width 1), E = 1000, nu = 0.3, base held in z, x = 0 a symmetry
+plane. A rigid cylinder of R = 200 is pressed in by 0.0115: half-width a of the contact about 1, strains below 0.3 %.
+Elements are stacked through the depth, of equal size around the contact (2, 4 or 8 intervals over the half-width),
+growing by 1.35 away from it. Penalty 100 E*/a unless the table says otherwise. Measured for the force P on the tool:
+peak pressure; half-width from the second moment of the pressure (a^2/4 in the closed form); outermost point in contact.
 """,
     reference="""
-Hertz, after Johnson (1985): a = sqrt(4 P R / (pi E*)), p0 = 2 P / (pi a), E* = E/(1 - nu^2), for a rigid cylinder on
-a half-space. The approach of the two is not defined in line contact; the comparison is therefore made for the force
-found, not for the depth. Own uncertainty here: the finite block, below 0.5 % as the last table shows, finite strains
-and the circle in place of the parabola, below 0.3 %, and the penalty, about E*/(penalty a) = 1 % of the stiffness of
-the block over a length a.
+Hertz, after Johnson (1985): a = sqrt(4 P R / (pi E*)), p0 = 2 P / (pi a), E* = E/(1 - nu^2), rigid cylinder on a
+half-space. Compared for the force found, since the approach is not defined in line contact. Uncertainty: the finite
+block, below 0.5 % (last table); finite strains and circle for parabola, below 0.3 %; the penalty, 1 % of the stiffness
+of the block over a length a.
 """,
     run=run,
+    picture="pressure",
     cost=35.0,
 )

@@ -73,8 +73,8 @@ def run(page: Page) -> None:
     if not page.short:
         by_rules(page)
     page.text(
-        "As in line contact, the averages at the nodes are right with any rule, and the pressure at single points of "
-        "4-node faces is not if there are three or more of them: a face of straight edges cannot follow the sphere."
+        "As in line contact, the averages at the nodes are right with any rule. The pressure at single points of "
+        "4-node faces is wrong with three points or more: a face with straight edges cannot follow the sphere."
     )
     if page.images is not None:
         model, *_ = press(page, POINT, EIGHT, 4, 2, 100.0)
@@ -86,15 +86,14 @@ CASE = Case(
     name="contact-hertz-point",
     title="Hertz: sphere on a block",
     problem="""
-Quarter of a block, 12 x 12 wide and 12 deep, E = 1000, nu = 0.3, its base held in z, x = 0 and y = 0 symmetry planes.
-A rigid sphere of R = 100 is driven in by 0.0105, so that the radius a of the contact is about 1. Solid-shells are
-stacked through the depth; elements of equal size around the contact (2, 4 or 6 intervals between nodes over the
-radius), growing by 1.6 away from it. Penalty 100 E*/a. Measured for the force F that the tool feels: peak pressure,
-and radius from the second moment of the pressure (2 a^2/5 of the force in the closed form).
+Quarter of a block, 12 x 12 wide and 12 deep, E = 1000, nu = 0.3, base held in z, two symmetry planes. A rigid sphere of
+R = 100 is pressed in by 0.0105: radius a of the contact about 1. Elements are stacked through the depth, of equal size
+around the contact (2, 4 or 6 intervals over the radius), growing by 1.6 away from it. Penalty 100 E*/a. Measured for
+the force F on the tool: peak pressure; radius from the second moment of the pressure (2 a^2/5 in the closed form).
 """,
     reference="""
-Hertz, after Johnson (1985): a = (3 F R / (4 E*))^(1/3), p0 = 3 F / (2 pi a^2), E* = E/(1 - nu^2), for a rigid sphere
-on a half-space. Own uncertainty here: block and penalty, about 1 %.
+Hertz, after Johnson (1985): a = (3 F R / (4 E*))^(1/3), p0 = 3 F / (2 pi a^2), E* = E/(1 - nu^2), rigid sphere on a
+half-space. Block and penalty: about 1 %.
 """,
     run=run,
     cost=30.0,

@@ -21,6 +21,7 @@ from umform.surfaces import Cylinder, Plane, Sphere, Surface
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot, rule_name
 from umform_book.page import Page
+from umform_book.printed import shown
 from umform_book.variants import Variant, with_tying
 
 Floats = NDArray[np.float64]
@@ -133,7 +134,7 @@ def on_the_plane(page: Page) -> None:
                 if patch.is_exact(points):
                     resultant = max(resultant, resultant_error(model, contact))
                     penetration = max(penetration, penetration_error(model, contact))
-        rows.append((patch.label, *(f"{errors[points]:.1e}" for points in rules)))
+        rows.append((patch.label, *(shown(errors[points], 2) for points in rules)))
         exact = max(error for points, error in errors.items() if patch.is_exact(points))
         page.at_most(f"{patch.label}: pressure at nodes and {patch.least} x {patch.least} points or more", exact, 1e-12)
         page.at_most(f"{patch.label}: penetration of the nodes over p / penalty", penetration, 1e-11)
@@ -145,8 +146,8 @@ def on_the_plane(page: Page) -> None:
     )
     page.text(
         "A rule passes if it integrates the shape functions of the faces exactly: 2 x 2 points on straight sides, 3 x "
-        "3 on curved ones. One point gives each node of a face the same share and misses by what the table says; the "
-        "nodal rule has the exact shares as its weights and passes."
+        "3 on curved ones. One point gives each node the same share and misses. The nodal rule has exact weights and "
+        "passes."
     )
 
 
@@ -183,17 +184,15 @@ CASE = Case(
     name="contact-pressure-patch",
     title="Patch test of contact: uniform pressure",
     problem=f"""
-Block 1 x 1 x {THICKNESS}, E = {E:g}, nu = {NU} (or 0 where the table says so), free to expand, under the pressure p =
-{PRESSURE:g} on its upper face. Its lower face lies on a rigid plane, penalty {PENALTY:g}. The faces are
-quadrilaterals that are no parallelograms, with straight sides or (9 nodes) with curved ones. Then the same on a
-sphere and a cylinder of large radius. Measured: the pressure at all contact points, the penetration of the nodes,
-force and moment on the tool.
+Block 1 x 1 x {THICKNESS}, E = {E:g}, nu = {NU} (0 where the table says so), free to expand, under the pressure p =
+{PRESSURE:g} on its upper face. The lower face lies on a rigid plane, penalty {PENALTY:g}; then on a sphere and a
+cylinder of large radius. The faces are quadrilaterals, none a parallelogram, with straight or (9 nodes) curved sides.
+Measured: pressure at all contact points, penetration of the nodes, force and moment on the tool.
 """,
     reference="""
-Closed form: the pressure is p everywhere, the penetration p / penalty, eq. (4.7), the resultant p times the area
-through the centre of the block. Uncertainty: none; what is left is round-off. MI9K3DEAS with E_12 tied fails the
-membrane patch test on such faces for its own reasons, which disturbs the pressure where nu is not zero; so it is
-asked with nu = 0, and with E_12 compatible otherwise.
+Closed form, exact: pressure p everywhere, penetration p / penalty, eq. (4.7), resultant p times the area through the
+centre. MI9K3DEAS with E_12 tied fails the membrane patch test on such faces, which disturbs the pressure if nu is not
+zero; it is tested with nu = 0, otherwise with E_12 compatible.
 """,
     run=run,
     cost=10.0,

@@ -122,10 +122,9 @@ def run(page: Page) -> None:
         page.heading(f"Edge of R = {edge.radius:g}")
         by_edge(page, edge)
     page.text(
-        "The mean is the weight for every rule and mesh: nothing is lost in an elastic strip on a frictionless edge. "
-        "What oscillates with the passing of the nodes is the discretisation. While the arc of contact is long "
-        "against an element the tool acts on many nodes and faces at once, there are no stairs, and nodes and Gauss "
-        "points do not differ much: the oscillation is that of the polygon which the strip makes of the arc."
+        "The mean is the weight for every rule and mesh: an elastic strip on a frictionless edge loses no work. The "
+        "oscillation is that of the discretisation, as the strip makes a polygon of the arc. The arc of contact is "
+        "long against an element here, so nodes and Gauss points hardly differ."
     )
     if page.images is not None:
         result = draw(page, WIDE, EIGHT, 60, 2, frames=1)
@@ -137,18 +136,18 @@ CASE = Case(
     title="Strip drawn over an edge",
     problem=f"""
 A flat strip, x from {ENDS[0]:g} to {ENDS[1]:g}, {WIDTH:g} wide, {THICKNESS:g} thick, E = {E:g}, nu = 0, u_y = 0, lies
-on the top of a rigid frictionless cylinder at x = 0. A weight T is hung to its end x1, so that it wraps the edge by
-nearly 90 degrees; then its other end, held in z, is drawn away by {TRAVEL:g}, and the material moves over the edge.
-Wide edge: R = {WIDE.radius:g}, T = {WIDE.weight:g}, T R^2/EI = {WIDE.weight * WIDE.radius**2 / EI:.0f}, penalty
-{WIDE.penalty:g}. Sharp edge: R = {SHARP.radius:g}, T = {SHARP.weight:g}, T R^2/EI =
-{SHARP.weight * SHARP.radius**2 / EI:.0f}, penalty {SHARP.penalty:g}. Measured over the last {MEASURED:g} of the way,
-a whole number of elements of each mesh: mean and swing (largest minus smallest) of force over weight.
+on a rigid frictionless cylinder at x = 0. A weight T at its end x1 wraps it around the edge by nearly 90 degrees; then
+its other end, held in z, is drawn away by {TRAVEL:g}. Measured over the last {MEASURED:g}, a whole number of elements:
+mean and swing (largest minus smallest) of force over weight.
+
+* Wide edge: R = {WIDE.radius:g}, T = {WIDE.weight:g}, T R^2/EI = {WIDE.weight * WIDE.radius**2 / EI:.0f}, penalty
+  {WIDE.penalty:g}.
+* Sharp edge: R = {SHARP.radius:g}, T = {SHARP.weight:g}, T R^2/EI = {SHARP.weight * SHARP.radius**2 / EI:.0f}, penalty
+  {SHARP.penalty:g}.
 """,
     reference="""
-Closed form by energy: once the strip is wrapped, its elastic energy does not change as it moves over the edge, so the
-work of the force is that of the weight and the force is the weight, exactly and at any moment; in a mesh, on the
-average over each element that passes. Uncertainty: the weight hangs 1e-4 off the vertical, the ends are far from the
-edge.
+Closed form by energy: the elastic energy of the wrapped strip is constant, so the force is the weight; in a mesh, on
+the average over each element that passes. Uncertainty: the weight hangs 1e-4 off the vertical.
 """,
     run=run,
     cost=45.0,

@@ -180,11 +180,10 @@ def run(page: Page) -> None:
     by_rules(page)
     page.text(
         "Tension and pressure are right on average for any rule. With three or more points the pressure at the points "
-        "of a 4-node face ripples by the parabola between chord and circle, 0.298 penalty L^2/(8 R) in the root mean "
-        "square as long as all points stay in contact; nodes, and 2 x 2 points, which all lie at one depth, do not "
-        "see it. Faces with 9 nodes follow the circle and ripple far less. The averages at the nodes are smooth with "
-        "every rule: they are what a pressure should be read from. A penalty that is much larger than p 8 R / L^2 "
-        "resolves chords, not pressure."
+        "of a 4-node face ripples by the parabola between chord and circle: 0.298 penalty L^2/(8 R) in the root mean "
+        "square while all points are in contact. Nodes and 2 x 2 points lie at one depth and show no ripple; 9-node "
+        "faces ripple far less. Read pressures from the averages at the nodes, smooth with every rule. A penalty much "
+        "larger than p 8 R / L^2 resolves chords, not pressure."
     )
     if page.images is not None:
         result = pull(page, EIGHT, 32, 2, SOFT, frames=1)
@@ -195,19 +194,18 @@ CASE = Case(
     name="contact-wrapping",
     title="Sheet wrapped around a cylinder under tension",
     problem=f"""
-Half of a ring, unstressed, {THICKNESS:g} thick and {WIDTH:g} wide, its lower nodes on a rigid frictionless cylinder
-of R = {RADIUS:g}; E = {E:g}, nu = 0, u_y = 0. One end is held along its tangent, the other is pulled along it by T =
-{TENSION:g}. Penalty {SOFT:g} (penetration R/1000) and {STIFF:g}. Measured within 1 rad of the top: mean pressure, its
-root mean square deviation at the points, extremes at points and of the averages at nodes; the tension at the held
-end; the moment on the tool.
+Half of a ring, unstressed, {THICKNESS:g} thick and {WIDTH:g} wide, lower nodes on a rigid frictionless cylinder of R =
+{RADIUS:g}; E = {E:g}, nu = 0, u_y = 0. One end is held along its tangent, T = {TENSION:g} pulls the other. Penalty
+{SOFT:g} (penetration R/1000) and {STIFF:g}. Measured within 1 rad of the top: mean pressure, its root mean square
+deviation, extremes at points and of the averages at nodes; also the tension at the held end and the moment on the tool.
 """,
     reference="""
-Closed form: without friction the tension is the same everywhere, and the pressure of the tension on the lower face is
-T/(R b). Penetration and stretching raise it by p/(penalty R) + T/(E h b), which the checks count. Ripple: between two
-nodes on the circle a chord lies up to L^2/(8 R) inside of the tool; if every point stays in contact the pressure is
-penalty times the parabola between them plus a constant, with the root mean square sqrt(4/45) of its height (exact
-with three points or more).
+Closed form: the tension is constant, the pressure on the lower face T/(R b). Penetration and stretching raise it by
+p/(penalty R) + T/(E h b), which the checks include. Ripple: between two nodes on the circle the chord lies up to L^2/(8
+R) inside the tool; with all points in contact the pressure is penalty times this parabola plus a constant, with root
+mean square sqrt(4/45) of its height (exact with three points or more).
 """,
     run=run,
+    picture="ripple",
     cost=15.0,
 )

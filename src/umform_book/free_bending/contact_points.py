@@ -156,12 +156,12 @@ def advice(page: Page, found: Found) -> None:
     short, two, five = (f"{middle[key]:.2f} L/(n a)" for key in ("short", "two", "five"))
     page.text(
         "Let c = 2 (3 R Q / (2 penalty))^(1/3) be the length of the contact, eq. (4.15), L the element, n the points "
-        "per direction, a the lever arm. With less than a point in the contact, n < L/c, the force jumps by "
-        f"{short} above the smooth curve (median of these runs); with two to four, by {two}; with four or more, by "
-        f"{five}, and what is left is the polygon of the mesh. **Take n = 2 L/c, at least 2 on 4-node and 3 on 9-node "
-        f"faces; n = 4 L/c is as smooth as it gets.** Here c = {length:.1f} mm at a penalty of {PAPER:g}, and n = "
-        f"{wanted}. A penalty {STIFF / PAPER:g} times as stiff makes c shorter by {factor:.0f} and asks for "
-        f"{factor:.0f} times the points: soften the penalty, or refine the mesh, before going above ten points."
+        f"per direction. With less than one point in the contact, n < L/c, the force jumps by {short} above the smooth "
+        f"curve (median of these runs); with two to four, by {two}; with four or more, by {five}: the polygon of the "
+        "mesh. **Take n = 2 L/c, at least 2 on 4-node and 3 on 9-node faces; more than n = 4 L/c gains nothing.** Here "
+        f"c = {length:.1f} mm at a penalty of {PAPER:g}, and n = {wanted}. A penalty {STIFF / PAPER:g} times as stiff "
+        f"shortens c by {factor:.0f} and needs {factor:.0f} times the points: reduce the penalty or refine the mesh "
+        "before you take more than ten points."
     )
 
 
@@ -189,18 +189,18 @@ CASE = Case(
     name="bending-contact-points",
     title="Free bending of the paper: how many contact points",
     problem="""
-The example of the page bending-reproduction on its four meshes, in 150 increments without release. Contact at the
-nodes and at 1 x 1 ... 10 x 10 points; penalty 100 N/mm^3 as in the paper, 1e5, and on the coarse mesh 10, 1e3 and
-1e4. Measured beyond u = 2 mm: J, the largest change of the force within 0.1 mm over the force (the slope of the curve
-counts too, so that no curve has zero); the root mean square deviation from a polynomial of degree 4; the mean number
-of lines of points in contact.
+The example of the [reproduction](bending-reproduction.md) on its four meshes, 150 increments, no release. Contact at
+nodes and at 1 x 1 ... 10 x 10 points; penalty 100 N/mm^3 as in the paper, 1e5, and on the coarse mesh 10, 1e3, 1e4.
+Measured beyond u = 2 mm: J, the largest change of the force within 0.1 mm over the force (it includes the slope of the
+curve); root mean square deviation from a polynomial of degree 4; mean number of lines of points in contact.
 """,
     reference="""
-Section 4.5 of the theory: jumps of the distance of the points over the lever arm, eq. (4.13), while the contact is
-shorter than this distance, and a length of the contact of 2 (3 R Q / (2 penalty))^(1/3), eq. (4.15). Both are
-estimates: the arm changes while the contact wanders (25 mm at first; 20 mm is taken), Gauss points are not
-equidistant, the strip is not straight. Their uncertainty is what the checks allow: 35 % for jumps, 20 % for lengths.
+Theory 4.5: jumps of the distance of the points over the lever arm, eq. (4.13), while the contact is shorter than this
+distance; length of the contact 2 (3 R Q / (2 penalty))^(1/3), eq. (4.15). Both are estimates: the arm changes from 25
+mm (20 mm is taken), Gauss points are not equidistant, the strip is not straight. Uncertainty: 35 % for jumps, 20 % for
+lengths.
 """,
     run=run,
+    picture="curves",
     cost=170.0,
 )

@@ -95,11 +95,11 @@ def springback(page: Page, found: dict[str, Bending]) -> None:
     paper = next(float(row["u_unloaded"]) for row in rows() if row["u_unloaded"] and row["recommended"] == "0")
     stroke, force, slope = odd.case.stroke, odd.forces[-1], first_stiffness(odd)
     page.text(
-        f"The reference gives {listed:.2f} mm at zero force for {odd.case.name}, too, with two decimals where its "
-        f"first row has {paper:.3f}. We find {odd.zero_force:.3f}. The forces of the row agree with ours, and the "
-        f"release is nearly elastic: its first slope of {slope:.1f} N/mm takes the force to zero after "
-        f"{force / slope:.3f} mm, while {stroke - listed:.2f} mm would need {force / (stroke - listed):.1f} N/mm. We "
-        "take it for a slip, the first row again, but cannot show where it comes from, so it is not among the checks."
+        f"For {odd.case.name} the reference lists {listed:.2f} mm at zero force, with two decimals (its first row has "
+        f"{paper:.3f}); umform finds {odd.zero_force:.3f}. The forces of the row agree. The release is nearly elastic: "
+        f"its first slope of {slope:.1f} N/mm brings the force to zero after {force / slope:.3f} mm, while "
+        f"{stroke - listed:.2f} mm would need {force / (stroke - listed):.1f} N/mm. The value is probably copied from "
+        "the first row; this cannot be shown, and it is not among the checks."
     )
 
 
@@ -137,18 +137,17 @@ CASE = Case(
     name="bending-reproduction",
     title="Free bending of the paper: reproduction",
     problem=f"""
-{RECONSTRUCTION} Half of a strip {_CASE.length:g} x {_CASE.width:g} x {_CASE.thickness:g} mm, symmetric about x = 0,
-lies on a rigid frictionless cylinder of R = {_CASE.radius:g} mm along y with its axis at x = {_CASE.tool_x:g} mm,
-which just touches it. The lower nodes of x = 0 go down by {_CASE.stroke:g} mm in {_CASE.steps} increments and back
-until the force is zero. J2 plasticity: kappa = {_CASE.kappa:g}, mu = {_CASE.mu:g}, y = {_CASE.yield_stress:g} MPa
-without hardening; penalty {_CASE.penalty:g} N/mm^3; {_CASE.thickness_points} Gauss points through the thickness (8
-with thickness order 3 and E_33 tied). Measured: the force at four displacements, the displacement at zero force.
+{RECONSTRUCTION} Half of a strip {_CASE.length:g} x {_CASE.width:g} x {_CASE.thickness:g} mm, symmetric about x = 0, on
+a rigid frictionless cylinder of R = {_CASE.radius:g} mm along y with its axis at x = {_CASE.tool_x:g} mm. The lower
+nodes of x = 0 move down by {_CASE.stroke:g} mm in {_CASE.steps} increments and back until the force is zero. J2
+plasticity: kappa = {_CASE.kappa:g}, mu = {_CASE.mu:g}, y = {_CASE.yield_stress:g} MPa without hardening; penalty
+{_CASE.penalty:g} N/mm^3; {_CASE.thickness_points} Gauss points through the thickness (8 with thickness order 3 and E_33
+tied). Measured: force at four displacements, displacement at zero force.
 """,
     reference="""
 An independent program for the same reconstruction of the example of Harnau & Schweizerhof (PAMM); three decimals, and
-0.05 % between numbers of increments. The paper itself prints no dimensions and no numbers to compare with. The rows
-of the paper's elements, linear in the thickness strain, are a reproduction and no prediction: fine continuum meshes
-end at 21 to 23 N.
+0.05 % between numbers of increments. The paper prints no dimensions and no numbers. The rows of the paper's elements,
+linear in the thickness strain, are a reproduction and no prediction: fine continuum meshes end at 21 to 23 N.
 """,
     run=run,
     cost=35.0,

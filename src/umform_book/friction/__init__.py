@@ -19,7 +19,7 @@ from umform_book.friction import (
 
 CHAPTER = Chapter(
     "Friction",
-    "Stick, slip and reversal, bands over cylinders, tools that turn, partial slip, drawing and bending.",
+    "Stick, slip, reversal, strips over cylinders, turning tools, partial slip, drawing and bending.",
     (
         block.CASE,
         capstan.CASE,

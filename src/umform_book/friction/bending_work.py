@@ -126,19 +126,17 @@ CASE = Case(
     name="friction-bending-work",
     title="Strip drawn over a radius: friction, bending and unbending",
     problem=f"""
-A strip of h = {THICKNESS:g}, width 1, E = {E:g}, nu = {NU:g}, yield stress {YIELD:g}, hardening {HARDENING:g}, u_y =
-0, lies on the top of a cylinder of R = {RADIUS:g}. A weight of {TENSION:g} is hung to one end, so that the strip
-wraps the cylinder by 90 degrees; the other end is drawn away by {TRAVEL:g}, in 100 increments or 200. {ELEMENT.name},
-3 x 3 contact points, penetration and elastic slip as they are by default. Measured on the last {MEASURED:g}, a whole
-number of elements.
+A strip of h = {THICKNESS:g}, width 1, E = {E:g}, nu = {NU:g}, yield stress {YIELD:g}, hardening {HARDENING:g}, u_y = 0,
+lies on a cylinder of R = {RADIUS:g}. A weight of {TENSION:g} at one end wraps it by 90 degrees; the other end is drawn
+away by {TRAVEL:g}, in 100 or 200 increments. {ELEMENT.name}, 3 x 3 contact points, default penetration and elastic
+slip. Measured on the last {MEASURED:g}, a whole number of elements.
 """,
     reference="""
-After Swift: F2 = exp(mu theta) (F1 + M/r) + M/r for a rigid-plastic strip that is bent where it runs up on the radius
-and straightened where it leaves it; M = (2/sqrt 3) Y h^2/4 (1 - (sigma/(2/sqrt 3) Y)^2) under the tension there,
-friction at R, r = R + h/2. Own uncertainty: elastic strains take 1 to 2 % of the bending, hardening gives 1 % of it
-back, which both are a seventh of the force: below 1 %. By energy: the force less the work against the weight, per
-length, is the work of friction and of flow; what elastic strains and contact hold does not change, on the average
-over an element: below 1 %. With these too, to the accuracy of the increments.
+After Swift: F2 = exp(mu theta) (F1 + M/r) + M/r for a rigid-plastic strip that is bent as it runs onto the radius and
+straightened as it leaves; M = (2/sqrt 3) Y h^2/4 (1 - (sigma/(2/sqrt 3) Y)^2) under the tension there, friction at R, r
+= R + h/2. Elastic strains take 1 to 2 % of the bending, hardening adds 1 %; bending is a seventh of the force: below 1
+%. By energy: the force less the work against the weight, per length, is the work of friction and flow, on the average
+over an element: below 1 %.
 """,
     run=run,
     cost=60.0,

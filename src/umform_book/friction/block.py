@@ -218,8 +218,8 @@ def run(page: Page) -> None:
     by_force(page)
     around(page)
     page.text(
-        "The multipliers leave the penetration that is allowed, a fifth of the way of the press here, and take it away "
-        "bit by bit in later increments, while the press stands still: this is the drift of their balances."
+        "Multipliers leave the allowed penetration, here a fifth of the travel of the press, and remove it in later "
+        "increments while the press stands still: hence the drift of their balances."
     )
 
 
@@ -227,21 +227,22 @@ CASE = Case(
     name="friction-block",
     title="Block on a plane: stick, slip, reversal",
     problem=f"""
-A block of {LENGTH:g} x {WIDTH:g} x {HEIGHT:g}, E = {E:g}, nu = 0, stands on a rigid plane with mu = {MU}; its upper
-face is pressed down by {PRESSED:g}. Penetration allowed {PENETRATION:g}, elastic slip allowed {SLIP:g}. *By way*: all
-nodes are moved along the plane as one, in the direction (0.8, 0.6), to {", ".join(f"{turn:g}" for turn in TURNS)}
-elastic slips; then on while the face is pressed twice as far. *By force*: the nodes are held and the plane is pushed
-by 0.9 of the bound, its way is found. *Around a circle* of ten elastic slips. With the penalty alone, and with
-multipliers.
+A block of {LENGTH:g} x {WIDTH:g} x {HEIGHT:g}, E = {E:g}, nu = 0, on a rigid plane with mu = {MU}; its upper face is
+pressed down by {PRESSED:g}. Allowed penetration {PENETRATION:g}, allowed elastic slip {SLIP:g}. With the penalty alone,
+and with multipliers.
+
+* By displacement: all nodes move together in the direction (0.8, 0.6), to {", ".join(f"{turn:g}" for turn in TURNS)}
+  elastic slips; then on while the face is pressed twice as far.
+* By force: the nodes are held, 0.9 of the bound pushes the plane, and its displacement is measured.
+* Around a circle of ten elastic slips.
 """,
     reference="""
-Closed forms. By way: the traction is that of a spring (bound at the pressure of the allowed penetration over the
-allowed elastic slip) that slips at mu p, with the pressure found; with multipliers the bound itself, against the way
-of the increment. By force: the way is the traction over that spring; with multipliers less than the slip that is
-allowed. Circle of radius r: the elastic slip e = mu p / stiffness is dragged behind like a weight on a string, so
-that the weight runs on a circle of radius sqrt(r^2 - e^2) and the work of a turn is 2 pi sqrt(r^2 - e^2) mu N. Own
-uncertainty: the direction of the traction is that of the end of an increment, half an increment ahead: pi/n tan(lag)
-of the work for n increments a turn, with sin(lag) = e/r; the checks allow twice that and the chords, 2 (pi/n)^2.
+Closed forms. By displacement: a spring (bound at the pressure of the allowed penetration over the allowed elastic slip)
+that slips at mu p, with the pressure found; with multipliers the bound itself, against the motion of the increment. By
+force: traction over that spring; with multipliers less than the allowed slip. Circle of radius r: the elastic slip e =
+mu p / stiffness follows like a weight on a string, on a circle of radius sqrt(r^2 - e^2), and the work of a turn is 2
+pi sqrt(r^2 - e^2) mu N. Uncertainty: the traction has the direction of the end of an increment, pi/n tan(lag) of the
+work for n increments a turn, sin(lag) = e/r; the checks allow twice that and the chords, 2 (pi/n)^2.
 """,
     run=run,
     cost=10.0,

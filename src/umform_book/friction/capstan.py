@@ -163,10 +163,9 @@ def run(page: Page) -> None:
     thick(page)
     page.heading("What bending adds")
     page.text(
-        "A flat strip has to be bent. While it is elastic bending dissipates nothing, but the strip leaves the edge "
-        "earlier, by arccos(1 - EI/2Fr^2) at each side, presses on it with a line force there, and friction acts h/2 "
-        "below its mid-surface. All three together are in the closed form: the force is a little less than exp(mu "
-        "theta) times the weight."
+        "Elastic bending of a flat strip dissipates nothing. But the strip leaves the edge earlier, by "
+        "arccos(1 - EI/2Fr^2) at each side, has a line force there, and friction acts h/2 below its mid-surface. With "
+        "all three in the closed form, the force is slightly below exp(mu theta) times the weight."
     )
     by_weight(page)
 
@@ -175,18 +174,17 @@ CASE = Case(
     name="friction-capstan",
     title="Capstan: strip around a cylinder",
     problem=f"""
-*Round strips:* a strip that is made round, unstressed, R = {RADIUS:g}, {WIDTH:g} wide, E = {E:g}, nu = 0, u_y = 0,
-lies on a rigid cylinder; one end is held, a dead tension of {TENSION:g} hangs at the other; the cylinder turns by
-{TURN:g} until all points slip. Penalty {PENALTY:g}, elastic slip allowed 1e-4. T2/T1: force at the held end over the
-tension. *Flat strips:* as in [the strip drawn over an edge](contact-rolling-edge.md), with friction: h = 0.1, a
-weight at one end, the other drawn by 4; measured on the last 2, a whole number of elements.
+* Round strips: unstressed on a rigid cylinder, R = {RADIUS:g}, {WIDTH:g} wide, E = {E:g}, nu = 0, u_y = 0; one end is
+  held, a dead tension of {TENSION:g} acts at the other; the cylinder turns by {TURN:g} until all points slip. Penalty
+  {PENALTY:g}, allowed elastic slip 1e-4. T2/T1: force at the held end over the tension.
+* Flat strips: [drawn over an edge](contact-rolling-edge.md) with friction: h = 0.1, a weight at one end, the other
+  drawn by 4; measured on the last 2, a whole number of elements.
 """,
     reference="""
-Thin: Euler, T2/T1 = exp(mu theta), within 0.1 %. Thick: the tension acts at the mid-surface R + h/2, friction at R,
-and moments about the axis give exp(mu theta R/(R + h/2)), 0.09 % less for the thin strip, as long as the curvature
-does not change; at free ends the shear force mu p h/2 that friction asks for is missing: mu^2 h/2R of the ratio.
-Flat: closed form for a strip without stretching and shear, with the shear force of friction on the arc, line forces
-with friction at both ends of it, and elasticas beyond; it is checked by the identity F2 - F1 = friction times R/r.
+Thin: Euler, T2/T1 = exp(mu theta), within 0.1 %. Thick: tension at R + h/2, friction at R: exp(mu theta R/(R + h/2)),
+0.09 % less for the thin strip; at free ends the shear force mu p h/2 is missing, mu^2 h/2R of the ratio. Flat: closed
+form without stretching and shear, with friction on the arc, line forces with friction at its ends, and elasticas
+beyond; checked by the identity F2 - F1 = friction times R/r.
 """,
     run=run,
     cost=60.0,

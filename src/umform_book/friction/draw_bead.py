@@ -23,7 +23,10 @@ from umform_book.page import Page
 YIELD, HARDENING = 200.0, 20.0
 STEEL = J2(E=2e5, nu=0.3, hardening=Linear(YIELD, HARDENING))
 THICKNESS, RADIUS, HEIGHT, EDGE = 0.8, 4.0, 4.0, 3.0
-ROUNDER = "the sum bends the strip to all three radii at full angles; the limit of the meshes is known to some per cent"
+ROUNDER = (
+    "the reference bends the strip to all three radii at full angles; the limit of the meshes is uncertain by some "
+    "per cent"
+)
 
 
 def bead(elements: float, friction: float) -> DrawBead:
@@ -112,7 +115,7 @@ def run(page: Page) -> None:
         limit, lift = limits.restraint, limits.uplift
         page.table(
             "Elements of no length, from the last two",
-            ("", "limit", "last mesh over it, %"),
+            ("", "limit", "last mesh over the limit, %"),
             [("restraint", limit.value, 100.0 * limit.off), ("uplift", lift.value, 100.0 * lift.off)],
         )
         found = limit.value
@@ -139,16 +142,15 @@ CASE = Case(
     problem=f"""
 A strip of h = {THICKNESS:g}, width 1, plane strain, E = 200000, nu = 0.3, yield stress {YIELD:g}, hardening
 {HARDENING:g}, is closed between a bead of R = {RADIUS:g}, {HEIGHT:g} high, and a groove with edges of R = {EDGE:g}, as
-`umform bead` does, and drawn through; friction 0.1 on both tools. Elements of BEND8, 7, 10 and 14 on a quarter turn of
-the sharper radius. The same strip is then drawn over a flat with the equivalent bead.
+in `umform bead`, and drawn through; friction 0.1 on both tools. BEND8, 7, 10 and 14 elements on a quarter turn of the
+sharper radius. Then the same strip is drawn over a flat with the equivalent bead.
 """,
     reference="""
-After Swift, as on the page [bending and unbending](friction-bending-work.md), once for each of three arcs: F ->
-exp(mu theta) (F + B) + B with B = M/r, M the plastic moment in plane strain under the tension there. The angle theta of
-the edges follows from the common tangent of the circles of the mid-line, the bead turns the strip by 2 theta. Models of
-this kind are the usual estimate of draw beads (Stoughton 1988, after the tests of Nine 1978, whose numbers were not at
-hand). Own uncertainty: 10 %: the strip is not bent to the radius of the tool at once, elastic strains take a part of
-each bending, hardening gives one back.
+After Swift, as in [bending and unbending](friction-bending-work.md), for each of three arcs: F -> exp(mu theta) (F + B)
++ B with B = M/r, M the plastic moment in plane strain under the tension there; theta of the edges from the common
+tangent of the circles of the mid-line, 2 theta on the bead. The usual estimate of draw beads (Stoughton 1988, after the
+tests of Nine 1978, whose numbers were not available). Uncertainty 10 %: the strip is not bent to the radius at once,
+elastic strains take a part, hardening adds one.
 """,
     run=run,
     cost=150.0,

@@ -1,4 +1,4 @@
-"""The paper's example with friction, and what friction costs: iterations and evaluations that were thrown away."""
+"""The paper's example with friction, and the cost of friction: iterations and abandoned evaluations."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from umform_book.page import Page
 COEFFICIENTS, MESHES, STEPS = (0.0, 0.1, 0.3), ((24, 1), (48, 1), (96, 1)), 100
 #: Force over that without friction, at the marks of the paper, against that on the finest mesh.
 EXPECTED = {24: 0.02, 48: 0.01}
-#: What friction may cost, over the same without it; and the share of evaluations that may be thrown away.
+#: What friction may cost, over the same without it; and the share of evaluations that may be abandoned.
 ITERATIONS, THROWN = 1.5, 0.15
 
 
@@ -76,7 +76,7 @@ def by_mesh(page: Page) -> dict[tuple[int, float], Result]:
 
 
 def cost(page: Page, bent: dict[tuple[int, float], Result]) -> None:
-    """Iterations with friction over those without, and what was thrown away."""
+    """Iterations with friction over those without, and abandoned evaluations."""
     count = max(mesh for mesh, _ in bent)
     pairs = {f"free bending, mu = {mu:g}": (bent[count, mu], bent[count, 0.0]) for mu in COEFFICIENTS[1:]}
     if not page.short:
@@ -93,13 +93,20 @@ def cost(page: Page, bent: dict[tuple[int, float], Result]) -> None:
         for k, attempt in enumerate(attempts):
             evaluations[k], thrown[k] = evaluations[k] + attempt.evaluations, thrown[k] + attempt.thrown
         shares = [100 * attempt.share for attempt in attempts]
-        rows.append((label, per_increment(pair[0]), per_increment(pair[1]), ratios[-1], *shares))
+        rows.append((label, *(round(value, 1) for value in (*map(per_increment, pair), ratios[-1], *shares))))
     share = [100 * thrown[k] / evaluations[k] for k in (0, 1)]
-    rows.append(("all", None, None, float(median(ratios)), *share))
-    columns = ("", "iterations an increment", "without friction", "ratio", "thrown away %", "without friction %")
-    page.table("What friction costs; the last row: median, sums", columns, rows)
-    page.at_most("iterations of an increment with friction over without, median", float(median(ratios)), ITERATIONS)
-    page.at_most("share of evaluations thrown away, with friction", share[0] / 100, THROWN)
+    rows.append(("all", None, None, *(round(value, 1) for value in (median(ratios), *share))))
+    columns = (
+        "",
+        "iterations per increment",
+        "without friction",
+        "ratio",
+        "abandoned evaluations %",
+        "without friction %",
+    )
+    page.table("Cost of friction; last row: median, sums", columns, rows)
+    page.at_most("iterations per increment with friction over those without, median", float(median(ratios)), ITERATIONS)
+    page.at_most("share of abandoned evaluations, with friction", share[0] / 100, THROWN)
 
 
 def run(page: Page) -> None:
@@ -111,19 +118,17 @@ def run(page: Page) -> None:
 
 CASE = Case(
     name="friction-free-bending",
-    title="The paper's example with friction, and what friction costs",
+    title="The paper's example with friction, and the cost of friction",
     problem=f"""
-The paper's example of free bending (see [its reproduction](bending-reproduction.md)) with friction on the cylinder,
-mu = 0, 0.1 and 0.3, 24, 48 and 96 elements ANS3DEAS along the strip, 5 x 5 contact points, elastic slip allowed
-0.005, {STEPS} increments to the stroke. Then iterations of an increment with friction and without, and the share of
-evaluations in attempts that were given up, for this example and for the strips of the [capstan](friction-capstan.md)
-and of [bending and unbending](friction-bending-work.md).
+The paper's free bending ([reproduction](bending-reproduction.md)) with friction on the cylinder, mu = 0, 0.1, 0.3; 24,
+48 and 96 elements ANS3DEAS along the strip, 5 x 5 contact points, allowed elastic slip 0.005, {STEPS} increments. Cost:
+iterations per increment with and without friction, and the share of evaluations in abandoned attempts, also for the
+strips of the [capstan](friction-capstan.md) and of [bending and unbending](friction-bending-work.md).
 """,
     reference="""
-No reference of others: what friction adds to the force, over the force without it on the same mesh, is compared with
-that on the finest mesh, within 2 % and 1 %; what the mesh does without friction stands on [another
-page](bending-reproduction.md). And the balance of work, with that of friction. Friction may cost half as many
-iterations more, in the median, and 15 % of the evaluations may be thrown away.
+No external reference. The force over that without friction on the same mesh is compared with the finest mesh, within 2
+% and 1 %; meshes without friction: [reproduction](bending-reproduction.md). Also the balance of work. Limits of the
+cost: half as many iterations more in the median, 15 % abandoned evaluations.
 """,
     run=run,
     cost=60.0,

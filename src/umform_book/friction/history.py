@@ -20,6 +20,7 @@ from umform_book.contact.figures import Curve, plot
 from umform_book.contact.hertz_line import EIGHT
 from umform_book.friction.capstan import PENALTY, TENSION, WIDTH, E, Strip, wrapped
 from umform_book.page import Page
+from umform_book.printed import bounded
 
 Floats = NDArray[np.float64]
 
@@ -65,11 +66,21 @@ def rest(page: Page) -> None:
         moved = float(np.abs(model.u - u).max()) / SLIP
         changed = float(np.abs(contact.found.traction - traction).max() / np.abs(traction).max())
         work = float(result["friction_work"][-1] - result["friction_work"][0]) / float(result["friction_work"][-1])
-        rows.append((divisions, count, len(contact.found.status), sticks, moved, changed, work))
+        rows.append(
+            (
+                divisions,
+                count,
+                len(contact.found.status),
+                sticks,
+                bounded(moved, 1e-6) or moved,
+                bounded(changed, limit) or changed,
+                work,
+            )
+        )
         page.at_most(f"{divisions} intervals, {count} increments at rest: way over allowed elastic slip", moved, 1e-6)
         page.at_most(f"{divisions} intervals, {count} increments at rest: change of tractions", changed, limit)
     columns = ("intervals", "increments", "points", "stick", "way over allowed slip", "traction", "work of friction")
-    page.table("At rest: what has changed in the end, the latter two relative", columns, rows)
+    page.table("At rest: changes at the end, the last two relative", columns, rows)
 
 
 def bound(page: Page) -> None:
@@ -166,7 +177,7 @@ def sphere(page: Page) -> None:
             within = (2.0 * np.pi / increments) ** 2  # chords in place of arcs
             page.at_most(f"{divisions} x {divisions}, {increments} increments: elastic slip", errors[-1], within)
         curves.append(Curve(f"{divisions} x {divisions}", counts, errors, "o-"))
-    columns = ("facets", "points", "increments", "largest collected slip", "largest error over it")
+    columns = ("facets", "points", "increments", "largest collected slip", "largest error over the slip")
     page.table("Elastic slip collected around circles of latitude, against the closed form", columns, rows)
     figure = plot(curves, "increments", "largest error over the collected slip", log="xy")
     page.figure("loop", figure, "Closed loop on a sphere: error of the collected elastic slip")
@@ -181,21 +192,21 @@ def run(page: Page) -> None:
 
 CASE = Case(
     name="friction-history",
-    title="What friction remembers: rest, bound, a closed loop",
+    title="History of friction: rest, bound, a closed loop",
     problem=f"""
-*Rest:* a strip of h = {STRIP.thickness:g} around half of a cylinder of R = 10, mu = {STRIP.mu:g}, under a tension of
-{TENSION:g}; the cylinder turns by {THERE:g} and back to {BACK:g}, so that a part of the strip sticks and a part slips
-backwards; then 1000 increments in which nothing moves. *Bound:* the same, increment by increment, with four laws: a
-coefficient of 0.3; with a cap of 0.04; falling from 0.3 to 0.2 between the pressures 0.05 and 0.15; falling from 0.3
-to 0.2 with the distance slid, over 0.02. *Closed loop:* a patch is held on a sphere of R = {RADIUS:g}, 35 degrees off
-its axis, while the sphere turns once beneath it; the elastic slip that is allowed is so large that nothing slips.
+* Rest: a strip of h = {STRIP.thickness:g} around half of a cylinder of R = 10, mu = {STRIP.mu:g}, under a tension of
+  {TENSION:g}; the cylinder turns by {THERE:g} and back to {BACK:g}, so that a part sticks and a part slips backwards;
+  then 1000 increments without motion.
+* Bound: the same with four laws: coefficient 0.3; with a cap of 0.04; falling from 0.3 to 0.2 between the pressures
+  0.05 and 0.15; falling from 0.3 to 0.2 with the distance slid, over 0.02.
+* Closed loop: a patch is held on a sphere of R = {RADIUS:g}, 35 degrees off its axis, while the sphere turns once; the
+  allowed elastic slip is so large that nothing slips.
 """,
     reference="""
-Rest: nothing changes; each increment may end with a residual of 1e-9 of the forces. Bound: |t| <= bound(p, slip), and
-equal where it slips, to round-off. Closed loop: the elastic slip that is carried along a circle of latitude theta at
-the distance r is the chord of its development, a circular arc of radius r tan(theta) and angle Phi = 2 pi cos(theta):
-r tan(theta) (sin Phi, 1 - cos Phi) along and across the way. Own uncertainty: chords in place of arcs, below (2
-pi/n)^2 of the way for n increments.
+Rest: nothing changes; each increment may leave a residual of 1e-9 of the forces. Bound: |t| <= bound(p, slip), equal
+where it slips, to round-off. Closed loop: on a circle of latitude theta at the distance r, the elastic slip is the
+chord of its development, an arc of radius r tan(theta) and angle Phi = 2 pi cos(theta): r tan(theta) (sin Phi, 1 - cos
+Phi) along and across. Uncertainty: chords for arcs, below (2 pi/n)^2 for n increments.
 """,
     run=run,
     cost=16.0,

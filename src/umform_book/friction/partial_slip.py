@@ -115,8 +115,8 @@ def run(page: Page) -> None:
     caption = f"Tangential traction at Q/(mu P) = {last.part:.2f}, nu = {NEARLY_HALF:g}, the finest mesh"
     page.figure("traction", plot(tractions, "x over a", "traction over mu p0"), caption)
     page.text(
-        "A rigid tool on a body of nu = 0.3 is coupled: under the pressure the surface would move inwards and is "
-        "held, so that a part of the bound is used up before the push. The closed form holds for nu near 1/2 alone."
+        "With nu = 0.3 pressure and traction are coupled: friction holds the surface, which the pressure would move "
+        "inwards, and uses a part of the bound before the push. The closed form holds only for nu near 1/2."
     )
 
 
@@ -124,18 +124,16 @@ CASE = Case(
     name="friction-partial-slip",
     title="Cattaneo and Mindlin: partial slip under a cylinder",
     problem=f"""
-A block, 80 wide and 40 deep, in plane strain (width 1, u_y = 0), E = {E:g}, its base held. A rigid cylinder of R =
-{RADIUS:g}, mu = {MU:g}, is driven in by {DEPTH:g}, so that the half-width a of the contact is about 1, and then
-pushed along x by {WAY:g}. ANS3DEAS stacked through the depth, 4, 8 or 16 intervals over the half-width, growing by
-{GROWTH:g} away from the contact, 2 x 2 points, penalty 100 E*/a. nu = {NEARLY_HALF:g}; on one mesh also {USUAL:g}.
-The half-width c of the stick zone follows from the second moment of the traction, c^2 = 4 M/Q - a^2, and a from that
-of the pressure, a^2 = 4 M/P.
+A block, 80 wide and 40 deep, plane strain (width 1), E = {E:g}, base held. A rigid cylinder of R = {RADIUS:g}, mu =
+{MU:g}, is pressed in by {DEPTH:g} (half-width a of the contact about 1) and then pushed along x by {WAY:g}. ANS3DEAS
+stacked through the depth, 4, 8 or 16 intervals over the half-width, growing by {GROWTH:g} away from the contact, 2 x 2
+points, penalty 100 E*/a. nu = {NEARLY_HALF:g}; on one mesh also {USUAL:g}. The half-width c of the stick zone follows
+from the second moment of the traction, c^2 = 4 M/Q - a^2; a from that of the pressure, a^2 = 4 M/P.
 """,
     reference="""
 Cattaneo (1938), Mindlin (1949), after Johnson (1985): q = mu p0 [sqrt(1 - x^2/a^2) - (c/a) sqrt(1 - x^2/c^2)], c/a =
-sqrt(1 - Q/(mu P)). It holds where pressure and traction do not move the surface along each other's direction: a rigid
-tool on a body of nu = 1/2, or two equal bodies. Own uncertainty: nu = 0.49 leaves a coupling of (1 - 2 nu)/(2 - 2 nu)
-= 2 % of the traction; the penalty, about 1 %; the finite block, below 0.5 %.
+sqrt(1 - Q/(mu P)). It needs pressure and traction to be uncoupled: nu = 1/2 against a rigid tool, or two equal bodies.
+Uncertainty: coupling (1 - 2 nu)/(2 - 2 nu) = 2 % at nu = 0.49; the penalty, about 1 %; the finite block, below 0.5 %.
 """,
     run=run,
     cost=25.0,

@@ -118,17 +118,17 @@ CASE = Case(
     name="friction-partial-slip-point",
     title="Cattaneo and Mindlin: partial slip under a sphere",
     problem=f"""
-Half of a block, {2 * END:g} x {END:g} wide and {END:g} deep, y = 0 a plane of symmetry, E = {E:g}, nu = {NU:g}, its
-base held. A rigid sphere of R = {RADIUS:g}, mu = {MU:g}, is driven in by {DEPTH:g}, so that the radius a of the
-contact is about 1, and then pushed along x by {WAY:g}. ANS3DEAS stacked through the depth, 2, 3 or 4 intervals over
-the radius, growing by {GROWTH:g} away from the contact, 2 x 2 points, penalty 100 E*/a. The radius c of the stick
-zone follows from the second moments of traction and pressure, whose ratio is (1 - k^5)/(1 - k^3) with k = c/a.
+Half of a block, {2 * END:g} x {END:g} wide and {END:g} deep, y = 0 a symmetry plane, E = {E:g}, nu = {NU:g}, base held.
+A rigid sphere of R = {RADIUS:g}, mu = {MU:g}, is pressed in by {DEPTH:g} (radius a of the contact about 1) and then
+pushed along x by {WAY:g}. ANS3DEAS stacked through the depth, 2, 3 or 4 intervals over the radius, growing by
+{GROWTH:g} away from the contact, 2 x 2 points, penalty 100 E*/a. The radius c of the stick zone follows from the second
+moments of traction and pressure: ratio (1 - k^5)/(1 - k^3), k = c/a.
 """,
     reference="""
-Cattaneo (1938), Mindlin (1949), after Johnson (1985): q = mu p0 [sqrt(1 - r^2/a^2) - (c/a) sqrt(1 - r^2/c^2)], c/a =
-(1 - Q/(mu P))^(1/3), on a body of nu = 1/2 against a rigid tool. The closed form takes all tractions along the push;
-slip across it, which they leave out, is of the order of nu/(4 - 2 nu) of that along it, a sixth here, and changes the
-tractions by a few per cent. Own uncertainty: coupling of 2 % at nu = 0.49; the penalty, about 1 %; the finite block.
+Cattaneo (1938), Mindlin (1949), after Johnson (1985): q = mu p0 [sqrt(1 - r^2/a^2) - (c/a) sqrt(1 - r^2/c^2)], c/a = (1
+- Q/(mu P))^(1/3), nu = 1/2 against a rigid tool. It neglects slip across the push, of the order nu/(4 - 2 nu) of that
+along it, a sixth here, which changes the tractions by a few per cent. Uncertainty: coupling of 2 % at nu = 0.49; the
+penalty, about 1 %; the finite block.
 """,
     run=run,
     cost=40.0,

@@ -172,19 +172,18 @@ CASE = Case(
     name="friction-rolling",
     title="Rolling of a strip between two rolls",
     problem=f"""
-A strip of {2 * BEFORE:g} mm is rolled to {2 * AFTER:g} mm between rolls of R = {RADIUS:g} mm, in plane strain; its
-upper half is computed, E = {E:g}, nu = {NU:g}, yield stress {YIELD:g}, hardening modulus {MODULUS:g} MPa, mu = {MU:g}.
-The roll bites down into the strip, whose tail is held and then let go, and turns by a way of {WAY:g} mm: nothing but
-friction moves the strip. ANS3DEAS in two layers, 108, 144 and 180 elements over {LENGTH:g} mm, 2 x 2 contact points,
-penalty {PENALTY:g}. The contact is 4.5 mm long; the last fifth of the way is measured.
+A strip of {2 * BEFORE:g} mm is rolled to {2 * AFTER:g} mm between rolls of R = {RADIUS:g} mm in plane strain; upper
+half, E = {E:g}, nu = {NU:g}, yield stress {YIELD:g}, hardening modulus {MODULUS:g} MPa, mu = {MU:g}. The roll is
+pressed into the strip, whose tail is held and then released, and turns by a path of {WAY:g} mm: only friction moves the
+strip. ANS3DEAS in two layers, 108, 144 and 180 elements over {LENGTH:g} mm, 2 x 2 contact points, penalty {PENALTY:g}.
+The contact is 4.5 mm long; measured over the last fifth.
 """,
     reference="""
-Von Karman's slab (1925): equilibrium of plane sections with the yield stress of plane strain and friction that slips
-towards the neutral point, integrated numerically from both ends; behind the rolls the elastic arc of Bland and Ford
-(1948), with the way by which the penalty gives. The method leaves out shear within the strip, which raises the force
-by 5 to 10 % at a contact of 2.5 thicknesses, and changes the torque by less. The forward slip follows from the neutral
-point, where two branches cross at a small angle: it is in the table for comparison only. Without tension at its ends
-the strip pulls at the roll with no force.
+Von Kármán's slab (1925): equilibrium of plane sections with the yield stress of plane strain and friction towards the
+neutral point, integrated numerically from both ends; behind the rolls the elastic arc of Bland and Ford (1948), with
+the penetration of the penalty. It neglects shear within the strip, which raises the force by 5 to 10 % at a contact of
+2.5 thicknesses, the torque by less. The forward slip depends on the neutral point, where two branches cross at a small
+angle: for comparison only. Without tension the force along the strip is zero.
 """,
     run=run,
     cost=60.0,

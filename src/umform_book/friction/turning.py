@@ -148,9 +148,9 @@ def run(page: Page) -> None:
     with_the_sheet(page)
     against_the_sheet(page)
     page.text(
-        "A sheet that nothing but friction holds must be carried in increments whose error of position, R (angle)^2/2 "
-        "each, is not much more than the elastic slip that is allowed: with 12 increments a quarter in place of 60 the "
-        "plate on the plane slips as a whole in the first guess, and nothing holds it at the angle where it was."
+        "If only friction holds a sheet, the error of position of an increment, R (angle)^2/2, must not be much larger "
+        "than the allowed elastic slip: with 12 instead of 60 increments a quarter turn the whole plate slips in the "
+        "predictor."
     )
 
 
@@ -159,17 +159,18 @@ CASE = Case(
     title="Tools that turn with the sheet and against it",
     problem=f"""
 A plate of {LENGTH:g} x {WIDTH:g} x {HEIGHT:g}, E = {E:g}, under a pressure of {PRESSURE:g} on its upper face, mu =
-{MU:g}, penalty {PENALTY:g}, elastic slip allowed {SLIP:g}. *With the sheet:* nothing but friction holds the plate to
-a plane, or a curved one to a cylinder of R = {RADIUS:g}, nu = {NU:g}; the tool turns once, in 240 and 180 increments.
-*Against the sheet:* the plate is held and the plane turns by 0.04 about a point on the x axis; nu = 0, elastic slip
-allowed {SLIP / 1000:g}.
+{MU:g}, penalty {PENALTY:g}, allowed elastic slip {SLIP:g}.
+
+* With the sheet: only friction holds the plate to a plane, or a curved one to a cylinder of R = {RADIUS:g}, nu =
+  {NU:g}; the tool turns once, in 240 and 180 increments.
+* Against the sheet: the plate is held and the plane turns by 0.04 about a point on the x axis; nu = 0, allowed elastic
+  slip {SLIP / 1000:g}.
 """,
     reference="""
-With the sheet: every node is where the turn takes it, and friction does no work; to round-off. Against: each point
-slips in the direction of the turn; force and moment over mu N are the means of that direction and of its moment over
-the plate, by numerical integration. Own uncertainty: the pressure is uniform to round-off; two points per direction
-and facet do not see the jump of the direction at the pivot, an error of the order of the third power of the length of
-a facet over that of the plate.
+With the sheet: every node follows the rotation and friction does no work, to round-off. Against: each point slips in
+the direction of the rotation; force and moment over mu N are means over the plate, by numerical integration.
+Uncertainty: two points per direction and facet do not resolve the jump of the direction at the pivot, an error of third
+order in the length of a facet over that of the plate.
 """,
     run=run,
     cost=25.0,

@@ -30,8 +30,8 @@ STEEL = J2(E=206e3, nu=0.3, hardening=Swift(565.32, 0.007117, 0.2589))
 #: Largest sums of the budget: parts of the number, degrees for the angles.
 LIMITS = {"force": 0.05, "draw_in": 0.01, "theta1": 2.0, "theta2": 2.0, "radius": 0.2}
 #: What is known to miss, by how much at most, and why.
-_MESH = "elements of 1.4 mm on the punch radius of 5 mm: most of it is the mesh"
-_BOTH = "elements of 1.4 mm on the radius of 5 mm, and the penetration that the penalty allows, about equally"
+_MESH = "mostly the mesh: elements of 1.4 mm on the punch radius of 5 mm"
+_BOTH = "the mesh (elements of 1.4 mm on the radius of 5 mm) and the penetration, about equally"
 KNOWN = {"theta1": (3.0, _MESH), "theta2": (2.5, _BOTH), "radius": (0.25, _BOTH)}
 
 
@@ -68,7 +68,7 @@ class Setup:
 
 @dataclass(frozen=True)
 class Measured:
-    """What the benchmark asks for.
+    """Quantities of the benchmark.
 
     Attributes
     ----------
@@ -198,7 +198,7 @@ def run(page: Page) -> None:
     names = [field.name for field in fields(Measured)]
     rows = [(label, *(getattr(value, name) for name in names)) for label, value in found.items()]
     columns = ("", "force, N/mm", "draw-in, mm", "theta1", "theta2", "radius, mm")
-    page.table("What the benchmark asks for", columns, rows)
+    page.table("Quantities of the benchmark", columns, rows)
     page.figure("part", plot(lines, "x, mm", "z, mm"), "Mid-surface of the part after the release")
     page.figure("force", plot(curves, "stroke, mm", "force of the punch, N/mm"), "Force of the punch")
     first = next(iter(found.values())) if page.short else found["175 intervals"]
@@ -228,20 +228,19 @@ CASE = Case(
     title="NUMISHEET 93: U-bend with holder and friction",
     problem=f"""
 Half of a blank of 350 x 35 x {THICKNESS:g} mm in plane strain, mild steel: E = 206 GPa, nu = 0.3, isotropic hardening
-565.32 (0.007117 + p)^0.2589 MPa. Punch {PUNCH:g} wide, die opening {OPENING:g}, all radii {CORNER:g}; holder
-{HOLDER:g} N per mm of width on each half, mu = {MU:g} on all tools, stroke {STROKE:g}. One layer of BEND8; 125
-intervals along half of the blank, 3 x 3 contact points, penalty 1000 (holder 60), increments at the pace that umform
-chooses. Then all tools are taken away, and their forces fade. Measured: force of the punch (both halves) and way of
-the end of the blank at the end of the stroke; theta1 between the bottom and the wall, theta2 between the wall and the
-flange, the wall being the chord from 15 to 35 mm above the bottom; radius of the wall through its points 15, 35 and
-55 mm above the bottom.
+565.32 (0.007117 + p)^0.2589 MPa. Punch {PUNCH:g} wide, die opening {OPENING:g}, all radii {CORNER:g}; holder {HOLDER:g}
+N per mm of width on each half, mu = {MU:g} on all tools, stroke {STROKE:g}. One layer of BEND8, 125 intervals, 3 x 3
+contact points, penalty 1000 (holder 60), automatic increments. Then all tools are removed.
+
+Measured at the end of the stroke: punch force (both halves) and draw-in. After release: theta1 between bottom and wall,
+theta2 between wall and flange (wall: the chord from 15 to 35 mm above the bottom), and the radius of the wall through
+its points 15, 35 and 55 mm above the bottom.
 """,
     reference="""
-Material, holder force and friction: "Springback of two-dimensional draw bending" in the Example Problems of Abaqus;
-measures of the tools and the hardening curve as they are widely used. No measured angles that may be quoted: the
-numbers are published with a budget of errors. Force: estimate after Swift, 2 [exp(mu pi/2 R/r) (2 mu H + M/r) + M'/r]
-with the rigid-plastic moments of bending and unbending; its own uncertainty is 15 %: the angle on the die is less
-than 90 degrees, and elastic zones and tension make the moments smaller.
+Material, holder force and friction: "Springback of two-dimensional draw bending", Abaqus Example Problems; tools and
+hardening curve as widely used. There are no measured angles that may be quoted; the numbers come with a budget of
+errors. Force after Swift: 2 [exp(mu pi/2 R/r) (2 mu H + M/r) + M'/r] with the rigid-plastic moments of bending and
+unbending. Uncertainty 15 %: the angle on the die is less than 90 degrees; elastic zones and tension reduce the moments.
 """,
     run=run,
     cost=190.0,

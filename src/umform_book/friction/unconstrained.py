@@ -70,7 +70,7 @@ class Setup:
 
 @dataclass(frozen=True)
 class Measured:
-    """What the benchmark asks for.
+    """Quantities of the benchmark.
 
     Attributes
     ----------
@@ -181,7 +181,7 @@ def run(page: Page) -> None:
             wide = replace(Setup(friction=mu), variant=Variant("ANS3DEAS"), across=4)
             rows.append(("30 mm wide, free edges", *astuple(bend(page, wide, f"mu = {mu:g}, 30 mm wide")[0])))
         rows += [(f"published, code {k}", None, *angles) for k, angles in enumerate(PUBLISHED[mu], 1)]
-        page.table(f"mu = {mu:g}: what the benchmark asks for", columns, rows)
+        page.table(f"mu = {mu:g}: quantities of the benchmark", columns, rows)
         nearest = list(found.values())[-1] if page.short else found["220 intervals"]
         for name, value, k in (("formed", nearest.formed, 0), ("released", nearest.released, 1)):
             middle = float(np.mean([angles[k] for angles in PUBLISHED[mu]]))
@@ -197,16 +197,16 @@ CASE = Case(
     name="friction-unconstrained-bending",
     title="NUMISHEET 2002 B: unconstrained bending of a sheet",
     problem=f"""
-Half of a sheet of 120 x 30 x {THICKNESS:g} mm in plane strain (one run as wide as it is, with free edges): E = 70.5
+Half of a sheet of 120 x 30 x {THICKNESS:g} mm in plane strain (one run with the true width and free edges): E = 70.5
 GPa, nu = 0.342, Hollomon {K:g} p^{N:g} MPa from the yield stress {YIELD:g} on, isotropic. A cylinder of R = {PUNCH:g}
 pushes it by {STROKE:g} mm into a die of R = {DIE:g} with shoulders of R = {SHOULDER:g}; mu = {MU:g} on both tools, and
-0. Then both tools are taken away. One layer of BEND8, 150 intervals along the half, 3 x 3 contact points, penalty 3000,
-elastic slip allowed 0.005 thicknesses, unless the table says otherwise. Measured: angle between the legs.
+0. Then both tools are removed. One layer of BEND8, 150 intervals, 3 x 3 contact points, penalty 3000, allowed elastic
+slip 0.005 thicknesses, unless the table says otherwise. Measured: angle between the legs.
 """,
     reference="""
-Tools, metal and friction after the chapter on it in MD Nastran's Demonstration Problems and OptiStruct's verification
-problem OS-V 0250 (NAFEMS contact benchmark 3), which also gives the angles of two codes. They are 6 to 26 % apart after
-the release: a band, not a gate, so that the numbers found are published with a budget of errors.
+Tools, metal and friction: MD Nastran's Demonstration Problems, and OptiStruct's verification problem OS-V 0250 (NAFEMS
+contact benchmark 3), which gives the angles of two codes. After release these are 6 to 26 % apart: a band, so the
+numbers found come with a budget of errors.
 """,
     run=run,
     cost=60.0,

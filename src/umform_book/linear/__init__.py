@@ -1,4 +1,4 @@
-"""Small displacements: beams, plates and shells whose answers are known, by which locking shows."""
+"""Small displacements: beams, plates and shells with known answers, which reveal locking."""
 
 from umform_book.case import Chapter
 from umform_book.linear import (
@@ -16,7 +16,7 @@ from umform_book.linear import (
 
 CHAPTER = Chapter(
     "Linear obstacle course",
-    "Small displacements: beams, plates and shells whose answers are known, by which locking shows.",
+    "Small displacements: beams, plates and shells with known answers, which reveal locking.",
     (
         straight_beam.CASE,
         curved_beam.CASE,

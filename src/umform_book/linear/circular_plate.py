@@ -70,13 +70,13 @@ CASE = Case(
     name="circular-plate",
     title="Clamped circular plate",
     problem=f"""
-Plate of radius {RADIUS:g} and thickness {THICKNESS:g}, E = 1e7, nu = 0.3, under a load of {LOAD:g} per unit area,
-spread through the thickness. Both faces are clamped at the rim. A quarter is computed, in three blocks of
-quadrilaterals of which none is a parallelogram. Measured: deflection of the middle.
+Quarter of a plate of radius {RADIUS:g} and thickness {THICKNESS:g}; E = 1e7, nu = 0.3; load {LOAD:g} per unit area,
+spread through the thickness. Both faces are clamped at the rim. The mesh has three blocks of quadrilaterals, none a
+parallelogram. Measured: deflection of the middle.
 """,
     reference=f"""
-Closed form: q R^4 / (64 D) + q R^2 / (4 (5/6) G h) = {REFERENCE:.5g}, the second part, transverse shear,
-{100 * _SHEAR / REFERENCE:.2f} % of it. Its factor 5/6 is not in the elements, which is a sixth of that part.
+Closed form: q R^4 / (64 D) + q R^2 / (4 (5/6) G h) = {REFERENCE:.5g}. Transverse shear is
+{100 * _SHEAR / REFERENCE:.2f} % of it; the elements have no shear factor 5/6, an error of a sixth of that part.
 """,
     run=run,
     cost=4.0,

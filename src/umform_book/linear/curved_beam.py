@@ -23,7 +23,7 @@ INNER, OUTER, THICKNESS = 4.12, 4.32, 0.1
 MATERIAL = SVK(E=1e7, nu=0.25)
 #: MacNeal & Harder (1985): direction of the force, displacement.
 REFERENCES = {"in-plane": ((1.0, 0.0, 0.0), 0.08734), "out-of-plane": ((0.0, 0.0, 1.0), 0.5022)}
-_TRAPEZOIDS = "sectors are trapezoids: four nodes a face that pass the patch test cannot bend in their plane there"
+_TRAPEZOIDS = "MacNeal's theorem: 4-node trapezoids that pass the patch test lock in in-plane bending"
 
 
 def ring(variant: Variant, divisions: int) -> Beam:
@@ -73,14 +73,14 @@ CASE = Case(
     name="curved-beam",
     title="Curved cantilever",
     problem="""
-Quarter of a ring in the plane of the elements: radii 4.12 and 4.32, thickness 0.1, E = 1e7, nu = 0.25. One end stays
-plane but may contract; a unit force is spread evenly over the other, radially in the plane, or out of the plane.
-Measured: the mean displacement of that end along the force. Coarsest mesh: 6 x 1 intervals between nodes.
+Quarter of a ring, radii 4.12 and 4.32, thickness 0.1, E = 1e7, nu = 0.25, in the plane of the elements. One end stays
+plane but may contract; a unit force on the other acts radially in the plane, or out of the plane. Measured: mean
+displacement of that end along the force. Coarsest mesh: 6 x 1 intervals between nodes.
 """,
     reference="""
-0.08734 and 0.5022, MacNeal & Harder, Finite Elem. Anal. Des. 1 (1985) 3-20: theory of curved beams, which our fine
-meshes meet within 1 % in the plane. Out of the plane the force also twists the section, in which one layer of elements
-is too stiff by up to 4 % (see the straight cantilever).
+MacNeal & Harder, Finite Elem. Anal. Des. 1 (1985) 3-20, theory of curved beams: 0.08734 and 0.5022. In the plane our
+fine meshes agree within 1 %. Out of the plane the section twists, where one layer is too stiff by up to 4 % ([straight
+cantilever](straight-beam.md)).
 """,
     run=run,
     cost=3.0,

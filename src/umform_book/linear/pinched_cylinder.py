@@ -61,15 +61,13 @@ CASE = Case(
     title="Pinched cylinder with diaphragms",
     problem="""
 Cylinder R = 300, L = 600, h = 3, E = 3e6, nu = 0.3, pinched by two opposite unit forces at mid-length. Diaphragms at
-the ends hold the mid-surface in their plane, and the director against rotation about the axis. One octant with a
-quarter of a force, half on the lower and half on the upper node. Measured: displacement under the force, mean of both
-nodes.
+the ends hold the mid-surface in their plane and the director against rotation about the axis. One octant. Measured:
+displacement under the force, mean of the lower and upper node.
 """,
     reference="""
-1.8248e-5, double series of shell theory without transverse shear, as the obstacle course of Belytschko et al., Comput.
-Meth. Appl. Mech. Engng. 51 (1985) 221-258 takes it. With transverse shear the displacement under a point force grows
-without bound with refinement, slowly: meshes as fine as the thickness lie some per cent above. That is the uncertainty
-of the reference for elements with shear strain; as the series of a shell without it all five digits are certain.
+1.8248e-5, double series of shell theory without transverse shear; see Belytschko et al., Comput. Meth. Appl. Mech.
+Engng. 51 (1985) 221-258. With transverse shear the displacement under a point force grows slowly without bound: meshes
+as fine as the thickness lie some per cent above. That is the uncertainty for elements with shear strain.
 """,
     run=run,
     cost=5.0,

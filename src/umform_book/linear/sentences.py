@@ -20,4 +20,4 @@ def coarse_and_fine(found: Study, reference: float, variants: Sequence[Variant] 
             coarse, fine = (100 * row[n] / reference for n in (min(row), max(row)))
             parts.append(f"{variant.label} {coarse:.1f} and {fine:.1f} %")
     meshes = next(iter(found.values()))
-    return f"Of the answer, {min(meshes)} and {max(meshes)} intervals give: {'; '.join(parts)}."
+    return f"Part of the reference with {min(meshes)} and {max(meshes)} intervals: {'; '.join(parts)}."

@@ -1,11 +1,11 @@
-"""Sheet metal: yield functions, hardening, and what they do to bending and springback."""
+"""Sheet metal: yield functions, hardening, and their effect on bending and springback."""
 
 from umform_book.case import Chapter
 from umform_book.material import bending, cards, elements, finite_strain, paths, u_bend, yield_functions
 
 CHAPTER = Chapter(
     "Material",
-    "Laws of sheet metal at a point and in an element, and what they do to bending and springback.",
+    "Laws of sheet metal at a point and in an element, and their effect on bending and springback.",
     (
         yield_functions.CASE,
         paths.CASE,

@@ -158,16 +158,15 @@ CASE = Case(
     name="material-bending",
     title="Bending and springback with each hardening law",
     problem=f"""
-A wide sheet, h = {THICKNESS:g} mm, of the steel SPCC, bent in plane strain to the curvature {CURVATURE:g}/mm (3 % of
-strain in the outer fibres): once; bent, straightened and bent again; and stretched by 1 % first and bent with that
-length of its mid-line, as over a tool under tension. Then the curvature goes back until the moment is zero. The laws:
-isotropic hardening, Chaboche with two back stresses, Yoshida-Uemori, and the same with a modulus that falls
-from 206 to 152 GPa. A piece of 2 mm between two sections, with the default points and orders.
+A wide sheet, h = {THICKNESS:g} mm, steel SPCC, plane strain, bent to the curvature {CURVATURE:g}/mm (3 % strain in the
+outer fibres): once; bent, straightened and bent again; stretched by 1 % first and bent at constant length of the
+mid-line, as under tension. Then released to zero moment. Laws: isotropic hardening, Chaboche with two back stresses,
+Yoshida-Uemori, the last also with a modulus that falls from 206 to 152 GPa. A piece of 2 mm between two sections,
+default points and orders.
 """,
     reference="""
-200 fibres of the same law: its rate equations in principal logarithmic strains, with sigma_33 = 0, integrated by the
-explicit midpoint rule in steps of 1e-4 of strain (numpy); no return map is in it. The section is bent along the same
-ways of stretch and curvature. It leaves out the pressure that curvature calls for, some 0.1 % here.
+200 fibres of the same law: rate equations in principal logarithmic strains with sigma_33 = 0, explicit midpoint rule in
+steps of 1e-4 of strain (numpy), without a return map. It neglects the pressure through the sheet, some 0.1 % here.
 """,
     run=run,
     cost=40.0,

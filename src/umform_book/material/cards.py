@@ -196,9 +196,9 @@ function or a back stress: pulled by {PULL:g} of its length at angles to the rol
 and cycled along the rolling direction between elongations of 0.02 and -0.02. Each state is homogeneous.
 """,
     reference="""
-The yield function of the card in closed form (stress, and r from its gradient); what the source of the card measured;
-and for shear and cycle the material point, led along the same strains by itself. Pulled at an angle, the element shears
-and turns by a little, which the closed form leaves out.
+Stress and r-value: the yield function of the card in closed form, and the measurements of its source. Shear and cycle:
+the material point on the same strain path. Pulled at an angle, the element shears and turns slightly, which the closed
+form neglects.
 """,
     own="the material point is umform's own",
     run=run,

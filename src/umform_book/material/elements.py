@@ -58,13 +58,13 @@ CASE = Case(
     name="material-elements",
     title="Each law in each kind of element",
     problem="""
-A strip of 8 x 4 x 1 mm, clamped at one end, whose other end goes up by 1 mm and then out by 0.3 mm, rolled at 30
-degrees to it: each yield function with the curve of Swift, each kind of hardening with von Mises, Yld2004 with
-Chaboche, Hill48 with Yoshida-Uemori and a falling modulus; 14 increments with the default points and orders.
+A strip of 8 x 4 x 1 mm, clamped at one end; the other end moves up by 1 mm and then out by 0.3 mm; rolling direction at
+30 degrees. Laws: each yield function with Swift hardening, each hardening with von Mises, Yld2004 with Chaboche, Hill48
+with Yoshida-Uemori and a falling modulus. 14 increments, default points and orders.
 """,
     reference="""
-J2 in the same run. The order of Newton's method is that of the whole run, return map and element together: it is two
-only where both tangents are exact.
+J2 in the same run. The order of Newton's method of the whole run, return map and element, is two only if both tangents
+are exact.
 """,
     own="J2 is umform's own",
     run=run,

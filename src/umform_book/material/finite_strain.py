@@ -92,8 +92,8 @@ def _simple_shear(page: Page) -> None:
         "shear of 2: J2 stays at y / sqrt 3", float(np.interp(2.0, shear, curves[0])), 160.0 / np.sqrt(3.0), 0.01
     )
     page.text(
-        "Where the axes of strain turn against the sheet, the plastic strain of logarithmic space does not turn with "
-        "them as that of J2 does: the two depart, little below a shear of one. Sheet metal is not sheared so far."
+        "If the axes of strain turn relative to the sheet, the plastic strain of logarithmic space does not follow, "
+        "that of J2 does. The difference is small up to a shear of one, far more than in sheet forming."
     )
 
 
@@ -152,14 +152,14 @@ CASE = Case(
     name="material-finite-strain",
     title="Logarithmic space, tangents, objectivity",
     problem="""
-Von Mises in logarithmic space beside the multiplicative J2: on paths whose principal axes stay, and in simple shear.
-Tangents of all laws of this chapter on paths that turn, increments of 3 %. One element of AA2090-T3 with Chaboche,
-stretched and sheared into the plastic range: as it is, with mesh and rolling direction turned, and with a rotation on
-top of the deformation.
+* Von Mises in logarithmic space beside the multiplicative J2: paths with fixed principal axes, and simple shear.
+* Tangents of all laws of this chapter on rotating paths, increments of 3 %.
+* One element of AA2090-T3 with Chaboche, stretched and sheared into the plastic range: original, with mesh and rolling
+  direction turned, and with a superposed rotation.
 """,
     reference="""
-The multiplicative J2 of the theory, section 3.4, another kernel. Differences of fourth order of the stress. The forces
-of the sheet that is not turned.
+The multiplicative J2 (theory 3.4), another kernel; differences of fourth order of the stress; the forces of the sheet
+that is not turned.
 """,
     own="the multiplicative J2 is umform's own, checked in the chapter on plasticity",
     run=run,

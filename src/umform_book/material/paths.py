@@ -133,8 +133,8 @@ CASE = Case(
     title="Hardening along paths",
     problem="""
 A point in tension and shear, proportional and not: isotropic hardening, Prager, Chaboche with two back stresses whose
-moduli grow with the plastic strain. A bar of SPCC that is pulled and pushed between strains of 5 and -5 % with the
-model of Yoshida and Uemori. Backward Euler is of first order: values are extrapolated from two step sizes.
+moduli grow with the plastic strain. A bar of SPCC cycled between strains of 5 and -5 % with Yoshida-Uemori. Backward
+Euler is of first order: values are extrapolated from two step sizes.
 """,
     reference="""
 Tests SSNP15 (closed form; other programs to 1 % in its second part), SSNP14 (other programs) and SSNV101 of

@@ -23,7 +23,7 @@ def run(page: Page) -> None:
     names = [part.name for part in fields(Measured)]
     columns = ("hardening", "force, N/mm", "draw-in, mm", "theta1", "theta2", "radius of the wall, mm")
     rows = [(label, *(getattr(value, name) for name in names)) for label, value in found.items()]
-    page.table("What the benchmark asks for", columns, rows)
+    page.table("Quantities of the benchmark", columns, rows)
     page.figure("part", plot(lines, "x, mm", "z, mm"), "Mid-surface of the part after the release")
     forces = [value.force for value in found.values()]
     page.at_most("force of the punch: largest over least less one", max(forces) / min(forces) - 1.0, 0.15)
@@ -37,7 +37,7 @@ def run(page: Page) -> None:
         "die radius the wall is bent and straightened again: "
         f"the radius to which it curls is {radius['isotropic']:.0f} mm with isotropic hardening, "
         f"{radius['Chaboche']:.0f} mm with Chaboche, {constant:.0f} mm with Yoshida-Uemori, and {falling:.0f} mm if "
-        "the modulus falls. What the law does is many times what the mesh does "
+        "the modulus falls. The effect of the law is many times that of the mesh "
         "([budget](friction-u-bend.md))."
     )
 
@@ -52,10 +52,9 @@ of BEND8 along half of the blank. Isotropic hardening, Chaboche, Yoshida-Uemori,
 from 206 to 152 GPa.
 """,
     reference="""
-No measured angles or radii of the benchmark that may be quoted were found in print, and its steels have no published
-constants of these laws: the table compares laws. What is checked is that they give one force, and that a modulus that
-falls makes the wall curl more. Each law is checked in bending against integration through the thickness on the page of
-bending, which is the reference of this one.
+No measured angles or radii that may be quoted were found, and the steels of the benchmark have no published constants
+of these laws: the table compares laws. Checks: the forces agree, and a falling modulus increases the curl of the wall.
+Each law is checked against integration through the thickness in [bending](material-bending.md).
 """,
     own="all of it: the laws are compared with each other",
     run=run,

@@ -129,15 +129,15 @@ CASE = Case(
     name="material-yield-functions",
     title="Yield functions: states, directions, convexity",
     problem="""
-Mises, Hill48, Hosford, Yld91 and Yld2004-18p (AA2090-T3 and AA6111-T4 of Barlat et al. 2005) at states of stress, at
-a point that is pulled at 0 to 90 degrees to the rolling direction, and in one element that is pulled so: a cube
-between two planes, free to shear, of a metal without hardening whose yield strain is a hundredth of its strain.
+Mises, Hill48, Hosford, Yld91 and Yld2004-18p (AA2090-T3 and AA6111-T4 of Barlat et al. 2005): given states of stress; a
+point pulled at 0 to 90 degrees to the rolling direction; and one element pulled likewise, a cube between two planes,
+free to shear, without hardening, yield strain a hundredth of the strain.
 """,
     reference="""
-Four states and a gradient of Yld2004 to 20 digits: test of the library MUSCLE (M. Pacheco-Alarcon). Its directional
-values: an independent program, five digits, from the coefficients of the paper. r-values of the mild steel: those that
-the function is made from. The element: the point, to the strain of 1e-4 that turns it. Convexity: the middle of two
-states, and the tangent plane, for 2000 random pairs.
+Four states and a gradient of Yld2004 to 20 digits: test of the library MUSCLE (M. Pacheco-Alarcon). Directional values:
+an independent program, five digits, from the coefficients of the paper. r-values of the mild steel: those that define
+the function. Element: the point, up to the strain of 1e-4 that rotates it. Convexity: the middle of two states, and the
+tangent plane, for 2000 random pairs.
 """,
     run=run,
     cost=10.0,

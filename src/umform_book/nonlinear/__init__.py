@@ -1,4 +1,4 @@
-"""Large displacements and rotations, elastic: the benchmarks of Sze, Liu & Lo (2004)."""
+"""Large displacements and rotations, elastic: benchmarks of Sze, Liu & Lo (2004)."""
 
 from umform_book.case import Chapter
 from umform_book.nonlinear import (
@@ -14,7 +14,7 @@ from umform_book.nonlinear import (
 
 CHAPTER = Chapter(
     "Nonlinear obstacle course",
-    "Large displacements and rotations, elastic: the benchmarks of Sze, Liu & Lo (2004).",
+    "Large displacements and rotations, elastic: benchmarks of Sze, Liu & Lo (2004).",
     (
         end_shear.CASE,
         end_moment.CASE,

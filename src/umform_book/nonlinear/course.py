@@ -130,13 +130,12 @@ def run_course(page: Page, problem: Problem) -> Found:
     _enter_checks(page, found)
     page.text(needed_text(found))
     if any(curve is None for row in found.curves.values() for curve in row.values()):
-        page.text("A dash: from some load on, Newton's method found no equilibrium near by.")
+        page.text("A dash: above some load Newton's method found no equilibrium nearby.")
     jumps = sum(row.drift > _JUMP for row in page.balances)
     if jumps:
         page.text(
-            f"The balance of work drifts by more than {100 * _JUMP:g} % in {jumps} of {len(page.balances)} runs: there "
-            "the load had a maximum, and the shell jumped under it to another equilibrium; the work on the way is not "
-            "stored."
+            f"In {jumps} of {len(page.balances)} runs the balance of work drifts by more than {100 * _JUMP:g} %: the "
+            "load had a maximum, the shell jumped to another equilibrium, and the work on the way is not stored."
         )
     if not page.short:
         page.text(locking_text(found))
@@ -166,7 +165,7 @@ def needed_text(found: Found, enough: float = EXPECTED) -> str:
         good = [n for n in row if all(abs(row[finer] - 1.0) <= enough for finer in row if finer >= n)]
         when = f"from {min(good)} intervals on" if good else f"not even with {max(row)} intervals"
         met.setdefault(when, []).append(variant.label.replace(", E_33 tied", " (tied)"))
-    parts = "; ".join(f"{when} {', '.join(labels)}" for when, labels in sorted(met.items()))
+    parts = "; ".join(f"{when}: {', '.join(labels)}" for when, labels in sorted(met.items()))
     return f"{what} is within {100 * enough:g} % of the reference {parts}."
 
 
@@ -176,7 +175,7 @@ def locking_text(found: Found) -> str:
     row = {variant.name: numbers[found.finest] for variant, numbers in shares.items() if variant in LOCKING}
     parts = (f"{name} {100 * share:.0f} %" if share == share else f"{name} nothing" for name, share in row.items())
     where = f"with {found.finest} intervals"
-    return f"{what} of the elements that lock, {where}, as a share of the reference: {', '.join(parts)}."
+    return f"{what} of the elements that lock, {where}, over the reference: {', '.join(parts)}."
 
 
 def _follow_all(page: Page, problem: Problem) -> Found:
@@ -203,8 +202,8 @@ def _enter_tables(page: Page, found: Found) -> None:
     rows = found.read(partial(distance, reference=problem.reference))
     meshes = sorted({n for row in rows.values() for n in row})
     page.table(
-        "Largest distance of a reference point from the curve, %, in the plane of load over full load and displacement "
-        "over the largest one (intervals between nodes along an edge)",
+        "Largest distance of a reference point from the curve, %, with both axes scaled to 1 (intervals between nodes "
+        "along an edge)",
         ("element", *(str(n) for n in meshes)),
         [(variant.label, *(100 * row[n] if n in row else None for n in meshes)) for variant, row in rows.items()],
     )

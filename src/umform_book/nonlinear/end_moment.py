@@ -36,13 +36,13 @@ def run(page: Page) -> None:
         within = _THIN * (64 / found.finest) ** 2
         page.check(f"rotation of the end, {variant.label}, {found.finest} intervals", turns[variant], 1.0, within)
     page.text(
-        f"The closed form is that of a thin strip: it neglects the square of thickness times curvature, {_THIN:.4f}."
+        f"The closed form holds for a thin strip: it neglects the square of thickness times curvature, {_THIN:.4f}."
     )
     coarse = found.curves.get(Variant("ANS3DEAS"), {})
     if coarse and coarse[min(coarse)] is None:
         page.text(
-            f"Without tying of E_33, {min(coarse)} elements, which are bent by {360 / min(coarse):g} degrees each, "
-            "fake a thinning at their middle and become so soft that they do not carry the moment."
+            f"Without tying of E_33, {min(coarse)} elements bent by {360 / min(coarse):g} degrees each have a false "
+            "thinning at their middle and become too soft to carry the moment."
         )
     enter_shape(page, found, TIED[0])
 
@@ -51,16 +51,16 @@ CASE = Case(
     name="nonlinear-end-moment",
     title="Cantilever rolled up by an end moment",
     problem="""
-Strip of length 10, width 1, thickness 0.1; E = 1.2e6, nu = 0. One end is clamped, the other one is loaded by the
-moment 2 pi E I / L, which bends a thin strip to a full circle. The moment is a couple of line loads on the upper and
-lower edge of the end, kept normal to the director of the closed form. One element over the width. Measured: path of
-the end at 20 load levels, and its rotation.
+Strip of length 10, width 1, thickness 0.1; E = 1.2e6, nu = 0. One end is clamped; the moment 2 pi E I / L on the other
+bends a thin strip to a full circle. The moment is a couple of line loads on both edges of the end, normal to the
+director of the closed form. One element over the width. Measured: path of the end at 20 load levels, and its rotation.
 """,
     reference="""
-Closed form of the elastica: a circle of radius E I / M; end at L sin(a)/a and L (1 - cos a)/a with the angle a = M L
-/ (E I). It neglects the square of thickness times curvature, 0.4 % at the full moment. The problem is the second one
-of Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569.
+Elastica: a circle of radius E I / M; end at L sin(a)/a and L (1 - cos a)/a, a = M L / (E I). It neglects the square of
+thickness times curvature, 0.4 % at the full moment. Second problem of Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004)
+1551-1569.
 """,
     run=run,
+    picture="curves",
     cost=6.0,
 )

@@ -31,15 +31,15 @@ CASE = Case(
     name="nonlinear-end-shear",
     title="Cantilever under an end shear force",
     problem="""
-Strip of length 10, width 1, thickness 0.1; E = 1.2e6, nu = 0. One end is clamped, the other one is loaded by a dead
-force of 4 normal to the undeformed strip, spread over the end face. One element over the width. Measured: deflection
-w of the end and its shortening -u, at 20 load levels.
+Strip of length 10, width 1, thickness 0.1; E = 1.2e6, nu = 0. One end is clamped; a dead force of 4, normal to the
+undeformed strip, is spread over the other end face. One element over the width. Measured: deflection w of the end and
+its shortening -u at 20 load levels.
 """,
     reference="""
-Table of Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569 (Abaqus S4R), three decimals: w = 6.698, -u =
-3.286. MI9K3DEAS with 32 and with 64 intervals agree on 6.700 and 3.290: the table is within 0.03 % and 0.12 % of what
-the strip does.
+Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569 (Abaqus S4R): w = 6.698, -u = 3.286. MI9K3DEAS with 32 and 64
+intervals agree on 6.700 and 3.290: the table is uncertain by 0.03 % and 0.12 %.
 """,
     run=run,
+    picture="curves",
     cost=3.0,
 )

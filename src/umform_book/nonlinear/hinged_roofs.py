@@ -85,9 +85,8 @@ def run(page: Page, *, thickness: float) -> None:
     page.check(f"Limit load, N, {label}", logarithmic, reference, 0.005)
     plain, other = (100 * (load / reference - 1) for load in (found.read(limit_load)[variant][mesh], logarithmic))
     page.text(
-        "A law that is linear in Green-Lagrange strains is softer in compression than one that is linear in "
-        "logarithmic strains (in the force, by 1.5 times the strain). The limit load of the first is "
-        f"{plain:+.2f} % off the table, that of the second {other:+.2f} %."
+        "In compression a law linear in Green-Lagrange strains is softer than one linear in logarithmic strains (in "
+        f"the force by 1.5 times the strain). Their limit loads are {plain:+.2f} % and {other:+.2f} % off the table."
     )
     enter_shape(page, found, TIED[0], mirrors=(0, 1), view=(-60.0, 12.0))
 
@@ -97,11 +96,10 @@ def _case(thickness: float, title: str, reference: str) -> Case:
         name=f"nonlinear-roof-{thickness:g}".replace(".", "-"),
         title=title,
         problem=f"""
-Cylindrical roof of radius 2540 mm, length 508 mm and half angle 0.1 rad, {thickness:g} mm thick; E = 3102.75 MPa, nu =
-0.3. The straight edges are hinged on the mid-line of the sheet, the curved edges are free; a dead force of up to 3000 N
-pushes the centre down. One quarter with symmetry planes, N x N intervals. The path of equilibria is followed by its arc
-length. Measured: the curve of the force over the deflection -w_C of the centre (mean of the lower and the upper node),
-and the limit load, the first maximum of the force.
+Cylindrical roof of radius 2540 mm, length 508 mm, half angle 0.1 rad, {thickness:g} mm thick; E = 3102.75 MPa, nu =
+0.3. The straight edges are hinged on the mid-line of the sheet, the curved edges free; a dead force of up to 3000 N
+pushes the centre down. One quarter, N x N intervals, arc length. Measured: force over the deflection -w_C of the centre
+(mean of the lower and upper node), and the limit load, the first maximum of the force.
 """,
         reference=reference,
         run=partial(run, thickness=thickness),

@@ -60,9 +60,8 @@ def _folding_text(page: Page) -> str:
     rising = np.diff(trace_arc(build(variant, mesh), PROBLEM.reference[LOAD], partial(page.solve, label))[LOAD]) > 0.0
     maxima = int(np.count_nonzero(rising[:-1] & ~rising[1:]))
     return (
-        f"Followed by its arc length, the path of {variant.label} with {mesh} intervals has {maxima} maxima of the "
-        "load, which the shell does not have: rows of elements fold over one after the other. Under a growing load "
-        "such a mesh jumps, or stays where it is."
+        f"With {mesh} intervals the path of {variant.label} has {maxima} maxima of the load, which the shell does not "
+        "have: rows of elements snap one after the other. Under a growing load such a mesh jumps."
     )
 
 
@@ -70,16 +69,17 @@ CASE = Case(
     name="nonlinear-semi-cylinder",
     title="Pinched semi-cylindrical shell",
     problem="""
-Half of a cylinder, radius 101.6, length 304.8, thickness 3; E = 2068.5, nu = 0.3 (isotropic). One end is clamped, the
-other one is free and loaded at its crown by a dead force of 2000 towards the axis. Along the straight edges the
-vertical displacement and the rotation about the edge are held (u_z of both faces); they may slide. One half with a
-symmetry plane, N x N intervals. Measured: -w_A under the force at 25 load levels.
+Half of a cylinder, radius 101.6, length 304.8, thickness 3; E = 2068.5, nu = 0.3. One end is clamped, the other free
+and loaded at its crown by a dead force of 2000 towards the axis. The straight edges are held vertically and against
+rotation about the edge (u_z of both faces), and may slide. One half with a symmetry plane, N x N intervals. Measured:
+-w_A under the force at 25 load levels.
 """,
     reference="""
-Table of Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569 (Abaqus S4R, 40 x 40): -w_A = 171.505 at full
-load. MI9K3DEAS with E_33 tied find 171.66 with 32 intervals, 171.87 with 48, 171.92 with 64: the table is 0.25 %
-below what the shell does, and up to 1.1 % where the curve is flattest (0.3 to 0.35 of the load).
+Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569 (Abaqus S4R, 40 x 40): -w_A = 171.505 at full load. MI9K3DEAS
+with E_33 tied finds 171.66 with 32 intervals, 171.92 with 64: the table is 0.25 % low, and up to 1.1 % where the curve
+is flattest (0.3 to 0.35 of the load).
 """,
     run=run,
+    picture="curves",
     cost=62.0,
 )

@@ -18,6 +18,7 @@ from umform_book.convergence import Study, normalised, show, study
 from umform_book.page import Page
 from umform_book.plastic.curves import lines_figure
 from umform_book.plastic.hourglass import alternation
+from umform_book.printed import about
 from umform_book.variants import SEVEN, Variant
 
 Floats = NDArray[np.float64]
@@ -111,13 +112,13 @@ def _judge(page: Page, found: Study, bent: dict[tuple[Variant, int], Bent]) -> N
     costs = {v: bent[v, 16].iterations for v in SOUND if v.name == "EAS3DEAS" and (v, 16) in bent}
     pivots = max(_pivots(run) for (v, n), run in bent.items() if v in costs and n <= 16)
     steady = bent[Variant("MI9K3DEAS"), 16]
+    taken = ", ".join(f"{v.label[-7:]} take {about(n)}" for v, n in costs.items())
     page.text(
-        f"The membrane of ANS3DEAS is that of a displacement element: with {finest} x {finest} cells it finds "
-        f"{100 * found[Variant('ANS3DEAS')][finest] / REFERENCE:.0f} % of the displacement, since plastic flow keeps "
-        "the volume (volumetric locking). DISP3D and DISP3DEAS have the same membrane and the same numbers. EAS3DEAS "
-        f"does not lock, but with 16 intervals its {', '.join(f'{v.label[-7:]} take {n}' for v, n in costs.items())} "
-        f"iterations and meet up to {pivots} negative pivots, where MI9K3DEAS takes {steady.iterations} and meets "
-        f"{_pivots(steady)}."
+        "ANS3DEAS has the membrane of a displacement element and locks volumetrically: with "
+        f"{finest} x {finest} cells it finds {100 * found[Variant('ANS3DEAS')][finest] / REFERENCE:.0f} % of the "
+        "displacement, as DISP3D and DISP3DEAS do. EAS3DEAS does not lock, but with 16 intervals its "
+        f"{taken} iterations and meet up to {pivots} negative pivots; MI9K3DEAS takes {about(steady.iterations)} and "
+        f"meets {_pivots(steady)}."
     )
 
 
@@ -128,12 +129,12 @@ def _pivots(found: Bent) -> int:
 
 def _table(page: Page, bent: dict[tuple[Variant, int], Bent]) -> None:
     page.table(
-        "What it takes",
-        ("element, intervals", "iterations", "alternation of the cells", "most negative pivots"),
+        "Effort and stability",
+        ("element, intervals", "iterations, about", "alternation of the cells", "most negative pivots"),
         [
             (
                 f"{variant.label}, {n}",
-                found.iterations,
+                about(found.iterations),
                 found.alternation,
                 _pivots(found),
             )
@@ -161,19 +162,17 @@ CASE = Case(
     name="plastic-cook",
     title="Cook's membrane with finite plastic strains",
     problem=f"""
-The trapezoid (0, 0), (48, 44), (48, 60), (0, 44) of thickness 1 in plane strain: one layer, u_z = 0 on both faces. The
-left side is held; on the right side a dead traction of resultant F = {FORCE:g} acts upward, in {STEPS} increments.
-kappa = 164.21, mu = 80.1938 (E = 206.9, nu = 0.29), yield stress 0.45 + 0.12924 e + 0.265 (1 - exp(-16.93 e)), in
-logarithmic strains. Measured: the vertical displacement of the upper corner of the right side. Here the membrane of a
-solid-shell must keep the volume, which its thickness modes cannot help. Tying of E_33 changes nothing in a flat sheet.
+The trapezoid (0, 0), (48, 44), (48, 60), (0, 44), thickness 1, plane strain: one layer, u_z = 0 on both faces. The left
+side is held; on the right side a dead traction of resultant F = {FORCE:g} acts upward, in {STEPS} increments. kappa =
+164.21, mu = 80.1938 (E = 206.9, nu = 0.29), yield stress 0.45 + 0.12924 e + 0.265 (1 - exp(-16.93 e)), logarithmic
+strains. Measured: vertical displacement of the upper right corner. The membrane must keep the volume; thickness modes
+and the tying of E_33 do not help here.
 """,
     reference=f"""
-{REFERENCE:g}, uncertain by 1 %. The problem is that of Simo & Armero, Int. J. Numer. Meth. Engng. 33 (1992) 1413-1449;
-converged displacements that have been published lie between 6.97 and 7.09, as the verification study of
-[solids4foam](https://github.com/solids4foam/solids4foam) (tutorials/solids/elastoplasticity/cooksMembrane) collects
-them. Our own 64 x 64 intervals with MI9K3DEAS give 6.949, 32 x 32 give 6.874: 7.02 by extrapolation. Expected of an
-element that does not lock: 2 % on 32 intervals, twice as much on 16, for the singular corner (0, 44)
-makes convergence linear.
+{REFERENCE:g}, uncertain by 1 %. Problem of Simo & Armero, Int. J. Numer. Meth. Engng. 33 (1992) 1413-1449; published
+converged displacements lie between 6.97 and 7.09 ([solids4foam](https://github.com/solids4foam/solids4foam),
+tutorials/solids/elastoplasticity/cooksMembrane). Our own MI9K3DEAS: 6.874 with 32 x 32 intervals, 6.949 with 64 x 64,
+7.02 extrapolated. Limit: 2 % on 32 intervals, twice as much on 16, since the corner (0, 44) makes convergence linear.
 """,
     own="extrapolated from meshes of umform itself, between the values that are published",
     run=run,

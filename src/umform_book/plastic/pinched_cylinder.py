@@ -18,6 +18,7 @@ from umform_book.case import Case
 from umform_book.diaphragm import rigid_diaphragm
 from umform_book.page import Page
 from umform_book.plastic.curves import lines_figure
+from umform_book.printed import about
 from umform_book.references import table
 from umform_book.variants import Variant, with_tying
 
@@ -107,7 +108,7 @@ def _table(page: Page, reference: dict[str, Floats], runs: dict[tuple[Variant, i
             f"{variant.label}, {n}",
             *(float(np.interp(d, found.way, found.force)) for d in depths),
             100.0 * _distance(found, reference, depth),
-            found.iterations,
+            about(found.iterations),
         )
         for (variant, n), found in runs.items()
     ]
@@ -115,7 +116,7 @@ def _table(page: Page, reference: dict[str, Floats], runs: dict[tuple[Variant, i
     rows.append(("reference", *(float(value) for value in values), 0.0, None))
     page.table(
         "Force at displacements of its point",
-        ("element, intervals", *(f"{d:g}" for d in depths), "distance in %", "iterations"),
+        ("element, intervals", *(f"{d:g}" for d in depths), "distance in %", "iterations, about"),
         rows,
     )
 
@@ -123,9 +124,9 @@ def _table(page: Page, reference: dict[str, Floats], runs: dict[tuple[Variant, i
 def _say(page: Page, reference: dict[str, Floats], runs: dict[tuple[Variant, int], Pinched], depth: float) -> None:
     coarse, fine = (_distance(runs[FINE[1], n], reference, depth) for n in (16, 32))
     page.text(
-        f"The shell buckles inward in folds that travel away from the force; a mesh of 16 intervals cannot follow them "
-        f"smoothly, its curve is rough and up to {100 * coarse:.0f} % of the last force off (MI9K3DEAS), 32 intervals "
-        f"{100 * fine:.0f} %. With E_33 tied the three elements need about the same number of iterations."
+        "The shell buckles inward in folds that travel away from the force. 16 intervals are too few: the curve is "
+        f"rough and up to {100 * coarse:.0f} % of the last force off (MI9K3DEAS); 32 intervals are {100 * fine:.0f} % "
+        "off. With E_33 tied the three elements need about the same number of iterations."
     )
 
 
@@ -146,20 +147,18 @@ CASE = Case(
     name="plastic-pinched-cylinder",
     title="Pinched cylinder in the plastic range",
     problem=f"""
-A cylinder of radius {RADIUS:g}, length {2 * HALF_LENGTH:g} and thickness {THICKNESS:g} with rigid diaphragms at its
-ends, pinched by two opposite forces in its middle. A diaphragm holds the mid-surface in its plane and the director
-against rotation about the axis; motion along the axis, tilt and stretch of the director are free.
-E = {LAW.E:g}, nu = {LAW.nu:g}, yield stress 24.3 + 300 e. An eighth is meshed. The point of the force, its lower and
-its upper node, is pushed in by {DEPTH:g} in {STEPS} increments. Measured: the whole force. 5 thickness points (Gauss).
+Cylinder of radius {RADIUS:g}, length {2 * HALF_LENGTH:g}, thickness {THICKNESS:g}, pinched by two opposite forces at
+mid-length. Rigid diaphragms at the ends hold the mid-surface in their plane and the director against rotation about the
+axis. E = {LAW.E:g}, nu = {LAW.nu:g}, yield stress 24.3 + 300 e. One eighth. Lower and upper node under the force are
+pushed in by {DEPTH:g} in {STEPS} increments; 5 Gauss points through the thickness. Measured: the whole force.
 """,
     reference=f"""
-The problem is that of Simo & Kennedy (Comput. Meth. Appl. Mech. Engng. 96 (1992) 133-171), taken up in many works on
-plastic shells, whose curves are printed only as drawings. The reference is our own refinement, MI9K3DEAS tied with 48
-intervals and 60 increments, given in the table below. 24 and 32 intervals of the same element are 4.7 % and 2.0 %
-of the last force away from it; if errors fall with the square of the mesh size, it is itself {100 * UNCERTAINTY:g} %
-off its limit. With both faces of the ends held in their plane, which is no diaphragm of a shell, its last force is
-2681 instead of 2565. Increments add to it: with 16 intervals, 120 increments instead of 48 change the force by up to
-3 %. The curve of each mesh has waves of its own, as one row of cells after the other snaps into the fold.
+Problem of Simo & Kennedy (Comput. Meth. Appl. Mech. Engng. 96 (1992) 133-171); published curves are drawings only. The
+reference is our own refinement, MI9K3DEAS tied, 48 intervals, 60 increments (table below). 24 and 32 intervals are 4.7
+% and 2.0 % of the last force away; by quadratic convergence it is {100 * UNCERTAINTY:g} % off its limit. With both
+faces of the ends held in their plane, which is no diaphragm of a shell, its last force is 2681 instead of 2565.
+Increments: with 16 intervals, 120 instead of 48 change the force by up to 3 %. Each mesh has waves of its own, as rows
+of cells snap into the fold.
 """,
     own="48 x 48 intervals of MI9K3DEAS with E_33 tied, umform itself; no numbers are published",
     run=run,

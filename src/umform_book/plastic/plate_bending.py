@@ -73,9 +73,9 @@ def _one_law(page: Page, name: str, path: BendingPath) -> None:
         locked = found[Variant("DISP3D")][finest]
         page.text(
             "Without an enhanced thickness strain (DISP3D, DISP9K3D) plastic flow cannot keep the volume: the moment "
-            f"is {locked:.0f} times the true one, and it does not vanish within the way back. Thickness order 1 is "
-            f"{100 * (found[FIRST_ORDER[0]][finest] - 1):+.2f} % off at this strain ({100 * locking(0.02):.2f} % by "
-            f"eq. (2.29)), order 3 {100 * (found[RECOMMENDED[0]][finest] - 1):+.2f} %."
+            f"is {locked:.0f} times the true one, and unloading does not bring it to zero. At this strain thickness "
+            f"order 1 is {100 * (found[FIRST_ORDER[0]][finest] - 1):+.2f} % off ({100 * locking(0.02):.2f} % by eq. "
+            f"(2.29)), order 3 {100 * (found[RECOMMENDED[0]][finest] - 1):+.2f} %."
         )
 
 
@@ -96,9 +96,9 @@ def _references(page: Page, paths: dict[str, BendingPath]) -> None:
     )
     worst = max(abs(float(row[-1])) for row in rows)
     page.text(
-        f"The classical theory lets a fibre flow at 2/sqrt(3) y from the first on. In truth it flows at less, since "
-        f"sigma_22 is nu sigma_11 at first and half of it only when the plastic strain dominates: {worst:.1f} % of the "
-        "moment at most, in the knee. Everything below is compared with the law point by point."
+        "In the classical theory a fibre always flows at 2/sqrt(3) y. It flows at less at first, since sigma_22 is nu "
+        f"sigma_11 and reaches half of sigma_11 only when plastic strain dominates: {worst:.1f} % of the moment at "
+        "most, in the knee. Everything below is compared with the law point by point."
     )
     for name, path in paths.items():
         closed = classical_moment(LAWS[name], SLOPES[name], THICKNESS, CURVATURE)
@@ -156,21 +156,21 @@ CASE = Case(
     name="plastic-plate-bending",
     title="Plastic bending of a wide sheet, and springback",
     problem=f"""
-A wide sheet, h = {THICKNESS:g}, in plane strain (u_y = 0), bent to the curvature {CURVATURE:g} (2 % of strain in the
-outer fibres) and back to zero moment. kappa = {CONSTANTS["kappa"]:g}, mu = {CONSTANTS["mu"]:g}, yield stress
-{YIELD_STRESS:g}, without hardening and with the linear modulus {MODULUS:g} (N, mm). Modelled is a piece of length 2
-between a symmetry plane and a section whose lower and upper edge move horizontally as on an arc whose mid-line keeps
-its length; vertical displacements are free. {POINTS} thickness points, split rule; 40 increments up, 3 back. Measured:
-the moment, as the work conjugate of the curvature, and the curvature that is left without moment.
+A wide sheet, h = {THICKNESS:g}, plane strain, bent to the curvature {CURVATURE:g} (2 % strain in the outer fibres) and
+back to zero moment. kappa = {CONSTANTS["kappa"]:g}, mu = {CONSTANTS["mu"]:g}, yield stress {YIELD_STRESS:g}, without
+hardening and with the linear modulus {MODULUS:g} (N, mm). A piece of length 2 between a symmetry plane and a section
+whose edges move horizontally as on an arc, with a mid-line of constant length; vertical displacements are free.
+{POINTS} thickness points, split rule; 40 increments up, 3 back. Measured: moment (work conjugate of the curvature), and
+curvature left without moment.
 """,
     reference="""
 The law in logarithmic strains, integrated point by point in numpy: plane strain, sigma_33 = 0, 1000 fibres, 150
-increments (40 change the moment by 1e-5), no axial force. Beside it the classical closed form (elastic core with
-E' = E/(1 - nu^2), flow stress 2/sqrt(3) y, elastic unloading; Hill 1950). Both leave out the pressure in the sheet that
-the curvature calls for, about the curvature times the moment, and terms of the order of the strain squared: 0.1 % here.
-Thickness order 1 cannot keep the volume through the thickness: the excess of the moment that eq. (2.29) of the theory
-predicts is part of what is expected of it.
+increments (40 change the moment by 1e-5), no axial force. Beside it the classical closed form (Hill 1950: elastic core
+with E' = E/(1 - nu^2), flow stress 2/sqrt(3) y, elastic unloading). Both neglect the pressure through the sheet
+(curvature times moment) and the square of the strain: 0.1 % here. Thickness order 1 has the excess moment of eq.
+(2.29), which is part of its limit.
 """,
     run=run,
+    picture="curve-hardening",
     cost=6.0,
 )

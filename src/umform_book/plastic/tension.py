@@ -91,18 +91,16 @@ CASE = Case(
     name="plastic-tension",
     title="The largest force in tension",
     problem=f"""
-An eighth of a bar, {LENGTH:g} x {WIDTH:g} x {THICKNESS:g} (N, mm), between planes of symmetry, pulled by
-{ELONGATION:g} of its length in {STEPS} increments; the width is free, or held (plane strain). E = 210000, nu = 0.3;
-Swift's hardening 500 (0.01 + e)^0.2, or Voce's 400 - 240 exp(-8 e). The state is homogeneous, and with the end moved it
-is stable beyond the largest force as long as nothing disturbs it.
+An eighth of a bar, {LENGTH:g} x {WIDTH:g} x {THICKNESS:g} (N, mm), pulled by {ELONGATION:g} of its length in {STEPS}
+increments; the width is free, or held (plane strain). E = 210000, nu = 0.3; Swift's hardening 500 (0.01 + e)^0.2, or
+Voce's 400 - 240 exp(-8 e). The state is homogeneous, and stable beyond the largest force since the end is prescribed.
 """,
     reference="""
-Considere: the force tau exp(-eps) per reference area is largest where d tau/d eps = tau. With the width free tau is
-the yield stress and eps = tau/E + e, which gives closed numbers, elastic strains and all. With the width held the law
-is integrated in numpy in 4000 steps of strain; without elastic strains the strain would be that of
-4/3 y'(e) = 2/sqrt(3) y(e). The top of the curve is that of a parabola through its three highest points: 1e-5 of the
-force, 1 % of the strain with increments of 0.75 %.
+Considère: the force tau exp(-eps) per reference area is largest where d tau/d eps = tau. Width free: tau is the yield
+stress, eps = tau/E + e, in closed form. Width held: the law is integrated in numpy in 4000 steps. The maximum is that
+of a parabola through the three highest points: 1e-5 of the force, 1 % of the strain with increments of 0.75 %.
 """,
     run=run,
+    picture="curves-swift",
     cost=18.0,
 )

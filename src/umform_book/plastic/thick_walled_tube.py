@@ -130,8 +130,8 @@ def run(page: Page) -> None:
     coarsest = min(found[variants[0]])
     errors = ", ".join(f"{v.label} {100 * (found[v][coarsest] - 1):+.1f} %" for v in (Variant("DISP3D"), *JUDGED))
     page.text(
-        "No element locks here, since each layer has a radial strain of its own, and the errors fall with the square "
-        f"of the mesh size. With {coarsest} layers the limit pressure is off by {errors}."
+        "No element locks here: each layer has its own radial strain, and errors fall with the square of the mesh "
+        f"size. With {coarsest} layers the limit pressure is off by {errors}."
     )
     _pictures(page, runs, reference, finest)
     _under_pressure(page, reference, finest)
@@ -196,7 +196,7 @@ def _under_pressure(page: Page, reference: Tube, finest: int) -> None:
     page.check("pressure of the reference at the expansion under 0.99 of the limit pressure", implied, top, within=0.01)
     page.text(
         f"Under a follower pressure of 0.99 of the limit the inner face has moved by {expansion:.3g}. Near the limit "
-        "this displacement says little, so the pressure of the reference at it is what is judged."
+        "this displacement is ill-conditioned, so the check is on the pressure of the reference at it."
     )
 
 
@@ -204,20 +204,18 @@ CASE = Case(
     name="plastic-tube",
     title="Thick-walled tube under inner pressure",
     problem=f"""
-A tube of inner radius {INNER:g} and outer radius {OUTER:g} in plane strain, E = {LAW.E:g}, nu = {LAW.nu:g}, perfect
-plasticity with the yield stress 1. A quarter is meshed with solid-shells whose thickness direction is the radius, one
-element along the axis; axial displacements are held. The inner face moves outward by {EXPANSION:g} in {STEPS}
-increments, far beyond the state in which the whole tube flows; a second run puts a follower pressure on it. Measured:
-the pressure (radial resultant over the arc), the plastic radius, the displacement of the outer face. Strains are below
-1e-4, so that small strain theory holds.
+Quarter of a tube, inner radius {INNER:g}, outer radius {OUTER:g}, plane strain, E = {LAW.E:g}, nu = {LAW.nu:g}, perfect
+plasticity with yield stress 1. The thickness direction of the elements is the radius; one element along the axis, axial
+displacements held. The inner face moves outward by {EXPANSION:g} in {STEPS} increments, far beyond full flow; a second
+run applies a follower pressure. Measured: pressure (radial resultant over the arc), plastic radius, displacement of the
+outer face. Strains are below 1e-4.
 """,
     reference="""
-The limit pressure 2/sqrt(3) y ln(b/a) is exact. Hill's closed form (The Mathematical Theory of Plasticity, 1950) for
-pressure and displacement over the plastic radius is exact for nu = 1/2; for nu = 0.3 it is off by up to 0.5 % in the
-pressure and 2.5 % in the displacement, since a point flows a little before the difference of the principal stresses is
-2/sqrt(3) y. The elements are therefore compared with the law itself, integrated along the radius by 400 linear elements
-in numpy (200 change the limit pressure by 2e-6). Expected of the elements: 1 % on 8 layers (a chord over a sixteenth of
-the circle is 0.6 % shorter than its arc), falling with the square of the mesh size.
+The limit pressure 2/sqrt(3) y ln(b/a) is exact. Hill's closed form over the plastic radius (The Mathematical Theory of
+Plasticity, 1950) is exact for nu = 1/2; for nu = 0.3 it is up to 0.5 % off in the pressure and 2.5 % in the
+displacement. So elements are compared with the law itself, integrated by 400 linear elements along the radius in numpy
+(200 change the limit pressure by 2e-6). Limit: 1 % on 8 layers (a chord over a sixteenth of the circle is 0.6 % shorter
+than its arc), falling with the square of the mesh size.
 """,
     run=run,
     cost=20.0,

@@ -74,10 +74,10 @@ def _plastic_moments(page: Page) -> None:
         page.check(f"{n} points, split: exact", plastic_moment(n, "split"), 1.0, within=1e-13)
     ten = {rule: worst_shifted(10, rule) for rule in RULES}
     page.text(
-        "The stress of a fully plastic section jumps at the neutral line, and no rule integrates a jump in one of its "
-        "intervals. The split rule has its border at the mid-surface, where the jump lies in pure bending. Where "
-        "tension shifts the neutral line by up to a tenth of the thickness the rules are of one kind again: with 10 "
-        "points the worst errors are " + ", ".join(f"{100 * e:.1f} % ({rule})" for rule, e in ten.items()) + "."
+        "In a fully plastic section the stress jumps at the neutral line, and no rule integrates a jump inside an "
+        "interval. The split rule has a border at the mid-surface, where the jump lies in pure bending. If tension "
+        "shifts the neutral line by up to a tenth of the thickness, this advantage is lost: with 10 points the worst "
+        "errors are " + ", ".join(f"{100 * e:.1f} % ({rule})" for rule, e in ten.items()) + "."
     )
 
 
@@ -156,17 +156,16 @@ CASE = Case(
     name="plastic-thickness-points",
     title="Points through the thickness",
     problem=f"""
-The sheet of the [case of plastic bending](plastic-plate-bending.md), bent to the curvature {CURVATURE:g} (1 % of strain
-in the outer fibres) and back, with four elements of {ELEMENT.label} along it and 2 to 15 points through the
-thickness, of Gauss, of Lobatto, and of Gauss in each half (split). Perfect plasticity is the worst case, since the
-stress jumps at the neutral line.
+The sheet of the [case of plastic bending](plastic-plate-bending.md), bent to the curvature {CURVATURE:g} (1 % strain in
+the outer fibres) and back: four elements of {ELEMENT.label}, 2 to 15 points through the thickness (Gauss; Lobatto;
+split, Gauss in each half). Perfect plasticity is the worst case: the stress jumps at the neutral line.
 
 ![The sheet, from the page of pure bending](images/plastic-plate-bending-shape-hardening.png)
 """,
     reference="""
-The same law integrated with 1000 fibres; and, to tell the element from its rule, integrated point by point with the
-rule of the element, which the element must meet to 1 % (it has the pressure of the bent sheet and thickness order 1).
-The fully plastic moment of a rule is a closed sum, eqs. (2.21), (2.22) of the theory.
+The same law with 1000 fibres. To separate element and rule, also the law point by point with the rule of the element,
+which the element must meet to 1 % (pressure of the bent sheet, thickness order 1). The fully plastic moment of a rule
+is a closed sum, eqs. (2.21), (2.22).
 """,
     run=run,
     cost=6.0,

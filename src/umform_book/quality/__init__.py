@@ -5,6 +5,6 @@ from umform_book.quality import eigenvalues, invariance, patch_tests
 
 CHAPTER = Chapter(
     "Elements",
-    "What every element must do before any problem is worth solving: patch tests, eigenvalues, invariance.",
+    "Requirements on each element: patch tests, eigenvalues, invariance.",
     (patch_tests.CASE, eigenvalues.CASE, invariance.CASE),
 )

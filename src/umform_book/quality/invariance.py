@@ -19,6 +19,7 @@ from umform.run import Result, solve
 from umform.steps import Move
 from umform_book.case import Case
 from umform_book.page import Page
+from umform_book.printed import shown
 from umform_book.variants import VARIANTS, Variant, with_tying
 
 Floats = NDArray[np.float64]
@@ -111,7 +112,7 @@ NUMBERINGS: dict[str, Callable[[Ids], Ids]] = {
     "turned by 90 degrees": lambda cells: turned(cells, 1),
     "turned by 180 degrees": lambda cells: turned(cells, 2),
     "turned by 270 degrees": lambda cells: turned(cells, 3),
-    "each cell turned otherwise": lambda cells: turned(cells, np.arange(len(cells)) % 4),
+    "each cell turned differently": lambda cells: turned(cells, np.arange(len(cells)) % 4),
     "upper and lower exchanged": flipped,
 }
 
@@ -144,17 +145,16 @@ def run(page: Page) -> None:
     )
     page.table(
         "Iterations of all increments",
-        ("element", "as it is", *columns),
+        ("element", "original", *columns),
         [(label, *row) for label, row in iterations.items()],
     )
     for number, name in enumerate(columns, start=2):
         page.at_most(f"all elements: change with {name}", max(row[number] for row in changes.values()), ROUND_OFF)
     largest = max(max(row[2:]) for row in changes.values())
     page.text(
-        f"The largest change of all is {largest:.1e}: every element is invariant to every numbering, to rotations and "
-        "to units, but for round-off."
+        f"Largest change of all: {shown(largest, 2)}. Every element is invariant to numbering, rotation and units."
         if largest <= ROUND_OFF
-        else f"Not all elements are invariant: the largest change is {largest:.1e}."
+        else f"Not all elements are invariant: the largest change is {shown(largest, 2)}."
     )
     more = max(abs(count - row[0]) for row in iterations.values() for count in row)
     page.at_most("all elements: iterations more or less in any of them", more, 0.0)
@@ -165,15 +165,14 @@ CASE = Case(
     name="invariance",
     title="Invariance",
     problem=f"""
-A distorted and warped sheet of 2 x 2 elements, {LENGTH:g} x {WIDTH:g} x {HEIGHT:g} mm, perfectly clamped at one end; a
-dead force of {FORCE.tolist()} N on the other bends it into the plastic range in four increments (J2, kappa = 175000,
-mu = 80770, yield stress 160 + 2000 eqps MPa, large displacements). The same is done with other numberings of the nodes
-of the cells, with model and force rotated in space, and in other units.
+A distorted and warped sheet of 2 x 2 elements, {LENGTH:g} x {WIDTH:g} x {HEIGHT:g} mm, is clamped at one end. A dead
+force of {FORCE.tolist()} N on the other bends it into the plastic range in four increments (J2, kappa = 175000, mu =
+80770, yield stress 160 + 2000 eqps MPa, large displacements). Compared: other numberings of the nodes of cells, a
+rotated model, other units.
 """,
     reference="""
-The problem itself: all answers must be equal. Nothing in the elements has a preferred direction: the tying points and
-the enhanced modes go over into themselves when the local axes are turned or reflected, and enhanced strains are mapped
-as tensors; so all of them must be invariant but for round-off.
+The problem itself: all answers must be equal up to round-off. Tying points and enhanced modes are symmetric in the
+local axes, and enhanced strains are mapped as tensors.
 """,
     run=run,
     cost=5.0,

@@ -1,4 +1,4 @@
-"""Bends whose radius is near the thickness: which thickness strain they need."""
+"""Bends with a radius near the thickness: the thickness strain they need."""
 
 from umform_book.case import Chapter
 from umform_book.sharp_bends import (
@@ -17,7 +17,7 @@ from umform_book.sharp_bends import (
 
 CHAPTER = Chapter(
     "Sharp bends",
-    "Bends whose radius is near the thickness: which thickness strain they need.",
+    "Bends with a radius near the thickness: the thickness strain they need.",
     (
         moment.CASE,
         thickness_strains.CASE,

@@ -108,10 +108,10 @@ def run(page: Page) -> None:
     steps: Sequence[Callable[[Page], float]] = page.pick((_beams, _shells, _nonlinear), (_beams, _shells))
     largest = max(step(page) for step in steps)
     page.text(
-        f"The largest difference to the element with E_33 tied and order 1 is {100 * largest:.2g} %: the terms above "
-        "order 1 cost nothing in elastic problems and gain nothing there. What the parents miss the elements for "
-        "bends miss too: BEND8 locks when a sheet bends in its own plane (it has no enhanced membrane strain), and "
-        "both need several layers for St. Venant's torsion."
+        f"The largest difference from the base element with E_33 tied and order 1 is {100 * largest:.2g} %: higher "
+        "orders neither help nor harm in elastic problems. The limits of the base elements remain: BEND8 locks in "
+        "in-plane bending (it has no enhanced membrane strain), and both need several layers for St. Venant's "
+        "torsion."
     )
 
 
@@ -119,18 +119,18 @@ CASE = Case(
     name="bend-elastic-accuracy",
     title="Elastic accuracy of the elements for bends",
     problem="""
-The problems of the linear and nonlinear obstacle courses with BEND8 and BEND18, beside ANS3DEAS and MI9K3DEAS with E_33
-tied: the [straight cantilever](straight-beam.md) with rectangles, trapezoids and parallelograms, the
-[Scordelis-Lo roof](scordelis-lo.md), the [pinched cylinder](pinched-cylinder.md) and the
-[pinched hemisphere](linear-hemisphere.md); with large rotations the [cantilever](nonlinear-end-shear.md) and the
+BEND8 and BEND18, beside ANS3DEAS and MI9K3DEAS with E_33 tied, in the problems of the obstacle courses: [straight
+cantilever](straight-beam.md), [Scordelis-Lo roof](scordelis-lo.md), [pinched cylinder](pinched-cylinder.md), [pinched
+hemisphere](linear-hemisphere.md); with large rotations [cantilever](nonlinear-end-shear.md) and
 [hemisphere](nonlinear-hemisphere.md).
 
 ![One of the problems, from the page of the pinched hemisphere](images/linear-hemisphere-shape.png)
 """,
     reference="""
-Those of the pages of the problems; and the element that each is made of, which order 4 shall not change.
+The references of those pages, and the base element, which order 4 must not change.
 """,
     own="the element that each is made of, umform itself, beside the references of the problems",
     run=run,
+    picture="nonlinear-pinched-hemisphere",
     cost=20.0,
 )

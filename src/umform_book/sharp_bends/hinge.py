@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
 from umform_book.page import Page
+from umform_book.printed import about
 from umform_book.sharp_bends import calculix
 from umform_book.sharp_bends.candidates import BEND8, BEND18, of_order, stack
 from umform_book.sharp_bends.moment import radius_of_excess
@@ -64,10 +65,10 @@ def _table(page: Page, hardening: float, runs: Runs, stacks: dict[str, Bend], co
     rows: list[tuple[str | float | None, ...]] = [
         (curve.label, None, *(_force(curve, u) for u in MARKS), None, None) for curve in continuum.values()
     ]
-    rows += [(k, None, *(b.at(u) for u in MARKS), b.radius, b.iterations) for k, b in stacks.items()]
+    rows += [(k, None, *(b.at(u) for u in MARKS), b.radius, about(b.iterations)) for k, b in stacks.items()]
     for (label, cells), found in runs.items():
-        rows.append((label, HALF_SPAN / cells, *(found.at(u) for u in MARKS), found.radius, found.iterations))
-    columns = ("run", "length / h", *(f"F({u:g})" for u in MARKS), "least R/h at the end", "iterations")
+        rows.append((label, HALF_SPAN / cells, *(found.at(u) for u in MARKS), found.radius, about(found.iterations)))
+    columns = ("run", "length / h", *(f"F({u:g})" for u in MARKS), "least R/h at the end", "iterations, about")
     page.table(f"Force in N on a width of 10 mm, H = {hardening:g} MPa", columns, rows)
 
 
@@ -188,15 +189,15 @@ CASE = Case(
     name="bend-hinge",
     title="Three-point bending to a sharp hinge",
     problem=f"""
-Half of a strip in plane strain, h = 1 mm, symmetric about x = 0; its lower edge at x = {HALF_SPAN:g} mm rests
-(u_z = 0), its lower edge at x = 0 is pushed down by {STROKE:g} mm. No contact, so that nothing but the element errs.
-J2 plasticity with linear hardening: kappa = 175000, mu = 80770, y0 = 160, H = 500 and 100 MPa. Force on a width of
-10 mm. Without hardening the hinge would contract to a length that the mesh sets: no problem to judge an element by.
+Half of a strip in plane strain, h = 1 mm, symmetric about x = 0. Its lower edge at x = {HALF_SPAN:g} mm is supported
+(u_z = 0), its lower edge at x = 0 is pushed down by {STROKE:g} mm. There is no contact, so only the element errs. J2
+plasticity: kappa = 175000, mu = 80770, y0 = 160, linear hardening H = 500 and 100 MPa. Force on a width of 10 mm.
+Without hardening the hinge would contract to a length set by the mesh.
 """,
     reference=f"""
-Continuum meshes: CalculiX 2.20, C3D20R, six layers, 1/6 x 1/6 mm in the hinge (its own uncertainty, seen from four
-layers: 1.2 %); run anew where `{calculix.VARIABLE}` is set and `ccx` is found, else stored. And stacks of four EAS3DEAS
-and DISP9K3DEAS of order 2 (stacks of ANS3DEAS lock in their own plane and are no reference).
+CalculiX 2.20, C3D20R, six layers, 1/6 x 1/6 mm in the hinge; 1.2 % from four layers. Stored; it runs where
+`{calculix.VARIABLE}` is set and `ccx` is found. Also stacks of four EAS3DEAS and DISP9K3DEAS of order 2 (stacks of
+ANS3DEAS lock in their own plane).
 """,
     own="beside CalculiX, four layers of EAS3DEAS and DISP9K3DEAS of order 2, umform itself",
     run=run,

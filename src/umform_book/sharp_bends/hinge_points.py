@@ -24,7 +24,7 @@ STRAINS = tuple(float(x) for x in np.linspace(0.02, 0.3, 29))
 POINTS = {"gauss": (5, 6, 7, 8, 9, 11, 13, 15), "lobatto": (5, 6, 7, 8, 9, 11, 13, 15), "split": (6, 8, 10, 12, 14)}
 ALL = tuple((rule, n) for rule, numbers in POINTS.items() for n in numbers)
 SHORT = (("gauss", 8), ("split", 8), ("split", 12))
-#: What is run where all would be too dear.
+#: The selection where all combinations would take too long.
 FEW = (("gauss", 5), ("gauss", 8), ("gauss", 15), ("lobatto", 5), ("lobatto", 8), ("split", 8), ("split", 12))
 #: The rule that errs least in a section, which the others are compared with in the hinge.
 FINEST = ("split", 14)
@@ -103,9 +103,8 @@ def run(page: Page) -> None:
     _hinge(page, of_order("ANS3DEAS", 2), 0.5, 1.0, FEW)
     _hinge(page, BEND18, 1.0, 1.0, FEW)
     page.text(
-        "In a sharp bend the neutral line leaves the mid-surface and passes from point to point: each rule errs to "
-        "both sides in turn, with and without a point at the mid-surface. With hardening, and in a hinge whose "
-        "sections are at different strains, most of that is averaged out."
+        "In a sharp bend the neutral line leaves the mid-surface and passes from point to point, and the error of each "
+        "rule changes its sign. Hardening, and a hinge with sections at different strains, average most of it."
     )
 
 
@@ -113,16 +112,16 @@ CASE = Case(
     name="bend-thickness-points",
     title="Thickness rules and points in sharp bends",
     problem="""
-(a) The section of the [candidates](bend-candidates.md) with order 4, perfect plasticity, surface strains from 0.02 to
-0.3, with the points of each rule: Gauss, Lobatto, split (half of the Gauss points on each side of the mid-surface).
-(b) The strip folded over a [small cylinder](bend-small-cylinders.md) of radius h and 5 h, H = 500 MPa, with the same
-rules. Order p needs p + 1 points at least.
+* (a) The section of the [candidates](bend-candidates.md) with order 4, perfect plasticity, surface strains 0.02 to 0.3:
+  Gauss, Lobatto, split (half of the Gauss points on each side of the mid-surface).
+* (b) The strip over a [small cylinder](bend-small-cylinders.md) of radius h and 5 h, H = 500 MPa, same rules. Order p
+  needs at least p + 1 points.
 
 ![The hinge, from the page of the hinge](images/bend-hinge-shape.png)
 """,
     reference="""
-(a) The same section with 60 points. (b) The same mesh with 14 split points, the rule that errs least in (a), so that
-only the rule differs; what order and mesh do is on the other pages. Uncertainty of (b): what 14 points err by in (a).
+(a) The same section with 60 points. (b) The same mesh with 14 split points, the best rule of (a), so that only the rule
+differs. Uncertainty of (b): the error of 14 points in (a).
 """,
     own="for (b), 14 split points on the same mesh, umform itself; (a) is a section integrated in numpy",
     run=run,

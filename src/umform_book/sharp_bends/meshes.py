@@ -32,8 +32,8 @@ DISTORTED = ((BEND8, 25), (BEND8, 50), (BEND18, 12), (BEND18, 25))
 #: Expected of distorted elements of length h or less.
 WITHIN = 0.03
 LEAN = (
-    "sides that lean by 45 degrees: the error is proportional to their span along the strip, not to the length of the "
-    "elements; two over the width halve it"
+    "sides inclined by 45 degrees: the error grows with their span along the strip, not with the length of the "
+    "elements; two elements over the width halve it"
 )
 
 
@@ -174,16 +174,16 @@ CASE = Case(
     name="bend-meshes",
     title="Meshes of sharp bends: length, turn, distortion",
     problem="""
-(a) One element in pure plastic bending, thickness free, as on the page of the [moment](bend-moment.md), H = 500 MPa,
-bent to R/h = 2.5, its length from h/4 to 2.5 h: it turns by 0.4 times its length over h. (b) The
-[three-point bend](bend-hinge.md) with H = 100 MPa and BEND18 with one, four or nine polynomials in the surface for each
-order above 1. (c) The three-point bend with H = 500 MPa on distorted meshes, one element over a width of h, plane
-strain: trapezoids with sides in proportion 1 to 3, parallelograms whose lines lean by 45 degrees, and directors that
-lean to the left and to the right in turns by up to a quarter of the length over h.
+* (a) One element in pure plastic bending, thickness free ([moment](bend-moment.md)), H = 500 MPa, bent to R/h = 2.5;
+  length h/4 to 2.5 h, so it turns by 0.4 times its length over h.
+* (b) The [three-point bend](bend-hinge.md), H = 100 MPa, BEND18 with one, four or nine polynomials in the surface for
+  each order above 1.
+* (c) The three-point bend, H = 500 MPa, plane strain, distorted meshes, one element over a width of h: trapezoids with
+  sides 1 to 3; parallelograms at 45 degrees; directors inclined alternately by up to a quarter of the length over h.
 """,
     reference="""
-(a) The same element of length h/20, and eq. (2.33). (b), (c) CalculiX, six layers, 1.2 % from four layers, see the page
-of the [hinge](bend-hinge.md); in (c) also the same element as rectangles.
+(a) The same element of length h/20, and eq. (2.33). (b), (c) CalculiX, six layers, 1.2 % from four layers
+([hinge](bend-hinge.md)); in (c) also the same element as rectangles.
 """,
     own="for (a), the same element of length h/20, umform itself; (b) and (c) are CalculiX",
     run=run,

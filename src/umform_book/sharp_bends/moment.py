@@ -31,7 +31,7 @@ FORMULA_WITHIN = {1: 0.1, 2: 0.1, 3: 0.3}
 
 
 #: Where order 4 ends.
-ORDER_4 = "beyond a surface strain of 0.4 order 4 leaves a false moment too, formula (2.29)"
+ORDER_4 = "beyond a surface strain of 0.4 order 4 has a false moment too, formula (2.29)"
 
 
 def excess(order: int, surface_strain: float) -> float:
@@ -98,10 +98,9 @@ def _formula(page: Page, found: Mapping[tuple[str, int], Mapping[float, float]])
         rows,
     )
     page.text(
-        "The formula holds neither length nor nodes of an element, and none are seen. What is left at order 4 "
-        "with 8 Gauss points is the quadrature: with held directors the neutral line moves by twice as much as in "
-        "a sheet, so that no single factor belongs to a rule (1.0115, that of 8 points, is right for a neutral line "
-        "at the mid-surface)."
+        "The formula contains neither length nor nodes of an element, and the results do not depend on them. The rest "
+        "at order 4 with 8 Gauss points is quadrature: with held directors the neutral line moves twice as far as in a "
+        "sheet, so a rule has no single factor (1.0115 of 8 points holds for a neutral line at the mid-surface)."
     )
 
 
@@ -151,9 +150,9 @@ def _free_hill(page: Page) -> None:
     columns = ("element", *(f"strain {x:g}" for x in strains), f"thickness at {strains[-1]:g}")
     page.table("Perfect plasticity: moment over that of Hill, and thickness over h", columns, rows)
     page.text(
-        f"Hill's sheet is rigid-plastic. An elastic-plastic one falls below him, as the last row shows "
-        f"({100 * (ratios[-1] - 1):+.1f} % at {strains[-1]:g}): it thins to {bending.thickness_now:.3f} of h, and "
-        "where the neutral fibre passes the material first unloads."
+        f"Hill's sheet is rigid-plastic. An elastic-plastic one has a smaller moment ({100 * (ratios[-1] - 1):+.1f} % "
+        f"at {strains[-1]:g}, last row): it thins to {bending.thickness_now:.3f} of h, and the material unloads where "
+        "the neutral fibre passes."
     )
 
 
@@ -200,18 +199,19 @@ CASE = Case(
     name="bend-moment",
     title="Moment of a sharp plastic bend",
     problem=f"""
-One element in plane strain (h = 1, length 0.25 and 0.1, width 1) between two sections of an arc, bent by 100 increments
-of curvature from flat; all nodes on circles, no axial force. Held: the directors keep the length h and the
-stretch of the mid-line is unknown. Free: the radii of all layers of nodes are unknown, which is a sheet in pure
-bending. J2 plasticity, kappa = {KAPPA:g}, mu = 80770, y0 = {YIELD_STRESS:g}; perfect, or with H = {HARDENING:g} MPa.
-Elements above order 1 have E_33 tied; 12 points of the split rule where nothing is said. Surface strain k h / 2 =
-h / (2 R).
+One element in plane strain (h = 1, length 0.25 and 0.1, width 1) between two sections of an arc, bent from flat by 100
+increments of curvature; all nodes on circles, no axial force. J2 plasticity, kappa = {KAPPA:g}, mu = 80770, y0 =
+{YIELD_STRESS:g}; perfect, or H = {HARDENING:g} MPa. Above order 1 E_33 is tied; 12 points of the split rule unless
+stated. Surface strain k h / 2 = h / (2 R).
+
+* Held: directors keep the length h; the stretch of the mid-line is unknown.
+* Free: the radii of all layers of nodes are unknown, as in a sheet in pure bending.
 """,
     reference="""
 Perfect plasticity: (2 / sqrt 3) y0 h^2 / 4 per width, Hill, The Mathematical Theory of Plasticity (1950), exact for a
-rigid-plastic sheet in plane strain; the theory of straight directors alone is 1 % above it at a surface strain of 0.2,
-eq. (2.32), elastic strains take 1 % off. With hardening: a stack of 32 layers, its convergence shown with 8 and 16.
-The false moment: closed form (2.29), the leading term.
+rigid-plastic sheet in plane strain; straight directors alone are 1 % above it at a surface strain of 0.2, eq. (2.32),
+elastic strains subtract 1 %. With hardening: a stack of 32 layers; convergence from 8 and 16. False moment: closed form
+(2.29), the leading term.
 """,
     own="with hardening, 32 layers, umform itself; Hill's closed form without",
     run=run,

@@ -88,12 +88,11 @@ def _without_hardening(page: Page, runs: Runs) -> None:
         row = [found.at(u) for (name, _), found in runs.items() if name == label]
         said.append(f"{label} {', '.join(f'{force:.1f}' for force in row)}")
     page.text(
-        f"Without hardening F({u:g}) on the three meshes, coarse to fine: {'; '.join(said)} N. A hinge "
-        "without hardening contracts to a length that the mesh sets: no answer to converge to, and no check. "
-        "That order 3 with E_33 tied meets a given continuum mesh to 3 % holds with hardening; without, it is luck of "
-        f"the mesh. On the finest mesh the hinge ends at R/h = {sharp[ORDER_3.label]:.2g} with order 3 and at "
-        f"{sharp['BEND8']:.2g} with BEND8; that on a coarse mesh one long element is the hinge, and on a fine one the "
-        "hinge becomes sharper than order 3 can follow, is an inference from these numbers."
+        f"Without hardening F({u:g}) on the three meshes, coarse to fine: {'; '.join(said)} N. A hinge without "
+        "hardening contracts to a length set by the mesh: there is no limit to converge to, and no check. Order 3 "
+        "with E_33 tied is within 3 % of a given continuum mesh only with hardening. On the finest mesh the hinge "
+        f"ends at R/h = {sharp[ORDER_3.label]:.2g} with order 3 and at {sharp['BEND8']:.2g} with BEND8: probably one "
+        "long element is the hinge on a coarse mesh, and on a fine one the hinge is too sharp for order 3."
     )
 
 
@@ -132,16 +131,16 @@ CASE = Case(
     title="The paper's strip over its cylinder, in plane strain",
     problem="""
 The strip of the [paper](bending-reproduction.md) in plane strain, h = 1 mm, kappa = 175000, mu = 80770, y0 = 160,
-linear hardening H = 500 and 0; forces on a width of 10 mm. Half length 60 mm, over a cylinder of R = 20 mm at x = 25
-mm, lower edge of x = 0 pushed down by 15 mm; penalty 100 N/mm^3, 2 x 2 contact points (18 nodes: 3 x 3). Order 1 as in
-the literature, orders above it with E_33 tied; 12 points of the split rule.
+linear hardening H = 500 and 0; forces on a width of 10 mm. Half length 60 mm, cylinder of R = 20 mm at x = 25 mm, lower
+edge of x = 0 pushed down by 15 mm; penalty 100 N/mm^3, 2 x 2 contact points (18 nodes: 3 x 3). Order 1 as in the
+literature, higher orders with E_33 tied; 12 points of the split rule.
 
 ![The strip over its cylinder, from the page of the paper's example](images/bending-reproduction-shape.png)
 """,
     reference="""
-CalculiX 2.20 with C3D20R and contact of surfaces, six layers, 1/6 mm in the hinge, the same penalty; four layers are
-1.3 % away at the end. It is made in two steps, the first of 0.01 mm: in its first step CalculiX takes a penetration for
-one of the mesh and removes it in proportion to the time. Beside it an own stack of four layers of EAS3DEAS of order 2.
+CalculiX 2.20, C3D20R, surface contact, six layers, 1/6 mm in the hinge, the same penalty; four layers are 1.3 % away.
+Two steps, the first of 0.01 mm, because in its first step CalculiX removes a penetration gradually. Also an own stack
+of four layers of EAS3DEAS of order 2.
 """,
     own="beside CalculiX, four layers of EAS3DEAS of order 2, umform itself",
     run=run,

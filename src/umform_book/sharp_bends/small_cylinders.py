@@ -117,8 +117,8 @@ def run(page: Page) -> None:
     page.figure("folds", plot(curves, "displacement u, mm", "force F, N", limits=(0, 150)), "BEND8 and stacks of four")
     _summary(page, errors)
     page.text(
-        "Over the cylinder of 5 h the strip lies on the tool at the end of the stroke, and the force more than doubles "
-        "in the last quarter of it: there it hangs on where the contact ends, and on the length of the elements."
+        "Over the cylinder of 5 h the strip lies on the tool at the end, and the force more than doubles in the last "
+        "quarter of the stroke: there it depends on the end of the contact, and on the length of the elements."
     )
 
 
@@ -143,15 +143,15 @@ CASE = Case(
     title="Folding over cylinders of 1 to 10 thicknesses",
     problem=f"""
 Plane strain, h = 1 mm, kappa = 175000, mu = 80770, y0 = 160, H = {HARDENING:g}; forces on a width of 10 mm. Half of a
-strip lies on a cylinder at x = 0, its symmetry plane; the lower edge of its end is pushed down. Half length
-{SHORT.length:g} mm and {SHORT.stroke:g} mm down over the cylinders of radius 1, 2 and 5 mm, {LONG.length:g} mm and
-{LONG.stroke:g} mm over that of 10 mm; penalty 5000 N/mm^3, 5 x 5 contact points. Order 1 as in the literature,
-orders above with E_33 tied; 12 points of the split rule, in stacks of two and four 4 Gauss points a layer, of eight 3.
+strip lies on a cylinder at x = 0; the lower edge of its end is pushed down. Cylinders of 1, 2 and 5 mm: half length
+{SHORT.length:g} mm, stroke {SHORT.stroke:g} mm; of 10 mm: {LONG.length:g} mm and {LONG.stroke:g} mm. Penalty 5000
+N/mm^3, 5 x 5 contact points. Order 1 as in the literature, higher orders with E_33 tied; 12 points of the split rule,
+in stacks of two and four 4 Gauss points a layer, of eight 3.
 """,
     reference="""
-Own stack of four layers of EAS3DEAS of order 2 with elements of length h/4 (largest cylinder: h/2); eight layers stand
-beside it over the smallest. Over the largest also CalculiX: four layers of C3D20R of length h/2 with contact of
-surfaces and the same penalty. Uncertainty: the difference of four and eight layers, which the checks show.
+Own stack of four layers of EAS3DEAS of order 2, length h/4 (largest cylinder: h/2); eight layers over the smallest.
+Over the largest also CalculiX: four layers of C3D20R, length h/2, surface contact, the same penalty. Uncertainty: the
+difference of four and eight layers (checks).
 """,
     own="four layers of EAS3DEAS of order 2, umform itself; CalculiX beside it over the largest cylinder",
     run=run,

@@ -13,6 +13,7 @@ from umform_book.page import Page
 from umform_book.plastic.bent_sheet import bend
 from umform_book.plastic.curves import Lines, lines_figure
 from umform_book.plastic.plane_strain import Section, bending_path
+from umform_book.printed import about
 from umform_book.sharp_bends.arc_bending import ArcBending
 from umform_book.sharp_bends.candidates import BEND8, BEND18, Candidate, stack, steel
 from umform_book.sharp_bends.cantilever import (
@@ -98,8 +99,8 @@ def _orders(page: Page, exact: Floats) -> None:
     low = last["split", 12, 1]
     page.text(
         f"At order 1 the set is up to {-float(low.min()):.0f} % too small: E_33 has a kink where flow begins (elastic "
-        "nu/(1 - nu) of the strain along the sheet, plastic all of it), a low order smooths it, and the stress through "
-        "the thickness that this leaves lets the outer fibres flow too late."
+        "nu/(1 - nu) of the strain along the sheet, plastic all of it). A low order smooths it; the stress through the "
+        "thickness that remains delays the flow of the outer fibres."
     )
 
 
@@ -123,9 +124,9 @@ def _points(page: Page, curve: tuple[Floats, Floats]) -> None:
     page.at_most("12 graded points: worst error of the permanent set, in a section", worst["graded", 12] / 100.0, 0.025)
     best = min(error for (rule, n), error in worst.items() if n <= 12 and rule != "graded") / 100.0
     page.text(
-        f"The best other rule of 12 points or fewer errs by {100 * best:.1f} %. The kink of the stress lies where flow "
-        "begins, between 0.9 and 0.3 of the half thickness at 1.1 to 1.45 My, and the points must be the denser the "
-        "nearer to the face it is; Gauss points of each half are dense at the mid-surface too, where nothing happens."
+        f"The best other rule of 12 points or fewer errs by {100 * best:.1f} %. The stress has a kink where flow "
+        "begins, between 0.9 and 0.3 of the half thickness at 1.1 to 1.45 My, so points must be dense near the faces; "
+        "Gauss points of each half are also dense at the mid-surface, where they are wasted."
     )
 
 
@@ -143,11 +144,11 @@ def _elements(page: Page, exact: Floats) -> None:
     rows: list[tuple[str | float | int, ...]] = []
     for label, name, options in page.each(page.pick(runs, runs[4:5]), lambda r: r[0]):
         errors = _percent(cantilever_sets(page, label, name, LEVELS, **options), exact)
-        rows.append((label, *map(float, errors), page.balances[-1].iterations))
+        rows.append((label, *map(float, errors), about(page.balances[-1].iterations)))
         if not options:
             for level, error in zip(LEVELS, errors, strict=True):
                 page.check(f"{label}: permanent set at {level:g} My", 1.0 + error / 100.0, 1.0, WITHIN)
-    columns = ("element", *(f"{level:g} My" for level in LEVELS), "iterations")
+    columns = ("element", *(f"{level:g} My" for level in LEVELS), "iterations, about")
     page.table("Error in % of the permanent deflection of the tip", columns, rows)
 
 
@@ -193,8 +194,8 @@ def _sharp(page: Page) -> None:
     columns = ("element", "permanent curvature", "springback")
     page.table("Error in %, against a stack of 16 elements", columns, rows)
     page.text(
-        "At R/h = 1 the springback of the curvature is 6 to 7 % too large: the straight director of one element, which "
-        "the stack does not have. It is 1.5 % of the curvature, and the permanent curvature hardly feels it."
+        "At R/h = 1 the springback of the curvature is 6 to 7 % too large, because of the straight director of one "
+        "element. It is 1.5 % of the curvature, so the permanent curvature hardly changes."
     )
 
 
@@ -217,15 +218,16 @@ CASE = Case(
     name="bend-springback",
     title="Springback of mild and sharp bends",
     problem=f"""
-(a) A wide cantilever, {LENGTH:g} long and {THICKNESS:g} thick, kappa = 175000, mu = 80770, yield stress 160, H =
-{HARDENING:g} (N, mm), plane strain, with a force at its tip that bends the root to {LEVELS[0]:g} ... {LEVELS[-1]:g}
-times the yield moment, and is taken away. Measured: the permanent deflection. The mesh is fine in the third at the
-root. (b) Pure bending of the same sheet to 2, 5 and 25 times the yield curvature. (c) Pure bending to R/h = 1.
+* (a) A wide cantilever, {LENGTH:g} long and {THICKNESS:g} thick, kappa = 175000, mu = 80770, yield stress 160, H =
+  {HARDENING:g} (N, mm), plane strain. A force at its tip bends the root to {LEVELS[0]:g} ... {LEVELS[-1]:g} times the
+  yield moment, and is removed. Measured: permanent deflection. The mesh is fine in the third at the root.
+* (b) Pure bending of the same sheet to 2, 5 and 25 times the yield curvature.
+* (c) Pure bending to R/h = 1.
 """,
     reference="""
-(a) Moment over curvature of 1000 fibres, each in plane strain with sigma_33 = 0, J2 in logarithmic principal strains
-(numpy); then the permanent curvature integrated along the cantilever, whose loaded shape is the elastica. Shear is
-left out: the equivalent stress is higher by 3e-5 in the root. (b) The same fibres. (c) A stack of 16 elements.
+(a) Moment over curvature of 1000 fibres in plane strain with sigma_33 = 0, J2 in logarithmic principal strains (numpy);
+the permanent curvature is integrated along the elastica of the loaded cantilever. Shear is neglected: 3e-5 of the
+equivalent stress in the root. (b) The same fibres. (c) A stack of 16 elements.
 """,
     own="(c), a stack of 16 elements of umform; (a) and (b) are fibres integrated in numpy",
     run=run,

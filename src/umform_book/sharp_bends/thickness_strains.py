@@ -12,6 +12,7 @@ from umform.materials import NeoHooke
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
 from umform_book.page import Page
+from umform_book.printed import about
 from umform_book.sharp_bends.arc_bending import ArcBending
 from umform_book.sharp_bends.candidates import of_order, stack
 from umform_book.sharp_bends.section import BentSection, ThicknessStrain
@@ -117,8 +118,8 @@ def _hinge(page: Page) -> None:
     found = {c.label: bend(page, HINGE, c, 50) for c in page.each(candidates, lambda c: f"hinge, {c.label}")}
     marks = (5.0, 10.0, 15.0, 20.0)
     rows: list[tuple[str | float, ...]] = []
-    rows += [(label, *(b.at(u) for u in marks), b.radius, b.iterations) for label, b in found.items()]
-    columns = ("element", *(f"F({u:g})" for u in marks), "least R/h at the end", "iterations")
+    rows += [(label, *(b.at(u) for u in marks), b.radius, about(b.iterations)) for label, b in found.items()]
+    columns = ("element", *(f"F({u:g})" for u in marks), "least R/h at the end", "iterations, about")
     page.table("Three-point bend, H = 100 MPa, elements of length h/2, force in N on a width of 10 mm", columns, rows)
     order_4, free = (found[c.label].at(20.0) for c in (candidates[0], candidates[2]))
     page.check("three-point bend, F(20): order 4 against order 11", order_4, free, 0.01)
@@ -126,7 +127,7 @@ def _hinge(page: Page) -> None:
 
 def _squeezed(page: Page) -> None:
     """Whose the negative eigenvalues of a squeezed patch are: of the order or of the tying?"""
-    page.heading("What a stabilisation would have to cure")
+    page.heading("Negative eigenvalues that a stabilisation would address")
     law = NeoHooke(E=1000.0, nu=0.3)
     state = next(s for s in STATES if s.name == "through the thickness 0.5")
     stretches = {state.name: stress_free(state, law, (1.0,))}
@@ -159,7 +160,7 @@ def _figures(page: Page, perfect: Ratios, hardening: Ratios) -> None:
 
 
 def _verdict(page: Page, perfect: Ratios, hardening: Ratios) -> None:
-    page.heading("What is taken, and why")
+    page.heading("Choice and reasons")
 
     def off(found: Ratios, strain: ThicknessStrain, at: int) -> str:
         return f"{100 * (float(found[strain.label][at]) - 1):+.1f} %"
@@ -180,25 +181,23 @@ def _verdict(page: Page, perfect: Ratios, hardening: Ratios) -> None:
     gains = [float(gain[HARDENING_STRAINS.index(x)]) for x in (0.3, 0.5)]
     page.text(
         f"""\
-* **Order 4** ({pairs["four"]}): three parameters more than the literature on 8 nodes, all of them data. An elastic law
-  has it in BEND8 and BEND18.
+* **Order 4** ({pairs["four"]}): three parameters more than the literature on 8 nodes. Used in BEND8 and BEND18 with an
+  elastic law.
 * **S_33 linear in t, E_33 solved at each point** ({pairs["free"]}) is the limit of the orders. Its linear part
-  vanishes with the mode t, so S_33 is constant over the thickness. It needs no new code: order 11 with 12 points is
-  this element. It gains {gains[0]:.1f} % at a surface strain of 0.3 and {gains[1]:.1f} % at 0.5 (R/h = 1), and takes 11
-  parameters where order 4 takes 4. Taken for plastic laws, not for sharp bends but for
-  [springback](bend-springback.md): it is the complete order.
-* **The logarithm of the thickness stretch** ({pairs["logarithm"]}) meets the volume with one order less, and is
-  wrong all the same: what it makes constant is S_33 C_33, the Kirchhoff stress across the sheet, and that costs
-  (2/3) x² of the moment, eq. (2.39). The error does not fall with the order. Not taken.
-* **Averaged volumetric part.** Its mean alone halves the moment
-  ({float(perfect[AVERAGED[0].label][a]):.2f} of Hill's): the pressure must jump where the flow changes its sign.
-  Linear in t with order 1 it is free of locking with three parameters ({pairs["linear"]}), and too soft. Quadratic
-  with order 2 it is as good as order 4 ({pairs["quadratic"]}) for five. Not taken: it asks a law to give its
-  volumetric part apart, which user laws and data rows cannot.
+  vanishes with the mode t, so S_33 is constant over the thickness. Order 11 with 12 points is this element. It gains
+  {gains[0]:.1f} % at a surface strain of 0.3 and {gains[1]:.1f} % at 0.5 (R/h = 1), with 11 parameters instead of 4.
+  Used for plastic laws because of [springback](bend-springback.md): the complete order.
+* **The logarithm of the thickness stretch** ({pairs["logarithm"]}) keeps the volume with one order less, but makes
+  S_33 C_33 constant, the Kirchhoff stress across the sheet, which loses (2/3) x² of the moment, eq. (2.39). The error
+  does not fall with the order. Not used.
+* **Averaged volumetric part.** The mean alone halves the moment ({float(perfect[AVERAGED[0].label][a]):.2f} of Hill's):
+  the pressure must jump where the flow changes its sign. Linear in t with order 1 it does not lock, with three
+  parameters ({pairs["linear"]}), but is too soft. Quadratic with order 2 it equals order 4 ({pairs["quadratic"]}) with
+  five. Not used: a law would have to give its volumetric part separately, which user laws and tables cannot.
 * **Stabilised enhancement.** c mu a_j^2 on the orders above 1 stiffens a sharp bend in proportion: c = 0.01
-  has {pairs["stabilised"]}. And there is nothing to cure: in the one state where BEND8 has more negative eigenvalues
-  than the literature's element, the table above shows that they come with the tying of E_33 and not with the order.
-  Not taken."""
+  has {pairs["stabilised"]}. It is not needed: in the one state where BEND8 has more negative eigenvalues than the
+  element of the literature, they come with the tying of E_33 and not with the order (table above).
+  Not used."""
     )
 
 
@@ -219,18 +218,18 @@ CASE = Case(
     name="bend-candidates",
     title="Which thickness strain? The candidates",
     problem=f"""
-A section in pure plastic bending by itself: straight director of free length, 60 points through the thickness, plane
-strain, no axial force, 100 increments of curvature. It has the stretches of mid-line and director, and one of: E_33
-with Legendre polynomials up to an order in t (what the elements have); E_33 free at each point, which makes S_33
-constant; the same polynomials in the logarithm of the thickness stretch; order 1 or 2 with the logarithm of the volume
-change projected on polynomials in t; order 4 with a stabilisation c mu of its parameters. J2, kappa = 175000, mu =
-80770, y0 = 160, perfect or with H = {HARDENING:g} MPa. Parameters: of E_33 + of the pressure.
+A section in pure plastic bending: straight director of free length, 60 points through the thickness, plane strain, no
+axial force, 100 increments of curvature. Besides the stretches of mid-line and director it has one of: E_33 with
+Legendre polynomials up to an order in t (the elements); E_33 free at each point (constant S_33); the same polynomials
+in the logarithm of the thickness stretch; order 1 or 2 with the logarithm of the volume change projected on polynomials
+in t; order 4 with a stabilisation c mu. J2, kappa = 175000, mu = 80770, y0 = 160, perfect or H = {HARDENING:g} MPa.
+Parameters: of E_33 + of the pressure.
 
 ![A sheet in pure bending, from the page of the moment](images/bend-moment-shape.png)
 """,
     reference="""
 Perfect plasticity: Hill, The Mathematical Theory of Plasticity (1950), exact for a rigid-plastic sheet; an elastic one
-of 16 layers is 1.3 % below at 0.2, see [moment](bend-moment.md). Hardening: a stack of 32 layers, 0.4 % from one of 16
+of 16 layers is 1.3 % below at 0.2 ([moment](bend-moment.md)). Hardening: a stack of 32 layers, 0.4 % from one of 16
 (same page).
 """,
     own="with hardening, 32 layers, umform itself; Hill's closed form without",

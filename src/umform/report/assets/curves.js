@@ -114,6 +114,7 @@ class Curves {
 
   // Dots at the row under the cursor, or at that of the frame in the picture above.
   mark() {
+    if (!this.size) return; // nothing is drawn where there is no room yet
     const row = this.row ?? this.frame;
     const x = element("curves-x").value;
     this.marks.replaceChildren();

@@ -15,7 +15,7 @@ class ShapeView {
     this.world = new THREE.Scene();
     this.world.add(this.sheet.mesh, this.sheet.lines, this.sheet.axes, ...this.tools.map((tool) => tool.group));
     this.images = new THREE.Group();
-    this.images.add(...[this.sheet, ...this.tools].flatMap((body) => body.images));
+    for (const image of [this.sheet, ...this.tools].flatMap((body) => body.images)) this.images.add(image);
     this.world.add(this.images);
     this.camera = new THREE.OrthographicCamera();
     this.camera.up.set(0, 0, 1);

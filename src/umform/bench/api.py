@@ -1,0 +1,217 @@
+"""What the page asks for: the form looked at, jobs, their files, decks; all of it JSON."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Callable
+from dataclasses import asdict
+from typing import Any
+
+from pydantic import ValidationError
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
+from starlette.routing import Route
+
+from umform.bench.decks import checked_deck, known_templates, schema_text, template_text, title_of
+from umform.bench.folders import RESULTS, SHAPE
+from umform.bench.index import Job
+from umform.bench.jobs import MOST_WAITING, Queue, result_file
+from umform.bench.library import library
+from umform.bench.look import look, said
+from umform.bench.wanted import Wanted, problems_of
+from umform.deck.results import FILES as DECK_FILES
+from umform.errors import InvalidValue, UmformError
+from umform.processes.air_bending.files import RESULTS as BEND_FILES
+from umform.processes.air_bending.measures import QUANTITIES
+
+_FILES = frozenset({*BEND_FILES, *DECK_FILES, SHAPE})
+#: Reports run their own programs: as a page of no origin, which cannot ask this server for anything.
+_SANDBOX = "sandbox allow-scripts allow-downloads allow-popups"
+_SHOWN = (".html", ".png", ".svg")
+#: Most bends of a table that is ordered at once.
+_MOST_AT_ONCE = 60
+_Json = dict[str, Any]
+
+
+def routes(queue: Queue) -> list[Route]:
+    """All routes of the page's questions."""
+    api = _Api(queue)
+    get: dict[str, Callable[[Request], _Json | Response]] = {
+        "/api/library": lambda request: library(),
+        "/api/jobs": api.jobs,
+        "/api/jobs.csv": api.table,
+        "/api/jobs/{name}": api.job,
+        "/api/jobs/{name}/curve": api.curve,
+        "/api/decks": lambda request: {"templates": known_templates()},
+        "/api/decks/schema": lambda request: Response(schema_text(), media_type="application/json"),
+        "/api/decks/template/{name}": lambda request: {"text": template_text(request.path_params["name"])},
+        "/files/{name}/{file}": api.file,
+    }
+    post: dict[str, Callable[[Any, Request], _Json]] = {
+        "/api/look": lambda body, request: look(body),
+        "/api/jobs": api.add,
+        "/api/decks/check": lambda body, request: checked_deck(_text(body), queue.folder),
+        "/api/decks/jobs": api.add_deck,
+        "/api/jobs/{name}/stop": api.stop,
+        "/api/jobs/{name}/resume": api.resume,
+        "/api/jobs/{name}/remove": api.remove,
+    }
+    return [
+        *(Route(path, _answering(ask), methods=["GET"]) for path, ask in get.items()),
+        *(Route(path, _taking(ask), methods=["POST"]) for path, ask in post.items()),
+    ]
+
+
+def _answering(ask: Callable[[Request], _Json | Response]) -> Callable[[Request], Any]:
+    async def endpoint(request: Request) -> Response:
+        try:
+            answer = await run_in_threadpool(ask, request)
+        except UmformError as error:
+            return JSONResponse(said(error), 404)
+        return answer if isinstance(answer, Response) else JSONResponse(answer)
+
+    return endpoint
+
+
+def _taking(ask: Callable[[Any, Request], _Json]) -> Callable[[Request], Any]:
+    async def endpoint(request: Request) -> Response:
+        if request.headers.get("content-type", "").split(";")[0] != "application/json":
+            return PlainTextResponse("a question is JSON", 415)
+        try:
+            body = json.loads(await request.body(), parse_constant=_no_constant)
+        except (ValueError, RecursionError):
+            return JSONResponse({"what": "the question is no JSON"}, 400)
+        try:
+            return JSONResponse(await run_in_threadpool(ask, body, request))
+        except ValidationError as error:
+            return JSONResponse({"what": "the form has mistakes", "problems": problems_of(error)}, 422)
+        except UmformError as error:
+            return JSONResponse({**said(error), "problems": [said(error)]}, 422)
+
+    return endpoint
+
+
+def _no_constant(name: str) -> None:
+    raise ValueError(name)
+
+
+def _text(body: Any) -> str:
+    """The text of a deck."""
+    if not isinstance(body, dict) or not isinstance(body.get("text"), str):
+        raise InvalidValue("a deck is a text", where="text")
+    return str(body["text"])
+
+
+class _Api:
+    """The questions about jobs."""
+
+    def __init__(self, queue: Queue) -> None:
+        self.queue = queue
+
+    def jobs(self, request: Request) -> _Json:
+        """All jobs, the latest first, and how far those are that run."""
+        jobs = self.queue.index.jobs()
+        return {"jobs": [self._row(job) for job in reversed(jobs[-500:])]}
+
+    def job(self, request: Request) -> _Json:
+        """A job, with its numbers, what it tells of its run, and its files."""
+        job = self._known(request)
+        folder = self.queue.place(job.id)
+        files = [file for file in sorted(_FILES) if (folder / RESULTS / file).is_file()]
+        shape = (folder / SHAPE).is_file()
+        return {**asdict(job), "live": self.queue.live(job.id), "files": files, "has_shape": shape}
+
+    def _row(self, job: Job) -> _Json:
+        row = asdict(job)
+        measures = job.summary.get("measures", {})
+        live = self.queue.live(job.id) if job.state == "running" else {}
+        row["summary"] = {"measures": measures, "seconds": job.summary.get("seconds")}
+        return row | {"fraction": live.get("fraction", 0.0), "phase": live.get("phase", "")}
+
+    def _known(self, request: Request) -> Job:
+        name = request.path_params["name"]
+        job = self.queue.index.job(name)
+        if job is None:
+            raise InvalidValue("there is no such job", where="job", value=name[:40])
+        return job
+
+    def add(self, body: Any, request: Request) -> _Json:
+        """Order bends: one form, or a list of them as a series."""
+        forms = body.get("forms") if isinstance(body, dict) else None
+        if not isinstance(forms, list) or not 1 <= len(forms) <= min(_MOST_AT_ONCE, MOST_WAITING):
+            raise InvalidValue(f"1 to {_MOST_AT_ONCE} bends are ordered at once", where="forms")
+        wanted = [Wanted.model_validate(form) for form in forms]
+        refused = []
+        for number, one in enumerate(wanted):
+            try:
+                one.case()
+            except UmformError as error:
+                if len(wanted) == 1:
+                    raise
+                refused.append({**said(error), "form": number, "title": one.title})
+                wanted[number] = None  # type: ignore[call-overload]
+        series = str(body.get("series", ""))[:80]
+        names = [
+            self.queue.add("bend", one.title, one.model_dump(), series=series) for one in wanted if one is not None
+        ]
+        return {"jobs": names, "refused": refused}
+
+    def add_deck(self, body: Any, request: Request) -> _Json:
+        """Order the run of a deck."""
+        text = _text(body)
+        title = title_of(text)
+        return {"jobs": [self.queue.add("deck", title, {}, deck=text)]}
+
+    def stop(self, body: Any, request: Request) -> _Json:
+        """Stop a job."""
+        self.queue.stop(self._known(request).id)
+        return {}
+
+    def resume(self, body: Any, request: Request) -> _Json:
+        """Take a job up."""
+        self.queue.resume(self._known(request).id)
+        return {}
+
+    def remove(self, body: Any, request: Request) -> _Json:
+        """Forget a job."""
+        self.queue.remove(self._known(request).id)
+        return {}
+
+    def curve(self, request: Request) -> _Json:
+        """The curve of a bend from its file."""
+        path = result_file(self.queue, self._known(request).id, "curve.csv", _FILES)
+        with path.open(newline="") as text:
+            rows = list(csv.DictReader(text))
+        return {"x": [float(row["stroke"]) for row in rows], "y": [float(row["force"]) for row in rows]}
+
+    def file(self, request: Request) -> Response:
+        """A file of a job."""
+        name, file = request.path_params["name"], request.path_params["file"]
+        path = result_file(self.queue, name, file, _FILES)
+        kind = "inline" if path.suffix in _SHOWN else "attachment"
+        headers = {"content-security-policy": _SANDBOX} if path.suffix in (".html", ".svg") else {}
+        return FileResponse(path, filename=path.name, content_disposition_type=kind, headers=headers)
+
+    def table(self, request: Request) -> Response:
+        """Some jobs as a table with all measures."""
+        names = request.query_params.get("ids", "")[:20000].split(",")[:500]
+        jobs = [job for job in map(self.queue.index.job, names) if job is not None and "measures" in job.summary]
+        shown = ("material", "thickness", "opening", "die_angle", "punch_angle", "punch_radius", "length")
+        text = io.StringIO()
+        table = csv.writer(text)
+        units = [f"{name} {one.unit}".strip() for name, one in QUANTITIES.items()]
+        table.writerow(["job", "title", *shown, "wanted_angle", *units])
+        for job in jobs:
+            given, found = job.parameters, job.summary["measures"]
+            cells = [_cell(given.get(name)) for name in (*shown, "angle")]
+            table.writerow([job.number, _cell(job.title), *cells, *(found.get(name) for name in QUANTITIES)])
+        headers = {"content-disposition": 'attachment; filename="bends.csv"'}
+        return Response(text.getvalue(), media_type="text/csv", headers=headers)
+
+
+def _cell(value: Any) -> Any:
+    """A text that no spreadsheet takes for a formula."""
+    return f"'{value}" if isinstance(value, str) and value[:1] in "=+-@\t\r" else value

@@ -1,0 +1,83 @@
+"""Decks on the page: templates, schema, and the check, which has a process of its own and a limit of time."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tempfile
+import tomllib
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from umform.bench.jobs import LONGEST_DECK
+from umform.deck import templates
+from umform.errors import InvalidValue
+
+#: Seconds that a check may take.
+_LONGEST_CHECK = 60.0
+
+
+def known_templates() -> list[dict[str, str]]:
+    """Names and titles of the decks to start from."""
+    return [{"name": name, "title": title} for name, title in templates.templates().items()]
+
+
+def template_text(name: str) -> str:
+    """Text of a template."""
+    return templates.template(name)
+
+
+@cache
+def schema_text() -> str:
+    """The JSON schema of decks."""
+    from umform.deck.contents import json_schema
+
+    return json_schema()
+
+
+def title_of(text: str) -> str:
+    """The title in a deck, or its beginning; the deck may be wrong."""
+    try:
+        title = tomllib.loads(text[:LONGEST_DECK]).get("title")
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError):
+        title = None
+    return str(title)[:80] if title else "deck"
+
+
+def checked_deck(text: str, folder: Path) -> dict[str, Any]:
+    """What `umform check` finds in a deck.
+
+    Parameters
+    ----------
+    text : str
+        The deck.
+    folder : Path
+        Where files that it names are looked for.
+
+    Returns
+    -------
+    dict
+        ``findings``: level, about, text, remedy of each.
+    """
+    if len(text) > LONGEST_DECK:
+        raise InvalidValue(f"a deck has at most {LONGEST_DECK} letters here", where="deck", remedy="umform check")
+    with tempfile.TemporaryDirectory(prefix="umform-bench-") as place:
+        path = Path(place) / "deck.toml"
+        path.write_text(text, encoding="utf-8")
+        command = [sys.executable, "-m", "umform.bench.check_deck", str(path), str(folder)]
+        try:
+            done = subprocess.run(command, capture_output=True, timeout=_LONGEST_CHECK, stdin=subprocess.DEVNULL)
+            findings = json.loads(done.stdout)
+        except subprocess.TimeoutExpired:
+            findings = [
+                _error(f"the check has not ended within {_LONGEST_CHECK:g} s", "a smaller model, or umform check")
+            ]
+        except ValueError:
+            findings = [_error("the check has died", "a smaller mesh: it may need more memory than there is")]
+    return {"findings": findings}
+
+
+def _error(text: str, remedy: str) -> dict[str, str]:
+    return {"level": "error", "about": "check", "text": text, "remedy": remedy}

@@ -1,0 +1,145 @@
+"""Who may ask: a browser of this machine, on a page of this server, with the token of the link; nobody else."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Iterable
+from http.cookies import CookieError, SimpleCookie
+from urllib.parse import parse_qs
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.responses import JSONResponse, PlainTextResponse, Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+#: Bytes of a request: a deck, and room.
+LONGEST_BODY = 1_000_000
+_OPEN = "/assets/"
+_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
+    "connect-src 'self'; frame-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'self'"
+)
+_HEADERS = {
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+    "cross-origin-resource-policy": "same-origin",
+    "cross-origin-opener-policy": "same-origin",
+}
+
+
+class TooLong(Exception):
+    """A body of more bytes than are taken."""
+
+
+class Guard:
+    """Refuses requests of other origins and names, without the token, or too long; adds headers to all answers.
+
+    Parameters
+    ----------
+    app : ASGIApp
+        What answers the others.
+    token : str
+        The secret of the link.
+    port : int
+        Port of the server.
+    """
+
+    def __init__(self, app: ASGIApp, token: str, port: int) -> None:
+        self.app, self.token = app, token
+        self.hosts = frozenset(f"{name}:{port}" for name in ("127.0.0.1", "localhost"))
+        self.cookie = f"umform-bench-{port}"
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request, or hand it on."""
+        if scope["type"] == "lifespan":
+            await self.app(scope, receive, send)
+            return
+        if scope["type"] != "http":
+            return
+        headers = Headers(scope=scope)
+        refusal = self._refusal(scope, headers)
+        if refusal is not None:
+            await refusal(scope, receive, _with(send, _HEADERS.items()))
+            return
+        more = dict(_HEADERS)
+        if not scope["path"].startswith("/files/"):
+            more["content-security-policy"] = _POLICY
+        if not scope["path"].startswith(_OPEN):
+            more["cache-control"] = "no-store"
+        if self._in_link(scope):
+            more["set-cookie"] = f"{self.cookie}={self.token}; Path=/; HttpOnly; SameSite=Strict"
+        began = False
+
+        async def watched(message: Message) -> None:
+            nonlocal began
+            began = began or message["type"] == "http.response.start"
+            await send(message)
+
+        try:
+            await self.app(scope, _limited(receive), _with(watched, more.items()))
+        except TooLong:
+            if not began:
+                await _too_long()(scope, receive, _with(send, _HEADERS.items()))
+
+    def _refusal(self, scope: Scope, headers: Headers) -> Response | None:
+        """Why a request is refused, as an answer; None if it is not."""
+        if headers.get("host", "") not in self.hosts:
+            return PlainTextResponse("this server has another name", 421)
+        origin = headers.get("origin")
+        if origin is not None and origin.removeprefix("http://") not in self.hosts:
+            return PlainTextResponse("a page of another origin may not ask", 403)
+        if headers.get("sec-fetch-site", "none") not in ("none", "same-origin") and scope["path"] != "/":
+            return PlainTextResponse("a page of another origin may not ask", 403)
+        length = headers.get("content-length", "0")
+        if not (length.isdecimal() and len(length) < 12 and int(length) <= LONGEST_BODY):
+            return _too_long()
+        if scope["path"].startswith(_OPEN) or self._in_link(scope) or self._in_cookie(headers):
+            return None
+        return PlainTextResponse("open the link with its token, which `umform bench` has printed", 401)
+
+    def _in_link(self, scope: Scope) -> bool:
+        given = parse_qs(scope["query_string"].decode("latin-1")[:500]).get("token", [""])[0] if _is_page(scope) else ""
+        return secrets.compare_digest(given.encode(), self.token.encode())
+
+    def _in_cookie(self, headers: Headers) -> bool:
+        try:
+            given = SimpleCookie(headers.get("cookie", "")[:8000]).get(self.cookie)
+        except CookieError:
+            return False
+        return given is not None and secrets.compare_digest(given.value.encode(), self.token.encode())
+
+
+def _is_page(scope: Scope) -> bool:
+    return bool(scope["path"] == "/" and scope["method"] == "GET")
+
+
+def _too_long() -> Response:
+    return JSONResponse({"what": f"a request has at most {LONGEST_BODY} bytes"}, 413)
+
+
+def _limited(receive: Receive) -> Receive:
+    """Receive no more than a body may have, whatever its header says."""
+    taken = 0
+
+    async def limited() -> Message:
+        nonlocal taken
+        message = await receive()
+        taken += len(message.get("body", b""))
+        if taken > LONGEST_BODY:
+            raise TooLong
+        return message
+
+    return limited
+
+
+def _with(send: Send, headers: Iterable[tuple[str, str]]) -> Send:
+    """Send an answer with more headers; those that it has stay."""
+    more = list(headers)
+
+    async def adding(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            own = MutableHeaders(scope=message)
+            for name, value in more:
+                own.setdefault(name, value)
+        await send(message)
+
+    return adding

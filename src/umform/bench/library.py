@@ -1,0 +1,77 @@
+"""What the form offers: sheet metals, dies and punches; and the tools with which an angle can be reached."""
+
+from __future__ import annotations
+
+import tomllib
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from umform import sheet_metals
+from umform.bench.wanted import MESHES, Wanted
+from umform.errors import UmformError
+from umform.processes.air_bending.measures import QUANTITIES
+
+#: Degrees between the wanted angle and that of the tools which leave room for springback.
+ROOM = 4.0
+
+
+@cache
+def tools() -> dict[str, Any]:
+    """Dies, angles of dies, and punches."""
+    return tomllib.loads(files("umform.bench").joinpath("tools.toml").read_text(encoding="utf-8"))
+
+
+@cache
+def library() -> dict[str, Any]:
+    """All that the page offers: metals, tools, meshes, quantities, defaults."""
+    metals = [
+        {
+            "name": metal.name,
+            "number": metal.number,
+            "yield_stress": metal.yield_stress,
+            "tensile_strength": metal.tensile_strength,
+            "uniform_elongation": round(100.0 * metal.uniform_elongation, 1),
+            "directional": getattr(metal.law, "directional", False),
+            "card": metal.name in sheet_metals.cards(),
+            "source": metal.source,
+            "basis": metal.basis,
+            "caveat": metal.caveat,
+        }
+        for metal in map(sheet_metals.get, (*sheet_metals.names(), *sheet_metals.cards()))
+    ]
+    quantities = {
+        name: {"label": quantity.label, "unit": quantity.unit, "decimals": quantity.decimals}
+        for name, quantity in QUANTITIES.items()
+    }
+    return {
+        "metals": metals,
+        "tools": tools(),
+        "meshes": list(MESHES),
+        "quantities": quantities,
+        "defaults": Wanted().model_dump(),
+    }
+
+
+def tools_for(wanted: Wanted) -> dict[str, float] | None:
+    """Die and punch of the library, nearest to those at hand, with which the wanted angle can be reached.
+
+    Returns
+    -------
+    dict of str to float or None
+        The parameters to change; None if there are none, or if no angle is wanted.
+    """
+    if wanted.angle is None:
+        return None
+    most = wanted.angle - ROOM
+    angles = [angle for angle in tools()["die_angles"] if angle <= most] or tools()["die_angles"][-1:]
+    punches = [punch for punch in tools()["punches"] if punch["angle"] <= most] or tools()["punches"][-1:]
+    for angle in angles:
+        for punch in sorted(punches, key=lambda one: -float(one["angle"])):
+            change = {"die_angle": angle, "punch_angle": punch["angle"], "punch_radius": punch["radius"]}
+            try:
+                wanted.model_copy(update={name: float(value) for name, value in change.items()}).case()
+            except UmformError:
+                continue
+            return {name: float(value) for name, value in change.items()}
+    return None

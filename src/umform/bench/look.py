@@ -1,0 +1,116 @@
+"""A look at a form before anything is run: outlines of the tools, what is wrong, what is unusual, what to expect."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from umform.bench.library import ROOM, tools_for
+from umform.bench.wanted import Wanted, problems_of
+from umform.deck.errors import DeckError
+from umform.errors import UmformError
+from umform.materials import J2, Metal
+from umform.processes.air_bending.formulas import FORCE_FACTORS, tensile_strength
+from umform.processes.air_bending.parameters import AirBending
+
+#: Openings over the thickness that are usual on a press brake.
+_NARROW, _WIDE = 5.0, 16.0
+#: Inside radius over the opening that the shop reckons with, for steel.
+_RADIUS = 0.16
+
+
+def look(values: object) -> dict[str, Any]:
+    """Look at the values of a form.
+
+    Parameters
+    ----------
+    values : object
+        What has come from the page; anything.
+
+    Returns
+    -------
+    dict
+        ``problems`` (nothing can be run while there are any), ``warnings``, and where they can be told ``drawing``,
+        ``expected`` and ``change`` (tools that would do).
+    """
+    try:
+        wanted = Wanted.model_validate(values)
+    except ValidationError as error:
+        return {"problems": problems_of(error), "warnings": []}
+    try:
+        case = wanted.at_tools()
+    except UmformError as error:
+        return {"problems": [said(error)], "warnings": [], "change": tools_for(wanted)}
+    found: dict[str, Any] = {"problems": [], "warnings": _warnings(wanted, case), "drawing": drawing(case)}
+    found["expected"] = _expected(wanted, case)
+    try:
+        wanted.case()
+    except UmformError as error:
+        found |= {"problems": [said(error)], "change": tools_for(wanted)}
+    else:
+        found["change"] = tools_for(wanted) if any(row["kind"] == "close" for row in found["warnings"]) else None
+    return found
+
+
+def said(error: UmformError) -> dict[str, Any]:
+    """An error in parts."""
+    if isinstance(error, DeckError) and len(error.errors) > 1:
+        return {**_parts(error), "all": [_parts(one) for one in error.errors[:50]]}
+    return _parts(error)
+
+
+def _parts(error: UmformError) -> dict[str, Any]:
+    value = "" if error.value is None else str(error.value)[:200]
+    parts = {"what": error.what, "where": error.where, "value": value, "cause": error.cause, "remedy": error.remedy}
+    return {"kind": "refused", **{name: str(text)[:2000] for name, text in parts.items()}}
+
+
+def drawing(case: AirBending) -> dict[str, Any]:
+    """Outlines of die and punch in mm, the punch where it touches the sheet; half of the sheet's length."""
+    far = 2.0 * case.half_length
+    chord = 2e-3 * case.opening
+    return {
+        "die": case.die.profile.points(chord, far).tolist(),
+        "punch": np.add(case.punch.profile.points(chord, far), (0.0, case.thickness)).tolist(),
+        "half_length": case.half_length,
+        "largest_stroke": case.largest_stroke,
+        "thickness": case.thickness,
+        "shoulder": case.shoulder,
+        "radii": case.punch_radius + case.thickness + case.die_radius,
+    }
+
+
+def _expected(wanted: Wanted, case: AirBending) -> dict[str, Any]:
+    """What the rules of the shop say before the run."""
+    strength = _strength(case.material, 0.0 if case.rolling is None else 90.0 - case.rolling)
+    low, high = (factor * strength * case.thickness**2 / case.opening for factor in FORCE_FACTORS)
+    return {
+        "tensile_strength": strength,
+        "force": [low, high],
+        "press": high * wanted.length / 1e3,
+        "radius": _RADIUS * case.opening,
+        "ratio": case.opening / case.thickness,
+    }
+
+
+@lru_cache(maxsize=256)
+def _strength(material: J2 | Metal, angle: float) -> float:
+    """Tensile strength of a law; a test in tension takes some milliseconds."""
+    return tensile_strength(material, angle)
+
+
+def _warnings(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
+    """What is unusual, by kind and numbers; the page puts it into words."""
+    ratio = case.opening / case.thickness
+    found: list[dict[str, Any]] = []
+    if not _NARROW <= ratio <= _WIDE:
+        found.append({"where": "opening", "kind": "ratio", "bounds": {"ratio": round(ratio, 1)}})
+    sharpest = max(case.die_angle, case.punch_angle)
+    if wanted.angle is not None and sharpest < wanted.angle < sharpest + ROOM:
+        found.append({"where": "angle", "kind": "close", "bounds": {"angle": sharpest}})
+    if wanted.whole and wanted.length > 20.0 * case.thickness:
+        found.append({"where": "whole", "kind": "long", "bounds": {"ratio": round(wanted.length / case.thickness)}})
+    return found

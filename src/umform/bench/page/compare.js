@@ -1,0 +1,38 @@
+// @ts-check
+// Jobs side by side: numbers in columns, curves in one picture.
+
+import { get } from "./api.js";
+import { element, make } from "./dom.js";
+import { plot } from "./plot.js";
+import { number, t } from "./texts.js";
+
+const GIVEN = ["material", "thickness", "opening", "die_angle", "punch_angle", "punch_radius", "angle", "mesh"];
+
+/** @param {any} library @param {string[]} names */
+export async function compare(library, names) {
+  const place = element("compare");
+  if (!names.length) {
+    place.replaceChildren(make("p", { class: "soft" }, t("compare.empty")));
+    return;
+  }
+  const jobs = await Promise.all(names.map((name) => get(`/api/jobs/${name}`)));
+  const curves = await Promise.all(jobs.map(async (job) => ({ name: `${job.number}`, ...(await get(`/api/jobs/${job.id}/curve`)) })));
+  const head = make("tr", {}, make("td"), ...jobs.map((job, i) => make("th", { scope: "col" }, make("i", { class: `swatch c${i % 6}` }), `${job.number}`)));
+  const given = GIVEN.filter((name) => new Set(jobs.map((job) => job.parameters[name])).size > 1 || ["material", "angle"].includes(name))
+    .map((name) => row(t(`field.${name}`), jobs.map((job) => shown(job.parameters[name]))));
+  const found = Object.entries(library.quantities).map(([name, one]) =>
+    row(`${t(`measure.${name}`, {}, one.label)}${one.unit ? `, ${one.unit === "deg" ? "°" : one.unit}` : ""}`, jobs.map((job) => number(job.summary.measures[name], one.decimals))));
+  const press = row(`${t("hero.largest_force")}, kN`, jobs.map((job) => number((job.summary.measures.largest_force * job.summary.length) / 1e3, 1)));
+  place.replaceChildren(
+    make("figure", { class: "card" }, plot(curves, { x: t("axis.stroke"), y: t("axis.force"), label: t("curve.label") }, 900, 320)),
+    make("div", { class: "wide" }, make("table", { class: "columns" }, make("thead", {}, head), make("tbody", {}, ...given, press, ...found))),
+    make("p", { class: "bar" }, make("a", { class: "button", href: `/api/jobs.csv?ids=${names.join(",")}` }, t("file.table")),
+      make("button", { type: "button", onclick: () => window.print() }, t("print"))),
+  );
+}
+
+/** @param {string} name @param {string[]} cells */
+const row = (name, cells) => make("tr", {}, make("th", { scope: "row" }, name), ...cells.map((cell) => make("td", {}, cell)));
+
+/** @param {any} value */
+const shown = (value) => (typeof value === "number" ? number(value) : value ?? "–");

@@ -1,0 +1,225 @@
+// @ts-check
+// The form: what is to be bent, with which tools; each change is looked at by the server at once.
+
+import { post } from "./api.js";
+import { element, make } from "./dom.js";
+import { number, problemText, t } from "./texts.js";
+
+/** @typedef {{name: string, unit?: string, step?: number, kind?: "number" | "select" | "check", list?: string}} Field */
+/** @type {Record<string, Field[]>} */
+const GROUPS = {
+  "": [
+    { name: "material", kind: "select" },
+    { name: "thickness", unit: "mm", step: 0.1 },
+    { name: "opening", unit: "mm", step: 1, list: "openings" },
+    { name: "angle", unit: "°", step: 1 },
+    { name: "length", unit: "mm", step: 10 },
+  ],
+  tools: [
+    { name: "die_angle", unit: "°", step: 1, list: "die-angles" },
+    { name: "die_radius", unit: "mm", step: 0.1 },
+    { name: "punch_angle", unit: "°", step: 1, list: "punch-angles" },
+    { name: "punch_radius", unit: "mm", step: 0.1, list: "punch-radii" },
+  ],
+  coil: [
+    { name: "yield_stress", unit: "MPa", step: 5 },
+    { name: "tensile_strength", unit: "MPa", step: 5 },
+    { name: "uniform_elongation", unit: "%", step: 0.5 },
+    { name: "rolling", unit: "°", step: 15 },
+  ],
+  run: [
+    { name: "stroke", unit: "mm", step: 0.1 },
+    { name: "mesh", kind: "select" },
+    { name: "budget", kind: "check" },
+    { name: "whole", kind: "check" },
+  ],
+};
+const FIELDS = Object.values(GROUPS).flat();
+
+export class Form {
+  /** @param {any} library @param {(found: any, values: any) => void} looked */
+  constructor(library, looked) {
+    Object.assign(this, { library, looked });
+    this.library = library;
+    this.looked = looked;
+    this.values = { ...library.defaults, ...kept() };
+    this.round = 0;
+    /** @type {AbortController | null} */
+    this.asking = null;
+    this.build();
+    this.look();
+  }
+
+  build() {
+    const open = new Set([...document.querySelectorAll("#fields details[open]")].map((one) => /** @type {any} */ (one).dataset.group));
+    const groups = Object.entries(GROUPS).map(([name, fields]) => {
+      const rows = fields.map((field) => this.row(field));
+      if (!name) return make("div", { class: "group" }, ...rows);
+      const hint = make("p", { class: "soft" }, t(`group.${name}.hint`));
+      return make("details", { "data-group": name, open: open.has(name) }, make("summary", {}, t(`group.${name}`)),
+        make("div", { class: "group" }, hint, ...rows));
+    });
+    element("fields").replaceChildren(...groups, ...this.lists());
+  }
+
+  /** @param {Field} field */
+  row({ name, unit, step, kind = "number", list }) {
+    const value = this.values[name];
+    const common = { id: `f-${name}`, "aria-describedby": `n-${name}`, onchange: () => this.take(name), oninput: () => this.take(name) };
+    let input;
+    if (kind === "select") {
+      input = make("select", { ...common, oninput: null, onchange: () => this.take(name) }, ...this.options(name));
+      input.value = value;
+    } else if (kind === "check") {
+      input = make("input", { ...common, type: "checkbox", checked: Boolean(value) });
+    } else {
+      input = make("input", { ...common, type: "number", step: step && "any", inputmode: "decimal", list, value: value ?? "", placeholder: this.placeholder(name) });
+      input.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => this.nudge(event, name, step ?? 1));
+    }
+    const unitText = unit ? make("span", { class: "unit", "aria-hidden": "true" }, unit) : null;
+    const text = make("label", { for: `f-${name}` }, t(`field.${name}`));
+    const box = make("span", { class: "input" }, input, unitText);
+    return make("div", { class: `row ${kind}`, "data-field": name }, text, box, make("p", { class: "note", id: `n-${name}`, role: "status" }));
+  }
+
+  /** Arrow keys change a number by its usual step. @param {KeyboardEvent} event @param {string} name @param {number} step */
+  nudge(event, name, step) {
+    const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    const value = Number(element(`f-${name}`).value);
+    if (!way || element(`f-${name}`).value === "") return;
+    event.preventDefault();
+    element(`f-${name}`).value = Number((value + way * step).toFixed(6));
+    this.take(name);
+  }
+
+  /** @param {string} name */
+  options(name) {
+    if (name === "mesh") return this.library.meshes.map((/** @type {string} */ one) => make("option", { value: one }, t(`mesh.${one}`)));
+    const group = (/** @type {boolean} */ card) => this.library.metals.filter((/** @type {any} */ metal) => metal.card === card)
+      .map((/** @type {any} */ metal) => make("option", { value: metal.name }, metal.number && metal.number !== metal.name ? `${metal.name} (${metal.number})` : metal.name));
+    return [make("optgroup", { label: t("metals.standard") }, ...group(false)), make("optgroup", { label: t("metals.cards") }, ...group(true))];
+  }
+
+  /** @param {string} name */
+  placeholder(name) {
+    const metal = this.metal();
+    if (name === "rolling") return metal?.directional ? "" : "–";
+    return metal && name in metal ? number(metal[name]) : "";
+  }
+
+  metal() {
+    return this.library.metals.find((/** @type {any} */ metal) => metal.name === this.values.material);
+  }
+
+  lists() {
+    const { dies, die_angles: angles, punches } = this.library.tools;
+    const list = (/** @type {string} */ id, /** @type {number[]} */ values) =>
+      make("datalist", { id }, ...[...new Set(values)].map((value) => make("option", { value })));
+    const of = (/** @type {any[]} */ rows, /** @type {string} */ name) => rows.map((row) => row[name]);
+    return [list("openings", of(dies, "opening")), list("die-angles", angles), list("punch-angles", of(punches, "angle")), list("punch-radii", of(punches, "radius"))];
+  }
+
+  /** A field has changed. @param {string} name */
+  take(name) {
+    const input = element(`f-${name}`);
+    this.values[name] = input.type === "checkbox" ? input.checked
+      : input.tagName === "SELECT" ? input.value
+      : input.value === "" ? (input.validity.badInput ? "?" : null) : Number(input.value);
+    if (name === "stroke" && this.values.stroke !== null) this.change({ angle: null });
+    if (name === "angle" && this.values.angle !== null) this.change({ stroke: null });
+    if (name === "opening") this.suitRadius();
+    if (name === "material") this.suitMaterial();
+    this.look();
+  }
+
+  /** The shoulder radius of the library's die with this opening. */
+  suitRadius() {
+    const die = this.library.tools.dies.find((/** @type {any} */ one) => one.opening === this.values.opening);
+    if (die) this.change({ die_radius: die.radius });
+  }
+
+  suitMaterial() {
+    const metal = this.metal();
+    this.change({ yield_stress: null, tensile_strength: null, uniform_elongation: null, rolling: metal.directional ? 90 : null });
+    for (const { name } of GROUPS.coil) element(`f-${name}`).placeholder = this.placeholder(name);
+  }
+
+  /** Set some values, in the fields too. @param {Record<string, any>} values */
+  change(values) {
+    for (const [name, value] of Object.entries(values)) {
+      this.values[name] = value;
+      const input = element(`f-${name}`);
+      if (!input) continue;
+      if (input.type === "checkbox") input.checked = Boolean(value);
+      else input.value = value ?? "";
+    }
+  }
+
+  /** Ask the server what it thinks of the form; only the last answer counts. */
+  async look() {
+    this.round += 1;
+    const round = this.round;
+    this.asking?.abort();
+    this.asking = new AbortController();
+    keep(this.values);
+    try {
+      const found = await post("/api/look", this.values, this.asking.signal);
+      if (round !== this.round) return;
+      this.say(found);
+      this.looked(found, this.values);
+    } catch (problem) {
+      if (/** @type {any} */ (problem).name !== "AbortError") element("form-note").textContent = String(/** @type {any} */ (problem).message);
+    }
+  }
+
+  /** Put what was found beside the fields. @param {any} found */
+  say(found) {
+    for (const { name } of FIELDS) {
+      element(`n-${name}`).replaceChildren();
+      element(`n-${name}`).className = "note";
+      element(`f-${name}`).removeAttribute("aria-invalid");
+    }
+    element("form-note").textContent = "";
+    for (const row of found.warnings) this.note(row, "warn", problemText(row));
+    for (const row of found.problems) this.note(row, "bad", problemText(row));
+    if (found.change) this.offer(found.change);
+    element("run").disabled = found.problems.length > 0;
+  }
+
+  /** @param {any} row @param {string} kind @param {string} text */
+  note(row, kind, text) {
+    const place = element(`n-${row.where}`) ?? element("form-note");
+    place.append(make("span", {}, text));
+    place.className = `note ${kind}`;
+    if (kind === "bad") element(`f-${row.where}`)?.setAttribute("aria-invalid", "true");
+    place.closest("details")?.setAttribute("open", "");
+  }
+
+  /** The tools that would do. @param {Record<string, number>} change */
+  offer(change) {
+    const text = t("offer", change);
+    const take = () => {
+      this.change(change);
+      this.look();
+      element("f-angle").focus();
+    };
+    element("n-angle").append(make("button", { type: "button", onclick: take }, text));
+  }
+}
+
+/** What was typed last, if it may be kept. @returns {Record<string, any>} */
+function kept() {
+  try {
+    const values = JSON.parse(localStorage.getItem("form") ?? "{}");
+    return Object.fromEntries(FIELDS.map(({ name }) => [name, values[name]]).filter(([, value]) => value !== undefined));
+  } catch {
+    return {};
+  }
+}
+
+/** @param {Record<string, any>} values */
+function keep(values) {
+  try {
+    localStorage.setItem("form", JSON.stringify(values));
+  } catch { /* it is typed again next time */ }
+}

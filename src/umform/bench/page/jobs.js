@@ -1,0 +1,97 @@
+// @ts-check
+// The list of jobs, asked for again and again: more often while one runs.
+
+import { get, post } from "./api.js";
+import { element, make } from "./dom.js";
+import { language, number, t } from "./texts.js";
+
+const [BUSY, IDLE] = [300, 2000];
+
+export class Jobs {
+  /**
+   * @param {(name: string) => void} open @param {(chosen: string[]) => void} choose
+   * @param {() => void} ended is called when another job has ended
+   */
+  constructor(open, choose, ended) {
+    this.ended = ended;
+    this.endings = -1;
+    this.open = open;
+    this.choose = choose;
+    /** @type {any[]} */
+    this.rows = [];
+    /** @type {Set<string>} */
+    this.chosen = new Set();
+    this.shown = "";
+    this.seen = "";
+    this.timer = 0;
+    document.addEventListener("visibilitychange", () => document.hidden || this.refresh());
+    this.refresh();
+  }
+
+  async refresh() {
+    clearTimeout(this.timer);
+    try {
+      this.rows = (await get("/api/jobs")).jobs;
+      element("offline").hidden = true;
+      this.show();
+    } catch {
+      element("offline").hidden = false;
+    }
+    const busy = this.rows.some(({ state }) => state === "running" || state === "waiting");
+    this.timer = setTimeout(() => this.refresh(), busy ? BUSY : IDLE);
+  }
+
+  /** @param {string} name */
+  mark(name) {
+    this.shown = name;
+    this.seen = "";
+    this.show();
+  }
+
+  show() {
+    const endings = this.rows.filter((row) => row.state === "done").length;
+    if (endings > this.endings && this.endings >= 0) this.ended();
+    this.endings = endings;
+    element("jobs-empty").hidden = this.rows.length > 0;
+    const seen = JSON.stringify([this.rows.map(({ id, state }) => [id, state]), this.shown, [...this.chosen], language]);
+    if (seen !== this.seen) {
+      const focus = document.activeElement?.id;
+      element("jobs").replaceChildren(...this.rows.map((row) => this.item(row)));
+      if (focus?.startsWith("job-")) element(focus)?.focus();
+    }
+    this.seen = seen;
+    for (const row of this.rows) element(`job-e-${row.id}`).textContent = end(row); // buttons stay, lest a click be lost
+  }
+
+  /** @param {any} row */
+  item({ id, state, title, summary, number: count }) {
+    const comparable = state === "done" && summary.measures?.angle !== undefined;
+    const box = make("input", { type: "checkbox", id: `job-c-${id}`, "aria-label": t("compare.choose", { title }), checked: this.chosen.has(id), disabled: !comparable });
+    box.addEventListener("change", () => this.toggle(id, box.checked));
+    const button = make("button", { type: "button", id: `job-o-${id}`, "aria-current": id === this.shown ? "true" : null, onclick: () => this.open(id) },
+      make("i", { class: `dot ${state}`, title: t(`state.${state}`) }), make("span", {}, `${count} · ${title}`), make("b", { id: `job-e-${id}` }));
+    return make("li", {}, box, button);
+  }
+
+  /** @param {string} id @param {boolean} on */
+  toggle(id, on) {
+    if (on) this.chosen.add(id);
+    else this.chosen.delete(id);
+    element("chosen-count").hidden = this.chosen.size === 0;
+    element("chosen-count").textContent = String(this.chosen.size);
+    this.choose([...this.chosen]);
+  }
+
+  /** @param {string} name @param {"stop" | "resume" | "remove"} what */
+  async ask(name, what) {
+    await post(`/api/jobs/${name}/${what}`);
+    if (what === "remove") this.toggle(name, false);
+    await this.refresh();
+  }
+}
+
+/** How far a job is, or what came of it. @param {any} row @returns {string} */
+function end({ state, fraction, summary }) {
+  const angle = summary.measures?.angle;
+  return state === "running" ? `${Math.round(100 * fraction)} %` : state === "done" && angle ? `${number(angle, 1)}°` : t(`state.${state}`);
+}

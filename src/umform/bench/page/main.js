@@ -1,0 +1,125 @@
+// @ts-check
+// The page: its views, and what happens between its parts.
+
+import { get, post } from "./api.js";
+import { compare } from "./compare.js";
+import { Deck } from "./deck.js";
+import { element, make } from "./dom.js";
+import { Drawing } from "./drawing.js";
+import { Form } from "./form.js";
+import { Jobs } from "./jobs.js";
+import { Result } from "./result.js";
+import { askTable, seriesTable } from "./table.js";
+import { loadTexts, number, problemText, t } from "./texts.js";
+import { tour } from "./tour.js";
+
+const VIEWS = ["bend", "compare", "deck"];
+
+async function start() {
+  if (location.search) history.replaceState(null, "", location.pathname + location.hash); // the token stays in the cookie
+  const [, library] = await Promise.all([loadTexts(), get("/api/library")]);
+  const drawing = new Drawing(element("drawing"));
+  const comparing = () => location.hash.startsWith("#compare");
+  const jobs = new Jobs((name) => go(`bend/${name}`), (chosen) => chosen.length && comparing() && go(`compare/${chosen.join(",")}`),
+    () => comparing() && show());
+  const result = new Result(library, drawing, {
+    gone: () => go("bend"),
+    expected,
+    ask: (/** @type {string} */ name, /** @type {any} */ what) => jobs.ask(name, what),
+    again: (/** @type {any} */ job) => {
+      form.change(job.parameters);
+      go("bend");
+      form.look();
+    },
+  });
+  const form = new Form(library, (found, values) => {
+    if (found.drawing && !result.name) drawing.set(found.drawing, values);
+    element("sketch").classList.toggle("old", !found.drawing);
+    if (!result.name) expected(found, values);
+  });
+  const deck = new Deck((name) => go(`bend/${name}`));
+
+  element("form").addEventListener("submit", async (/** @type {Event} */ event) => {
+    event.preventDefault();
+    try {
+      const answer = await post("/api/jobs", { forms: [form.values] });
+      await jobs.refresh();
+      go(`bend/${answer.jobs[0]}`);
+    } catch (problem) {
+      const { answer } = /** @type {any} */ (problem);
+      element("form-note").textContent = (answer?.problems ?? [{ what: String(problem) }]).map(problemText).join("; ");
+    }
+  });
+  element("fields").addEventListener("input", () => result.name && go("bend"));
+  element("table").addEventListener("click", () => askTable(form, library, () => jobs.refresh()));
+  element("tour").addEventListener("click", () => {
+    go("bend");
+    tour();
+  });
+  element("language").addEventListener("change", async () => {
+    await loadTexts(element("language").value);
+    form.build();
+    form.look();
+    jobs.mark(jobs.shown);
+    result.job = null;
+    result.refresh();
+    show();
+  });
+
+  /** @param {string} place */
+  function go(place) {
+    if (location.hash === `#${place}`) show();
+    else location.hash = place;
+  }
+
+  async function show() {
+    const [wanted, rest = ""] = location.hash.slice(1).split("/");
+    const view = VIEWS.includes(wanted) ? wanted : "bend";
+    for (const one of VIEWS) element(`view-${one}`).hidden = one !== view;
+    for (const link of document.querySelectorAll("nav [data-view]")) {
+      if (/** @type {any} */ (link).dataset.view === view) link.setAttribute("aria-current", "page");
+      else link.removeAttribute("aria-current");
+    }
+    if (view === "bend" && rest !== result.name) {
+      jobs.mark(rest);
+      await result.open(rest);
+      if (!rest) form.look();
+    }
+    if (view === "deck") await deck.start();
+    if (view === "compare") {
+      const names = rest ? rest.split(",") : [...jobs.chosen];
+      await compare(library, names.filter((name) => /^[0-9a-f]{12}$/.test(name)).slice(0, 6));
+      series(jobs.rows);
+    }
+  }
+
+  addEventListener("hashchange", show);
+  await show();
+  document.documentElement.dataset.ready = "yes";
+  tour(false);
+}
+
+/** Tables by angle and opening below the jobs that are compared. @param {any[]} rows */
+function series(rows) {
+  const names = [...new Set(rows.map((row) => row.series).filter(Boolean))];
+  for (const name of names.slice(0, 5)) {
+    const table = seriesTable(rows.filter((row) => row.series === name));
+    if (!table) continue;
+    const ids = rows.filter((row) => row.series === name).map((row) => row.id);
+    element("compare").append(make("h2", {}, t("table.of", { name })), table, make("p", {}, make("a", { class: "button", href: `/api/jobs.csv?ids=${ids.join(",")}` }, t("file.table"))));
+  }
+}
+
+/** What the rules of the shop say before the run. @param {any} found @param {any} values */
+function expected(found, values) {
+  const facts = found.expected;
+  element("drawing-text").textContent = facts ? t("drawing.text", { angle: values.angle ?? "?", opening: values.opening, thickness: values.thickness }) : t("drawing.old");
+  const rows = !facts ? [] : [
+    ["ratio", `${number(facts.ratio, 1)}`], ["rm", `${number(facts.tensile_strength, 0)} MPa`],
+    ["force", `${number(facts.force[0], 0)}–${number(facts.force[1], 0)} kN/m`], ["press", `${number(facts.press, 1)} kN`],
+    ["radius", `${number(facts.radius, 1)} mm`],
+  ];
+  element("expected").replaceChildren(...rows.map(([name, value]) => make("div", { title: t(`rule.${name}.title`) }, make("dt", {}, t(`rule.${name}`)), make("dd", {}, value))));
+}
+
+start();

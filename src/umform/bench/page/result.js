@@ -1,0 +1,214 @@
+// @ts-check
+// One job: how far it is while it runs, then its numbers with what they mean.
+
+import { get, post } from "./api.js";
+import { element, make } from "./dom.js";
+import { plot } from "./plot.js";
+import { language, number, t } from "./texts.js";
+
+const OFTEN = 200;
+/** The numbers that go to the machine, in the order of the page. */
+const HEROES = ["stroke", "largest_force", "angle", "springback", "radius", "k_factor", "bend_deduction", "outer_strain", "thinning"];
+/** Seconds between two looks at the shape of a run that goes on. */
+const SHAPE_EVERY = 5;
+
+export class Result {
+  /** @param {any} library @param {import("./drawing.js").Drawing} drawing @param {any} actions */
+  constructor(library, drawing, actions) {
+    this.library = library;
+    this.drawing = drawing;
+    this.actions = actions;
+    this.name = "";
+    this.timer = 0;
+    /** @type {any} */
+    this.job = null;
+    this.shapeAt = 0;
+    this.shapeOf = "";
+    // Buttons stay while the numbers change, lest a click be lost; the frame of the shape stays, lest it load again.
+    this.bar = make("div", { class: "bar-part" });
+    this.top = make("div", { class: "top-part" });
+    this.space = make("div", { class: "shape" });
+    this.foot = make("div", { class: "foot-part" });
+    this.seen = this.barOf = this.footOf = "";
+    element("result").replaceChildren(this.bar, this.top, this.space, this.foot);
+  }
+
+  /** @param {string} name */
+  async open(name) {
+    this.name = name;
+    this.job = null;
+    this.shapeOf = "";
+    this.space.replaceChildren();
+    element("result").hidden = !name;
+    this.drawing.setComputed(null);
+    if (name) await this.refresh();
+  }
+
+  async refresh() {
+    clearTimeout(this.timer);
+    const name = this.name;
+    if (!name) return;
+    try {
+      const job = await get(`/api/jobs/${name}`);
+      if (name !== this.name) return;
+      const seen = JSON.stringify([job.state, job.reason, job.live, job.ended]);
+      if (seen !== this.seen || !this.job) await this.show(job);
+      this.seen = seen;
+      this.job = job;
+    } catch (problem) {
+      if (/** @type {any} */ (problem).status === 404) {
+        this.actions.gone();
+        return;
+      }
+    }
+    const busy = !this.job || ["running", "waiting"].includes(this.job.state);
+    if (busy) this.timer = setTimeout(() => this.refresh(), OFTEN);
+  }
+
+  /** @param {any} job */
+  async show(job) {
+    const parts = [];
+    const bar = JSON.stringify([job.id, job.state, language]);
+    if (bar !== this.barOf) this.bar.replaceChildren(this.head(job));
+    this.barOf = bar;
+    if (!this.job && job.kind === "bend") {
+      const found = await post("/api/look", job.parameters);
+      if (found.drawing && job.id === this.name) {
+        this.drawing.set(found.drawing, job.parameters);
+        this.actions.expected(found, job.parameters);
+      }
+    }
+    if (job.live.section && job.kind === "bend") this.drawing.setComputed(job.live);
+    if (job.state === "running" || job.state === "waiting") parts.push(this.progress(job));
+    if (job.state === "failed" || job.reason) parts.push(make("pre", { class: "bad" }, job.reason));
+    if (job.state === "stopped") parts.push(make("p", { class: "soft" }, t(`stopped.${job.kind}`)));
+    if (job.state === "done" && job.summary.measures) parts.push(...this.numbers(job));
+    if (job.state === "done" && job.summary.last) parts.push(this.last(job));
+    const curve = this.curve(job);
+    if (curve) parts.push(curve);
+    const focus = document.activeElement?.id;
+    this.top.replaceChildren(...parts);
+    if (job.has_shape) this.shape(job);
+    const foot = JSON.stringify([job.id, job.files, language]);
+    if (foot !== this.footOf) this.foot.replaceChildren(...(job.files.length ? [this.files(job)] : []));
+    this.footOf = foot;
+    if (focus) element(focus)?.focus({ preventScroll: true });
+  }
+
+  /** @param {any} job */
+  head(job) {
+    const button = (/** @type {string} */ what, /** @type {string} */ name = "") =>
+      make("button", { type: "button", id: `do-${what}`, class: name, onclick: () => this.act(job, what) }, t(`do.${what}`));
+    const actions = job.state === "running" || job.state === "waiting" ? [button("stop")]
+      : [...(job.state === "done" ? [] : [button("resume", "main")]), ...(job.kind === "bend" ? [button("again")] : []), button("remove")];
+    return make("header", {}, make("h2", {}, `${job.number} · ${job.title}`), make("div", { class: "bar" }, ...actions));
+  }
+
+  /** @param {any} job @param {string} what */
+  async act(job, what) {
+    if (what === "again") this.actions.again(job);
+    else if (what !== "remove" || window.confirm(t("remove.sure", { title: job.title }))) await this.actions.ask(job.id, what);
+    await this.refresh();
+  }
+
+  /** @param {any} job */
+  progress(job) {
+    const { live } = job;
+    const percent = Math.round(100 * (live.fraction ?? 0));
+    const text = job.state === "waiting" ? t("state.waiting") : [t(`phase.${live.phase}`, live),
+      live.increments ? t("increments", live) : "", live.stroke === undefined ? "" : `${number(live.stroke, 2)} mm`,
+      live.angle === undefined ? "" : `${number(live.angle, 1)}°`, live.seconds ? `${number(live.seconds, 0)} s` : ""].filter(Boolean).join(" · ");
+    return make("div", { class: "progress" }, make("progress", { max: 100, value: percent, "aria-label": t("progress") }), make("p", { role: "status" }, text));
+  }
+
+  /** @param {any} job */
+  numbers(job) {
+    const { measures, spread = {}, shop_forces: shop, warnings = [] } = job.summary;
+    const heroes = HEROES.map((name) => this.hero(name, measures[name], spread[name], job.summary.length));
+    const press = (Math.max(shop[1], measures.largest_force) * job.summary.length) / 1e3;
+    const notes = [t("note.press", { press: number(press, 1), low: number(shop[0], 0), high: number(shop[1], 0) })];
+    const ratio = measures.largest_force / (0.5 * (shop[0] + shop[1]));
+    if (ratio < 0.93) notes.push(t("note.below", { percent: Math.round(100 * (1 - ratio)) }));
+    if (measures.k_factor !== null && measures.k_factor < 0.33) notes.push(t("note.k"));
+    if (!job.parameters.budget) notes.push(t("note.nobudget"));
+    const all = Object.entries(this.library.quantities).map(([name, one]) => this.row(name, one, measures[name], spread[name]));
+    return [
+      ...warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, text)),
+      make("dl", { class: "heroes" }, ...heroes),
+      ...notes.map((text) => make("p", { class: "note" }, text)),
+      this.flat(measures),
+      make("details", {}, make("summary", {}, t("all")), make("div", { class: "wide" }, make("table", {}, make("tbody", {}, ...all)))),
+    ];
+  }
+
+  /** @param {string} name @param {number} value @param {number | undefined} spread @param {number} length */
+  hero(name, value, spread, length) {
+    const { unit, decimals } = this.library.quantities[name];
+    const force = name === "largest_force";
+    const factor = force ? length / 1e3 : name === "thinning" ? 100 : 1;
+    const digits = force ? 1 : name === "thinning" ? 1 : name === "outer_strain" ? 3 : Math.min(decimals, 3);
+    const shown = name === "thinning" && value !== null ? 100 * (1 - value) : value === null ? null : value * factor;
+    const units = force ? "kN" : name === "thinning" ? "%" : unit === "deg" ? "°" : unit;
+    const error = spread === undefined ? "" : ` ± ${number(spread * factor, digits)}`;
+    return make("div", { "data-measure": name }, make("dt", {}, t(`hero.${name}`)),
+      make("dd", {}, make("b", {}, number(shown, digits)), make("span", {}, ` ${units}${error}`)),
+      make("dd", { class: "soft" }, t(`means.${name}`, { length, each: number(value, 1) })));
+  }
+
+  /** @param {string} name @param {any} one @param {number} value @param {number | undefined} spread */
+  row(name, one, value, spread) {
+    return make("tr", {}, make("th", { scope: "row" }, t(`measure.${name}`, {}, one.label)), make("td", {}, number(value, one.decimals)),
+      make("td", {}, spread === undefined ? "" : `± ${number(spread, one.decimals)}`), make("td", {}, one.unit === "deg" ? "°" : one.unit));
+  }
+
+  /** The flat length of a part from its outer dimensions. @param {any} measures */
+  flat(measures) {
+    if (measures.bend_deduction === null) return make("span");
+    const output = make("output", { class: "value" });
+    const fields = ["a", "b"].map((name) => make("input", { type: "number", id: `flat-${name}`, value: 100, min: 0, step: "any", "aria-label": t(`flat.${name}`) }));
+    const reckon = () => {
+      output.textContent = `${number(Number(fields[0].value) + Number(fields[1].value) - measures.bend_deduction, 2)} mm`;
+    };
+    fields.forEach((field) => field.addEventListener("input", reckon));
+    reckon();
+    return make("p", { class: "flat" }, `${t("flat")}: `, fields[0], " + ", fields[1], ` − ${number(measures.bend_deduction, 2)} = `, output);
+  }
+
+  /** The end of the run of a deck. @param {any} job */
+  last(job) {
+    const rows = Object.entries(job.summary.last).map(([name, value]) => make("tr", {}, make("th", { scope: "row" }, name), make("td", {}, number(/** @type {number} */ (value)))));
+    const notes = [...job.summary.warnings, ...job.summary.events].map((text) => make("p", { class: "note" }, text));
+    return make("div", {}, ...notes, make("details", { open: true }, make("summary", {}, t("deck.end")), make("div", { class: "wide" }, make("table", {}, make("tbody", {}, ...rows)))));
+  }
+
+  /** @param {any} job */
+  curve(job) {
+    const { curve } = job.live;
+    if (!curve?.x.length) return null;
+    const bend = job.kind === "bend";
+    const words = { x: bend ? t("axis.stroke") : curve.names[0], y: bend ? t("axis.force") : curve.names[1], label: t("curve.label"), band: bend ? job.summary.shop_forces : undefined };
+    const caption = make("figcaption", {}, bend && words.band ? t("curve.band") : t("curve.live"));
+    return make("figure", { class: "card" }, plot([{ name: "", ...curve }], words), caption);
+  }
+
+  /** Scene and curves of the report in a frame of their own; while a run goes on they are loaded again now and then. @param {any} job */
+  shape(job) {
+    const now = performance.now() / 1000;
+    const version = `${job.id}-${job.live.shape}-${job.state}`;
+    if (version === this.shapeOf || (job.state === "running" && this.shapeOf && now - this.shapeAt < SHAPE_EVERY)) return;
+    this.shapeOf = version;
+    this.shapeAt = now;
+    const src = `/files/${job.id}/shape.html?v=${encodeURIComponent(version)}`;
+    this.space.replaceChildren(make("iframe", { title: t("shape.title"), sandbox: "allow-scripts allow-downloads", src }));
+  }
+
+  /** @param {any} job */
+  files(job) {
+    const named = { "report.html": "file.report", "curve.csv": "file.csv", "history.csv": "file.history", "bend.toml": "file.deck", "as-run.toml": "file.deck", "bend.json": "file.json" };
+    const link = (/** @type {string} */ file, /** @type {string} */ text) => make("a", { class: "button", href: `/files/${job.id}/${file}`, target: file.endsWith(".html") ? "_blank" : null, rel: "noopener" }, text);
+    const first = Object.entries(named).filter(([file]) => job.files.includes(file)).map(([file, key]) => link(file, t(key)));
+    const others = job.files.filter((/** @type {string} */ file) => !(file in named)).map((/** @type {string} */ file) => make("li", {}, link(file, file)));
+    return make("footer", {}, make("div", { class: "bar" }, ...first, make("button", { type: "button", id: "do-print", onclick: () => window.print() }, t("print"))),
+      make("details", {}, make("summary", {}, t("files.more")), make("ul", { class: "bar" }, ...others), make("p", { class: "soft" }, t("files.where", { folder: job.folder }))));
+  }
+}

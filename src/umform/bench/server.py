@@ -1,0 +1,185 @@
+"""The server of the bench: the page, its assets, and the questions; on 127.0.0.1 only."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import secrets
+import socket
+import threading
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import asynccontextmanager, contextmanager, suppress
+from importlib.resources import files
+from pathlib import Path
+
+import uvicorn
+from starlette.applications import Starlette
+from starlette.middleware import Middleware
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, Response
+from starlette.routing import Route
+
+from umform.bench.api import routes
+from umform.bench.guard import Guard
+from umform.bench.jobs import Queue
+from umform.bench.library import library
+from umform.errors import FileProblem, InvalidValue
+
+HOST = "127.0.0.1"
+_KINDS = {
+    ".js": "text/javascript",
+    ".css": "text/css",
+    ".json": "application/json",
+    ".svg": "image/svg+xml",
+    ".html": "text/html",
+}
+#: Open files of the process: each request has one.
+_MOST_FILES = 8192
+
+
+def application(queue: Queue, token: str, port: int) -> Starlette:
+    """The application.
+
+    Parameters
+    ----------
+    queue : Queue
+        The queue; it starts and ends with the application.
+    token : str
+        The secret of the link.
+    port : int
+        Port that requests must name.
+    """
+
+    @asynccontextmanager
+    async def lifespan(app: Starlette) -> AsyncIterator[None]:
+        queue.start()
+        threading.Thread(target=library, name="umform-bench-library", daemon=True).start()  # the first page needs it
+        try:
+            yield
+        finally:
+            queue.close()
+
+    assets = {path.name: path.read_bytes() for path in files("umform.bench").joinpath("page").iterdir()}
+
+    def asset(name: str) -> Response:
+        ending = Path(name).suffix
+        if name not in assets or ending not in _KINDS:
+            return PlainTextResponse("there is no such file", 404)
+        return Response(assets[name], media_type=_KINDS[ending], headers={"cache-control": "no-cache"})
+
+    pages = [
+        Route("/", lambda request: asset("index.html")),
+        Route("/favicon.ico", lambda request: asset("icon.svg")),
+        Route("/assets/{name}", lambda request: asset(request.path_params["name"])),
+    ]
+    return Starlette(
+        routes=[*pages, *routes(queue)],
+        lifespan=lifespan,
+        middleware=[Middleware(Guard, token=token, port=port)],
+        exception_handlers={Exception: _unexpected},
+    )
+
+
+def _unexpected(request: Request, error: Exception) -> Response:
+    return PlainTextResponse("an error that nobody expected; the terminal of the server has more", 500)
+
+
+@contextmanager
+def owned(folder: Path) -> Iterator[None]:
+    """Hold the folder of a bench: one server at a time.
+
+    Raises
+    ------
+    FileProblem
+        If another server has it, or it cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        lock = (folder / "bench.lock").open("w")
+    except OSError as error:
+        raise FileProblem(
+            "the folder of the bench cannot be made", where=str(folder), cause=error.strerror or str(error)
+        ) from error
+    with lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            raise FileProblem(
+                "another bench uses this folder",
+                where=str(folder),
+                cause="it runs in another terminal",
+                remedy="open the link that it has printed, or choose another folder with --folder",
+            ) from error
+        yield
+
+
+def token_of(folder: Path) -> str:
+    """The token of a folder, so that an open page goes on when the server has been started again."""
+    path = folder / "token"
+    with suppress(OSError):
+        known = path.read_text(encoding="ascii").strip()
+        if len(known) >= 20:
+            return known
+    token = secrets.token_urlsafe(24)
+    with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "w") as text:
+        text.write(token)
+    return token
+
+
+def listening(port: int) -> socket.socket:
+    """A socket on 127.0.0.1.
+
+    Raises
+    ------
+    InvalidValue
+        If the port is taken.
+    """
+    listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind((HOST, port))
+    except OSError as error:
+        listener.close()
+        raise InvalidValue(
+            "the port cannot be used",
+            where="--port",
+            value=port,
+            cause=error.strerror or "taken",
+            remedy="--port 0 takes any that is free",
+        ) from error
+    return listener
+
+
+def serve(folder: Path, port: int, at_once: int, ready: Callable[[str], None]) -> None:
+    """Serve the bench until Ctrl-C.
+
+    Parameters
+    ----------
+    folder : Path
+        Where jobs and index are.
+    port : int
+        0: any that is free.
+    at_once : int
+        Jobs at a time.
+    ready : callable
+        Is called with the link.
+    """
+    _allow_files()
+    with owned(folder), listening(port) as listener:
+        own = int(listener.getsockname()[1])
+        token = token_of(folder)
+        app = application(Queue(folder, at_once), token, own)
+        config = uvicorn.Config(
+            app, log_level="warning", access_log=False, ws="none", server_header=False, timeout_graceful_shutdown=2
+        )
+        ready(f"http://{HOST}:{own}/?token={token}")
+        uvicorn.Server(config).run(sockets=[listener])
+
+
+def _allow_files() -> None:
+    """Allow as many open files as many requests at once need."""
+    import resource
+
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    with suppress(ValueError, OSError):
+        resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, min(hard, _MOST_FILES)), hard))

@@ -1,0 +1,134 @@
+"""What somebody wants bent, as the form of the page sends it, and the bend that it means."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic_core import PydanticCustomError
+
+from umform.materials import J2, Metal
+from umform.processes.air_bending.checks import check_angle
+from umform.processes.air_bending.parameters import AirBending
+
+#: Meshes by name: a quick look, the default of `umform bend`, and what docs/air-bending.md says is better.
+MESHES: dict[str, dict[str, Any]] = {
+    "quick": {"layers": 1, "elements_per_thickness": 1.0, "increment": 0.02},
+    "usual": {},
+    "fine": {"layers": 4, "thickness_points": 5},
+}
+
+_Degrees = Annotated[float, Field(ge=10.0, le=175.0)]
+_Radius = Annotated[float, Field(ge=0.05, le=200.0)]
+
+
+class Wanted(BaseModel):
+    """A bend in mm, degrees and MPa; the bounds are those of a press brake, with room on both sides.
+
+    Attributes
+    ----------
+    material : str
+        Metal of the library.
+    yield_stress, tensile_strength, uniform_elongation : float or None
+        Re, Rm, and Ag in percent, of a coil; None: those of the library.
+    rolling : float or None
+        Degrees from the bend line to the rolling direction.
+    thickness, opening, die_angle, die_radius, punch_angle, punch_radius : float
+        See `AirBending`.
+    angle, stroke : float or None
+        What is wanted: one of them.
+    length : float
+        Length of the bend, for the force in kN.
+    whole : bool
+        Whether the whole length is computed with its free ends, in place of plane strain.
+    mesh : str
+        A name of `MESHES`.
+    budget : bool
+        Whether the error budget is wanted.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
+
+    material: Annotated[str, Field(min_length=1, max_length=60)] = "DC04"
+    yield_stress: Annotated[float, Field(ge=20.0, le=3000.0)] | None = None
+    tensile_strength: Annotated[float, Field(ge=20.0, le=3000.0)] | None = None
+    uniform_elongation: Annotated[float, Field(ge=0.1, le=80.0)] | None = None
+    rolling: Annotated[float, Field(ge=-180.0, le=180.0)] | None = None
+    thickness: Annotated[float, Field(ge=0.1, le=40.0)] = 2.0
+    opening: Annotated[float, Field(ge=1.0, le=1000.0)] = 16.0
+    die_angle: _Degrees = 85.0
+    die_radius: _Radius = 2.0
+    punch_angle: _Degrees = 85.0
+    punch_radius: _Radius = 1.5
+    angle: Annotated[float, Field(ge=20.0, le=179.0)] | None = 90.0
+    stroke: Annotated[float, Field(ge=0.01, le=1000.0)] | None = None
+    length: Annotated[float, Field(ge=1.0, le=20000.0)] = 1000.0
+    whole: bool = False
+    mesh: Literal["quick", "usual", "fine"] = "usual"
+    budget: bool = False
+
+    @model_validator(mode="after")
+    def _one_goal(self) -> Wanted:
+        if (self.angle is None) == (self.stroke is None):
+            raise PydanticCustomError("goal", "give the angle or the stroke, one of them")
+        if (self.yield_stress is None) != (self.tensile_strength is None):
+            raise PydanticCustomError("coil", "a coil has both, Re and Rm")
+        if self.uniform_elongation is not None and self.yield_stress is None:
+            raise PydanticCustomError("coil", "a coil has both, Re and Rm")
+        return self
+
+    def law(self) -> tuple[J2 | Metal, str]:
+        """Law of the sheet, and what is to be said of it."""
+        from umform.sheet_metals import get, of_certificate
+
+        if self.yield_stress is None or self.tensile_strength is None:
+            metal = get(self.material)
+        else:
+            elongation = None if self.uniform_elongation is None else 0.01 * self.uniform_elongation
+            metal = of_certificate(self.material, self.yield_stress, self.tensile_strength, elongation)
+        return metal.law, f"{metal.name}: {metal.source}; {metal.caveat}"
+
+    def case(self) -> AirBending:
+        """Parameters of the bend; an angle that the tools cannot reach is refused.
+
+        Raises
+        ------
+        InvalidValue
+            ``where`` is the name of the parameter.
+        """
+        case = self.at_tools()
+        if self.angle is not None:
+            check_angle(case, self.angle)
+        return case
+
+    def at_tools(self) -> AirBending:
+        """Parameters of the bend, whatever angle is wanted."""
+        return AirBending(
+            thickness=self.thickness,
+            opening=self.opening,
+            die_angle=self.die_angle,
+            die_radius=self.die_radius,
+            punch_angle=self.punch_angle,
+            punch_radius=self.punch_radius,
+            width=self.length if self.whole else None,
+            stroke=self.stroke,
+            material=self.law()[0],
+            rolling=self.rolling,
+            **MESHES[self.mesh],
+        )
+
+    @property
+    def title(self) -> str:
+        """A few words for lists."""
+        goal = f"{self.angle:g}°" if self.angle is not None else f"{self.stroke:g} mm"
+        return f"{self.material} {self.thickness:g} mm, V{self.opening:g}, {goal}"
+
+
+def problems_of(error: ValidationError) -> list[dict[str, Any]]:
+    """What is wrong with a form: field, kind of mistake, and its numbers, for the page to put into words."""
+    found = []
+    for row in error.errors(include_url=False, include_input=False):
+        where = ".".join(str(part) for part in row["loc"][:1]) or "goal"
+        bounds = {key: value for key, value in row.get("ctx", {}).items() if isinstance(value, int | float | str)}
+        found.append({"where": where, "kind": row["type"], "bounds": bounds, "what": row["msg"]})
+    return found[:20]

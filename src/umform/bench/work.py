@@ -1,0 +1,147 @@
+"""The process of a job: ``python -m umform.bench.work FOLDER``; without a folder it is read from standard input.
+
+It writes all that it knows into the folder of the job, and lives on where the server dies.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import traceback
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from umform.bench.folders import DECK, ORDER, OUTCOME, RESULTS, SHAPE, owned
+from umform.bench.live import BendTold, DeckTold, Watch, write_live
+from umform.bench.look import said
+from umform.bench.shape import write_shape
+from umform.bench.wanted import Wanted
+from umform.deck.findings import accept
+from umform.deck.plausible import of_model
+from umform.errors import UmformError
+from umform.io.atomic import PendingFile
+from umform.io.staging import staging
+from umform.io.tables import write_csv
+from umform.processes.air_bending.branches import FRAMES, Brake
+from umform.processes.air_bending.budget import Budget, error_budget
+from umform.processes.air_bending.case import air_bending
+from umform.processes.air_bending.files import FILES, record, write_files
+from umform.processes.air_bending.search import find_stroke
+from umform.run.watching import watching
+
+#: Part of the memory of the machine that a job may have: a mesh that cannot be meant then harms nobody.
+_MEMORY = 0.8
+
+
+def main(arguments: list[str]) -> int:
+    """Run the job of a folder; its outcome is a file there."""
+    text = arguments[0] if arguments else sys.stdin.readline().strip()
+    if not text:
+        return 0  # the server that has kept this process ready is gone
+    folder = Path(text)
+    with owned(folder) as mine:
+        if not mine or (folder / OUTCOME).exists():
+            return 0
+        limit_memory()
+        outcome = _outcome(folder)
+        with PendingFile(folder / OUTCOME) as waiting:
+            waiting.write_text(json.dumps(outcome, allow_nan=False), encoding="utf-8")
+    return 0
+
+
+def limit_memory() -> None:
+    """Let a mesh that cannot be meant end in an error of this process."""
+    import resource
+
+    with suppress(ValueError, OSError):
+        most = int(_MEMORY * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+        resource.setrlimit(resource.RLIMIT_AS, (most, resource.getrlimit(resource.RLIMIT_AS)[1]))
+
+
+def _outcome(folder: Path) -> dict[str, Any]:
+    """Run a job, and say what came of it whatever it is."""
+    try:
+        order = json.loads((folder / ORDER).read_text(encoding="utf-8"))
+        write_live(folder, {"fraction": 0.0, "phase": "start", "increments": 0, "shape": 0})
+        work = _bend if order["kind"] == "bend" else _deck
+        return {"state": "done", "reason": "", "summary": work(folder, order)}
+    except UmformError as error:
+        return {"state": "failed", "reason": str(error), "summary": {"error": said(error)}}
+    except KeyboardInterrupt:
+        return {"state": "stopped", "reason": "", "summary": {}}
+    except MemoryError:
+        return {"state": "failed", "reason": "the job needs more memory than this machine has", "summary": {}}
+    except Exception as error:
+        traceback.print_exc()
+        return {"state": "failed", "reason": f"{type(error).__name__}: {error}"[:2000], "summary": {}}
+
+
+def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
+    """The work of `umform bend`: the same calls, so the same numbers."""
+    wanted = Wanted.model_validate(order["parameters"])
+    case, note = wanted.case(), wanted.law()[1]
+    brake = Brake(case, frames=FRAMES)
+    accept(of_model(brake.model, millimetres=True))
+    watch = Watch(folder, order["title"], BendTold(brake, wanted.angle, wanted.stroke))
+    with staging(folder / RESULTS, FILES), watching(watch):
+        try:
+            if wanted.angle is None:
+                done = air_bending(case, brake=brake, progress=False)
+            else:
+                done = find_stroke(case, wanted.angle, brake=brake, progress=False).bend
+        except (UmformError, KeyboardInterrupt):
+            if len(brake.run.result) > 1:
+                write_csv(folder / RESULTS / "history.csv", brake.run.result.table())
+            raise
+        budget: Budget | None = None
+        if wanted.budget:
+            watch.phase("budget", 0.75)
+            budget = error_budget(done.case, done.measures, progress=False)
+        watch.phase("files", 0.95)
+        write_shape(folder / SHAPE, done.result, order["title"])
+        write_files(folder / RESULTS, done, (), budget, note=note)
+    summary = record(done, (), budget)
+    summary["spread"] = {} if budget is None else {name: budget.total(name) for name in summary["measures"]}
+    summary["spread"] = {name: value for name, value in summary["spread"].items() if value == value}
+    watch.phase("end", 1.0)
+    return {**summary, "length": wanted.length, "note": note}
+
+
+def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
+    """The work of `umform run`, or of `umform resume` where there is a checkpoint."""
+    from umform.deck import running
+    from umform.deck.deck import Deck
+    from umform.deck.kept import Kept
+    from umform.deck.results import CHECKPOINT
+
+    results = folder / RESULTS
+    checkpoint = results / CHECKPOINT
+    taken_up = checkpoint.is_file()
+    kept = Kept.read(checkpoint) if taken_up else None
+    files = folder.parent.parent  # of the bench: where the check looks for what a deck names
+    deck = kept.deck if kept else Deck.read((folder / DECK).read_text(encoding="utf-8"), DECK, files)
+    steps = deck.contents.steps
+    told = DeckTold(sum(step.expected for step in steps), len(steps))
+    watch = Watch(folder, order["title"], told)
+    with watching(watch):
+        every = float(order.get("every", 10.0))
+        if kept is not None:
+            outcome = running.resume(checkpoint, kept, results, every=every, progress=False, overwrite=True)
+        else:
+            solver = deck.contents.solution.solver
+            problem = running.prepared(deck, solver, lambda built: running.refuse_implausible(deck, built))
+            outcome = running.run(deck, problem, results, every=every, progress=False, overwrite=True)
+    write_shape(folder / SHAPE, outcome.result, order["title"])
+    if outcome.ended_by is not None:
+        raise outcome.ended_by
+    watch.phase("end", 1.0)
+    result = outcome.result
+    last = {name: float(value) for name, value in result.rows[-1].items() if abs(float(value)) < float("inf")}
+    texts = {"warnings": list(result.warnings), "events": list(result.events)}
+    return {"last": last, "increments": len(result) - 1, "seconds": result.seconds, "resumed": taken_up, **texts}
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

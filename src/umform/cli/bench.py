@@ -1,0 +1,55 @@
+"""``umform bench``: bending on a page in the browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from umform.cli.root import Debug, Verbose, app
+
+
+@app.command()
+def bench(
+    folder: Annotated[
+        Path, typer.Option(metavar="FOLDER", help="Where jobs, their results and the index are kept.")
+    ] = Path("results/bench"),
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port on 127.0.0.1; 0: any that is free.")] = 8765,
+    processes: Annotated[int, typer.Option(min=1, max=64, help="Jobs at a time.")] = 1,
+    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
+    verbose: Verbose = 0,
+    debug: Debug = False,
+) -> None:
+    """Open a local page on which a sheet is bent, and the numbers are taken to the machine.
+
+    The server listens on 127.0.0.1 only, and asks for the token in the link. Jobs run in processes of their own; they
+    are kept in the folder, and go on when the bench is started again. Needs `pip install "umform[bench]"`.
+    """
+    try:
+        from umform.bench.server import serve
+    except ModuleNotFoundError as error:
+        missing = (error.name or "").partition(".")[0]
+        if missing not in ("starlette", "uvicorn"):
+            raise
+        from umform.errors import UmformError
+
+        raise UmformError(
+            f"umform bench needs {missing}",
+            where="umform bench",
+            cause=str(error),
+            remedy='pip install "umform[bench]"',
+        ) from error
+
+    def ready(link: str) -> None:
+        typer.echo(f"The bench is open at {link}")
+        typer.echo(f"Jobs are in {folder}; Ctrl-C ends the bench, jobs go on when it is started again.")
+        if browser:
+            import webbrowser
+
+            webbrowser.open(link)
+
+    try:
+        serve(folder, port, processes, ready)
+    except KeyboardInterrupt:
+        typer.echo("The bench has ended.")

@@ -1,0 +1,69 @@
+"""The summary of the book: counts of verdicts and one row a case, to be read in two minutes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from textwrap import shorten
+
+from umform.report.versions import versions
+from umform_book.case import Case, Chapter
+from umform_book.checks import Check, Verdict
+from umform_book.markdown import markdown_table
+from umform_book.outcome import Outcome
+from umform_book.writing import worst
+
+#: Characters of the phrase for the worst check.
+_PHRASE = 45
+#: A deviation above so many times its limit is printed as such.
+_FAR = 10.0
+
+_INTRODUCTION = """\
+Every number comes from a run. `make verification` runs all cases, `umform verify NAME` one of them.
+
+* 🟢 All checks are within their limits. Failures that the theory of an element predicts are expected.
+* 🟠 A check misses by a known amount; the page names the cause.
+* 🔴 A check misses.
+
+Then: [which element should I take?](which-element.md) · [known defects](errata.md) ·
+[balance of all nonlinear runs](balance.md)"""
+
+
+def summary_text(chapters: Sequence[Chapter], outcomes: Mapping[str, Outcome]) -> str:
+    """Markdown of the summary."""
+    verdicts = [outcome.verdict for outcome in outcomes.values()]
+    counts = ", ".join(f"{verdicts.count(v)} {v.mark}" for v in (Verdict.GREEN, Verdict.AMBER, Verdict.RED))
+    checks = [check for outcome in outcomes.values() for check in outcome.checks]
+    expected = sum(check.verdict is Verdict.EXPECTED for check in checks)
+    green = sum(check.verdict is Verdict.GREEN for check in checks)
+    parts = [
+        "# Verification book",
+        f"**{len(outcomes)} cases: {counts}.** {green} of {len(checks) - expected} checks hold; "
+        f"{expected} more fail as theory predicts.",
+        _INTRODUCTION,
+    ]
+    for chapter in chapters:
+        rows = [_row(case, outcomes[case.name]) for case in chapter.cases if case.name in outcomes]
+        if rows:
+            table = markdown_table(("case", "", "of limit", "worst check"), rows)
+            parts += [f"## {chapter.title}", chapter.about, table]
+    used = ", ".join(f"{name} {version}" for name, version in versions().items() if name != "platform")
+    parts += [f"\\* umform computed the reference or a part of it; the page says which.\n\nMade with {used}."]
+    return "\n\n".join(parts) + "\n"
+
+
+def _row(case: Case, outcome: Outcome) -> tuple[str, str, str, str]:
+    name = f"[{case.title}]({case.name}.md)" + (" \\*" if case.own else "")
+    sign = outcome.verdict.mark.split()[0]
+    if outcome.failure:
+        return name, sign, "-", outcome.failure.splitlines()[0]
+    check = worst(outcome.checks)
+    if check is None:
+        return name, sign, "-", "no check"
+    return name, sign, _share(check), shorten(check.what, _PHRASE, placeholder=" ...").replace("|", "/")
+
+
+def _share(check: Check) -> str:
+    """Deviation over its limit."""
+    if check.share > _FAR:
+        return f"> {100 * _FAR:.0f} %"
+    return f"{100 * check.share:.0f} %" if check.share >= 0.01 else "< 1 %"

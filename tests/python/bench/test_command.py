@@ -1,0 +1,38 @@
+"""`umform bench` on the command line: what it refuses, and where it listens."""
+
+import subprocess
+import sys
+
+import pytest
+
+from umform.bench.server import HOST, listening, token_of
+from umform.errors import InvalidValue
+
+WITHOUT = """
+import sys
+sys.modules[sys.argv.pop(1)] = None  # as if it were not installed
+from umform.cli import main
+sys.exit(main())
+"""
+
+
+@pytest.mark.parametrize("name", ["starlette", "uvicorn"])
+def test_missing_extra_is_named(name, tmp_path):
+    command = [sys.executable, "-c", WITHOUT, name, "bench", "--folder", str(tmp_path / "b")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)
+    assert done.returncode == 1 and 'pip install "umform[bench]"' in done.stderr, done.stderr
+    assert not (tmp_path / "b").exists()
+
+
+def test_port_that_is_taken_is_refused():
+    with listening(0) as first:
+        assert first.getsockname()[0] == HOST == "127.0.0.1"
+        with pytest.raises(InvalidValue, match="port"):
+            first.listen()
+            listening(first.getsockname()[1])
+
+
+def test_token_is_kept_for_its_owner_only(tmp_path):
+    token = token_of(tmp_path)
+    assert len(token) >= 32 and token_of(tmp_path) == token
+    assert (tmp_path / "token").stat().st_mode & 0o077 == 0

@@ -1,0 +1,114 @@
+"""A form is looked at before anything is run."""
+
+import math
+
+import pytest
+
+from umform.bench.library import library, tools
+from umform.bench.look import look
+from umform.bench.wanted import MESHES, Wanted
+from umform.processes.air_bending import AirBending
+from umform.processes.air_bending.formulas import tensile_strength
+
+
+def kinds(found):
+    return {(row["where"], row["kind"]) for row in found["problems"]}
+
+
+def test_usual_form_is_drawn_and_has_no_problem():
+    found = look({})
+    assert found["problems"] == [] and found["warnings"] == []
+    drawing, case = found["drawing"], AirBending()
+    assert drawing["largest_stroke"] == case.largest_stroke
+    lowest = min(z for _, z in drawing["die"])
+    slope = math.radians(90.0 - 0.5 * case.die_angle)
+    assert lowest == pytest.approx(-0.5 * case.opening * math.tan(slope))
+    assert min(z for _, z in drawing["punch"]) == pytest.approx(case.thickness, abs=0.01 * case.opening)
+
+
+def test_expected_force_is_the_rule_of_the_shop():
+    expected = look({"length": 2000.0})["expected"]
+    rm = expected["tensile_strength"]
+    assert rm == pytest.approx(310.0, rel=5e-3)  # that of DC04 in metals.toml
+    assert expected["force"] == pytest.approx([1.33 * rm * 4 / 16, 1.42 * rm * 4 / 16])
+    assert expected["press"] == pytest.approx(2.0 * expected["force"][1])
+
+
+@pytest.mark.parametrize("angle", [50.0, 70.0, 84.0, 85.0])
+def test_angle_out_of_reach_is_refused_with_tools_that_do(angle):
+    found = look({"angle": angle})
+    assert kinds(found) == {("angle", "refused")}
+    again = look({"angle": angle, **found["change"]})
+    assert again["problems"] == [] and again["warnings"] == []
+    assert max(found["change"]["die_angle"], found["change"]["punch_angle"]) < angle
+
+
+def test_angle_close_to_that_of_the_tools_is_a_warning():
+    found = look({"angle": 87.0})
+    assert found["problems"] == [] and [row["kind"] for row in found["warnings"]] == ["close"]
+
+
+@pytest.mark.parametrize(
+    ("values", "where", "kind"),
+    [
+        ({"thickness": 0.0}, "thickness", "greater_than_equal"),
+        ({"thickness": 1e308}, "thickness", "less_than_equal"),
+        ({"thickness": math.nan}, "thickness", "finite_number"),
+        ({"opening": "16"}, "opening", "float_type"),
+        ({"opening": None}, "opening", "float_type"),
+        ({"angle": True}, "angle", "float_type"),
+        ({"stroke": 2.0}, "goal", "goal"),
+        ({"angle": None}, "goal", "goal"),
+        ({"tensile_strength": 300.0}, "goal", "coil"),
+        ({"mesh": "../../etc"}, "mesh", "literal_error"),
+        ({"__class__": 1}, "__class__", "extra_forbidden"),
+        ({"opening": 1.0}, "opening", "refused"),
+        ({"material": "unobtainium"}, "sheet_metals", "refused"),
+        ({"punch_radius": 150.0}, "punch_radius", "refused"),
+        ({"angle": None, "stroke": 900.0}, "stroke", "refused"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused_by_its_name(values, where, kind):
+    found = look(values)
+    assert (where, kind) in kinds(found)
+
+
+@pytest.mark.parametrize("values", [None, 3, "x", [], [[]], {"a": {"b": [1] * 1000}}, {1: 2}])
+def test_what_is_no_form_is_refused(values):
+    assert look(values)["problems"]
+
+
+def test_numbers_of_a_coil_are_those_that_are_computed_with():
+    """The curve has its largest force at the Rm of the coil, by Considère."""
+    coils = [("DC04", 160, 295, None), ("DC04", 160, 295, 15), ("S235", 290, 410, None), ("1.4301", 280, 620, None)]
+    for name, re, rm, elongation in [*coils, ("EN AW-5754", 100, 215, None), ("EN AW-5754", 100, 215, 17)]:
+        given = {
+            "yield_stress": float(re),
+            "tensile_strength": float(rm),
+            "uniform_elongation": elongation and float(elongation),
+        }
+        law, note = Wanted(material=name, **given).law()
+        assert tensile_strength(law) == pytest.approx(rm, rel=5e-3)
+        assert "coil" in note
+
+
+def test_coil_of_a_published_card_is_refused():
+    card = next(metal for metal in library()["metals"] if metal["card"])
+    found = look({"material": card["name"], "yield_stress": 160.0, "tensile_strength": 295.0})
+    assert kinds(found) == {("material", "refused")}
+
+
+def test_all_tools_of_the_library_can_be_taken():
+    for die in tools()["dies"]:
+        form = {"thickness": die["opening"] / 8, "opening": float(die["opening"]), "die_radius": die["radius"]}
+        for punch in tools()["punches"]:
+            found = look(
+                {**form, "punch_angle": float(punch["angle"]), "punch_radius": punch["radius"], "angle": 120.0}
+            )
+            problems = [row for row in found["problems"] if row["where"] != "punch_radius"]
+            assert not problems, (die, punch)
+
+
+def test_usual_mesh_is_that_of_the_command():
+    assert MESHES["usual"] == {}
+    assert Wanted().case() == AirBending(material=Wanted().law()[0])

@@ -1,0 +1,226 @@
+"""The server: who may ask, what it answers, and that its numbers are those of `umform bend`."""
+
+import csv
+import io
+import json
+
+import pytest
+from starlette.testclient import TestClient
+
+from umform.bench.check_deck import findings
+from umform.bench.guard import LONGEST_BODY
+from umform.bench.wanted import Wanted
+from umform.deck.templates import template
+from umform.processes.air_bending import air_bending, find_stroke
+from umform.processes.air_bending.files import FILES, record
+
+JSON = {"content-type": "application/json"}
+HARMFUL = ["/etc/passwd", "../bench.sqlite", "..%2f..%2ftoken", "job.json", "deck.toml", "%00", "live.json", "a" * 5000]
+
+
+@pytest.fixture(scope="module")
+def done(bench):
+    """A finished bend."""
+    job = bench.ended(bench.order())
+    assert job["state"] == "done", job["reason"]
+    return job
+
+
+@pytest.fixture
+def stranger(bench):
+    """A browser that has not opened the link."""
+    return TestClient(bench.app, base_url=str(bench.client.base_url))
+
+
+def test_numbers_are_those_of_the_library_to_the_last_bit(bench, done):
+    wanted = Wanted.model_validate(done["parameters"])
+    expected = json.loads(json.dumps(record(air_bending(wanted.case(), progress=False))))
+    for name in ("measures", "shop_forces", "parameters", "increments", "force_balance"):
+        assert done["summary"][name] == expected[name], name
+
+
+def test_files_of_a_bend_can_be_taken(bench, done):
+    assert set(done["files"]) == set(FILES) - {"table.csv"}
+    for file in done["files"]:
+        answer = bench.client.get(f"/files/{done['id']}/{file}")
+        assert answer.status_code == 200 and len(answer.content) > 100
+    report = bench.client.get(f"/files/{done['id']}/report.html")
+    assert "sandbox" in report.headers["content-security-policy"]
+    assert "allow-same-origin" not in report.headers["content-security-policy"]
+    assert bench.client.get(f"/files/{done['id']}/shape.html").status_code == 200
+
+
+def test_live_file_has_curve_and_section(done):
+    live = done["live"]
+    assert live["phase"] == "end" and live["fraction"] == 1.0
+    assert len(live["curve"]["x"]) == len(live["curve"]["y"]) > 5
+    outer, inner = live["section"]
+    assert len(outer) == len(inner) > 5
+
+
+def test_curve_is_that_of_the_file(bench, done):
+    curve = bench.client.get(f"/api/jobs/{done['id']}/curve").json()
+    assert max(curve["x"]) == pytest.approx(done["summary"]["measures"]["stroke"])
+    assert max(curve["y"]) == pytest.approx(done["summary"]["measures"]["largest_force"])
+
+
+def test_table_of_jobs_as_csv(bench, done):
+    answer = bench.client.get(f"/api/jobs.csv?ids={done['id']},nobody,..")
+    [row] = csv.DictReader(io.StringIO(answer.text))
+    assert float(row["angle deg"]) == done["summary"]["measures"]["angle"]
+    assert row["opening"] == "16.0"
+
+
+def test_series_finds_angles_as_the_library_does_and_leaves_out_what_cannot_be_reached(bench):
+    base = {"mesh": "quick", "stroke": None, "punch_angle": 60.0}
+    forms = [{**base, "angle": angle, "opening": 16.0} for angle in (160.0, 80.0)]
+    answer = bench.client.post("/api/jobs", json={"forms": forms, "series": "table"}).json()
+    assert len(answer["jobs"]) == 1 and [row["form"] for row in answer["refused"]] == [1]
+    job = bench.ended(answer["jobs"][0])
+    found = find_stroke(Wanted.model_validate(job["parameters"]).case(), 160.0, progress=False)
+    assert job["series"] == "table"
+    assert job["summary"]["measures"]["stroke"] == found.measures.stroke
+    assert abs(job["summary"]["measures"]["angle"] - 160.0) <= 0.02
+
+
+def test_bend_that_cannot_be_is_refused_before_it_runs(bench):
+    before = len(bench.queue.index.jobs())
+    for form in ({"angle": 80.0}, {"thickness": -1.0}, {"x": 1}, "form"):
+        answer = bench.client.post("/api/jobs", json={"forms": [form]})
+        assert answer.status_code == 422 and answer.json()["problems"], form
+    assert len(bench.queue.index.jobs()) == before
+
+
+# ---- who may ask ----
+
+
+@pytest.mark.parametrize("path", ["/", "/api/jobs", "/api/library", "/files/0123456789ab/report.html", "/?token=wrong"])
+def test_without_the_token_nothing_is_told(stranger, path):
+    answer = stranger.get(path)
+    assert answer.status_code == 401 and "token" in answer.text
+
+
+def test_assets_have_no_secrets_and_need_no_token(stranger):
+    assert stranger.get("/assets/main.js").status_code == 200
+    assert stranger.get("/assets/../server.py").status_code in (401, 404)
+    assert stranger.get("/assets/%2e%2e%2fserver.py").status_code == 404
+
+
+@pytest.mark.parametrize("host", ["evil.example", "127.0.0.1", "127.0.0.1:1", "localhost.evil:8765", "", "[::1]:8765"])
+def test_other_names_of_the_host_are_refused(bench, host):
+    assert bench.client.get("/api/jobs", headers={"host": host}).status_code == 421
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {"origin": "http://evil.example"},
+        {"origin": "null"},
+        {"origin": "https://127.0.0.1:8765"},
+        {"origin": "http://127.0.0.1:9999"},
+        {"sec-fetch-site": "cross-site"},
+        {"sec-fetch-site": "same-site"},
+    ],
+)
+def test_pages_of_other_origins_are_refused(bench, headers):
+    before = len(bench.queue.index.jobs())
+    assert bench.client.post("/api/jobs", json={"forms": [{}]}, headers=headers).status_code == 403
+    assert len(bench.queue.index.jobs()) == before
+
+
+def test_form_of_another_kind_is_refused(bench):
+    answer = bench.client.post("/api/jobs", content='{"forms": [{}]}', headers={"content-type": "text/plain"})
+    assert answer.status_code == 415
+
+
+def test_cookie_is_kept_from_programs_and_other_sites(bench, stranger):
+    cookie = stranger.get("/?token=a-token-that-nobody-guesses").headers["set-cookie"]
+    assert "HttpOnly" in cookie and "SameSite=Strict" in cookie
+    policy = stranger.get("/").headers["content-security-policy"]
+    assert "default-src 'none'" in policy and "script-src 'self';" in policy
+
+
+# ---- hostile input ----
+
+
+@pytest.mark.parametrize("file", HARMFUL)
+def test_files_that_are_no_results_are_not_given(bench, done, file):
+    for path in (f"/files/{done['id']}/{file}", f"/files/{file}/report.html", f"/api/jobs/{file}"):
+        assert bench.client.get(path).status_code == 404
+
+
+def test_link_in_the_results_is_not_followed(bench, done):
+    place = bench.queue.place(done["id"]) / "results" / "history.csv"
+    place.symlink_to("/etc/hostname")
+    assert bench.client.get(f"/files/{done['id']}/history.csv").status_code == 404
+    place.unlink()
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        b"",
+        b"{",
+        b"[" * 200_000,
+        b'{"forms": [{"thickness": NaN}]}',
+        b'{"forms": [{"thickness": 1' + b"0" * 400_000 + b"}]}",
+        b'{"forms": ' + b"[{}," * 100 + b"{}" + b"]" * 100 + b"}",
+        b'{"forms": [' + b",".join([b"{}"] * 1000) + b"]}",
+        b"\xff\xfe\x00",
+        b'{"text": 3}',
+        b"null",
+    ],
+)
+@pytest.mark.parametrize("path", ["/api/jobs", "/api/decks/jobs", "/api/look", "/api/decks/check"])
+def test_bodies_that_are_no_question_are_answered(bench, body, path):
+    before = len(bench.queue.index.jobs())
+    answer = bench.client.post(path, content=body, headers=JSON)
+    assert answer.status_code in (200, 400, 422)
+    assert answer.status_code != 200 or answer.json()["problems"]
+    assert len(bench.queue.index.jobs()) == before
+
+
+def test_body_that_is_too_long_is_refused(bench):
+    assert bench.client.post("/api/look", content=b" " * (LONGEST_BODY + 1), headers=JSON).status_code == 413
+
+    def pieces():
+        for _ in range(20):
+            yield b" " * (LONGEST_BODY // 10)
+
+    assert bench.client.post("/api/look", content=pieces(), headers=JSON).status_code == 413
+
+
+def test_text_of_a_title_is_no_formula(bench, done):
+    bench.queue.index.add("feedfeedfeed", "bend", "=1+1", "", {"material": "@x"})
+    bench.queue.index.change("feedfeedfeed", "stopped", summary={"measures": {}})
+    text = bench.client.get("/api/jobs.csv?ids=feedfeedfeed").text
+    assert "'=1+1" in text and "'@x" in text
+    bench.queue.index.remove("feedfeedfeed")
+
+
+# ---- decks ----
+
+
+def test_templates_can_be_opened(bench):
+    names = [one["name"] for one in bench.client.get("/api/decks").json()["templates"]]
+    assert "cantilever" in names
+    assert bench.client.get("/api/decks/template/cantilever").json()["text"] == template("cantilever")
+    assert bench.client.get("/api/decks/template/..%2fcontents").status_code == 404
+    assert "properties" in bench.client.get("/api/decks/schema").json()
+
+
+def test_check_finds_what_the_command_finds(tmp_path):
+    deck = tmp_path / "deck.toml"
+    deck.write_text(template("cantilever"))
+    found = findings(deck, tmp_path)
+    assert {row["level"] for row in found} <= {"ok", "warning"} and len(found) > 2
+    deck.write_text(template("cantilever").replace("ANS3DEAS", "ANS3DEASS").replace("[element]", "[elements]"))
+    found = findings(deck, tmp_path)
+    assert {row["level"] for row in found} == {"error"}
+    assert any("elements" in row["about"] for row in found)
+
+
+def test_deck_of_a_giant_harms_nobody(bench):
+    giant = template("cantilever").replace("cells = [24, 1]", "cells = [2000000, 2000000]")
+    findings = bench.client.post("/api/decks/check", json={"text": giant}).json()["findings"]
+    assert any(row["level"] == "error" for row in findings)
