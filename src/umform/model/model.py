@@ -125,6 +125,29 @@ class Model(Standing):
         """
         return removal.remove(self, thing)
 
+    def unbalanced(self, name: str = "unbalanced") -> Load:
+        """A load of the forces that nothing balances at the present state, for a stage that begins there.
+
+        Tools and supports of the stage before, and metal that was cut off, exerted them. Supports and tools of the
+        present stage must be there already. Move the load to zero to let the part spring back, see docs/operations.md.
+
+        Parameters
+        ----------
+        name : str
+            Column of the history: 1 as long as all of the forces act.
+
+        Returns
+        -------
+        Load
+            The control of the forces, of value 1.
+
+        Raises
+        ------
+        InvalidValue
+            If supports hold nodes elsewhere than they are, or the name is taken.
+        """
+        return removal.balancing(self, name)
+
     def put_back(self, thing: Support | Tool, *, here: bool = True) -> None:
         """Let a support that was removed act again, or a tool that was opened touch the sheet again.
 

@@ -7,7 +7,9 @@ from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
+from umform.errors import NoConvergence
 from umform.progress import Tick, progress_bar
+from umform.results.bottoming import warn_of_bottoming
 from umform.results.penetration import warn_of_contact
 from umform.results.rest import tell_of_rest
 from umform.run.interrupt import Interrupt, gentle_interrupt
@@ -90,10 +92,13 @@ def taken(
                 run.number, run.loop = run.number + 1, None
             if last:
                 warn_of_contact(run.model, result)
+                warn_of_bottoming(run.model, result)
                 tell_of_rest(run.model, result)
             _pause(run, start, checkpoints, stop, last=last)
         except BaseException as error:  # whatever ends the run: what was reached is kept with the error
             result.seconds = clock.perf_counter() - start
+            if isinstance(error, NoConvergence):
+                warn_of_bottoming(run.model, result)
             error.result = result  # type: ignore[attr-defined]
             raise
 
