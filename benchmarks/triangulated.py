@@ -15,6 +15,7 @@ import umform as uf
 from umform.surfaces import Triangles
 
 SIDE, CELLS, GRID, ROUNDS = 100.0, 60, 100, 5
+THROUGH = 5  # points through the thickness
 
 
 def die() -> uf.Triangulated:
@@ -32,7 +33,7 @@ def seconds(tool: uf.surfaces.Tool | None, points: int) -> float:
     steel = uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(strength=500.0, offset=0.01, exponent=0.2))
     flat = uf.mesh.strip(SIDE, SIDE, 1.0, (CELLS, CELLS))
     bent = flat.transformed(lambda x: x + _raised(x))
-    model = uf.Model(bent, "ANS3DEAS", material=steel)
+    model = uf.Model(bent, "ANS3DEAS", material=steel, thickness_points=THROUGH)
     if tool is not None:
         model.contact("lower", tool, penalty=100.0, points=points, name="die")
     best = np.inf

@@ -8,9 +8,9 @@
 
 #include "evaluate.hpp"
 #include "umform/contact/bead.hpp"
-#include "umform/contact/block.hpp"
 #include "umform/contact/cells.hpp"
 #include "umform/contact/coulomb.hpp"
+#include "umform/contact/facet_block.hpp"
 #include "umform/contact/penalty.hpp"
 
 using namespace umform;

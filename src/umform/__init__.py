@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from umform.model import Body, Model
     from umform.model.axes import cylindrical, turned
     from umform.model.contact.friction import Friction, FrictionByRegion, Region
+    from umform.model.trim import Trim
     from umform.results import fields
     from umform.run import Result, resume, solve
     from umform.run.stages import Stage, solve_stages
@@ -111,6 +112,7 @@ _HOME = {
     "umform.model": ("Body", "Model"),
     "umform.model.axes": ("cylindrical", "turned"),
     "umform.model.contact.friction": ("Friction", "FrictionByRegion", "Region"),
+    "umform.model.trim": ("Trim",),
     "umform.run": ("Result", "resume", "solve"),
     "umform.run.stages": ("Stage", "solve_stages"),
     "umform.solution.options": ("NewtonOptions",),
@@ -197,6 +199,7 @@ __all__ = [
     "Torus",
     "Transformation",
     "Triangulated",
+    "Trim",
     "Tying",
     "UDie",
     "Umat",

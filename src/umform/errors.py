@@ -6,6 +6,8 @@ what to do about it. The command line prints the message; Python users catch the
 
 from __future__ import annotations
 
+from typing import Any
+
 
 class UmformError(Exception):
     """Base of all errors that umform raises on purpose.
@@ -204,9 +206,16 @@ class NoConvergence(SolveError):
 
 
 class SingularMatrix(SolveError):
-    """A tangent that cannot be factorised."""
+    """A tangent that cannot be factorised.
+
+    Attributes
+    ----------
+    motion : ndarray, shape (n,), optional
+        The displacement of the unknowns that it does not resist, where the solver knows it.
+    """
 
     id = "solve.singular-matrix"
+    motion: Any = None
 
 
 class FileProblem(UmformError, OSError):

@@ -54,11 +54,16 @@ def bead(
         float | None, option("Distance that the strip is drawn; default 1.5 times the length in the bead.", SOLUTION)
     ] = None,
     element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND8",
-    elements: Annotated[float, option("Elements per quarter turn of the smaller radius.", SOLUTION)] = 20.0,
+    elements: Annotated[float, option("Elements per quarter turn of the smaller radius.", SOLUTION)] = 14.0,
     contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 4,
     extrapolate: Annotated[
-        bool, option("Also run a coarser mesh: extrapolated forces and their error.", SOLUTION)
-    ] = False,
+        bool,
+        option(
+            "Also run two coarser meshes: extrapolated forces and their error.",
+            SOLUTION,
+            "--extrapolate/--no-extrapolate",
+        ),
+    ] = True,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,

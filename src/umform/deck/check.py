@@ -87,6 +87,10 @@ def idle(deck: Deck) -> Iterator[Finding]:
     for name in deck.contents.controls:
         if ("controls", name) not in used:
             yield warning(f"control {name}", "no step moves it: it stays at 0", "add it to a step, or take it out")
+    before = deck.contents.before
+    if before is not None and ("controls", before.control) not in used:
+        text = "no step moves it to 0: forces of the operation before stay on the part as dead loads"
+        yield warning(f"control {before.control}", text, f"to = {{ {before.control} = 0.0 }} in the first step")
 
 
 def effort(contents: Contents, problem: Problem) -> Finding:

@@ -8,6 +8,7 @@ from typing import Annotated
 from pydantic import Field
 
 from umform.deck.beads import BeadPart
+from umform.deck.before import Before, Cut
 from umform.deck.contacts import ContactPart
 from umform.deck.controls import ControlPart
 from umform.deck.element import ElementPart
@@ -25,6 +26,10 @@ class Contents(Part):
 
     title: str = ""
     """What it is about."""
+    before: Before | None = None
+    """The deck of the operation before, whose mesh, material and element these are then."""
+    trim: list[Cut] = []
+    """What is cut off the part of the operation before, one cut after the other."""
     mesh: MeshPart
     """Points and cells."""
     material: MaterialPart

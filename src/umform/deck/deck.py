@@ -9,12 +9,14 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from umform.deck.before import merged
 from umform.deck.contents import Contents
 from umform.deck.errors import DeckError, DeckKey
 from umform.deck.messages import messages
-from umform.deck.problem import Problem, build
+from umform.deck.problem import Problem, build, sheet
 from umform.deck.references import unknown_names
 from umform.deck.source import Source, parse, read_file
+from umform.model import Model
 
 
 @dataclass(frozen=True)
@@ -27,10 +29,13 @@ class Deck:
         What stands in it.
     source : Source
         Its text, and where in it each key stands.
+    before : Deck or None
+        The deck of the operation before.
     """
 
     contents: Contents
     source: Source
+    before: Deck | None = None
 
     @classmethod
     def read(
@@ -59,6 +64,9 @@ class Deck:
             With all that is wrong with it.
         """
         source = parse(text, name, Path(folder), changes)
+        before = _before(source)
+        if before is not None:
+            source = merged(source, before.source)
         errors: list[DeckKey] = []
         contents = None
         try:
@@ -68,7 +76,7 @@ class Deck:
         errors += unknown_names(source)
         if errors or contents is None:
             raise DeckError(errors)
-        return cls(contents, source)
+        return cls(contents, source, before)
 
     def build(self, solver: str | None = None) -> Problem:
         """Build the model and all that happens to it.
@@ -83,7 +91,37 @@ class Deck:
         DeckError
             With all that does not fit.
         """
-        return build(self.contents, self.source, solver)
+        return build(self.contents, self.source, solver, self.before)
+
+    def sheet(self) -> Model:
+        """The model without tools and supports, as it stands before the first step.
+
+        Raises
+        ------
+        DeckError
+            With all that does not fit.
+        """
+        return sheet(self.contents, self.source, self.before)
+
+
+def _before(source: Source) -> Deck | None:
+    """The deck of the operation before, if a deck names one."""
+    table = source.data.get("before")
+    named = table.get("deck") if isinstance(table, dict) else None
+    if not isinstance(named, str):
+        return None
+    if (source.folder / named).resolve() == (source.folder / source.name).resolve():
+        raise DeckError(
+            [
+                DeckKey(
+                    "a deck cannot be the operation before itself",
+                    where=source.place(("before", "deck")),
+                    value=named,
+                    remedy="the deck whose run comes first",
+                )
+            ]
+        )
+    return load(source.folder / named)
 
 
 def load(path: str | Path, changes: Mapping[str, Any] | None = None) -> Deck:

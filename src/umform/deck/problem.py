@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from os import PathLike
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from umform.deck.places import Place
 from umform.deck.profiles import profile_of
 from umform.deck.rolling import direction
 from umform.deck.source import Source
-from umform.deck.steps import Named
+from umform.deck.steps import Free, Named
 from umform.deck.supports import Rigid
 from umform.elements import Rolling
 from umform.elements.technology import Element
@@ -85,6 +86,8 @@ class Problem(Solving):
         What happens, in a row.
     tools : dict of str to Tool
         Surfaces of its tools by name.
+    notes : sequence of str
+        What was cut off, in words for the results.
     """
 
     model: Model
@@ -92,12 +95,33 @@ class Problem(Solving):
     controls: dict[str, Control]
     steps: list[Step]
     tools: dict[str, Tool]
+    notes: Sequence[str] = ()
+
+    def solve(self, *, solver: str | None = None, **options: Any) -> Result:
+        """Solve the problem; ``progress``, ``checkpoint``, ``every`` and ``note`` as for :func:`umform.solve`."""
+        return self._noted(super().solve(solver=solver, **options))
+
+    def resume(self, path: str | PathLike[str], *, solver: str | None = None, **options: Any) -> Result:
+        """Take up a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
+        return self._noted(super().resume(path, solver=solver, **options))
+
+    def _noted(self, result: Result) -> Result:
+        for note in self.notes:
+            result.note(note)
+        return result
 
     def _given(self) -> tuple[Model | None, list[Step]]:
         return self.model, self.steps
 
 
-def build(contents: Contents, source: Source, solver: str | None = None) -> Problem:
+class Earlier(Protocol):
+    """A deck whose run comes before."""
+
+    def sheet(self) -> Model:
+        """Its model without tools and supports."""
+
+
+def build(contents: Contents, source: Source, solver: str | None = None, before: Earlier | None = None) -> Problem:
     """Build the problem of a deck.
 
     Parameters
@@ -108,6 +132,8 @@ def build(contents: Contents, source: Source, solver: str | None = None) -> Prob
         Where it stands.
     solver : str, optional
         Another sparse solver than that of the deck.
+    before : Earlier, optional
+        The deck of the operation before.
 
     Raises
     ------
@@ -115,7 +141,17 @@ def build(contents: Contents, source: Source, solver: str | None = None) -> Prob
         With all that does not fit.
     """
     with np.errstate(all="ignore"):
-        return _Builder(contents, source, solver or contents.solution.solver).problem()
+        return _Builder(contents, source, solver or contents.solution.solver, before).problem()
+
+
+def sheet(contents: Contents, source: Source, before: Earlier | None) -> Model:
+    """Only the model, without tools and supports; see :func:`build`."""
+    with np.errstate(all="ignore"):
+        builder = _Builder(contents, source, contents.solution.solver, before)
+        model = builder.sheet()
+    if model is None:
+        raise DeckError(builder.errors)
+    return model
 
 
 @dataclass
@@ -125,17 +161,20 @@ class _Builder:
     contents: Contents
     source: Source
     solver: str
+    before: Earlier | None = None
     errors: list[UmformError] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
     def problem(self) -> Problem:
         tools = self._tools()
-        model = self._model()
+        model = self.sheet()
         if model is None:
             raise DeckError(self.errors)
         contacts = self._contacts(model, tools)
         supports = self._supports(model, rigid=False)
         controls = self._controls(model, contacts)
         supports |= self._supports(model, rigid=True)
+        controls |= self._missing_forces(model, supports)
         self._rest(model)
         options = self._options(model)
         self._raise()
@@ -150,6 +189,7 @@ class _Builder:
             options=options,
             solver=self.solver,
             frames=self.contents.output.frames,
+            notes=self.notes,
         )
 
     def _tools(self) -> dict[str, Tool]:
@@ -166,6 +206,36 @@ class _Builder:
                 tool.kernel()
                 tools[name] = tool
         return tools
+
+    def sheet(self) -> Model | None:
+        """The model without tools and supports, in the state that it begins in."""
+        if self.before is None:
+            return self._model()
+        part, folder = self.contents.before, self.source.folder
+        assert part is not None
+        with self._at("before"):
+            model = self.before.sheet()
+            part.restore(model, folder)
+            for number, cut in enumerate(self.contents.trim):
+                with self._at("trim", number):
+                    left = cut.build(folder).of(model)
+                    self.notes.append(f"trim {number + 1}: {left}")
+                    model = left.model
+            return model
+        return None
+
+    def _missing_forces(self, model: Model, supports: dict[str, Support]) -> dict[str, Control]:
+        """What tools, supports and metal exerted that are not there any more; supports that wait hold at once."""
+        part = self.contents.before
+        if part is None or self.errors:
+            return {}
+        named = {step.on for step in self.contents.steps if isinstance(step, Free)}
+        with self._at("before"):
+            for name, support in supports.items():
+                if support.waits and name not in named:
+                    model.put_back(support)
+            return {part.control: model.unbalanced(part.control)}
+        return {}
 
     def _model(self) -> Model | None:
         part = self.contents.element
@@ -230,7 +300,7 @@ class _Builder:
             if isinstance(part, Rigid) != rigid:
                 continue
             with self._at("supports", number):
-                support = part.add_to(model)
+                support = part.add_to(model, here=self.before is not None)
                 supports[support.name] = support
         return supports
 

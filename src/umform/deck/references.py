@@ -69,7 +69,8 @@ def _listed(part: dict[str, Any], key: str, kind: str, path: Path) -> Iterator[t
 def _names(data: dict[str, Any], kind: str) -> list[str]:
     """The names of the things of a kind; supports stand in a list, and some of them have a name."""
     if kind != "supports":
-        return list(_table(data, kind))
+        more = [name] if kind == "controls" and isinstance(name := _table(data, "before").get("control"), str) else []
+        return [*_table(data, kind), *more]
     supports = data.get(kind)
     named = [part.get("name") for part in supports if isinstance(part, dict)] if isinstance(supports, list) else []
     return [name for name in named if isinstance(name, str)]

@@ -172,7 +172,8 @@ def ways(deck: Deck, problem: Problem) -> Iterator[Finding]:
     """How far the controls that are lengths go, in all and in one increment."""
     mesh = problem.model.mesh
     thickness, span = sheet_thickness(mesh), float(np.ptp(mesh.points, axis=0).max())
-    stands = dict.fromkeys(deck.contents.controls, 0.0)
+    controls = deck.contents.controls
+    stands = dict.fromkeys(controls, 0.0)
     for number, step in enumerate(deck.contents.steps):
         about = f"step {number + 1}"
         if not isinstance(step, Move):  # where it ends is not known
@@ -181,8 +182,10 @@ def ways(deck: Deck, problem: Problem) -> Iterator[Finding]:
                 stands[name] = np.nan
             continue
         for name, to in step.to.items():
+            if not isinstance(controls.get(name), Displacement | MidLine | Drive):
+                continue
             way, stands[name] = abs(to - stands[name]), to
-            if not isinstance(deck.contents.controls[name], Displacement | MidLine | Drive) or not np.isfinite(way):
+            if not np.isfinite(way):
                 continue
             part = way / step.increments if step.increments is not None else 0.0
             each = "at a pace" if step.increments is None else f"{part:.3g} in an increment"

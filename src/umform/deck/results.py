@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from umform.deck.before import write_state
 from umform.deck.deck import Deck
 from umform.deck.problem import Problem
 from umform.errors import UmformError
@@ -19,13 +20,18 @@ from umform.run import Result
 COPY = "as-run.toml"
 #: Where the state of a run is kept unless another file is asked for; taken away when the run has ended by itself.
 CHECKPOINT = "checkpoint.h5"
-FILES = ("history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", COPY)
+#: State at the end, which the deck of the next operation begins with.
+STATE = "state.h5"
+FILES = ("history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", STATE, COPY)
 #: What marks a folder as that of a run.
 RESULTS = (*FILES, CHECKPOINT)
 
 
-def write(deck: Deck, problem: Problem, result: Result, stage: Staging) -> list[Path]:
-    """Write the files that the deck asks for; numbers get their names before pictures are drawn."""
+def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole: bool) -> list[Path]:
+    """Write the files that the deck asks for; numbers get their names before pictures are drawn.
+
+    Without ``whole`` a run has ended early: its state is none that another operation begins with.
+    """
     wanted, waiting, text = deck.contents.output, stage.waiting, as_run(deck)
     (waiting / COPY).write_text(text, encoding="utf-8")
     if wanted.forming or wanted.forming_limit is not None:
@@ -34,7 +40,9 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging) -> list[
         result.write(waiting / "history.csv")
     if wanted.vtkhdf:
         result.write(waiting / "fields.vtkhdf")
-    files = stage.commit([COPY, "history.csv", "fields.vtkhdf"])
+    if wanted.state and whole:
+        write_state(problem.model, waiting / STATE)
+    files = stage.commit([COPY, "history.csv", "fields.vtkhdf", STATE])
     if wanted.pictures:
         from umform.deck.pictures import draw_curve, draw_shape  # matplotlib takes time to load
 

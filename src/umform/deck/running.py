@@ -248,7 +248,7 @@ def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: C
         with result.timing.files, says_what_is_kept(stage, checkpoint, before):
             if stage.make_again():
                 result.warn(f"the folder {out} was removed during the run; it was made again")
-            files = write(kept.deck, problem, result, stage)
+            files = write(kept.deck, problem, result, stage, whole=ended_by is None)
         over = ended_by is None or isinstance(ended_by, UmformError)
         if over and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():
             checkpoint.unlink(missing_ok=True)

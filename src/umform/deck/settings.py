@@ -56,6 +56,8 @@ class Output(Part):
     """A page, report.html."""
     pictures: bool = True
     """Force over displacement as curve.png, the last shape as shape.png."""
+    state: bool = False
+    """State at the end of a run as state.h5, which a deck with a table before begins with."""
     forming: bool = False
     """Strains of both skins and of the middle, thinning and wrinkling among the fields."""
     forming_limit: list[Pair] | None = None

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from umform.deck.parts import Axis, Name, Part, Vector, Way
 from umform.deck.selection import Selection, nodes_of
+from umform.errors import InvalidValue
 from umform.model import Model
 from umform.model.axes import Axes, cylindrical
 from umform.model.support import Support as Held
@@ -39,9 +40,10 @@ class _Supporting(Part):
     name: Name | None = None
     """Name, by which a step may free it."""
 
-    def _hold(self, method: Callable[..., Held], model: Model) -> Held:
+    def _hold(self, method: Callable[..., Held], model: Model, here: bool) -> Held:
         axes = None if self.axes is None else self.axes.build()
-        return method(nodes_of(model.mesh, self.nodes), self.directions, axes=axes, name=self.name or "")
+        nodes = nodes_of(model.mesh, self.nodes)
+        return method(nodes, self.directions, axes=axes, name=self.name or "", here=here)
 
 
 class Fix(_Supporting):
@@ -50,9 +52,9 @@ class Fix(_Supporting):
     kind: Literal["fix"]
     """The word fix."""
 
-    def add_to(self, model: Model) -> Held:
+    def add_to(self, model: Model, *, here: bool = False) -> Held:
         """Hold the nodes."""
-        return self._hold(model.fix, model)
+        return self._hold(model.fix, model, here)
 
 
 class Symmetry(Part):
@@ -65,7 +67,7 @@ class Symmetry(Part):
     normal: Axis
     """Normal of the plane."""
 
-    def add_to(self, model: Model) -> Held:
+    def add_to(self, model: Model, *, here: bool = False) -> Held:
         """Hold the nodes in the plane."""
         return model.symmetry(nodes_of(model.mesh, self.nodes), self.normal)
 
@@ -76,9 +78,9 @@ class Hinge(_Supporting):
     kind: Literal["hinge"]
     """The word hinge."""
 
-    def add_to(self, model: Model) -> Held:
+    def add_to(self, model: Model, *, here: bool = False) -> Held:
         """Hold the mid-line."""
-        return self._hold(model.hinge, model)
+        return self._hold(model.hinge, model, here)
 
 
 class Director(_Supporting):
@@ -87,9 +89,9 @@ class Director(_Supporting):
     kind: Literal["director"]
     """The word director."""
 
-    def add_to(self, model: Model) -> Held:
+    def add_to(self, model: Model, *, here: bool = False) -> Held:
         """Hold the director."""
-        return self._hold(model.hold_director, model)
+        return self._hold(model.hold_director, model, here)
 
 
 class Rigid(Part):
@@ -101,11 +103,23 @@ class Rigid(Part):
     """Name, by which a step puts it in place."""
     nodes: Selection = "all"
     """Nodes that may be held: three that are not on a line, or all."""
+    instead_of: list[Name] = []
+    """Names of supports that the same step frees: it may hold their nodes."""
 
-    def add_to(self, model: Model) -> Held:
+    def add_to(self, model: Model, *, here: bool = False) -> Held:
         """Let the support wait."""
         nodes = "all" if self.nodes == "all" else nodes_of(model.mesh, self.nodes)
-        return model.hold_rigid(nodes, self.name)
+        there = {support.name: support for support in model.supports}
+        unknown = [name for name in self.instead_of if name not in there]
+        if unknown:
+            raise InvalidValue(
+                "a rigid support takes the place of supports that the deck names",
+                where=f"support {self.name}, instead_of",
+                value=", ".join(unknown),
+                cause="a name that no support has, or that of another rigid one",
+                remedy=f"names of supports: {', '.join(there) or 'there are none'}",
+            )
+        return model.hold_rigid(nodes, self.name, instead_of=[there[name] for name in self.instead_of])
 
 
 Support = Annotated[Fix | Symmetry | Hinge | Director | Rigid, Field(discriminator="kind")]

@@ -25,13 +25,14 @@ FACES = ("lower", "upper", "r0", "r1", "s0", "s1")
 #: Natural coordinates (r, s) of the nodes of a face, corners first.
 FACE_NODES = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0), (0, 0)], dtype=float)
 
+_LOOK = "look at the coordinates: comparisons of reals need a tolerance"
 _OUTWARD_LOWER = {"hex8": [0, 3, 2, 1], "hex18": [0, 3, 2, 1, 7, 6, 5, 4, 8]}
 
 #: What selects nodes or faces: a name, a predicate of the coordinates x, y, z, or ids.
 Selector = str | Callable[[Floats, Floats, Floats], ArrayLike] | ArrayLike
 
 
-def _nodes_of_faces(cell: str) -> list[list[int]]:
+def nodes_of_faces(cell: str) -> list[list[int]]:
     """Local nodes of the six faces (in no special order but for lower and upper)."""
     half = 4 if cell == "hex8" else 9
     plane = FACE_NODES[:half]
@@ -160,7 +161,8 @@ class Mesh:
             if selector in self.sets:
                 ids = np.asarray(self.sets[selector], dtype=np.int32)
             elif selector in self.faces:
-                ids = unique(np.concatenate([self._face_nodes(face) for face in self.faces[selector]]))
+                rows = np.asarray(self.faces[selector], dtype=np.int32)
+                ids = unique(np.concatenate([self._face_nodes(face) for face in rows])) if len(rows) else rows.ravel()
             else:
                 raise _unknown("node", selector, [*self.sets, *self.faces])
         elif callable(selector):
@@ -171,7 +173,8 @@ class Mesh:
             raise EmptySet(
                 "a set selects no node",
                 value=selector if isinstance(selector, str) else "predicate or list",
-                remedy="look at the coordinates: comparisons of reals need a tolerance",
+                cause="its metal was cut off" if isinstance(selector, str) else "",
+                remedy="another set" if isinstance(selector, str) else _LOOK,
             )
         if ids.min() < 0 or ids.max() >= len(self.points):
             raise InvalidValue(
@@ -205,7 +208,7 @@ class Mesh:
             rows = np.concatenate(
                 [
                     np.stack([hit, np.full(len(hit), number)], axis=1)
-                    for number, local in enumerate(_nodes_of_faces(self.cell))
+                    for number, local in enumerate(nodes_of_faces(self.cell))
                     for hit in [np.flatnonzero(inside[self.connectivity[:, local]].all(axis=1))]
                 ]
             ).astype(np.int32)
@@ -213,7 +216,10 @@ class Mesh:
             rows = np.asarray(selector, dtype=np.int32).reshape(-1, 2)
         if len(rows) == 0:
             raise EmptySet(
-                "a set selects no face", value=selector if isinstance(selector, str) else "predicate or list"
+                "a set selects no face",
+                value=selector if isinstance(selector, str) else "predicate or list",
+                cause="its metal was cut off" if isinstance(selector, str) else "",
+                remedy="another set" if isinstance(selector, str) else _LOOK,
             )
         bad = (rows < 0).any(axis=1) | (rows[:, 0] >= len(self.connectivity)) | (rows[:, 1] >= len(FACES))
         if bad.any():
@@ -250,7 +256,7 @@ class Mesh:
 
     def face_centres(self) -> Floats:
         """Mean of the corners of each face, in the order of :data:`umform.mesh.FACES`; shape (m, 6, 3)."""
-        corners, half = np.array(_nodes_of_faces("hex8")), self.connectivity.shape[1] // 2
+        corners, half = np.array(nodes_of_faces("hex8")), self.connectivity.shape[1] // 2
         local = corners % 4 + half * (corners // 4)
         centres: Floats = self.points[self.connectivity[:, local]].mean(axis=2)
         return centres
@@ -260,7 +266,7 @@ class Mesh:
         return Mesh(function(self.points), self.cells, self.sets, self.faces)
 
     def _face_nodes(self, face: Ids) -> Ids:
-        ids: Ids = self.connectivity[face[0]][_nodes_of_faces(self.cell)[face[1]]]
+        ids: Ids = self.connectivity[face[0]][nodes_of_faces(self.cell)[face[1]]]
         return ids
 
 

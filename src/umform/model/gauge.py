@@ -5,6 +5,9 @@ Where external forces balance, its reactions are zero: a part that is held by it
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
 import numpy as np
 
 from umform.errors import InvalidValue
@@ -12,9 +15,10 @@ from umform.mesh import Ids
 from umform.model.checks import left_free, middle
 from umform.model.evaluated import Evaluated
 from umform.model.forces import rigid_body_modes
+from umform.model.support import Support
 
 
-def gauge_dofs(model: Evaluated, nodes: Ids) -> Ids:
+def gauge_dofs(model: Evaluated, nodes: Ids, gone: Sequence[Support] = ()) -> Ids:
     """Degrees of freedom of nodes that hold what the supports leave free, as far apart as can be.
 
     Parameters
@@ -23,12 +27,42 @@ def gauge_dofs(model: Evaluated, nodes: Ids) -> Ids:
         The model.
     nodes : ndarray of int
         Nodes that may be held.
+    gone : sequence of Support
+        Supports that will not act any more.
 
     Raises
     ------
     InvalidValue
-        If the supports leave nothing free, or these nodes cannot hold it.
+        If the supports leave nothing free, these nodes cannot hold it, or one that is to go does not act.
     """
+    with _without(model, gone):
+        return _dofs(model, nodes)
+
+
+@contextmanager
+def _without(model: Evaluated, gone: Sequence[Support]) -> Iterator[None]:
+    """The model while some of its supports do not act."""
+    for support in gone:
+        if support not in model.supports:
+            raise InvalidValue(
+                "hold_rigid() takes the place of supports that act",
+                where="hold_rigid(), instead_of",
+                value=support,
+                cause="it is removed already, waits itself, or belongs to another model",
+                remedy="what fix(), symmetry(), hinge() or hold_director() of this model returned",
+            )
+    for support in gone:
+        support.removed = True
+    try:
+        model.hold_again()
+        yield
+    finally:
+        for support in gone:
+            support.removed = False
+        model.hold_again()
+
+
+def _dofs(model: Evaluated, nodes: Ids) -> Ids:
     from scipy.linalg import qr  # slow to import
 
     modes = rigid_body_modes(model.mesh.points, *middle(model))
@@ -38,7 +72,7 @@ def gauge_dofs(model: Evaluated, nodes: Ids) -> Ids:
             "the supports hold the sheet already",
             where="hold_rigid()",
             cause="fix(), symmetry() or prescribe() leave no rigid motion free",
-            remedy="release a support with Free, or do without it",
+            remedy="instead_of=... with the supports that the step Free takes away, or do without it",
         )
     dofs = (3 * np.asarray(nodes)[:, None] + np.arange(3)).ravel()
     dofs = dofs[~model.constrained()[dofs]]
@@ -49,8 +83,9 @@ def gauge_dofs(model: Evaluated, nodes: Ids) -> Ids:
         raise InvalidValue(
             "these nodes cannot hold the sheet",
             where="hold_rigid()",
-            value=f"{len(nodes)} nodes for {len(free)} motions",
-            cause="too few nodes, or nodes on a line",
-            remedy="three nodes that are far apart and not on a line",
+            value=f"{len(nodes)} nodes, of which {len(dofs)} degrees of freedom are not held yet, for {len(free)} "
+            f"motion{'s' if len(free) > 1 else ''}",
+            cause="too few nodes, nodes on a line, or nodes that a support holds which the step Free takes away",
+            remedy="three nodes that are far apart and not on a line; instead_of=... with the supports that go",
         )
     return np.sort(dofs[order[: len(free)]]).astype(np.int32)

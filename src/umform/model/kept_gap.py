@@ -38,7 +38,7 @@ def stop_at_gap(model: Evaluated, press: Press, to: Tool, gap: float) -> tuple[f
     InvalidValue
         If no part of the sheet lies between them, they are nearer already, or one moves without the other.
     """
-    where = f"keep_gap, tool {press.way.tool.name} to {to.name}"
+    where = _where(press, to)
     _check(press, to, gap, where)
     ways = np.concatenate([np.empty((0, 2)), *_facing(model, press, to)])
     if len(ways) == 0:
@@ -61,19 +61,42 @@ def stop_at_gap(model: Evaluated, press: Press, to: Tool, gap: float) -> tuple[f
     return press.way.value + sense * (distance - gap), sense < 0.0
 
 
+def check_kept_gaps(model: Evaluated) -> None:
+    """Refuse tools that keep a gap to one which has been given a way since that they do not follow.
+
+    Raises
+    ------
+    InvalidValue
+        If there are such tools: the stop that keeps the gap would stay behind.
+    """
+    for press in (press for tool in model.tools for press in tool.presses):
+        for to in press.gaps:
+            _check_together(press, to, _where(press, to))
+
+
+def _where(press: Press, to: Tool) -> str:
+    return f"keep_gap, tool {press.way.tool.name} to {to.name}"
+
+
 def _check(press: Press, to: Tool, gap: float, where: str) -> None:
-    own = press.way.tool
     if not (np.isfinite(gap) and gap > 0.0):
         raise InvalidValue("a gap between two tools is positive", where=where, value=gap, remedy="the height of blocks")
-    apart = [way.name for way in to.ways if way not in own.ways] + (["a motion in time"] if to.motion else [])
-    if apart or own.motion is not None or not isinstance(press.way, ToolMotion):
-        raise InvalidValue(
-            "a gap is kept along a direction, between tools that move together but for the press",
-            where=where,
-            value=", ".join(apart) or press.way.name,
-            cause="the other tool has a way that this one does not follow, one moves in time, or a moment turns it",
-            remedy="attach(tool, way) to the ways of the other tool first; a tool that is pressed along a direction",
-        )
+    _check_together(press, to, where)
+
+
+def _check_together(press: Press, to: Tool, where: str) -> None:
+    own = press.way.tool
+    alone = [way.name for way in to.ways if way not in own.ways] + (["a motion in time"] if to.motion else [])
+    if not alone and own.motion is None and isinstance(press.way, ToolMotion):
+        return
+    raise InvalidValue(
+        "a gap is kept along a direction, between tools that move together but for the press",
+        where=where,
+        value=", ".join(alone) or press.way.name,
+        cause="the other tool has a way that this one does not follow, one moves in time, or a moment turns it",
+        remedy=f"attach({own.name}, way) to the ways of tool {to.name} before keep_gap; a tool that is pressed along a "
+        "direction",
+    )
 
 
 def _facing(model: Evaluated, press: Press, to: Tool) -> Iterator[Floats]:

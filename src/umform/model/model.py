@@ -18,7 +18,7 @@ from umform.model.checks import check_model
 from umform.model.contact import Contact
 from umform.model.dead_load import Load
 from umform.model.gauge import gauge_dofs
-from umform.model.kept_gap import stop_at_gap
+from umform.model.kept_gap import check_kept_gaps, stop_at_gap
 from umform.model.opening import put_tool_back
 from umform.model.press import check_stiffness
 from umform.model.rest import Rest
@@ -125,6 +125,29 @@ class Model(Standing):
         """
         return removal.remove(self, thing)
 
+    def unbalanced(self, name: str = "unbalanced") -> Load:
+        """A load of the forces that nothing balances at the present state, for a stage that begins there.
+
+        Tools and supports of the stage before, and metal that was cut off, exerted them. Supports and tools of the
+        present stage must be there already. Move the load to zero to let the part spring back, see docs/operations.md.
+
+        Parameters
+        ----------
+        name : str
+            Column of the history: 1 as long as all of the forces act.
+
+        Returns
+        -------
+        Load
+            The control of the forces, of value 1.
+
+        Raises
+        ------
+        InvalidValue
+            If supports hold nodes elsewhere than they are, or the name is taken.
+        """
+        return removal.balancing(self, name)
+
     def put_back(self, thing: Support | Tool, *, here: bool = True) -> None:
         """Restore a removed support, or contact with an opened tool.
 
@@ -140,7 +163,9 @@ class Model(Standing):
         else:
             removal.put_back(self, thing, here=here)
 
-    def hold_rigid(self, nodes: Selector = "all", name: str = "") -> Support:
+    def hold_rigid(
+        self, nodes: Selector = "all", name: str = "", *, instead_of: Support | Sequence[Support] = ()
+    ) -> Support:
         """Define a statically determinate support of the sheet; a step Free activates it.
 
         It holds six of them, at three nodes for one, or what the supports of the model leave free; until ``Free(...,
@@ -152,6 +177,8 @@ class Model(Standing):
             Nodes that may be held: three that are not on a line, or all, of which those far apart are taken.
         name : str, optional
             Name of the support.
+        instead_of : Support or sequence of Support, optional
+            Supports that the same step Free takes away: it may hold their nodes.
 
         Raises
         ------
@@ -160,7 +187,8 @@ class Model(Standing):
         """
         everything = isinstance(nodes, str) and nodes == "all"
         ids = np.arange(len(self.mesh.points), dtype=np.int32) if everything else self.mesh.nodes(nodes)
-        dofs = gauge_dofs(self, ids)
+        gone = [instead_of] if isinstance(instead_of, Support) else list(instead_of)
+        dofs = gauge_dofs(self, ids, gone)
         return self.wait(unique(dofs // 3).astype(np.int32), dofs, name)
 
     def rest(self, stiffness: float | None = None, name: str = "rest", *, motions: str = "") -> Rest:
@@ -207,9 +235,12 @@ class Model(Standing):
             If the tools do not face each other, are nearer already, or move apart from each other.
         """
         other = to if isinstance(to, Tool) else to.tool
-        at, below = stop_at_gap(self, self.press_of(force), other, gap)
+        press = self.press_of(force)
+        at, below = stop_at_gap(self, press, other, gap)
         self.stop(force, at, below=below)
+        press.gaps.append(other)
 
     def check(self) -> None:
         """Reject what cannot be solved before time is spent on it, see :func:`umform.model.checks.check_model`."""
         check_model(self)
+        check_kept_gaps(self)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -60,6 +61,8 @@ class Press:
         What keeps the way within bounds.
     held : bool
         Whether the way is given for now, and the force is what it takes.
+    gaps : list of Tool
+        Tools to which one of the stops keeps a gap.
     """
 
     unknown: Global
@@ -69,6 +72,7 @@ class Press:
     free: float = 0.0
     stops: list[Stop] = field(default_factory=list)
     held: bool = False
+    gaps: list[Any] = field(default_factory=list)
 
     def takes(self, way: float, sheet: float) -> tuple[float, float]:
         """Force that the press must have at a way for the tool to stand there, and its derivative. eqs. (4.41), (4.61)
@@ -121,7 +125,8 @@ class Press:
     def twin(self, twins: Twins) -> Press:
         """The same of the twins of its controls."""
         way, force = twins.of(self.way), twins.of(self.force)
-        return Press(twins.of(self.unknown), way, force, self.stiffness, self.free, list(self.stops), self.held)
+        gaps = [twins.of(tool) for tool in self.gaps]
+        return Press(twins.of(self.unknown), way, force, self.stiffness, self.free, list(self.stops), self.held, gaps)
 
 
 def check_stiffness(stiffness: float, other: float, where: str, names: str) -> None:

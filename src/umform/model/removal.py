@@ -18,6 +18,9 @@ from umform.model.dead_load import Load
 from umform.model.evaluated import Evaluated
 from umform.model.support import Support
 
+#: Way that counts as none when a stage begins, over the extent of the sheet.
+_AT_REST = 1e-9
+
 
 def remove(model: Evaluated, thing: Support | Contact) -> Load:
     """Take a support or a contact away; its forces stay as a load of factor 1.
@@ -164,6 +167,31 @@ def _remove_contact(model: Evaluated, contact: Contact) -> Load:
         tool.pairs.append(contact)
         model.forget_assembly()
         raise
+    load.value = 1.0
+    return load
+
+
+def balancing(model: Evaluated, name: str) -> Load:
+    """A load of factor 1 of the forces that nothing in a model balances at its present state. eq. (5.45)
+
+    Raises
+    ------
+    InvalidValue
+        If supports hold nodes elsewhere than they are, or the name is taken.
+    """
+    prescribed = model.prescribed_displacement() - model.u
+    away = prescribed - model.extend(model.coefficients(prescribed))
+    if np.abs(away).max() > _AT_REST * model.extent:
+        node = int(np.abs(away).argmax()) // 3
+        raise InvalidValue(
+            "a support holds a node elsewhere than it is",
+            where=f"unbalanced(), node {node}",
+            value=f"{np.linalg.norm(away.reshape(-1, 3)[node]):.4g} away",
+            cause="a support that holds nodes where they were in the undeformed mesh",
+            remedy="here=True in fix(), hinge() or hold_director(); tools or loads where nodes are to be moved",
+        )
+    load = model.add_load(Load(name, vector=np.zeros_like(model.u)))
+    load.vector = unbalanced(model)
     load.value = 1.0
     return load
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from umform.errors import InvalidValue
 from umform.model.control import Control, Seen, Twins
 from umform.model.forces import vector3
 from umform.model.into import At, Into
@@ -161,3 +163,43 @@ def turn_of(name: str, tool: Any, axis: Direction, about: ArrayLike) -> ToolTurn
     """A turn of a tool, checked."""
     point = vector3(about, f"turn of tool {tool.name}")
     return ToolTurn(name, axis=unit_vector(axis, "turn"), about=tuple(point.tolist()), tool=tool)
+
+
+def refuse_given_and_found(others: Sequence[ToolWay], way: ToolWay, name: str) -> None:
+    """Refuse a way along which its tool would be driven and pressed at the same time.
+
+    Parameters
+    ----------
+    others : sequence of ToolWay
+        Ways that the tool has.
+    way : ToolWay
+        The way that it is to get.
+    name : str
+        Name of the control that is made with it.
+
+    Raises
+    ------
+    InvalidValue
+        If one of the others leads along it.
+    """
+    for other in others:
+        if other.tool is way.tool and _along(other, way):
+            raise InvalidValue(
+                "a tool cannot be driven and pressed along the same direction",
+                where=f"tool {way.tool.name}",
+                value=f"{other.name}, and {name}",
+                cause="its way would be given and found at the same time",
+                remedy="press it along another direction, or drive it only; Release gives its way back to steps",
+            )
+
+
+def _along(one: ToolWay, other: ToolWay) -> bool:
+    """Whether two ways of a tool have a part in common; a turn and a way never do."""
+    if isinstance(one, ToolMotion) and isinstance(other, ToolMotion):
+        return abs(math.fsum(a * b for a, b in zip(one.direction, other.direction, strict=True))) > 1e-9
+    return (
+        isinstance(one, ToolTurn)
+        and isinstance(other, ToolTurn)
+        and one.axis == other.axis
+        and one.about == other.about
+    )

@@ -13,7 +13,7 @@ from umform.model.controls import Controlled
 from umform.model.press import Press, Stop, check_stiffness
 from umform.model.term import Global
 from umform.model.tool import Motion, Tool
-from umform.model.tool_controls import ToolForce, ToolMotion, ToolTurn, ToolWay, turn_of
+from umform.model.tool_controls import ToolForce, ToolMotion, ToolTurn, ToolWay, refuse_given_and_found, turn_of
 from umform.surfaces import Direction, unit_vector
 
 
@@ -43,6 +43,7 @@ class Tooled(Controlled):
         """
         tool = _tool_of(tool)
         way = ToolMotion(name or self._name(tool.name), direction=unit_vector(direction, "drive"), tool=tool)
+        refuse_given_and_found([press.way for press in tool.presses], way, way.name)
         self._add(way)
         tool.add_way(way)
         return way
@@ -70,6 +71,7 @@ class Tooled(Controlled):
         """
         tool = _tool_of(tool)
         way = turn_of(name or self._name(f"{tool.name}_turn"), tool, axis, about)
+        refuse_given_and_found([press.way for press in tool.presses], way, way.name)
         self._add(way)
         tool.add_way(way)
         return way
@@ -245,15 +247,7 @@ class Tooled(Controlled):
     def _pressed(self, way: ToolWay, name: str) -> ToolForce:
         """A force control with the way that it finds; all or nothing."""
         tool = way.tool
-        for other in tool.ways:
-            if other.tool is tool and _along(other, way):
-                raise InvalidValue(
-                    "a tool cannot be driven and pressed along the same direction",
-                    where=f"tool {tool.name}",
-                    value=f"{other.name}, and {name}",
-                    cause="its way would be given and found at the same time",
-                    remedy="press it along another direction, or drive it only",
-                )
+        refuse_given_and_found(tool.ways, way, name)
         force = ToolForce(name, way=way)
         self._refuse_taken([way.name, f"{way.name}_force", name, f"{name}_force"], name)
         self._add(force)
@@ -278,18 +272,6 @@ class Tooled(Controlled):
         tool = _tool_of(tool)
         point = forces.vector3(about, "about")
         tool.motion, tool.reference_point = motion, point
-
-
-def _along(one: ToolWay, other: ToolWay) -> bool:
-    """Whether two ways of a tool have a part in common; a turn and a way never do."""
-    if isinstance(one, ToolMotion) and isinstance(other, ToolMotion):
-        return abs(math.fsum(a * b for a, b in zip(one.direction, other.direction, strict=True))) > 1e-9
-    return (
-        isinstance(one, ToolTurn)
-        and isinstance(other, ToolTurn)
-        and one.axis == other.axis
-        and one.about == other.about
-    )
 
 
 def _tool_of(tool: Contact | Tool) -> Tool:

@@ -13,7 +13,7 @@ from umform.progress import Tick, silent
 from umform.results.history import Mark as HistoryMark
 from umform.results.penetration import warn_of_contact
 from umform.run.checked import checked
-from umform.run.execute import begun, taken
+from umform.run.going import begun, taken
 from umform.run.result import Result
 from umform.solution.habits import Habits
 from umform.solution.options import NewtonOptions

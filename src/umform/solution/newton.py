@@ -85,7 +85,9 @@ class Newton:
             search = rubs or not self.system.elastic
         return Manner(search, True, self.mixed and not consistent, wary)
 
-    def solve(self, extrapolation: Floats | None = None, manner: Manner | None = None) -> Converged:
+    def solve(
+        self, extrapolation: Floats | None = None, manner: Manner | None = None, beyond: Floats | None = None
+    ) -> Converged:
         """Find the equilibrium at the present loads, supports and tools, starting from the converged state.
 
         Parameters
@@ -95,13 +97,15 @@ class Newton:
             that of the tangent. It is recovered with the blocks of the last evaluation, which must be at ``system.u``.
         manner : Manner, optional
             How to iterate; default: as the options say.
+        beyond : ndarray, shape (3 n + k,), optional
+            A rigid turn beyond the extrapolation, which strains no element. eq. (4.178)
 
         Raises
         ------
         Failed
             If it does not converge; the system is reverted.
         """
-        return self.guarded(lambda: self._solve(extrapolation, manner or self.manner()))
+        return self.guarded(lambda: self._solve(extrapolation, manner or self.manner(), beyond))
 
     def go_on(self, converged: Converged, change: Floats, manner: Manner | None = None) -> Converged:
         """Find the equilibrium again after forces in the system have changed at the same loads, supports and tools.
@@ -143,12 +147,12 @@ class Newton:
             self.system.revert()
             what = ", ".join(filter(None, (error.what, error.where)))
             cause = Cause.SINGULAR if isinstance(error, SingularMatrix) else Cause.OTHER
-            raise Failed(what, [], cause) from error
+            raise Failed(what, [], cause, getattr(error, "motion", None)) from error
         except BaseException:  # an error of a user's function or an interrupt too leaves no trace
             self.system.revert()
             raise
 
-    def _solve(self, extrapolation: Floats | None, manner: Manner) -> Converged:
+    def _solve(self, extrapolation: Floats | None, manner: Manner, beyond: Floats | None) -> Converged:
         """First increment from the extrapolation, or from the tangent by eq. (5.6); then corrections."""
         system = self.system
         solver = self.ready_solver()
@@ -165,7 +169,7 @@ class Newton:
                 of_tangent = First(factors, system.largest_entry(first.values))
             du += system.extend(solver.solve(-system.restrict(first.residual + first.predictor)))
             del first  # with its tangent
-        return self.correct(u, du, manner, start, of_tangent)
+        return self.correct(u, du, manner, start, of_tangent, beyond)
 
     def prescribed_increment(self, u: Floats) -> Floats:
         """What takes the supports from ``u`` to where they are prescribed; nothing of it is left to the unknowns."""
@@ -181,6 +185,7 @@ class Newton:
         manner: Manner,
         start: float | None = None,
         first: First | None = None,
+        beyond: Floats | None = None,
     ) -> Converged:
         """Take a first increment ``du`` from ``u``, and iterate until residual and increments are small. eq. (5.9)"""
         system, options = self.system, self.options
@@ -189,7 +194,7 @@ class Newton:
         recorder = Recorder(self.callbacks, system.ranks, start)
         iterations = recorder.iterations
         system.recover(du, manner.mixed)
-        u = u + du
+        u = u + du if beyond is None else u + du + beyond
         criteria, prospects = Criteria(system, options.residual, options.increment), Prospects(system)
         shift = Shift(system)
         reuse = Reuse(options, system.pattern.n, system.effort)

@@ -65,13 +65,19 @@ class Cause(StrEnum):
 
 
 class Failed(Exception):
-    """An attempt that did not converge: why, and the iterations so far. Steps turn it into a cut or an error."""
+    """An attempt that did not converge: why, and the iterations so far. Steps turn it into a cut or an error.
 
-    def __init__(self, reason: str, iterations: list[Iteration], cause: Cause = Cause.OTHER) -> None:
+    A singular tangent may say which displacement of the unknowns at nodes it does not resist, its ``motion``.
+    """
+
+    def __init__(
+        self, reason: str, iterations: list[Iteration], cause: Cause = Cause.OTHER, motion: Floats | None = None
+    ) -> None:
         super().__init__(reason)
         self.reason = reason
         self.iterations = iterations
         self.cause = cause
+        self.motion = motion
 
 
 @dataclass(frozen=True)

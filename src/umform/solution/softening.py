@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from umform.model import Model
 from umform.model.changed_forces import changed_residual
@@ -26,7 +25,7 @@ _SOFTER = (3, 6)
 def softened(
     model: Model,
     newton: Newton,
-    start: NDArray[np.float64] | None,
+    start: Callable[[], Converged],
     accept: Callable[[Converged], Converged],
     manner: Manner | None = None,
     *,
@@ -40,8 +39,8 @@ def softened(
         With the controls and the time of the increment, and contacts.
     newton : Newton
         Method.
-    start : ndarray, shape (3 n,), optional
-        Guess of the increment; without it that of the tangent.
+    start : callable
+        The equilibrium with the penalties that the contacts have when it is asked.
     accept : callable
         Returns an equilibrium, or raises Failed: while a tool is soft the sheet may go through it.
     manner : Manner, optional
@@ -71,13 +70,13 @@ def softened(
 
 
 def _stiffened(
-    model: Model, newton: Newton, start: NDArray[np.float64] | None, powers: int, manner: Manner | None
+    model: Model, newton: Newton, start: Callable[[], Converged], powers: int, manner: Manner | None
 ) -> Converged:
     """Equilibrium with 10^-powers of the penalty, then with ten times as much, up to all of it. eq. (4.39)"""
     with _own_penalties(model) as penalties:
         for contact, penalty in penalties.items():
             contact.penalty = 10.0**-powers * penalty
-        converged = newton.solve(start, manner)
+        converged = start()
         for power in range(powers - 1, -1, -1):
             evaluation = converged.evaluation
             parts = {contact: np.zeros(model.u.size) for contact in penalties}

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from umform.model import Evaluation, Model
 from umform.model.control import Control
+from umform.solution.carried import came_round, carried
 from umform.solution.habits import Habits
 from umform.solution.newton import Newton
 from umform.solution.options import Wary
@@ -66,6 +67,11 @@ class Increment:
         return Wary.OF_MORE if self.habits.stable else Wary.NOT
 
     @property
+    def extrapolates(self) -> bool:
+        """Whether there is a last increment to go on with, and it may be gone on with."""
+        return self.guess is not None and self.newton.options.extrapolate > 0 and self.habits.extrapolates
+
+    @property
     def touches(self) -> bool:
         """Whether there is contact."""
         return bool(self.model.contacts)
@@ -82,8 +88,24 @@ class Increment:
 
     def soft(self) -> Converged:
         """The equilibrium by way of softer penalties."""
-        manner = self.newton.manner(wary=self.wary_with_soft_tools)
-        return softened(self.model, self.newton, self.tangent(), self.accept, manner, touched=self.touched)
+        start, manner = self.tangent(), self.newton.manner(wary=self.wary_with_soft_tools)
+        go = lambda: self.newton.solve(start, manner, self.beyond(start))  # noqa: E731
+        return softened(self.model, self.newton, go, self.accept, manner, touched=self.touched)
+
+    def along_tangent(self, *, consistent: bool = False) -> Converged:
+        """The equilibrium from the increment along the tangent, gone round with a tool where friction carries it."""
+        start = self.tangent()
+        manner = self.newton.manner(consistent=consistent, wary=self.wary, rubs=self.rubs)
+        return self.newton.solve(start, manner, self.beyond(start))
+
+    def beyond(self, start: Floats | None) -> Floats | None:
+        """What the straight increment lacks to the way of a sheet that goes round with a tool. eq. (4.178)"""
+        return None if start is None or not self.rubs else carried(self.model, self.last, start)
+
+    @property
+    def came_round(self) -> bool:
+        """Whether the last increment is that of a sheet that came round with a tool: extrapolated it leaves the arc."""
+        return self.guess is not None and self.rubs and came_round(self.model, self.last, self.guess)
 
     def tangent(self) -> Floats | None:
         """Increment along the tangent of the converged state: the sheet follows the tools that touch it. eq. (4.36)
@@ -136,19 +158,19 @@ STRATEGIES = (
     # The last increment again, in proportion: no evaluation is needed to begin with.
     Strategy(
         "extrapolation",
-        lambda at: at.guess is not None and at.newton.options.extrapolate > 0 and at.habits.extrapolates,
+        lambda at: at.extrapolates and not at.came_round,
         lambda at: at.newton.solve(at.guess, at.newton.manner(wary=at.wary)),
     ),
     Strategy(
         "tangent",
         lambda at: True,
-        lambda at: at.newton.solve(at.tangent(), at.newton.manner(wary=at.wary, rubs=at.rubs)),
+        lambda at: at.along_tangent(),
     ),
     # It may cross a sudden change of shape where the mixed tangent of eq. (5.39) does not.
     Strategy(
         "consistent tangent",
         lambda at: at.newton.mixed,
-        lambda at: at.newton.solve(at.tangent(), at.newton.manner(consistent=True, wary=at.wary, rubs=at.rubs)),
+        lambda at: at.along_tangent(consistent=True),
     ),
     # A stiff tool may come to where nothing touched before: with a soft one the sheet finds its shape first.
     Strategy(
@@ -187,8 +209,9 @@ def equilibrium(increment: Increment) -> Converged:
             return converged
     increment.habits.learn_of_cut({name: failure.cause for name, failure in failures.items()})
     plain = [failure for name, failure in failures.items() if name != "softer penalties"]
-    if any(failure.cause is Cause.SINGULAR for failure in plain):
-        plain[-1].cause = Cause.SINGULAR
+    for one in plain:
+        if one.cause is Cause.SINGULAR:
+            plain[-1].cause, plain[-1].motion = Cause.SINGULAR, one.motion
     raise plain[-1]
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 
 import numpy as np
 
@@ -27,7 +28,7 @@ from .protocol import (
     not_factored,
     singular,
 )
-from .singularity import resistance, vanishing_equation
+from .singularity import Iteration, Loose, large_solution, weak_pivot
 
 # A backward error above this is worth a step of iterative refinement, of which so many are made at most.
 _POOR_RESIDUAL, _STEPS = 1e-14, 2
@@ -43,7 +44,7 @@ class Multifrontal:
 
     def analyse(self, pattern: Pattern) -> None:
         """Order the equations and plan the fronts; Cholesky is expected of a symmetric matrix."""
-        self._ready, self._values = False, None
+        self._ready, self._values, self._asked = False, None, False
         blas.hand_over()
         indptr, indices = (np.ascontiguousarray(part, np.int32) for part in (pattern.indptr, pattern.indices))
         self._pattern = pattern
@@ -66,9 +67,9 @@ class Multifrontal:
                 raise singular(self.name, outcome.equation if outcome.equation >= 0 else None)
             pivots = factors.pivots()
             size = values[self._pattern.indptr[:-1]] if self._with_cholesky else factors.column_sizes
-            lost = vanishing_equation(pivots.size, size, lambda equation: self._resistance(equation, values))
+            lost = self._loose(pivots.size, size, values)
         if lost is not None:
-            raise singular(self.name, lost)
+            raise singular(self.name, lost.equation, lost.motion)
         self._positive = symmetric and pivots.negative == 0
         self._ready, self._values = True, None if self._with_cholesky else values
         return Factorisation(pivots.negative if symmetric else None, factors.fill, pivots.odd)
@@ -95,8 +96,19 @@ class Multifrontal:
         """Go on with the kind of factors of a run that was kept."""
         self._positive = kind == 1 and self._pattern.symmetric
 
-    def _resistance(self, equation: int, values: FloatArray) -> float:
-        """How much the matrix resists the displacement that a weak pivot lets go, as a part of its entries."""
+    def _loose(self, pivots: FloatArray, size: FloatArray, values: FloatArray) -> Loose | None:
+        """What moves without resistance: found by a weak pivot, or in the first matrix of a pattern by a solution."""
+        iteration = self._iteration(values)
+        lost = weak_pivot(pivots, size, iteration.resistance)
+        if lost is None and not self._asked:
+            lost = large_solution(len(pivots), partial(iteration.resistance, solves=1), iteration.resistance)
+        self._asked = True
+        if lost is None or lost.motion is None:
+            return lost
+        return Loose(lost.equation, iteration.column * lost.motion)
+
+    def _iteration(self, values: FloatArray) -> Iteration:
+        """Inverse iteration with the factors."""
         sizes, nothing = np.abs(values), np.zeros(self._pattern.n)
         row, column = self._factors.scales
         if self._with_cholesky:
@@ -114,7 +126,7 @@ class Multifrontal:
             self._factors.residual(sizes, nothing, x, product)
             return -product
 
-        return resistance(equation, row, column, solve, magnitude)
+        return Iteration(row, column, solve, magnitude)
 
     def _refine(self, values: FloatArray, b: FloatArray, x: FloatArray) -> None:
         """Improve the solution while its residual is poor; refuse it if that does not help."""

@@ -238,15 +238,17 @@ def check_accuracy(solver: str, error: float) -> None:
         )
 
 
-def singular(solver: str, equation: int | None) -> SingularMatrix:
-    """Return the error for a matrix whose pivot of this equation vanishes."""
-    return SingularMatrix(
+def singular(solver: str, equation: int | None, motion: FloatArray | None = None) -> SingularMatrix:
+    """Return the error for a matrix whose pivot of this equation vanishes; with the displacement it does not resist."""
+    error = SingularMatrix(
         "The matrix is singular",
         where=f"solver {solver!r}" if equation is None else f"equation {equation}, solver {solver!r}",
         value=equation,
         cause="a part is free to move as a rigid body, or a limit point has been met",
         remedy="check the supports; at a limit point prescribe displacements instead of forces",
     )
+    error.motion = motion
+    return error
 
 
 def not_factored() -> RuntimeError:

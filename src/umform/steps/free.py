@@ -134,13 +134,12 @@ class Freeing(Marching):
 def _let_go(run: Run, step: Free) -> None:
     """Take all away; loads of factor 1 hold the sheet where it is."""
     model = run.model
-    if step.on is not None:
+    for support in (thing for thing in step.things if isinstance(thing, Support)):
+        remove(model, support)
+    if step.on is not None:  # it may hold nodes of the supports that have gone
         put_back(model, step.on)
-    for thing in step.things:
-        if isinstance(thing, Tool):
-            open_tool(model, thing)
-        else:
-            remove(model, thing)
+    for tool in (thing for thing in step.things if isinstance(thing, Tool)):
+        open_tool(model, tool)
     if any(isinstance(thing, Tool) for thing in step.things):
         run.evaluation = model.evaluate(model.x, tangent=False)
         run.result.begin_anew(run.evaluation)

@@ -12,6 +12,7 @@ import numpy as np
 from umform.errors import NoConvergence
 from umform.model.checks import diagnosis
 from umform.model.control import Control
+from umform.model.loose_part import loose_part
 from umform.solution.augmentation import augmented
 from umform.solution.records import Cause, Converged, Failed, Iteration
 from umform.solution.strategies import Increment, equilibrium
@@ -90,6 +91,12 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
     loose = diagnosis(run.model) if failure.cause is Cause.SINGULAR else None
     if loose is not None:
         cause, remedy = f"{cause}: {loose[0]}", loose[1]
+    elif failure.motion is not None:
+        cause = f"{cause}: {loose_part(run.model, failure.motion)}"
+        remedy = (
+            "hold what moves with fix(), symmetry() or hinge(), or join its nodes to those of the rest; at a limit "
+            "point prescribe displacements instead of forces"
+        )
     pressed = pressed_tools(run)
     if pressed:
         cause = f"{cause}; at the last converged state {'; '.join(pressed)}"

@@ -13,6 +13,7 @@ from umform.surfaces.simple import Cylinder, Plane, Sphere
 from umform.surfaces.solids import Box, Torus
 from umform.surfaces.swept import Extruded, Revolved
 from umform.surfaces.tool import Offset, Placed, Surface, Tool
+from umform.surfaces.tool_sizes import ToolSizes, tool_sizes
 from umform.surfaces.triangles import Triangles
 from umform.surfaces.triangulated import Triangulated
 from umform.surfaces.user import GapFunction, UserSurface
@@ -37,6 +38,7 @@ __all__ = [
     "Surface",
     "SurfaceCheck",
     "Tool",
+    "ToolSizes",
     "Torus",
     "Triangles",
     "Triangulated",
@@ -46,6 +48,7 @@ __all__ = [
     "WipingDie",
     "check_surface",
     "read_tool",
+    "tool_sizes",
     "unit_vector",
     "write_tool",
 ]

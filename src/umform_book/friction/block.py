@@ -244,13 +244,13 @@ and with multipliers.
 * Around a circle of ten elastic slips.
 """,
     reference="""
-Closed forms. By displacement: a spring (bound at the largest pressure so far, at least that of the allowed penetration,
-over the allowed elastic slip) that slips at mu p, with the pressure found; with multipliers the bound itself, against
-the motion of the increment. By force: traction over that spring; with multipliers less than the allowed slip. Circle of
-radius r: the elastic slip e = mu p / stiffness follows like a weight on a string, on a circle of radius sqrt(r^2 - e^2),
-and the work of a turn is 2 pi sqrt(r^2 - e^2) mu N. Uncertainty: the traction has the direction of the end of an
-increment, pi/n tan(lag) of the work for n increments a turn, sin(lag) = e/r; the checks allow twice that and the
-chords, 2 (pi/n)^2.
+Closed forms. By displacement: a spring (bound at the largest pressure so far, at least that of the allowed
+penetration, over the allowed elastic slip) that slips at mu p, with the pressure found; with multipliers the bound
+itself, against the motion of the increment. By force: traction over that spring; with multipliers less than the
+allowed slip. Circle of radius r: the elastic slip e = mu p / stiffness follows like a weight on a string, on a circle
+of radius sqrt(r^2 - e^2), and the work of a turn is 2 pi sqrt(r^2 - e^2) mu N. Uncertainty: the traction has the
+direction of the end of an increment, pi/n tan(lag) of the work for n increments a turn, sin(lag) = e/r; the checks
+allow twice that and the chords, 2 (pi/n)^2.
 """,
     run=run,
     cost=10.0,

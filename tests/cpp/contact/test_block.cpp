@@ -3,7 +3,7 @@
 #include <random>
 
 #include "check.hpp"
-#include "umform/contact/block.hpp"
+#include "umform/contact/facet_block.hpp"
 #include "umform/contact/penalty.hpp"
 #include "umform/surfaces/sphere.hpp"
 

@@ -110,6 +110,19 @@ def test_a_deck_closes_holds_and_opens_tools():
     assert np.abs(reactions).max() < 1e-6
 
 
+def test_a_rigid_support_may_take_the_place_of_one_of_the_same_nodes():
+    clamp = '[[supports]]\nkind = "fix"\nnodes = "x1"\ndirections = "z"\nname = "clamp"\n\n[[supports]]\nkind = "rigid"'
+    text = DRAWN.replace('[[supports]]\nkind = "rigid"', clamp).replace(
+        'name = "gauge"', 'name = "gauge"\nnodes = "x1"\ninstead_of = ["clamp"]'
+    )
+    gauge = next(support for support in built(text).model.all_supports if support.name == "gauge")
+    clamped = next(support for support in built(text).model.supports if support.name == "clamp")
+    assert len(gauge.held) == 1
+    assert set(gauge.held) < set(clamped.held)
+    with pytest.raises(UmformError, match=r"that the deck names[\s\S]*clip[\s\S]*names of supports: clamp"):
+        built(text.replace('["clamp"]', '["clip"]'))
+
+
 def test_all_that_holds_a_tool_can_be_said_in_a_deck():
     controls = """
 [controls.slide]

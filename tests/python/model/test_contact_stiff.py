@@ -146,7 +146,8 @@ def test_softer_penalties_lead_to_the_equilibrium_of_the_penalty_itself():
     model, ram = three_points(1e5, 10)
     ram.value = 1.0
     model.stand(model.evaluate(model.u))
-    converged = softened(model, Newton(model), None, lambda found: found)
+    newton = Newton(model)
+    converged = softened(model, newton, lambda: newton.solve(), lambda found: found)
     assert model.contacts[0].penalty == 1e5
     model.commit(converged.evaluation)
     again, other = three_points(1e5, 10)
@@ -158,8 +159,9 @@ def test_penalties_are_those_of_before_when_softer_ones_lead_nowhere():
     model, ram = three_points(1e5, 10)
     ram.value = 1.0
     model.stand(model.evaluate(model.u))
+    newton = Newton(model, NewtonOptions(max_iterations=1))
     with pytest.raises(Failed):
-        softened(model, Newton(model, NewtonOptions(max_iterations=1)), None, lambda found: found)
+        softened(model, newton, lambda: newton.solve(), lambda found: found)
     assert model.contacts[0].penalty == 1e5
 
 
@@ -172,13 +174,14 @@ def test_a_millionth_of_the_penalty_serves_first_touch_and_contact_that_is_lost(
     ram.value = 1.0
     penalties = []
 
-    def fail(self, extrapolation=None, manner=None):
+    def fail(self, extrapolation=None, manner=None, beyond=None):
         penalties.append(model.contacts[0].penalty)
         raise Failed("no", [], cause)
 
     monkeypatch.setattr(Newton, "solve", fail)
+    newton = Newton(model)
     with pytest.raises(Failed, match="no"):
-        softened(model, Newton(model), None, lambda found: found, touched=touched)
+        softened(model, newton, lambda: newton.solve(), lambda found: found, touched=touched)
     assert penalties == pytest.approx([1e2, 1e-1][:tries])
 
 

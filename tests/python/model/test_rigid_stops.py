@@ -88,6 +88,18 @@ def test_a_gap_between_two_tools_is_kept_while_both_move():
     np.testing.assert_allclose(model.u.reshape(-1, 3)[:, 2], 0.4975, atol=3e-3)
 
 
+def test_a_gap_to_a_tool_that_is_driven_alone_afterwards_is_refused_before_the_run():
+    """The stop stands still: it kept the gap to where the die was."""
+    model, hold, die = pressed()
+    model.keep_gap(hold, die, 0.995)
+    lift = model.drive(die, "z", "lift")
+    with pytest.raises(InvalidValue, match=r"move together[\s\S]*lift[\s\S]*attach\(holder, way\)"):
+        uf.solve(model, uf.Close(hold, -300.0), progress=False)
+    model.attach(model.tools[1], lift)
+    result = uf.solve(model, [uf.Close(hold, -300.0), uf.Move(lift, 0.5, steps=1)], progress=False)
+    assert 1.0 + FREE + forces(result)[0] == pytest.approx(0.995, abs=1e-14)
+
+
 def test_what_makes_no_sense_is_refused():
     model, hold, die = pressed()
     for gap, message in ((-1.0, "positive"), (1.2, "nearer"), (np.nan, "positive")):

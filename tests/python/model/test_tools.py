@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import umform as uf
 from umform import materials as mt
 from umform.errors import InvalidValue, NoConvergence
 from umform.mesh import strip
@@ -402,3 +403,19 @@ def test_what_is_fixed_when_a_thing_is_made_cannot_be_set():
         assert getattr(thing, name) is before
     contact.penalty = 2e4  # effective
     assert model.evaluate(model.x).found[contact].penalty == contact.block.penalty == 2e4
+
+
+@pytest.mark.parametrize("first", ["drive", "press"])
+@pytest.mark.parametrize(("kind", "direction"), [("way", "-z"), ("way", (0.0, 1.0, 1.0)), ("turn", "y")])
+def test_a_tool_is_not_driven_and_pressed_along_one_direction_in_either_order(first, kind, direction):
+    """A tool that was pressed could be driven afterwards: its way was given and found."""
+    model = uf.Model(uf.mesh.strip(4.0, 1.0, 0.5, (4, 1)), material=uf.SVK(E=1e5, nu=0.3))
+    tool = model.tool("lid", uf.Plane((0, 0, 1.0), (0, 0, -1)))
+    press, drive = (model.press, model.drive) if kind == "way" else (model.press_turn, model.turn)
+    make = [(drive, direction), (press, "z" if kind == "way" else "y")][:: 1 if first == "drive" else -1]
+    make[0][0](tool, make[0][1])
+    before = len(model.controls)
+    with pytest.raises(uf.errors.InvalidValue, match="driven and pressed along the same direction"):
+        make[1][0](tool, make[1][1])
+    assert len(model.controls) == before
+    model.drive(tool, "x")

@@ -14,6 +14,7 @@ import umform as uf
 from umform.cli import app
 from umform.errors import InvalidValue
 from umform.processes.draw_bead import DrawBead, drawn_through
+from umform.processes.draw_bead import case as case_module
 from umform.processes.draw_bead.case import limits_of
 from umform.processes.draw_bead.equivalent import in_deck, in_python
 from umform.processes.draw_bead.files import FILES, write_files
@@ -119,7 +120,31 @@ def test_two_meshes_give_the_forces_of_the_equivalent_bead(drawn, tmp_path):
     limit = drawn.restraint - 2.0 / (1.0 / 0.49 - 1.0)
     assert both.limits.restraint.value == pytest.approx(limit, rel=1e-9)
     assert tomllib.loads(in_deck(both))["beads"]["NAME"]["restraint"] == pytest.approx(limit, rel=1e-3)
-    assert [row[1] for row in summary(both)][-4] == f"{limit:.1f}"
+    assert summary(both)[0] == ["restraining force", f"{limit:.1f}", "N/mm"]
+    assert ["restraining force, finest mesh", f"{drawn.restraint:.1f}", "N/mm"] in summary(both)
+
+
+def test_three_meshes_give_the_error_of_the_limit_too():
+    """The limit is exact where the error falls with the square; else two limits differ by what is left."""
+    exact = Limit.of_three([54.0, 52.0, 51.0], 2.0**0.5)
+    assert (exact.value, exact.error) == pytest.approx((50.0, 0.2), rel=1e-12)  # a fifth of what was extrapolated
+    assert Limit.of_three([54.5, 52.0, 51.0], 2.0**0.5).error == pytest.approx(0.5, rel=1e-9)
+
+
+def test_three_meshes_are_run_and_the_finest_is_kept(drawn, monkeypatch):
+    """On meshes of half, 0.7 and all of the elements."""
+    meshes = []
+
+    def instead(case, *, frames, **how):
+        meshes.append((case.elements, frames))
+        return replace(drawn, case=case, restraint=60.0 + 100.0 / case.elements**2, uplift=80.0)
+
+    monkeypatch.setattr(case_module, "drawn_through", instead)
+    found = case_module.extrapolated(drawn.case, frames=7)
+    assert [elements for elements, _ in meshes] == pytest.approx([2.5, 5.0 / 2.0**0.5, 5.0])
+    assert [frames for _, frames in meshes] == [0, 0, 7]
+    assert found.forces == pytest.approx((60.0, 80.0), rel=1e-12)
+    assert summary(found)[1] == ["its estimated error", "0.8", "N/mm"]  # a fifth of 100 / 25
 
 
 def test_a_shallow_bead_has_no_walls_and_a_high_one_has():

@@ -97,6 +97,28 @@ def test_any_sparsity_in_any_scale(decades, seed, symmetric):
         assert told.negative_pivots == (negative_eigenvalues(matrix) if symmetric else None)
 
 
+@pytest.mark.parametrize("symmetric", [True, False])
+@pytest.mark.parametrize("seed", range(8))
+def test_without_any_diagonal_units_24_decades_apart_are_found(seed, symmetric):
+    """Sparse, with zeros on the diagonal and nothing to begin with: all entries are made alike in the mean."""
+    random = np.random.default_rng(seed)
+    n = 60
+    matrix = sparse.random(
+        n, n, density=0.05, random_state=random, data_rvs=lambda k: random.uniform(0.5, 2.0, k)
+    ).toarray()
+    matrix[np.arange(n), random.permutation(n)] += 4.0
+    matrix = matrix + matrix.T if symmetric else matrix
+    np.fill_diagonal(matrix, 0.0)
+    sizes = np.linalg.svd(matrix, compute_uv=False)
+    if sizes[-1] < 1e-9 * sizes[0]:
+        pytest.skip("singular in any unit")
+    row, column = scales(n, 12.0, seed, symmetric)
+    solver, told = factored(matrix * np.outer(row, column), symmetric)
+    y = column * solver.solve(row)
+    assert error_of(matrix, y, np.ones(n)) < 1e-11
+    assert told.odd == (np.linalg.slogdet(matrix)[0] < 0)
+
+
 @pytest.mark.parametrize("case", list(CASES))
 def test_scales_by_powers_of_two_do_not_change_a_bit(case):
     """Whatever the units are, the same matrix is eliminated."""

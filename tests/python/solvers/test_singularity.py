@@ -11,8 +11,9 @@ import pytest
 from scipy import sparse
 
 import umform as uf
-from umform.errors import SingularMatrix
-from umform.solvers.singularity import resistance, vanishing_equation
+from umform.errors import NoConvergence, SingularMatrix
+from umform.solvers import multifrontal
+from umform.solvers.singularity import Iteration, weak_pivot
 
 _SPEC = importlib.util.spec_from_file_location("matrices", Path(__file__).with_name("matrices.py"))
 matrices = importlib.util.module_from_spec(_SPEC)
@@ -74,6 +75,30 @@ def test_what_holds_a_loose_part_may_be_soft(hold, symmetric):
             assert told.odd is False
 
 
+@pytest.mark.parametrize("symmetric", [True, False])
+@pytest.mark.parametrize(("size", "cells"), SHEETS)
+def test_a_mechanism_without_a_weak_pivot_is_seen_in_a_solution(size, cells, symmetric, monkeypatch):
+    """The larger the mesh, the less weak the pivots of a mechanism: in the end a solution alone can tell."""
+    monkeypatch.setattr(multifrontal, "weak_pivot", lambda *_: None)
+    factored(sheet(size, cells, 0.3), symmetric)
+    with pytest.raises(SingularMatrix) as caught:
+        factored(sheet(size, cells, 0.3, clamped=False), symmetric)
+    motion = caught.value.motion.reshape(-1, 3)  # it turns about the hinge: the free end goes farthest
+    assert np.argmax(np.linalg.norm(motion, axis=1)) >= len(motion) - 2 * (cells[1] + 1) * 2
+
+
+def test_the_first_matrix_of_a_pattern_alone_is_asked_for_a_solution(monkeypatch):
+    asked = []
+    monkeypatch.setattr(multifrontal, "large_solution", lambda *_: asked.append(1))
+    pattern, values = matrices.stored(grid((9, 9), 2))
+    solver = multifrontal.Multifrontal()
+    for expected in (1, 2):
+        solver.analyse(pattern)
+        solver.factor(values)
+        solver.factor(2.0 * values)
+        assert len(asked) == expected
+
+
 def test_an_eigenvalue_that_vanishes_among_negative_ones_is_seen():
     matrix = grid((8, 8), 2).toarray()
     values, vectors = np.linalg.eigh(matrix)
@@ -92,7 +117,10 @@ def test_resistance_is_the_part_of_the_entries_that_would_have_to_change():
     """[[1, -1], [-1, 1 + d]] is singular without d, which is a quarter of what w = (1, 1) meets; in any unit."""
 
     def of(matrix, scale):
-        return resistance(1, scale, scale, partial(np.linalg.solve, matrix), partial(np.matmul, np.abs(matrix)))
+        iteration = Iteration(scale, scale, partial(np.linalg.solve, matrix), partial(np.matmul, np.abs(matrix)))
+        part, w = iteration.resistance(np.array([0.0, 1.0]))
+        np.testing.assert_allclose(np.abs(w), np.sqrt(0.5), rtol=1e-2)
+        return part
 
     unit = np.array([1e-6, 1e3])
     for d in (1e-3, 1e-9):
@@ -104,16 +132,37 @@ def test_resistance_is_the_part_of_the_entries_that_would_have_to_change():
 def test_only_weak_pivots_are_asked_about():
     asked = []
 
-    def held(equation):
-        asked.append(equation)
-        return 1e-12
+    def held(start):
+        asked.append(int(np.argmax(start)))
+        return 1e-12, start
 
     size = np.array([1.0, 10.0, 0.0])
-    assert vanishing_equation(np.array([1e-7, -5.0]), size[:2], held) is None
+    assert weak_pivot(np.array([1e-7, -5.0]), size[:2], held) is None
     assert not asked
-    assert vanishing_equation(np.array([-1e-9, 5.0]), size[:2], held) is None
+    assert weak_pivot(np.array([-1e-9, 5.0]), size[:2], held) is None
     assert asked == [0]
-    assert vanishing_equation(np.array([1.0, 1e-9]), size[:2], lambda _: 1e-17) == 1
-    assert vanishing_equation(np.array([1.0, 1e-16]), size[:2], held) == 1
-    assert vanishing_equation(np.array([1.0, 1.0, 0.0]), size, held) == 2
+    assert weak_pivot(np.array([1.0, 1e-9]), size[:2], lambda start: (1e-17, start)).equation == 1
+    assert weak_pivot(np.array([1.0, 1e-16]), size[:2], held).equation == 1
+    assert weak_pivot(np.array([1.0, 1.0, 0.0]), size, held).equation == 2
     assert asked == [0]
+
+
+def test_the_error_of_a_run_names_what_moves():
+    """Two plates that share the lower nodes of an edge: one turns about it."""
+    flat = uf.mesh.strip(12.0, 4.0, 0.5, (6, 2))
+    points, cells = flat.points, flat.connectivity.copy()
+    edge = np.flatnonzero((np.abs(points[:, 0] - 6.0) < 1e-9) & (points[:, 2] > 0.0))
+    own = np.arange(len(points))
+    own[edge] = len(points) + np.arange(len(edge))
+    right = points[cells].mean(axis=1)[:, 0] > 6.0
+    cells[right] = own[cells[right]]
+    model = uf.Model(
+        uf.Mesh(np.vstack([points, points[edge]]), {"hex8": cells}, flat.sets), material=uf.SVK(E=1e5, nu=0.3)
+    )
+    model.fix("x0")
+    push = model.force("x1", (0.0, 0.0, -1e-3), "push")
+    with pytest.raises(
+        NoConvergence, match=r"21 of 45 nodes can move, most of all node \d+ at \(12, .* along \("
+    ) as caught:
+        uf.solve(model, uf.Move(push, 1.0, steps=1, cuts=1), progress=False)
+    assert "join its nodes" in str(caught.value)

@@ -176,6 +176,32 @@ def test_a_part_is_held_by_six_degrees_of_freedom_at_three_nodes():
         model.hold_rigid()
 
 
+@pytest.mark.parametrize("edge", ["fix", "hinge"])
+def test_six_degrees_of_freedom_take_the_place_of_a_support_of_the_same_nodes(edge):
+    """A sheet stretched against its clamp and freed on nodes of that clamp: no force is left, and no stress."""
+    model = Model(strip(10.0, 4.0, 0.5, (5, 2)), material=mt.SVK(E=1e5, nu=0.3))
+    clamp = model.fix("x0") if edge == "fix" else model.hinge("x0")
+    guide, foot = model.fix("x1", "y"), model.hold_director("x0", "x")
+    lift = model.fix("x1_lower", "z")
+    pull = model.force("x1", (5.0, 0.0, 0.0), "pull")
+    solve(model, Move(pull, 1.0, steps=1))
+    supports = [clamp, guide, foot, lift]
+    with pytest.raises(InvalidValue, match="hold the sheet already"):
+        model.hold_rigid("x0")
+    gauge = model.hold_rigid("x0", "gauge", instead_of=supports)
+    assert len(gauge.held) == 6
+    assert set(gauge.held // 3) <= set(model.mesh.nodes("x0"))
+    assert all(support in model.supports for support in supports)
+    assert np.abs(model.u).max() > 1e-4
+    result = solve(model, [Free(supports, steps=2, on=gauge), Move(pull, 0.0, steps=1)])
+    reactions = result.frames[-1].points["reaction"]
+    assert np.abs(reactions).max() < 1e-9
+    assert result["elastic_energy"][-1] < 1e-16
+    assert result["elastic_energy"][0] > 1e-6
+    with pytest.raises(InvalidValue, match="supports that act"):
+        model.hold_rigid("x0", instead_of=clamp)
+
+
 def test_what_cannot_be_opened_is_refused():
     part, other = ubend(), ubend()
     gauge = part.model.hold_rigid(name="gauge")

@@ -53,9 +53,9 @@ def starts(monkeypatch):
 
     original, seen = Newton.solve, []
 
-    def watched(self, extrapolation=None, manner=None):
+    def watched(self, extrapolation=None, manner=None, beyond=None):
         seen.append(extrapolation)
-        return original(self, extrapolation, manner)
+        return original(self, extrapolation, manner, beyond)
 
     monkeypatch.setattr(Newton, "solve", watched)
     return seen

@@ -1,7 +1,12 @@
 // Dense products and triangular solves by the BLAS that the process has loaded: matrices by columns.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <mutex>
+#include <vector>
+
+#include "umform/assembly/threads.hpp"
 
 namespace umform {
 
@@ -18,8 +23,29 @@ struct Blas {
     Trsm trsm_ = nullptr;
     Gemv gemv_ = nullptr;
     Trsv trsv_ = nullptr;
+    /// Numbers that OpenBLAS maps for a thread at its first large product, at most; it waits for ever where it gets none.
+    static constexpr std::size_t buffer = (std::size_t{160} << 20) / sizeof(double);
     SetThreads set_threads = nullptr;  // none where the library has no threads of its own, or does not say
     GetThreads get_threads = nullptr;
+
+    /// How many of the threads have not had that buffer yet.
+    int cold(int threads) const { return std::max(0, threads - warm_); }
+
+    /// Makes a large product on each thread of a team that has not made one, all at the same time.
+    void warm(int threads) {
+        if (cold(threads) == 0) return;
+        constexpr int n = 160;
+        constexpr std::size_t size = std::size_t{n} * n;
+        const std::vector<double> a(size, 1.0);
+        std::vector<double> c(size * threads);
+#pragma omp parallel num_threads(threads) if (threads > 1)
+        {
+            double* own = c.data() + size * thread_index();
+#pragma omp barrier
+            gemm('N', 'T', n, n, n, 1.0, a.data(), n, a.data(), n, 0.0, own, n);
+        }
+        warm_ = threads;
+    }
 
     /// C = beta C + alpha op(A) op(B), C of m x n, k products a sum.
     void gemm(char ta, char tb, int m, int n, int k, double alpha, const double* a, int lda, const double* b, int ldb,
@@ -59,6 +85,9 @@ struct Blas {
         else
             trsm('L', triangle, transposed, unit, n, columns, t, ldt, x, ldx);
     }
+
+  private:
+    int warm_ = 0;
 };
 
 /// The BLAS of the process; empty until Python has handed it over.

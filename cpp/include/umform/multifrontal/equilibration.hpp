@@ -57,10 +57,57 @@ class Most {
     std::vector<int> most_;
 };
 
-/// First exponents of D A D: those that make the diagonal one. A row without a diagonal, or with one that is tiny beside what
-/// most of its entries need, follows its neighbours.
+/// First exponents of rows that are `alone`, with no neighbour whose exponent is known: those of eq. (5.76), by conjugate
+/// gradients with the diagonal as preconditioner.
 template <class Visit>
-void start_from_diagonal(const Visit& visit, std::vector<int>& d) {
+void start_from_means(const Visit& visit, const std::vector<char>& alone, std::vector<int>& d) {
+    constexpr int most_steps = 100;
+    constexpr double enough = 1e-4;  // of the gradient: exponents are whole
+    const std::size_t n = d.size();
+    std::vector<double> x(n, 0.0), r(n, 0.0), p(n, 0.0), product(n), count(n, 0.0);
+    const auto each = [&](const auto& take) {
+        visit([&](int i, int j, int e) {
+            if (e > no_exponent && i != j && (alone[i] != 0 || alone[j] != 0)) take(i, j, e);
+        });
+    };
+    each([&](int i, int j, int e) {
+        const double sum = e + d[i] + d[j];
+        r[i] -= sum, r[j] -= sum, ++count[i], ++count[j];
+    });
+    const auto inner = [&](const std::vector<double>& a, const std::vector<double>& b) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < n; ++i)
+            if (alone[i] != 0 && count[i] > 0.0) sum += a[i] * b[i] / count[i];
+        return sum;
+    };
+    double square = inner(r, r);
+    const double first = square;
+    for (std::size_t i = 0; i < n; ++i) p[i] = alone[i] != 0 && count[i] > 0.0 ? r[i] / count[i] : 0.0;
+    for (int step = 0; step < most_steps && square > enough * enough * first; ++step) {
+        std::fill(product.begin(), product.end(), 0.0);
+        each([&](int i, int j, int) {
+            const double sum = p[i] + p[j];
+            product[i] += sum, product[j] += sum;
+        });
+        double curvature = 0.0;
+        for (std::size_t i = 0; i < n; ++i) curvature += p[i] * product[i];
+        if (!(curvature > 0.0)) break;
+        const double length = square / curvature;
+        for (std::size_t i = 0; i < n; ++i) x[i] += length * p[i], r[i] -= length * product[i];
+        const double before = square;
+        square = inner(r, r);
+        for (std::size_t i = 0; i < n; ++i)
+            p[i] = alone[i] != 0 && count[i] > 0.0 ? r[i] / count[i] + square / before * p[i] : 0.0;
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        if (alone[i] != 0) d[i] += static_cast<int>(std::lround(x[i]));
+}
+
+/// First exponents of D A D: those that make the diagonal one. A row without a diagonal, or with one that is tiny beside what
+/// most of its entries need, follows its neighbours; where they know no better, all entries are made alike in the mean.
+/// Whether there was a row that knew no better.
+template <class Visit>
+bool start_from_diagonal(const Visit& visit, std::vector<int>& d) {
     constexpr int tiny = 20;
     const int n = static_cast<int>(d.size());
     std::vector<std::int32_t> entries(n, 0), above(n, 0);
@@ -81,25 +128,31 @@ void start_from_diagonal(const Visit& visit, std::vector<int>& d) {
         if (kept[i] == 0 && kept[j] != 0) most.add(i, e + d[j]);
         if (kept[j] == 0 && kept[i] != 0) most.add(j, e + d[i]);
     });
+    std::vector<char> alone(n, 0);
+    bool any = false;
     for (int i = 0; i < n; ++i)
-        if (kept[i] == 0) d[i] = most.any(i) ? -most[i] : 0;
+        if (kept[i] == 0) d[i] = most.any(i) ? -most[i] : 0, alone[i] = most.any(i) ? 0 : 1, any |= alone[i] != 0;
+    if (any) start_from_means(visit, alone, d);
+    return any;
 }
 
 /// Exponents d of D A D, eq. (5.51): D. Ruiz, A scaling algorithm to equilibrate both rows and columns norms in matrices,
 /// RAL-TR-2001-034.
 /// `visit` calls a function with the row, the column and the exponent of each entry.
+/// Whether a row had neither a diagonal nor a neighbour with one.
 template <class Visit>
-void equilibrate(const Visit& visit, std::vector<int>& d) {
+bool equilibrate(const Visit& visit, std::vector<int>& d) {
     Most most(static_cast<int>(d.size()));
-    start_from_diagonal(visit, d);
+    const bool any = start_from_diagonal(visit, d);
     for (int pass = 0; pass < passes; ++pass) {
         most.clear();
         visit([&](int i, int j, int e) {
             const int here = e + d[i] + d[j];
             most.add(i, here), most.add(j, here);
         });
-        if (!most.halve(d)) return;
+        if (!most.halve(d)) break;
     }
+    return any;
 }
 
 /// The exponents of two entries opposite to each other.
@@ -137,15 +190,18 @@ inline std::vector<Opposite> opposites(const Rows& rows, const double* values) {
 /// Rows and columns on their own could be made alike by Ruiz with the diagonal left tiny: large scales on one side of a line
 /// and small ones on the other fit as well. Therefore R = D T and C = D / T: D makes the geometric means of opposite entries
 /// alike, of which the diagonal is one, and T balances them (B. N. Parlett & C. Reinsch, Balancing a matrix for calculation
-/// of eigenvalues and eigenvectors, Numer. Math. 13 (1969) 293-304). What has no opposite is left to Ruiz.
+/// of eigenvalues and eigenvectors, Numer. Math. 13 (1969) 293-304). What has no opposite is left to Ruiz. A matrix of which not
+/// all rows have a diagonal, or a neighbour with one, begins with rows and columns that make all entries alike in the mean.
 class TwoSided {
   public:
     std::vector<int> row, column;
 
     TwoSided(const Rows& rows, const double* values)
         : row(rows.n, 0), column(rows.n, 0), pairs_(opposites(rows, values)), rows_(rows.n), columns_(rows.n) {
-        means();
-        balance();
+        if (means())
+            apart(rows, values);
+        else
+            balance();
         finish();
     }
 
@@ -153,14 +209,28 @@ class TwoSided {
     std::vector<Opposite> pairs_;
     Most rows_, columns_;
 
-    void means() {
-        equilibrate(
+    bool means() {
+        const bool unknown = equilibrate(
             [&](const auto& add) {
                 for (const Opposite& p : pairs_)
                     if (std::min(p.upper, p.lower) > no_exponent) add(p.i, p.j, (p.upper + p.lower) >> 1);
             },
             row);
         column = row;
+        return unknown;
+    }
+
+    void apart(const Rows& rows, const double* values) {
+        const int n = rows.n;
+        std::vector<int> both(2 * static_cast<std::size_t>(n), 0);
+        start_from_means(
+            [&](const auto& add) {
+                for (int i = 0; i < n; ++i)
+                    for (int k = rows.indptr[i]; k < rows.indptr[i + 1]; ++k)
+                        add(i, n + rows.indices[k], exponent(values[k]));
+            },
+            std::vector<char>(both.size(), 1), both);
+        row.assign(both.begin(), both.begin() + n), column.assign(both.begin() + n, both.end());
     }
 
     void measure(bool with_diagonal) {

@@ -54,14 +54,13 @@ class Factors {
 
     Outcome factor(Kind kind, const double* values, Scaling scaling, int threads) {
         kind_ = kind, values_ = values, scaling_ = std::move(scaling), state_ = Outcome::Done, equation_ = -1;
-        storage_.grow(plan_.factor_size);
-        if (static_cast<int>(workers_.size()) < threads) workers_ = std::vector<Worker>(threads);
         const OneBlasThread alone;
+        reserve(threads);
         schedule_.run(
             plan_, threads,
             [&](const Schedule::Unit& unit, int thread) {
                 Worker& worker = workers_[thread];
-                worker.stacks.reserve(schedule_.even, schedule_.odd);
+                worker.stacks.clear();
                 for (int f = unit.begin; f <= unit.root; ++f) process(f, worker, f < unit.root);
             },
             [&](int f, int thread) { process(f, workers_[thread], false); });
@@ -113,6 +112,20 @@ class Factors {
     int equation_ = -1;
 
     static constexpr int kLarge = 256;  // rows of an update that is shared among threads
+
+    /// Takes all memory that is planned, or throws: before any product is made, since BLAS may not come back where none is left.
+    void reserve(int threads) {
+        const int team = schedule_.worth_a_team ? threads : 1;
+        storage_.grow(plan_.factor_size);
+        if (static_cast<int>(workers_.size()) < threads) workers_ = std::vector<Worker>(threads);
+        for (int t = 0; t < team; ++t) workers_[t].stacks.reserve(schedule_.even, schedule_.odd);
+        if (!schedule_.worth_a_team) return;
+        const std::size_t above = schedule_.peak > pool_.held() ? schedule_.peak - pool_.held() : 0;
+        {
+            const Block room(above + static_cast<std::size_t>(blas().cold(team)) * Blas::buffer);
+        }
+        blas().warm(team);
+    }
 
     void process(int f, Worker& worker, bool stack) {
         if (state_.load(std::memory_order_relaxed) != Outcome::Done) return;

@@ -63,6 +63,14 @@ class Pool {
         free_.emplace(size, std::move(block));
     }
 
+    /// Numbers in the blocks that nobody has.
+    std::size_t held() {
+        const std::lock_guard lock(mutex_);
+        std::size_t sum = 0;
+        for (const auto& block : free_) sum += block.first;
+        return sum;
+    }
+
   private:
     std::mutex mutex_;
     std::multimap<std::size_t, Block> free_;
@@ -72,10 +80,8 @@ class Pool {
 /// those of its children are on top of the other and leave it.
 class Stacks {
   public:
-    void reserve(std::size_t even, std::size_t odd) {
-        stack_[0].grow(even), stack_[1].grow(odd);
-        used_[0] = used_[1] = 0;
-    }
+    void reserve(std::size_t even, std::size_t odd) { stack_[0].grow(even), stack_[1].grow(odd); }
+    void clear() { used_[0] = used_[1] = 0; }
     double* push(int depth, std::size_t size) {
         double* top = stack_[depth & 1].data() + used_[depth & 1];
         used_[depth & 1] += size;

@@ -1,12 +1,14 @@
-// Tree of boxes around things in space, in flat arrays: those that may lie nearest to a point, the near ones first.
+// Tree of boxes around things in space, four to a node: those that may lie nearest to a point, the near ones first.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <numeric>
 #include <vector>
 
+#include "umform/algebra/lanes.hpp"
 #include "umform/algebra/tensor.hpp"
 
 namespace umform {
@@ -33,11 +35,11 @@ struct Box {
 
 class BoxTree {
   public:
-    /// Halves the things at the median of their middles along the longest side, until no more than `leaf_size` are left.
+    /// Quarters the things by medians of their middles along the longest sides, until each has a box of its own.
     explicit BoxTree(const std::vector<Box>& boxes) : order_(boxes.size()) {
         std::iota(order_.begin(), order_.end(), 0);
-        nodes_.reserve(2 * boxes.size());
-        if (!boxes.empty()) split(boxes, 0, static_cast<int>(boxes.size()));
+        nodes_.reserve(boxes.size());
+        if (!boxes.empty()) split(boxes, {0, static_cast<int>(boxes.size())});
     }
 
     /// The things in the order of the leaves.
@@ -47,60 +49,104 @@ class BoxTree {
     /// returns and which may only fall.
     template <class Visit>
     void near_first(const Vec3& x, double square, const Visit& visit) const {
-        struct Waiting {
-            int node;
-            double square;
-        };
-        std::array<Waiting, deepest> stack;
+        std::array<Waiting, 3 * deepest + 1> stack;
         int waiting = 0;
         stack[waiting++] = {0, 0.0};
         while (waiting > 0) {
             const Waiting next = stack[--waiting];
             if (next.square > square) continue;
-            const Node& node = nodes_[next.node];
-            if (node.right == 0) {
-                for (int i = node.first; i < node.last; ++i) square = visit(i);
+            if (next.child < 0) {
+                square = visit(~next.child);
                 continue;
             }
-            const Waiting left{next.node + 1, nodes_[next.node + 1].box.square_to(x)};
-            const Waiting right{node.right, nodes_[node.right].box.square_to(x)};
-            const bool left_first = left.square <= right.square;
-            stack[waiting++] = left_first ? right : left;
-            stack[waiting++] = left_first ? left : right;
+            const Node& node = nodes_[next.child];
+            const Lanes squares = node.squares_to(x);
+            const LaneMask beyond = squares > Lanes(square);
+            const int first = waiting;
+            for (int i = 0; i < node.count; ++i) {
+                if (beyond[i]) continue;
+                const double own = squares[i];
+                int at = waiting++;  // the nearest one on top
+                for (; at > first && stack[at - 1].square < own; --at) stack[at] = stack[at - 1];
+                stack[at] = {node.child[i], own};
+            }
         }
     }
 
   private:
-    static constexpr int leaf_size = 2, deepest = 64;  // more than 2^60 things do not exist
+    static constexpr int width = lane_count, deepest = 32;  // more than 4^31 things do not exist
 
-    struct Node {
-        Box box;
-        int first, last;
-        int right;  // the left child follows its parent; 0 marks a leaf
+    /// A node, or a thing by the complement of its place; the square of the distance of its box.
+    struct Waiting {
+        int child;
+        double square;
     };
 
-    int split(const std::vector<Box>& boxes, int first, int last) {
-        const int at = static_cast<int>(nodes_.size());
-        Box around = Box::empty(), middles = Box::empty();
-        for (int i = first; i < last; ++i) {
-            const Box& box = boxes[order_[i]];
-            around.take_in(box.low), around.take_in(box.high);
-            middles.take_in(middle(box));
+    struct Range {
+        int first, last;
+        int count() const { return last - first; }
+    };
+
+    /// The boxes of up to four children, one in each lane.
+    struct Node {
+        std::array<Lanes, 3> low, high;
+        std::array<int, width> child;
+        int count;
+
+        Lanes squares_to(const Vec3& x) const {
+            Lanes squares = 0.0;
+            for (int k = 0; k < 3; ++k) {
+                const Lanes below = low[k] - Lanes(x[k]), above = Lanes(x[k]) - high[k];
+                const Lanes farther = select(below < above, above, below);
+                const Lanes d = select(farther < Lanes(0.0), Lanes(0.0), farther);
+                squares += d * d;
+            }
+            return squares;
         }
-        nodes_.push_back({around, first, last, 0});
-        if (last - first <= leaf_size) return at;
+    };
+
+    int split(const std::vector<Box>& boxes, Range range) {
+        const int at = static_cast<int>(nodes_.size());
+        nodes_.push_back({});
+        std::array<Range, width> parts{range};
+        int count = 1;
+        while (count < width) {
+            const auto largest = std::max_element(parts.begin(), parts.begin() + count,
+                                                  [](const Range& a, const Range& b) { return a.count() < b.count(); });
+            if (largest->count() < 2) break;
+            const int half = halve(boxes, *largest);
+            std::move_backward(largest + 1, parts.begin() + count, parts.begin() + count + 1);
+            *(largest + 1) = {half, largest->last};
+            largest->last = half;
+            ++count;
+        }
+        nodes_[at].count = count;
+        for (int i = 0; i < count; ++i) {
+            Box around = Box::empty();
+            for (int j = parts[i].first; j < parts[i].last; ++j)
+                around.take_in(boxes[order_[j]].low), around.take_in(boxes[order_[j]].high);
+            for (int k = 0; k < 3; ++k)
+                nodes_[at].low[k].set(i, around.low[k]), nodes_[at].high[k].set(i, around.high[k]);
+            const int child = parts[i].count() == 1 ? ~parts[i].first : split(boxes, parts[i]);
+            nodes_[at].child[i] = child;
+        }
+        return at;
+    }
+
+    /// Brings the things of a range on both sides of the median of their middles along the longest side.
+    int halve(const std::vector<Box>& boxes, Range range) {
+        Box middles = Box::empty();
+        for (int i = range.first; i < range.last; ++i) middles.take_in(middle(boxes[order_[i]]));
         int axis = 0;
         for (int k = 1; k < 3; ++k)
             if (middles.high[k] - middles.low[k] > middles.high[axis] - middles.low[axis]) axis = k;
-        const int half = first + (last - first) / 2;
-        std::nth_element(order_.begin() + first, order_.begin() + half, order_.begin() + last, [&](int i, int k) {
-            const double one = middle(boxes[i])[axis], other = middle(boxes[k])[axis];
-            return one < other || (one == other && i < k);
-        });
-        split(boxes, first, half);
-        const int right = split(boxes, half, last);
-        nodes_[at].right = right;
-        return at;
+        const int half = range.first + range.count() / 2;
+        std::nth_element(order_.begin() + range.first, order_.begin() + half, order_.begin() + range.last,
+                         [&](int i, int k) {
+                             const double one = middle(boxes[i])[axis], other = middle(boxes[k])[axis];
+                             return one < other || (one == other && i < k);
+                         });
+        return half;
     }
 
     static Vec3 middle(const Box& box) {

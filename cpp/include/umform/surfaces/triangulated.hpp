@@ -40,8 +40,7 @@ class Triangulated final : public Surface {
         for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<int>(i);
         for (const int i : order) {
             thirds_.push_back(thirds[i]);
-            bulge_.push_back(bulge(thirds[i].patch));
-            lift_.push_back(lift(thirds[i].patch));
+            flats_.push_back(Flat(thirds[i].patch));
             int& neighbour = thirds_.back().neighbour;
             if (neighbour >= 0) neighbour = place[neighbour];
         }
@@ -50,13 +49,13 @@ class Triangulated final : public Surface {
     bool is_distance() const override { return true; }
     bool is_concurrent() const override { return true; }
 
-    /// The foot of the point before bounds the distance of the next one; it changes the way of the search only.
+    /// The patch of the point before bounds the distance of the next one; it changes the way of the search only.
     void gap(int count, const double* x, double* g, double* n, double* H) const override {
-        Vec3 last = thirds_.front().patch.control[0];
+        int last = 0;
         for (int q = 0; q < count; ++q) {
             const Found found = nearest({x[3 * q], x[3 * q + 1], x[3 * q + 2]}, last);
             const Gap at = gap_at({x[3 * q], x[3 * q + 1], x[3 * q + 2]}, found);
-            last = found.foot.at.S;
+            last = found.third;
             g[q] = at.g;
             std::copy(at.n.begin(), at.n.end(), n + 3 * q);
             std::copy(at.H.a.begin(), at.H.a.end(), H + 9 * q);
@@ -64,6 +63,27 @@ class Triangulated final : public Surface {
     }
 
   private:
+    /// The flat triangle of the corners of a patch, apart from it: the search reads many of these and few patches.
+    struct Flat {
+        Vec3 a, b, c;
+        double bulge;  // no point of the patch is farther from the triangle: the distance to a convex set is convex
+        double lift;   // no point of the patch is farther from the point of the triangle with the same parameters
+
+        explicit Flat(const QuarticPatch& patch)
+            : a(patch.control[QuarticPatch::a]), b(patch.control[QuarticPatch::b]), c(patch.control[QuarticPatch::c]) {
+            double out = 0.0, off = 0.0;
+            for (int row = 0, k = 0; row < 5; ++row)
+                for (int i = 0; i < 5 - row; ++i, ++k) {
+                    const Vec3& x = patch.control[k];
+                    Vec3 d;
+                    for (int j = 0; j < 3; ++j) d[j] = x[j] - 0.25 * ((4 - row - i) * a[j] + i * b[j] + row * c[j]);
+                    out = std::max(out, foot(x).square), off = std::max(off, dot(d, d));
+                }
+            bulge = std::sqrt(out) * (1.0 + 1e-12), lift = std::sqrt(off) * (1.0 + 1e-12);
+        }
+        FlatFoot foot(const Vec3& x) const { return foot_on_triangle(x, a, b, c); }
+    };
+
     struct Found {
         int third;
         PatchFoot foot;
@@ -79,21 +99,24 @@ class Triangulated final : public Surface {
     /// First the flat triangles, whose distances bound those of their patches from both sides, then the few patches that may
     /// be nearest. Of equally near ones the first counts, so that the answer does not depend on where the search began.
     /// eq. (4.170)
-    Found nearest(const Vec3& x, const Vec3& last) const {
-        const Vec3 d = difference(x, last);
-        double bound = std::sqrt(dot(d, d)) * (1.0 + 1e-9);
+    Found nearest(const Vec3& x, int last) const {
         Found best{-1, {}};
         best.foot.square = std::numeric_limits<double>::infinity();
         std::array<Candidate, 64> candidates;
         std::size_t count = 0;
+        double bound = std::numeric_limits<double>::infinity();
+        const auto look_at = [&](int i) {
+            const Flat& flat = flats_[i];
+            const FlatFoot foot = flat.foot(x);
+            const double distance = std::sqrt(foot.square), least = distance * (1.0 - 1e-12) - flat.bulge;
+            if (least > bound) return;
+            if (count == candidates.size()) settle(x, candidates, count, bound, best);
+            candidates[count++] = {i, least, foot.p};
+            bound = std::min(bound, (distance + flat.lift) * (1.0 + 1e-9));
+        };
+        look_at(last);
         tree_.near_first(x, bound * bound, [&](int i) {
-            const FlatFoot flat = foot_on_flat(thirds_[i].patch, x);
-            const double distance = std::sqrt(flat.square), least = distance * (1.0 - 1e-12) - bulge_[i];
-            if (least <= bound) {
-                if (count == candidates.size()) settle(x, candidates, count, bound, best);
-                candidates[count++] = {i, least, flat.p};
-                bound = std::min(bound, (distance + lift_[i]) * (1.0 + 1e-9));
-            }
+            if (i != last) look_at(i);
             return bound * bound;
         });
         settle(x, candidates, count, bound, best);
@@ -201,36 +224,9 @@ class Triangulated final : public Surface {
         return boxes;
     }
 
-    static FlatFoot foot_on_flat(const QuarticPatch& patch, const Vec3& x) {
-        return foot_on_triangle(x, patch.control[QuarticPatch::a], patch.control[QuarticPatch::b],
-                                patch.control[QuarticPatch::c]);
-    }
-
-    /// No point of a patch is farther from the flat triangle of its corners: the distance to a convex set is convex.
-    static double bulge(const QuarticPatch& patch) {
-        double square = 0.0;
-        for (const Vec3& x : patch.control) square = std::max(square, foot_on_flat(patch, x).square);
-        return std::sqrt(square) * (1.0 + 1e-12);
-    }
-
-    /// No point of a patch is farther from the point of the flat triangle with the same parameters.
-    static double lift(const QuarticPatch& patch) {
-        const Vec3 &a = patch.control[QuarticPatch::a], &b = patch.control[QuarticPatch::b];
-        const Vec3& c = patch.control[QuarticPatch::c];
-        double square = 0.0;
-        for (int row = 0, k = 0; row < 5; ++row)
-            for (int i = 0; i < 5 - row; ++i, ++k) {
-                Vec3 d;
-                for (int j = 0; j < 3; ++j)
-                    d[j] = patch.control[k][j] - 0.25 * ((4 - row - i) * a[j] + i * b[j] + row * c[j]);
-                square = std::max(square, dot(d, d));
-            }
-        return std::sqrt(square) * (1.0 + 1e-12);
-    }
-
     BoxTree tree_;
     std::vector<Third> thirds_;  // in the order of the tree
-    std::vector<double> bulge_, lift_;
+    std::vector<Flat> flats_;
     std::vector<Corner> corners_;
     ExactFaces exact_;
 };

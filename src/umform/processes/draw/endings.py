@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from umform.errors import NoConvergence
+from umform.results.bottoming import bottoming
 from umform.results.forming import FormingLimit, distance_from, forming_fields
 from umform.run import Result
 
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
 _TORN = 30.0
 #: Air in thicknesses between the sheet and both the die and the holder, beyond that at the start, that is a wrinkle.
 _WRINKLED = 0.5
-#: Growth of the force over its largest value before, in the last hundredth of the stroke, of a punch that bottoms.
-_BOTTOMED = 3.0
 
 
 @dataclass(frozen=True)
@@ -76,8 +75,11 @@ def ending_of(case: Cup | UBend, result: Result, limit: FormingLimit, failure: N
     if air > _WRINKLED * case.thickness:
         text = f"the sheet wrinkles under the holder{reached}: it stands off both tools by {air:.3g}; a stronger holder"
         return Ending("wrinkled", text, early)
-    if early and _bottomed(result):
-        return Ending("bottomed", f"the punch bottoms{reached}: its force grows without bound; a shorter stroke", True)
+    bottom = bottoming(result["stroke"], result["punch_fz"])
+    if bottom is not None:
+        text = f"the punch bottoms at a stroke of {abs(bottom.at):.4g}{reached}: its force rises from"
+        remedy = "a shorter stroke, or more clearance"
+        return Ending("bottomed", f"{text} {bottom.before:.4g} to {bottom.largest:.4g}; {remedy}", early)
     if early:
         return Ending("solver", f"the run cannot be continued{reached}: {failure}", True)
     return None
@@ -115,10 +117,3 @@ def _drawn_in(case: Cup | UBend, result: Result) -> float:
     ids = model.mesh.nodes(case.edge)
     X, u = model.mesh.points[ids, :2], model.u.reshape(-1, 3)[ids, :2]
     return float(-(u * X).sum(axis=1).mean() / np.linalg.norm(X, axis=1).mean())
-
-
-def _bottomed(result: Result) -> bool:
-    """Whether the force of the punch has grown beyond all measure in the last increments."""
-    force = np.abs(result["punch_fz"])
-    count = max(len(force) // 20, 2)
-    return len(force) > 2 * count and bool(force[-1] > _BOTTOMED * force[:-count].max())

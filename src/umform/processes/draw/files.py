@@ -15,8 +15,8 @@ from umform.processes.draw.words import parameters
 from umform.report.versions import versions
 
 _PICTURES = (
-    "curve", "thinning", "major_middle", "limit_margin", "wrinkling", "punch_distance", "limits", "outline", "section",
-    "ears",
+    "curve", "thinning", "major_middle", "limit_margin", "wrinkling", "punch_distance", "gauge", "limits", "outline",
+    "section", "ears",
 )  # fmt: skip
 _DATA = (
     "curve.csv", "fields.csv", "outline.csv", "section.csv", "ears.csv", "part.json", "draw.vtkhdf", "release.vtkhdf",

@@ -21,6 +21,7 @@ _CAPTIONS = {
     "limit_margin": "Strain that is left up to the forming limit; below zero the sheet tears.",
     "wrinkling": "Thickening: where it is large and no tools hold both faces, the sheet wrinkles.",
     "punch_distance": "Distance of the upper face of the part from the punch at the end of its stroke.",
+    "gauge": "The whole part in a gauge of the shape at the end of the stroke: by the best fit, and on three points.",
     "limits": "Forming limit diagram: strains of all elements on both skins and in the middle.",
     "outline": "Edge of the blank before and at the end of the stroke.",
     "section": "Section at y = 0, at the end of the stroke and out of the tools.",

@@ -8,11 +8,15 @@ from dataclasses import replace
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from umform.plotting import COLOURS, INK, Picture, draw_shape, house_style
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
-from umform.results.shape import Shape
+from umform.results.forming import lay_by_best_fit, lay_on_three_points
+from umform.results.shape import Shape, outer_quads
+
+Floats = NDArray[np.float64]
 
 _SIZE = (6.6, 4.2)
 #: Fields that get a picture of their own, with what is written beside the colours.
@@ -30,6 +34,7 @@ def pictures(drawn: Drawn) -> dict[str, Figure]:
     made = {"curve": curve(drawn)}
     shape = part(drawn)
     made |= {name: coloured(shape, name, label) for name, label in FIELDS.items()}
+    made["gauge"] = in_gauge(drawn, shape)
     made |= {"limits": limits(drawn), "outline": outline(drawn), "section": sections(drawn)}
     if isinstance(drawn.case, Cup):
         made["ears"] = ears(drawn)
@@ -49,17 +54,48 @@ def curve(drawn: Drawn) -> Figure:
 
 def part(drawn: Drawn) -> Shape:
     """The whole part out of its tools, with the fields of forming on its faces."""
-    from umform.results.shape import outer_quads
-
     mesh = drawn.result.model.mesh
     quads, owners = outer_quads(mesh.connectivity.astype(np.int64))
     values = {name: drawn.fields[name][owners] for name in FIELDS if name in drawn.fields}
     values["punch_distance"] = drawn.punch_distance[quads].mean(axis=1)
-    shape = Shape(mesh.points + drawn.u_free.reshape(-1, 3), quads, values)
+    return _whole(drawn, Shape(mesh.points + drawn.u_free.reshape(-1, 3), quads, values))
+
+
+def _whole(drawn: Drawn, shape: Shape) -> Shape:
+    """The whole of the half or quarter that is computed."""
     if not isinstance(drawn.case, Cup):
         stretched = shape.points * np.array([1.0, 0.5 * drawn.case.width, 1.0])
         return replace(shape, points=stretched).mirrored(0)
     return shape.mirrored(0).mirrored(1)
+
+
+def in_gauge(drawn: Drawn, free: Shape) -> Figure:
+    """The whole part in a gauge of the shape at the end of the stroke: by the best fit, and on three points."""
+    gauge = _whole(drawn, Shape.displaced(drawn.result.model.mesh, drawn.u.reshape(-1, 3)))
+    part, places = free.points, gauge.points
+    laid = {
+        "best fit": lay_by_best_fit(part, places),
+        "on three points": lay_on_three_points(part, places, _far_apart(places)),
+    }
+    with house_style():
+        figure = Picture(figsize=(8.6, 3.8), layout="compressed")
+        limits = (0.0, max(one.largest for one in laid.values()))
+        for axes, (name, one) in zip(figure.subplots(1, 2), laid.items(), strict=True):
+            values = {"distance": one.distance[free.quads].mean(axis=1)}
+            shown = draw_shape(axes, Shape(one.points, free.quads, values), "distance", (-70.0, -25.0), limits)
+            axes.set_title(f"{name}: up to {one.largest:.3g} mm")
+        bar = figure.colorbar(shown, ax=figure.axes, shrink=0.75, aspect=25, pad=0.02)
+        bar.set_label("distance from the gauge in mm")
+        bar.outline.set_visible(False)
+    return figure
+
+
+def _far_apart(points: Floats) -> list[int]:
+    """Three points that span a large triangle: the one farthest from the middle, from it, and from their line."""
+    first = int(np.linalg.norm(points - points.mean(axis=0), axis=1).argmax())
+    second = int(np.linalg.norm(points - points[first], axis=1).argmax())
+    areas = np.linalg.norm(np.cross(points - points[first], points[second] - points[first]), axis=1)
+    return [first, second, int(areas.argmax())]
 
 
 def coloured(shape: Shape, name: str, label: str) -> Figure:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from umform.elements import rolling_at
@@ -12,8 +13,8 @@ from umform.processes.draw_bead.parameters import DrawBead
 from umform.run import solve
 from umform.steps import Move, Step
 
-#: Elements of the coarser mesh over those of the finer one.
-_COARSER = 0.7
+#: Elements of a mesh over those of the next coarser one.
+_FINER = math.sqrt(2.0)
 #: States that each step keeps for pictures.
 FRAMES = 12
 
@@ -36,7 +37,7 @@ def build(case: DrawBead) -> tuple[Model, list[Step]]:
 
 
 def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", progress: bool | None = None) -> Drawn:
-    """Draw a strip through a bead on two meshes, the one of the case and one with 0.7 times as many elements.
+    """Draw a strip through a bead on three meshes: that of the case, and two with 0.5 and 0.7 times as many elements.
 
     Parameters
     ----------
@@ -46,12 +47,18 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
     Returns
     -------
     Drawn
-        That of the finer mesh, with its limits.
+        That of the finest mesh, with its limits and their errors.
     """
-    coarser = replace(case, elements=_COARSER * case.elements)
-    coarse = drawn_through(coarser, frames=0, solver=solver, progress=progress)
+    coarser = [
+        drawn_through(replace(case, elements=case.elements * part), frames=0, solver=solver, progress=progress)
+        for part in (_FINER**-2, 1.0 / _FINER)
+    ]
     fine = drawn_through(case, frames=frames, solver=solver, progress=progress)
-    return replace(fine, limits=limits_of(coarse, fine))
+    every = [*coarser, fine]
+    limits = Limits(
+        Limit.of_three([one.restraint for one in every], _FINER), Limit.of_three([one.uplift for one in every], _FINER)
+    )
+    return replace(fine, limits=limits)
 
 
 def limits_of(coarse: Drawn, fine: Drawn) -> Limits:

@@ -7,24 +7,17 @@ from umform.processes.draw_bead.measures import Drawn
 
 def in_python(drawn: Drawn) -> str:
     """Call of :meth:`umform.Model.bead`."""
-    restraint, uplift = _forces(drawn)
+    restraint, uplift = drawn.forces
     forces = f"restraint={restraint:.4g}, uplift={uplift:.4g}, width={width(drawn):.4g}"
     return f"model.bead(faces, tool, curve=[...], {forces})"
 
 
 def in_deck(drawn: Drawn) -> str:
     """Table of a deck."""
-    restraint, uplift = _forces(drawn)
+    restraint, uplift = drawn.forces
     keys = {"restraint": restraint, "uplift": uplift, "width": width(drawn)}
     lines = ["[beads.NAME]", 'contact = "..."', "curve = [[0, 0, 0], [100, 0, 0]]"]
     return "\n".join([*lines, *(f"{key} = {value:.4g}" for key, value in keys.items())]) + "\n"
-
-
-def _forces(drawn: Drawn) -> tuple[float, float]:
-    """Restraint and uplift, extrapolated to elements of zero length if two meshes were run."""
-    if drawn.limits is None:
-        return drawn.restraint, drawn.uplift
-    return drawn.limits.restraint.value, drawn.limits.uplift.value
 
 
 def width(drawn: Drawn) -> float:

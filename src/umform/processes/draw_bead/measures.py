@@ -55,7 +55,7 @@ class Drawn:
     result : Result
         History, frames and iterations.
     limits : Limits, optional
-        Both forces extrapolated to elements of zero length, if two meshes were run.
+        Both forces extrapolated to elements of zero length, if several meshes were run.
     """
 
     case: DrawBead
@@ -96,6 +96,13 @@ class Drawn:
             balance=100.0 * (1.0 - sum(grown.values()) / work),
             result=result,
         )
+
+    @property
+    def forces(self) -> tuple[float, float]:
+        """Restraint and uplift, extrapolated to elements of zero length if several meshes were run."""
+        if self.limits is None:
+            return self.restraint, self.uplift
+        return self.limits.restraint.value, self.limits.uplift.value
 
     @property
     def warnings(self) -> list[str]:

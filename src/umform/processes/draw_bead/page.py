@@ -31,7 +31,7 @@ def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: st
         Where the material comes from; may be empty.
     """
     case, result = drawn.case, drawn.result
-    title = f"Draw bead: {case.thickness:g} mm sheet, {drawn.restraint:.1f} N/mm"
+    title = f"Draw bead: {case.thickness:g} mm sheet, {drawn.forces[0]:.1f} N/mm"
     lead = f"plane strain; {int(result['iterations'].sum())} Newton iterations in {result.seconds:.1f} s"
     return parts.write_html(path, title, lead, _parts(drawn, figures, note))
 

@@ -66,7 +66,7 @@ class DrawBead:
     friction: float = 0.1
     draw: float | None = None
     element: str | Element = "BEND8"
-    elements: float = 20.0
+    elements: float = 14.0
     contact_points: int = 4
     rolling: float | None = None
 

@@ -16,10 +16,16 @@ def parameters(drawn: Drawn) -> dict[str, Any]:
 
 
 def summary(drawn: Drawn) -> list[list[str]]:
-    """Rows of all measures: label, value, unit."""
-    rows = [[label, f"{getattr(drawn, name):.{digits}f}", unit] for name, (label, unit, digits) in QUANTITIES.items()]
+    """Rows of all measures: label, value, unit; the forces first, without the error of the mesh if that is known."""
+    of_mesh = "" if drawn.limits is None else ", finest mesh"
+    rows = []
     if drawn.limits is not None:
-        for label, limit in (("restraining force", drawn.limits.restraint), ("uplift force", drawn.limits.uplift)):
-            rows.append([f"{label}, extrapolated", f"{limit.value:.1f}", "N/mm"])
-            rows.append(["what the mesh is above it", f"{100.0 * limit.off:.1f}", "%"])
+        for name, limit in (("restraint", drawn.limits.restraint), ("uplift", drawn.limits.uplift)):
+            label, unit, digits = QUANTITIES[name]
+            rows.append([label, f"{limit.value:.{digits}f}", unit])
+            if limit.error is not None:
+                rows.append(["its estimated error", f"{limit.error:.{digits}f}", unit])
+    for name, (label, unit, digits) in QUANTITIES.items():
+        of = of_mesh if name in ("restraint", "uplift") else ""
+        rows.append([label + of, f"{getattr(drawn, name):.{digits}f}", unit])
     return rows

@@ -1,0 +1,114 @@
+"""The operation before: the deck and the state that a deck begins with, and what is cut off.
+
+A deck with a table ``before`` has mesh, material and element from the deck that is named there, and the state from what
+a run of that deck has written.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path as File
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from umform.deck.errors import DeckError, DeckKey
+from umform.deck.parts import Name, Part
+from umform.deck.profiles import ProfilePart, profile_of
+from umform.deck.source import Source
+from umform.errors import FileProblem
+from umform.io.trees import read_tree, write_tree
+from umform.model import Model, Snapshot
+from umform.model.trim import Trim
+
+#: Tables that come from the deck before.
+TAKEN = ("mesh", "material", "element")
+_KIND = "state of a umform model"
+
+
+class Before(Part):
+    """The operation before."""
+
+    deck: Annotated[str, Field(min_length=1)]
+    """Its deck; path from the folder of this deck."""
+    state: Annotated[str, Field(min_length=1)]
+    """The file state.h5 that its run has written, with state = true under output; path from the folder of this deck."""
+    control: Name
+    """Name of the control, of value 1, of the forces that nothing in this deck balances: of tools and supports of that
+    operation, and of metal that is cut off. Steps move it to 0."""
+
+    def restore(self, model: Model, folder: File) -> None:
+        """Put a model into the state.
+
+        Raises
+        ------
+        FileProblem
+            If the file cannot be read, or is of another model.
+        """
+        path = folder / self.state
+        if not path.is_file():
+            raise FileProblem(
+                "the deck before has left no state",
+                where=str(path),
+                cause="it was not run yet, has ended early, or its output has no state = true",
+                remedy=f"state = true in [output] of {self.deck}, then umform run {self.deck} --out {path.parent.name}",
+            )
+        tree = read_tree(path, _KIND)
+        bodies = {body.key: {name: values.shape for name, values in body.state().items()} for body in model.bodies}
+        there = {key: {name: values.shape for name, values in one.items()} for key, one in tree["bodies"].items()}
+        if tree["u"].shape != model.u.shape or not np.array_equal(tree["points"], model.mesh.points) or there != bodies:
+            raise FileProblem(
+                "the state belongs to another model",
+                where=str(path),
+                value=f"{len(tree['points'])} nodes in the file, {len(model.mesh.points)} of the deck",
+                cause="the deck before has been changed since its run, or the file is that of another one",
+                remedy=f"run {self.deck} again",
+            )
+        model.restore(Snapshot(tree["u"], tree["time"], terms=tree["bodies"], began=tree["began"]))
+
+
+class Cut(Part):
+    """A cut along a line."""
+
+    line: ProfilePart
+    """Lines and arcs in the view: what lies on the left of who walks along them stays. The first and the last line of
+    an open one go on for ever."""
+    view: Literal["x", "y", "z"] = "z"
+    """Direction of the view: the coordinates of the line are y, z; x, z; or x, y."""
+    formed: bool = True
+    """Whether the line lies on the formed part, or on the flat blank."""
+
+    def build(self, folder: File) -> Trim:
+        """The cut."""
+        return Trim(profile_of(self.line, folder), self.view, self.formed)
+
+
+def write_state(model: Model, path: File) -> None:
+    """Write displacements and the history of all bodies, for the deck of the next operation."""
+    state = model.snapshot()
+    bodies = {body.key: state.terms[body.key] for body in model.bodies}
+    tree = {"points": model.mesh.points, "u": state.u, "time": state.time, "began": state.began, "bodies": bodies}
+    write_tree(path, tree, _KIND)
+
+
+def merged(source: Source, before: Source) -> Source:
+    """A deck with the tables that it takes from the deck before.
+
+    Raises
+    ------
+    DeckError
+        If it has one of them itself.
+    """
+    own = [key for key in TAKEN if key in source.data]
+    if own:
+        raise DeckError(
+            DeckKey(
+                f"{key} is that of the deck before",
+                where=source.place((key,)),
+                cause="a part keeps its mesh, its material and its element from one operation to the next",
+                remedy=f"take the table {key} out",
+            )
+            for key in own
+        )
+    return replace(source, data={**source.data, **{key: before.data[key] for key in TAKEN if key in before.data}})

@@ -1,0 +1,92 @@
+"""Some of the cells of a mesh as a mesh of their own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.mesh.mesh import Ids, Mesh, nodes_of_faces
+from umform.mesh.neighbours import connected
+from umform.mesh.numbers import unique
+
+Numbers = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class MeshPart:
+    """Some of the cells of a mesh.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        The cells with their nodes and with what is left of all sets, which may be nothing. Its sets of nodes and faces
+        ``cut`` are lateral faces that a removed cell shared.
+    cells : ndarray of int
+        Numbers that its cells have in the whole mesh, increasing.
+    nodes : ndarray of int
+        Numbers that its nodes have in the whole mesh, increasing.
+    pieces : int
+        Number of parts that share no node.
+    """
+
+    mesh: Mesh
+    cells: Numbers
+    nodes: Numbers
+    pieces: int
+
+
+def part_of_mesh(mesh: Mesh, kept: NDArray[np.bool_]) -> MeshPart:
+    """The part of a mesh with some of its cells; nodes and cells keep their order.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The whole.
+    kept : ndarray of bool, shape (cells,)
+        Which cells stay; one at least.
+    """
+    cells = np.flatnonzero(kept)
+    nodes = unique(mesh.connectivity[cells])
+    node = np.full(len(mesh.points), -1, dtype=np.int32)
+    node[nodes] = np.arange(len(nodes), dtype=np.int32)
+    cell = np.full(len(kept), -1, dtype=np.int32)
+    cell[cells] = np.arange(len(cells), dtype=np.int32)
+    sets = {name: node[ids][node[ids] >= 0] for name, ids in mesh.sets.items()}
+    faces = {name: _renumbered(rows, cell) for name, rows in mesh.faces.items()}
+    connectivity = node[mesh.connectivity[cells]]
+    cut = _renumbered(_cut_faces(mesh, kept), cell)
+    sets.pop("cut", None)
+    made = Mesh(mesh.points[nodes], {mesh.cell: connectivity}, sets, {**faces, "cut": cut})
+    links = np.stack([np.repeat(connectivity[:, 0], connectivity.shape[1] - 1), connectivity[:, 1:].ravel()], axis=1)
+    pieces = int(connected(len(nodes), links).max()) + 1
+    return MeshPart(made, cells, nodes.astype(np.int64), pieces)
+
+
+def stacks(mesh: Mesh) -> Numbers:
+    """Number of the stack that each cell lies in: cells on each other through the thickness, shape (cells,)."""
+    half, count = mesh.connectivity.shape[1] // 2, len(mesh.connectivity)
+    faces = np.sort(np.concatenate([mesh.connectivity[:, :half], mesh.connectivity[:, half:]]), axis=1)
+    number = np.unique(faces, axis=0, return_inverse=True)[1].ravel()
+    links = np.stack([np.tile(np.arange(count), 2), count + number], axis=1)
+    return connected(count + int(number.max()) + 1, links)[:count]
+
+
+def _renumbered(rows: NDArray[np.integer], cell: Ids) -> Ids:
+    """Faces with the numbers that their cells have in the part."""
+    left = rows[cell[rows[:, 0]] >= 0]
+    return np.stack([cell[left[:, 0]], left[:, 1]], axis=1).astype(np.int32)
+
+
+def _cut_faces(mesh: Mesh, kept: NDArray[np.bool_]) -> Ids:
+    """Lateral faces of cells that stay which cells that go have too."""
+    local = nodes_of_faces(mesh.cell)[2:]
+    sides = np.sort(np.stack([mesh.connectivity[:, nodes] for nodes in local], axis=1), axis=2)
+    count = sides.shape[0] * sides.shape[1]
+    number = np.unique(sides.reshape(count, -1), axis=0, return_inverse=True)[1].ravel()
+    side_kept = np.repeat(kept, len(local))
+    gone = np.zeros(count, dtype=bool)
+    gone[number[~side_kept]] = True
+    rows = np.flatnonzero(side_kept & gone[number])
+    return np.stack([rows // len(local), 2 + rows % len(local)], axis=1).astype(np.int32)

@@ -1,0 +1,42 @@
+"""What a tangent does not resist, in words: which nodes move, and where to."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model.evaluated import Evaluated
+
+Floats = NDArray[np.float64]
+
+#: A node moves that goes farther than this part of the way of the one that goes farthest.
+_MOVES = 1e-3
+
+
+def loose_part(model: Evaluated, motion: Floats) -> str:
+    """Say what moves in a displacement of the unknowns at nodes: "27 of 66 nodes can move, most of all node 12 ...".
+
+    Parameters
+    ----------
+    model : Model
+        The model.
+    motion : ndarray, shape (n,)
+        Displacement of the unknowns, of any size.
+    """
+    everything = np.concatenate([motion, np.zeros(len(model.unknowns))])
+    ways = model.extend(everything)[: model.u.size].reshape(-1, 3)
+    sizes = np.linalg.norm(ways, axis=1)
+    most = int(np.argmax(sizes))
+    if not 0.0 < sizes[most] < np.inf:
+        return "no node"
+    count = int((sizes > _MOVES * sizes[most]).sum())
+    place = model.mesh.points[most] + model.u.reshape(-1, 3)[most]
+    along = ways[most] / sizes[most]
+    return (
+        f"{count} of {len(sizes)} nodes can move, most of all node {model.node_number(most)} at ({_three(place)}) "
+        f"along ({_three(along)})"
+    )
+
+
+def _three(values: Floats) -> str:
+    return ", ".join(f"{value:.4g}" for value in np.where(np.abs(values) < 5e-4, 0.0, values))

@@ -1,0 +1,186 @@
+"""Trimming: a line parts the sheet, and the elements beyond it go.
+
+What stays keeps its state. The forces that the metal beyond the line exerted become a dead load, which a stage then
+takes to zero. docs/operations.md
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform.errors import EmptySet, InvalidValue, MeshError
+from umform.mesh import Mesh
+from umform.mesh.part import part_of_mesh, stacks
+from umform.model.model import Model
+from umform.model.part import ModelPart
+from umform.surfaces import Extruded, Profile
+
+Floats = NDArray[np.float64]
+
+#: Coordinates of a view along an axis.
+_VIEWS = {"x": (1, 2), "y": (0, 2), "z": (0, 1)}
+_STEP = 1e-6
+
+#: A profile, corners of an open polyline, or a function that is negative where the part is.
+Line = Profile | Sequence[tuple[float, float]] | Callable[[Floats, Floats], ArrayLike]
+
+
+class AtItsEnd(Protocol):
+    """A result of a run."""
+
+    @property
+    def model(self) -> Model:
+        """Its model, where the run has ended."""
+
+
+@dataclass(frozen=True)
+class Trim:
+    """A cut along a line: the elements whose centres lie beyond it are removed.
+
+    The cut follows edges of elements. Elements on each other through the thickness stay or go together.
+
+    Parameters
+    ----------
+    line : Profile, sequence of (x, y) or callable
+        Lines and arcs in the view; what lies on the left of who walks along them stays: the inside of a
+        counter-clockwise curve, the outside of a clockwise one, which cuts a hole. The first and the last line of an
+        open one go on for ever. Or corners of such an open one; or a function of two arrays of coordinates that is
+        negative where the part stays.
+    view : {"z", "x", "y"}
+        Direction of the view: the coordinates of the line are x, y; y, z; or x, z.
+    formed : bool
+        Whether the line lies on the formed part, or on the flat blank that it was made of.
+
+    Raises
+    ------
+    InvalidValue
+        If the line is none, or the view is no axis.
+
+    Examples
+    --------
+    A part from 0 to 7.5 along x of a bent strip:
+
+    >>> import umform as uf
+    >>> model = uf.Model(uf.mesh.strip(10.0, 1.0, 0.2, (8, 1)), material=uf.SVK(E=210e3, nu=0.3))
+    >>> clamp = model.fix("x0")
+    >>> tip = model.prescribe("x1_lower", "z", name="tip")
+    >>> result = uf.solve(model, uf.Move(tip, to=-0.1, steps=2))
+    >>> part = uf.Trim([(7.5, -1.0), (7.5, 2.0)]).of(result)
+    >>> len(part.mesh.connectivity)
+    6
+    """
+
+    line: Line
+    view: str = "z"
+    formed: bool = True
+
+    def __post_init__(self) -> None:
+        if self.view not in _VIEWS:
+            raise InvalidValue("a part is trimmed in a view along x, y or z", where="Trim, view", value=self.view)
+        if not callable(self.line):
+            self._tool().kernel()
+
+    def of(self, before: Model | AtItsEnd) -> ModelPart:
+        """The part that is left of a sheet.
+
+        Parameters
+        ----------
+        before : Result or Model
+            A run at its end, or a model at a converged state.
+
+        Raises
+        ------
+        EmptySet
+            If the line misses the sheet, or nothing is left.
+        MeshError
+            If what is left is in pieces.
+        """
+        model = before if isinstance(before, Model) else before.model
+        mesh, sheet = model.mesh, self._in_view(model)
+        kept = self._kept(mesh, sheet)
+        self._refuse(kept, sheet)
+        part = part_of_mesh(mesh, kept)
+        if part.pieces > 1:
+            raise MeshError(
+                "the line leaves the part in pieces that hang together nowhere",
+                where="Trim",
+                value=f"{part.pieces} pieces",
+                cause="a line that crosses the sheet twice, or metal beside the part that is to be cut off as well",
+                remedy="trim along one line after the other, or along a closed curve around one piece",
+            )
+        edge = self._distance(sheet[part.nodes[part.mesh.nodes("cut")]])
+        return ModelPart.of(model, part, float(np.abs(edge).max()))
+
+    def _in_view(self, model: Model) -> Floats:
+        points = model.mesh.points
+        if self.formed:
+            points = points + model.u.reshape(-1, 3)
+        return np.ascontiguousarray(points[:, _VIEWS[self.view]])
+
+    def _kept(self, mesh: Mesh, sheet: Floats) -> NDArray[np.bool_]:
+        """Cells whose stack has its centre on the side that stays."""
+        stack = stacks(mesh)
+        count = np.bincount(stack)
+        centres = sheet[mesh.connectivity].mean(axis=1)
+        means = np.stack([np.bincount(stack, centres[:, k]) / count for k in range(2)], axis=1)
+        kept: NDArray[np.bool_] = (self._values(means) <= 0.0)[stack]
+        return kept
+
+    def _refuse(self, kept: NDArray[np.bool_], sheet: Floats) -> None:
+        if not kept.all() and kept.any():
+            return
+        low, high = sheet.min(axis=0), sheet.max(axis=0)
+        extent = " to ".join(f"({x:.4g}, {y:.4g})" for x, y in (low, high))
+        raise EmptySet(
+            "the line removes the whole sheet" if not kept.any() else "the line cuts nothing off",
+            where=f"Trim in the view along {self.view}",
+            value=f"the sheet lies from {extent}",
+            cause="a line that misses the sheet, other coordinates, or the wrong side of the line"
+            if not kept.any()
+            else "a line that misses the sheet, or other coordinates",
+            remedy="the part lies on the left of who walks along the line; profile.reversed() exchanges the sides",
+        )
+
+    def _tool(self) -> Extruded:
+        """The line as a surface: its kernel has the signed distance."""
+        line = self.line
+        if not isinstance(line, Profile):
+            corners = np.asarray(line, dtype=float)
+            if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 2:
+                raise InvalidValue(
+                    "a line has two corners (x, y) or more",
+                    where="Trim, line",
+                    value=f"shape {corners.shape}",
+                    remedy="[(x, y), (x, y)], a Profile, or a function of x and y",
+                )
+            line = Profile.from_corners([(float(x), float(y)) for x, y in corners], closed=False)
+        return Extruded(line, x="x", y="y")
+
+    def _values(self, xy: Floats) -> Floats:
+        """Negative on the side that stays; the signed distance of a line."""
+        if callable(self.line):
+            values = np.asarray(self.line(xy[:, 0], xy[:, 1]), dtype=float)
+            if values.shape != (len(xy),) or not np.isfinite(values).all():
+                raise InvalidValue(
+                    "the function of a line gives a finite number for each place",
+                    where="Trim, line",
+                    value=f"shape {values.shape}",
+                    remedy="a function of two arrays x, y that gives an array, negative where the part stays",
+                )
+            return values
+        return self._tool().gap(np.column_stack([xy, np.zeros(len(xy))]))[0]
+
+    def _distance(self, xy: Floats) -> Floats:
+        """Distance from the line; of a function its value over its slope, to first order."""
+        values = self._values(xy)
+        if not callable(self.line):
+            return values
+        step = _STEP * max(float(np.ptp(xy, axis=0).max()), 1e-300)
+        shifts = step * np.eye(2)
+        slope = np.stack([self._values(xy + s) - self._values(xy - s) for s in shifts], axis=1) / (2.0 * step)
+        return np.asarray(values / np.maximum(np.linalg.norm(slope, axis=1), 1e-300))

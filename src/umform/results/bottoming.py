@@ -1,0 +1,79 @@
+"""Tools that bottom: the force of a tool on its way jumps, since the sheet is squeezed between tools."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model import Model
+from umform.model.tool_controls import ToolMotion
+from umform.results.history import History
+
+Floats = NDArray[np.float64]
+
+#: Growth of the force within a part of the way, after the tool has touched for another part of it and for some rows.
+_GROWTH, _WITHIN, _AFTER, _ROWS = 4.0, 0.05, 0.1, 4
+
+
+@dataclass(frozen=True)
+class Bottoming:
+    """Where a tool bottoms.
+
+    Attributes
+    ----------
+    at : float
+        Value of its way.
+    before, largest : float
+        Largest force up to there, and up to the end of the step.
+    """
+
+    at: float
+    before: float
+    largest: float
+
+
+def bottoming(way: Floats, force: Floats) -> Bottoming | None:
+    """Where the force of a tool jumps along its way; None where it does not.
+
+    It does so where it exceeds four times its largest value so far within a twentieth of the way, and keeps that to the
+    end. First touch is none: the tool must have touched over a tenth of the way and in four rows.
+
+    Parameters
+    ----------
+    way, force : ndarray, shape (n,)
+        Way and force in the rows of a step.
+    """
+    run, size = np.abs(way - way[0]), np.abs(force)
+    touching = np.flatnonzero(size > 1e-6 * size.max(initial=0.0))
+    if len(touching) <= _ROWS:
+        return None
+    so_far = np.maximum.accumulate(size)
+    first = touching[0]
+    for k in range(first + _ROWS - 1, len(run) - 1):
+        near = max(int(np.searchsorted(run, run[k] + _WITHIN * run[-1], side="right")) - 1, k + 1)
+        enough = run[k] - run[first] >= _AFTER * run[-1]
+        if enough and so_far[near] > _GROWTH * so_far[k] and size[-1] > _GROWTH * so_far[k]:
+            return Bottoming(float(way[k]), float(so_far[k]), float(so_far[-1]))
+    return None
+
+
+def warn_of_bottoming(model: Model, result: History) -> None:
+    """Say for each tool that steps move whether it has bottomed."""
+    steps = result["step"] if len(result) else np.empty(0)
+    for control in model.controls:
+        if not isinstance(control, ToolMotion):
+            continue
+        for step in np.unique(steps):
+            rows = np.flatnonzero(steps == step)
+            rows = rows if rows[0] == 0 else np.concatenate([[rows[0] - 1], rows])
+            found = bottoming(result[control.name][rows], result[f"{control.name}_force"][rows])
+            if found is None:
+                continue
+            text = (
+                f"the tool {control.tool.name} bottoms at {control.name} = {found.at:.4g}: its force rises from "
+                f"{found.before:.4g} to {found.largest:.4g}; a shorter stroke, or more clearance between the tools"
+            )
+            if text not in result.warnings:
+                result.warn(text)

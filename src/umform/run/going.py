@@ -1,0 +1,134 @@
+"""A run from increment to increment: made ready, taken through its steps, stopped between two increments."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+from umform.errors import NoConvergence
+from umform.progress import Tick, progress_bar
+from umform.results.bottoming import warn_of_bottoming
+from umform.results.penetration import warn_of_contact
+from umform.results.rest import tell_of_rest
+from umform.run.interrupt import Interrupt, gentle_interrupt
+from umform.run.loose import note_springs
+from umform.run.result import Result
+from umform.run.watching import show
+from umform.solution.newton import Newton
+from umform.solution.options import NewtonOptions
+from umform.steps import Step
+from umform.steps.arc_length.arc import Arc, Following
+from umform.steps.close import Close, Closing
+from umform.steps.free import Free, Freeing
+from umform.steps.loop import Run
+from umform.steps.move import Move
+from umform.steps.moving import loop_of
+from umform.steps.release import Release, Releasing
+
+if TYPE_CHECKING:
+    from umform.run.checkpoint import Checkpoints
+
+_LOOPS: dict[type, Any] = {Release: Releasing, Arc: Following, Free: Freeing, Close: Closing}
+
+
+def ready(result: Result, solver: str, options: NewtonOptions | None, frames: int) -> Run:
+    """Refuse a model that cannot be solved, and make the run that has not begun."""
+    model, timing = result.model, result.timing
+    model.timing = timing
+    model.check()
+    evaluation = model.evaluate(model.x, tangent=False)  # history and frames ask for forces only
+    model.begin(evaluation)
+    run = Run(model, Newton(model, options, solver, timing), result, evaluation, frames=frames)
+    run.result.solver = run.newton.solver
+    note_springs(model, result)
+    return run
+
+
+def begun(result: Result, solver: str, options: NewtonOptions | None, frames: int) -> Run:
+    """A run at its first state, which the result has."""
+    run = ready(result, solver, options, frames)
+    result.add(run.evaluation, [], frame=frames > 0)
+    return run
+
+
+def checkpoints_of(
+    run: Run,
+    steps: Sequence[Step],
+    path: str | PathLike[str] | None,
+    every: float,
+    note: Mapping[str, Any] | None = None,
+) -> Checkpoints | None:
+    """What writes the checkpoints of a run; None without a path."""
+    if path is None:
+        return None
+    from umform.run.checkpoint import Checkpoints  # few runs need it
+    from umform.run.fingerprint import fingerprint
+
+    whole = run.model.described  # the first rank writes and compares
+    marks = {} if whole is None else fingerprint(whole, steps, run.newton, run.frames)
+    return Checkpoints(path, every, marks, note, run.model.ranks)
+
+
+def go_on(run: Run, steps: Sequence[Step], progress: bool | None, checkpoints: Checkpoints | None) -> None:
+    """Go on to the end from wherever the run stands."""
+    talks = run.model.ranks.rank == 0
+    with progress_bar(progress if talks else False) as tick:
+        taken(run, steps, tick, checkpoints, last=True)
+
+
+def taken(
+    run: Run, steps: Sequence[Step], tick: Tick, checkpoints: Checkpoints | None = None, *, last: bool = False
+) -> None:
+    """Take the steps from ``run.number`` on; behind the last step of a run comes what is said at its end."""
+    result = run.result
+    start = clock.perf_counter() - result.seconds
+    with gentle_interrupt() as stop:
+        run.tick, run.pause = tick, lambda: _pause(run, start, checkpoints, stop)
+        try:
+            while run.number <= len(steps):
+                _finish(run, steps[run.number - 1])
+                run.number, run.loop = run.number + 1, None
+            if last:
+                warn_of_contact(run.model, result)
+                warn_of_bottoming(run.model, result)
+                tell_of_rest(run.model, result)
+            _pause(run, start, checkpoints, stop, last=last)
+        except BaseException as error:  # whatever ends the run: what was reached is kept with the error
+            result.seconds = clock.perf_counter() - start
+            if isinstance(error, NoConvergence):
+                warn_of_bottoming(run.model, result)
+            error.result = result  # type: ignore[attr-defined]
+            raise
+
+
+def loop_for(step: Step) -> Any:
+    """The loop of a step."""
+    return loop_of(step) if isinstance(step, Move) else _LOOPS[type(step)]
+
+
+def _finish(run: Run, step: Step) -> None:
+    """Take a step to its end, from its beginning or from where it stands."""
+    if run.loop is None:
+        if not isinstance(step, Move):
+            run.trail = None  # only a move goes on from the step before
+        run.loop = loop_for(step).begin(run, step)
+    while not run.loop.done:
+        run.pause()
+        run.loop.advance(run, step)
+
+
+def _pause(run: Run, start: float, checkpoints: Checkpoints | None, stop: Interrupt, *, last: bool = False) -> None:
+    """Between two increments: write a checkpoint if it is time to, and stop if somebody has asked to."""
+    run.result.seconds, ranks = clock.perf_counter() - start, run.model.ranks
+    show(run)
+    asked = ranks.any(stop.asked)
+    if checkpoints is not None and (last or asked or ranks.any(checkpoints.due())):
+        with run.result.timing.output:
+            checkpoints.write(run)
+    if asked:
+        how = ""
+        if checkpoints is not None and not checkpoints.problem:
+            how = f"; umform.resume({str(checkpoints.path)!r}, ...) goes on"
+        raise KeyboardInterrupt(f"stopped between two increments{how}")

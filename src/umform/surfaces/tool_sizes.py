@@ -1,0 +1,231 @@
+"""Sizes of elements of a flat blank that follow the curvature of its tools, of any shape. docs/theory, eq. (5.69)"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umform.errors import InvalidValue
+from umform.mesh import Mesh
+from umform.surfaces.tool import Surface
+
+Floats = NDArray[np.float64]
+
+#: Steps along a line towards a tool; distance that counts as on it, over the size of the blank.
+_STEPS, _ON = 300, 1e-6
+#: Lines of the map along the longer side of the blank.
+_LINES = 121
+
+
+@dataclass(frozen=True)
+class ToolSizes:
+    """Sizes of elements over a blank; called with x and y it gives one, as :func:`umform.mesh.blank` takes it.
+
+    Attributes
+    ----------
+    x, y : ndarray
+        Lines of the map.
+    radius : ndarray, shape (x, y)
+        Least radius of the middle of the sheet on the tools that metal from there goes over; infinite where there is
+        none.
+    size : ndarray, shape (x, y)
+        Sizes.
+    turn : float
+        Largest angle in degrees that an element turns.
+    """
+
+    x: Floats
+    y: Floats
+    radius: Floats
+    size: Floats
+    turn: float
+
+    def __call__(self, x: float, y: float) -> float:
+        """Size at a place, linear between the lines of the map; beyond the map that of its border."""
+        return float(_between(self.x, self.y, self.size, np.array([[x, y]]))[0])
+
+    def turns(self, mesh: Mesh) -> Floats:
+        """Angle in degrees that each element of a blank turns over the radius there, by its longest side; (cells,)."""
+        corners = mesh.points[mesh.connectivity[:, [0, 1, 2, 3]], :2]
+        sides = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1)
+        bend = _between(self.x, self.y, 1.0 / self.radius, corners.mean(axis=1))
+        return np.asarray(np.degrees(sides * bend))
+
+    def __str__(self) -> str:
+        bent = np.isfinite(self.radius)
+        if not bent.any():
+            return f"no tool bends the sheet: elements of {self.size.max():.3g}"
+        return (
+            f"elements from {self.size.min():.3g} to {self.size.max():.3g}, which turn by up to {self.turn:.3g} "
+            f"degrees over radii from {self.radius[bent].min():.3g}; "
+            f"{100.0 * bent.mean():.0f} % of the blank goes over them"
+        )
+
+
+def tool_sizes(
+    below: Sequence[Surface],
+    above: Sequence[Surface],
+    box: ArrayLike,
+    *,
+    thickness: float,
+    turn: float,
+    largest: float,
+    flow: float = 0.0,
+    growth: float = 1.5,
+    smallest: float = 0.0,
+) -> ToolSizes:
+    """Sizes of elements of a flat blank: none turns more than an angle over the convex radii of its tools. eq. (5.69)
+
+    The tools travel along z. Seen along their way, each place of the blank faces one place of each tool; its greatest
+    principal curvature gives the radius: the greatest eigenvalue of the Hessian of the signed distance, as its mean
+    over the thickness of the sheet, by differences of the normals, since the curvature of triangles jumps. Concave
+    radii do not count: the sheet lies on the convex ones of the other tool.
+
+    Parameters
+    ----------
+    below, above : sequence of Tool
+        Tools under the sheet, and over it; at any height, since only their places in x and y count.
+    box : array_like, ((x, y), (x, y))
+        Lowest and highest corner of the blank.
+    thickness : float
+        Of the sheet; half of it adds to the radius of a tool.
+    turn : float
+        Largest angle in degrees.
+    largest : float
+        Largest size of an element.
+    flow : float
+        Way that metal slides over the tools: places nearer than this to a radius have its sizes too.
+    growth : float
+        Largest ratio of the sizes of neighbours farther away.
+    smallest : float
+        Least size of an element, for tools with sharp edges.
+
+    Raises
+    ------
+    InvalidValue
+        If a number is out of range.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> die = uf.UDie(opening=40, depth=20, shoulder_radius=5, bottom_radius=3)
+    >>> sizes = uf.surfaces.tool_sizes([die], [], ((-40, 0), (40, 10)), thickness=1, turn=10, largest=4)
+    >>> round(sizes(22.0, 5.0), 2)  # 10 degrees over a radius of 5.5
+    0.96
+    """
+    low, high = _corners(box)
+    good = 0.0 < turn <= 90.0 and largest > 0.0 and growth > 1.0 and thickness > 0.0 and 0.0 <= smallest <= largest
+    if not (good and flow >= 0.0):
+        raise InvalidValue(
+            "sizes need a thickness, an angle of up to 90 degrees, a largest size, and a growth of more than one",
+            where="tool_sizes",
+            value=f"thickness {thickness:g}, turn {turn:g}, largest {largest:g}, growth {growth:g}, flow {flow:g}, "
+            f"smallest {smallest:g}",
+            cause="a sign, radians in place of degrees, or a smallest size above the largest",
+            remedy="turn=15, growth=1.5",
+        )
+    x, y = _lines(low, high)
+    places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+    bend = np.zeros(len(places))
+    for tools, side in ((below, 1.0), (above, -1.0)):
+        for tool in tools:
+            at, on = _first_met(tool, places, side, float(np.linalg.norm(high - low)))
+            bend[on] = np.maximum(bend[on], _curvature(tool, at, 0.5 * thickness))
+    with np.errstate(divide="ignore"):
+        radius = np.where(bend > 0.0, 1.0 / bend + 0.5 * thickness, np.inf)
+    flat = 2.0 * math.degrees(1.0) * largest / turn  # radii that elements of the largest size resolve anyway
+    radius[radius > flat] = np.inf
+    radius = radius.reshape(len(x), len(y))
+    around, size = _spread((x[1] - x[0], y[1] - y[0]), radius, math.radians(turn), flow, math.log(growth), largest)
+    return ToolSizes(x, y, around, np.maximum(size, smallest), turn)
+
+
+def _corners(box: ArrayLike) -> tuple[Floats, Floats]:
+    corners = np.asarray(box, dtype=float)
+    if corners.shape != (2, 2) or not np.isfinite(corners).all() or not (corners[0] < corners[1]).all():
+        raise InvalidValue(
+            "the box of a blank has a lowest and a highest corner (x, y)",
+            where="tool_sizes, box",
+            value=box,
+            remedy="((0, 0), (100, 80))",
+        )
+    return corners[0], corners[1]
+
+
+def _lines(low: Floats, high: Floats) -> tuple[Floats, Floats]:
+    step = float((high - low).max()) / (_LINES - 1)
+    counts = np.ceil((high - low) / step).astype(int) + 1
+    return np.linspace(low[0], high[0], counts[0]), np.linspace(low[1], high[1], counts[1])
+
+
+def _first_met(tool: Surface, places: Floats, side: float, reach: float) -> tuple[Floats, NDArray[np.int64]]:
+    """Where lines along z first meet a tool from one side, and which of them do."""
+    kernel = tool.kernel()
+    z = np.full(len(places), side * reach)
+    going, met = np.arange(len(places)), np.zeros(len(places), dtype=bool)
+    for _ in range(_STEPS):  # no step is longer than the distance, so no surface is passed
+        gap = kernel.gap(np.ascontiguousarray(np.column_stack([places[going], z[going]])))[0]
+        on = gap <= _ON * reach
+        met[going[on]] = True
+        z[going] -= side * np.maximum(gap, 0.0)
+        going = going[~on & (side * z[going] > -reach)]
+        if len(going) == 0:
+            break
+    which = np.flatnonzero(met)
+    return np.ascontiguousarray(np.column_stack([places[which], z[which]])), which
+
+
+def _curvature(tool: Surface, at: Floats, step: float) -> Floats:
+    """Greatest convex curvature at places on a tool: central differences of the normal along two tangents."""
+    if len(at) == 0:
+        return np.empty(0)
+    kernel = tool.kernel()
+    n = kernel.gap(at)[1]
+    across = np.where(np.abs(n[:, :1]) < 0.9, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
+    first = np.cross(n, across)
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    tangents = np.stack([first, np.cross(n, first)], axis=1)
+    matrix = np.empty((len(at), 2, 2))
+    for k in range(2):
+        away = step * tangents[:, k]
+        ends = [kernel.gap(np.ascontiguousarray(at + sign * away))[1] for sign in (1.0, -1.0)]
+        matrix[:, :, k] = np.einsum("nik,nk->ni", tangents, ends[0] - ends[1]) / (2.0 * step)
+    mean = 0.5 * (matrix + matrix.transpose(0, 2, 1))
+    return np.asarray(np.maximum(np.linalg.eigvalsh(np.nan_to_num(mean)).max(axis=1), 0.0))
+
+
+def _spread(
+    steps: tuple[float, float], radius: Floats, turn: float, flow: float, growth: float, largest: float
+) -> tuple[Floats, Floats]:
+    """Least radius within the flow, and sizes that grow from there; radii that differ by a twentieth go together."""
+    from scipy.ndimage import distance_transform_edt  # slow to import
+
+    around, size = radius.copy(), np.minimum(turn * radius, largest)
+    bent = np.isfinite(radius)
+    level = np.full(radius.shape, -1)
+    level[bent] = (np.log(radius[bent] / radius[bent].min(initial=np.inf)) / math.log(1.05)).astype(int)
+    for k in np.unique(level[bent]):
+        least = radius[level == k].min()
+        away = distance_transform_edt(level != k, sampling=steps)
+        around = np.minimum(around, np.where(away <= flow, least, np.inf))
+        size = np.minimum(size, turn * least + growth * np.maximum(away - flow, 0.0))
+    return around, size
+
+
+def _between(x: Floats, y: Floats, values: Floats, at: Floats) -> Floats:
+    """Values of a map at some places (n, 2), linear in each of its meshes."""
+    index, part = [], []
+    for line, k in ((x, 0), (y, 1)):
+        step = (line[-1] - line[0]) / (len(line) - 1)
+        place = np.clip((at[:, k] - line[0]) / step, 0.0, len(line) - 1.0)
+        first = np.minimum(place.astype(int), len(line) - 2)
+        index.append(first)
+        part.append(place - first)
+    (i, j), (a, b) = index, part
+    lower = (1 - b) * values[i, j] + b * values[i, j + 1]
+    upper = (1 - b) * values[i + 1, j] + b * values[i + 1, j + 1]
+    return np.asarray((1 - a) * lower + a * upper)

@@ -1,0 +1,159 @@
+"""Decks of several operations: the second one begins with the state of the first, trims it, and goes on."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import umform as uf
+from umform import cli
+from umform.deck import load
+from umform.errors import UmformError
+
+FIRST = """
+[mesh]
+generator = "strip"
+length = 10.0
+width = 2.0
+thickness = 1.0
+cells = [5, 1]
+
+[material]
+law = "J2"
+E = 210e3
+nu = 0.3
+hardening = { curve = "Linear", yield_stress = 160.0, modulus = 500.0 }
+
+[[supports]]
+kind = "symmetry"
+nodes = "x0"
+normal = "x"
+
+[[supports]]
+kind = "symmetry"
+nodes = "y0"
+normal = "y"
+
+[[supports]]
+kind = "symmetry"
+nodes = "lower"
+normal = "z"
+
+[controls.pull]
+kind = "displacement"
+nodes = "x1"
+direction = "x"
+
+[[steps]]
+kind = "move"
+to = { pull = 0.04 }
+increments = 3
+
+[output]
+state = true
+report = false
+pictures = false
+vtkhdf = false
+"""
+SECOND = """
+[before]
+deck = "draw.toml"
+state = "draw/state.h5"
+control = "cut"
+
+[[trim]]
+line = { corners = [[4.0, -1.0], [4.0, 3.0]], closed = false }
+formed = false
+
+[[supports]]
+kind = "rigid"
+name = "gauge"
+
+[[steps]]
+kind = "move"
+to = { cut = 0.0 }
+increments = 2
+
+[output]
+state = true
+report = false
+pictures = false
+vtkhdf = false
+"""
+
+
+def umform(*words):
+    return CliRunner().invoke(cli.app, [str(word) for word in words])
+
+
+@pytest.fixture
+def drawn(tmp_path):
+    (tmp_path / "draw.toml").write_text(FIRST)
+    (tmp_path / "trim.toml").write_text(SECOND)
+    answer = umform("run", tmp_path / "draw.toml", "--out", tmp_path / "draw")
+    assert answer.exit_code == 0, answer.output
+    assert (tmp_path / "draw" / "state.h5").exists()
+    return tmp_path
+
+
+def test_a_deck_goes_on_where_another_has_ended(drawn):
+    answer = umform("run", drawn / "trim.toml", "--out", drawn / "trim")
+    assert answer.exit_code == 0, answer.output
+    assert "trim 1: 2 cells are left" in answer.output
+    problem = load(drawn / "trim.toml").build()
+    result = problem.solve(progress=False)
+    assert result["cut"].tolist() == [1.0, 0.5, 0.0]
+    first = load(drawn / "draw.toml").build().solve(progress=False)
+    part = uf.Trim([(4.0, -1.0), (4.0, 3.0)], formed=False).of(first)
+    gauge = part.model.hold_rigid(name="gauge")
+    part.model.put_back(gauge)
+    expected = uf.solve(part.model, uf.Move(part.model.unbalanced("cut"), 0.0, steps=2), frames=0)
+    np.testing.assert_array_equal(problem.model.u, expected.model.u)
+    np.testing.assert_array_equal(result["elastic_energy"], expected["elastic_energy"])
+    assert result["elastic_energy"][-1] < 1e-8 * result["elastic_energy"][0]
+
+
+def test_a_third_operation_and_a_run_that_was_stopped(drawn):
+    assert umform("run", drawn / "trim.toml", "--out", drawn / "trim").exit_code == 0
+    third = SECOND.replace('"draw.toml"', '"trim.toml"').replace('"draw/', '"trim/')
+    third = third.replace("[4.0, -1.0], [4.0, 3.0]", "[2.0, -1.0], [2.0, 3.0]")
+    (drawn / "again.toml").write_text(third)
+    deck = load(drawn / "again.toml")
+    assert len(deck.sheet().mesh.connectivity) == 1
+    checkpoint = drawn / "kept.h5"
+    answer = umform("run", drawn / "again.toml", "--out", drawn / "again", "--checkpoint", checkpoint)
+    assert answer.exit_code == 0, answer.output
+    resumed = umform("resume", checkpoint, "--out", drawn / "resumed")
+    assert resumed.exit_code == 0, resumed.output
+    whole, taken_up = (drawn / name / "history.csv" for name in ("again", "resumed"))
+    assert whole.read_text() == taken_up.read_text()
+
+
+def test_a_state_is_that_of_a_run_to_the_end(drawn):
+    (drawn / "draw" / "state.h5").unlink()
+    answer = umform("run", drawn / "draw.toml", "--set", "solution.max_iterations=1", "--out", drawn / "failed")
+    assert answer.exit_code == 1
+    assert not (drawn / "failed" / "state.h5").exists()
+
+
+@pytest.mark.parametrize(
+    ("deck", "change", "said"),
+    [
+        ("trim", ('deck = "draw.toml"', 'deck = "trim.toml"'), "operation before itself"),
+        ("trim", ('state = "draw/', 'state = "nowhere/'), "has left no state"),
+        ("trim", ("[[trim]]", "[element]\n[[trim]]"), "element is that of the deck before"),
+        ("trim", ("[4.0, -1.0], [4.0, 3.0]", "[40.0, -1.0], [40.0, 3.0]"), "cuts nothing off"),
+        ("trim", ("formed = false", 'view = "r"'), "trim"),
+        ("trim", ('kind = "rigid"\nname = "gauge"', 'kind = "fix"\nnodes = "x1"'), "cut off"),
+        ("trim", ("to = { cut = 0.0 }", "to = { cur = 0.0 }"), "did you mean cut"),
+        ("draw", ("cells = [5, 1]", "cells = [6, 1]"), "belongs to another model"),
+    ],
+)
+def test_mistakes_are_named(drawn, deck, change, said):
+    path = drawn / f"{deck}.toml"
+    assert change[0] in path.read_text()
+    path.write_text(path.read_text().replace(*change))
+    with pytest.raises(UmformError) as caught:
+        load(drawn / "trim.toml").build()
+    assert said in str(caught.value)

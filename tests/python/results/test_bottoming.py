@@ -1,0 +1,65 @@
+"""A punch that bottoms: its force jumps, and the run ends with what it has and says so."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import umform as uf
+from umform.errors import NoConvergence
+from umform.results.bottoming import bottoming
+
+STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(strength=567.0, offset=0.0071, exponent=0.264))
+
+
+def coined(beyond, steps, **options):
+    """A strip that is bent into a die and squeezed on its bottom by so much."""
+    die = uf.UDie(opening=16.0, depth=4.0, shoulder_radius=2.0, bottom_radius=2.0)
+    sheet = uf.mesh.strip(16.0, 1.0, 1.0, (12, 1)).transformed(lambda x: x + np.array([0.0, 0.0, 0.5]))
+    model = uf.Model(sheet, material=STEEL)
+    for side, normal in (("x0", "x"), ("y0", "y"), ("y1", "y")):
+        model.symmetry(side, normal)
+    model.contact("lower", die, penetration=0.02, points=2, name="die")
+    pair = model.contact("upper", die.counterpart(1.0).moved((0, 0, 4.0)), penetration=0.02, points=2, name="punch")
+    way = model.drive(pair, "-z", name="way")
+    return uf.solve(model, uf.Move(way, 4.0 + beyond, steps=steps, **options), frames=0, progress=False)
+
+
+def test_a_punch_that_squeezes_the_sheet_on_the_bottom_of_the_die_is_named():
+    result = coined(0.1, 26)
+    said = [text for text in result.warnings if "bottoms" in text]
+    assert len(said) == 1 and "the tool punch bottoms at way = 3." in said[0]
+    found = bottoming(result["way"], result["way_force"])
+    assert 3.5 < found.at < 4.05 and found.largest == pytest.approx(-result["way_force"].min())
+
+
+def test_a_run_that_cannot_go_on_keeps_what_it_has_and_says_which_tool_bottoms():
+    with pytest.raises(NoConvergence) as caught:
+        coined(1.2, 26, cuts=0)
+    reached = caught.value.result
+    assert 4.0 < reached["way"][-1] < 5.2
+    assert any("the tool punch bottoms" in text for text in reached.warnings)
+
+
+def test_a_punch_that_bends_freely_does_not_bottom():
+    assert not any("bottoms" in text for text in coined(-1.0, 15).warnings)
+
+
+@pytest.mark.parametrize(
+    ("force", "at"),
+    [
+        (lambda s: s, None),  # a spring
+        (lambda s: np.where(s < 0.5, 0.0, 1e3 * (s - 0.5)), None),  # first touch half-way
+        (lambda s: np.where(s < 0.9, 1.0, 1.0 + 1e3 * (s - 0.9)), 0.9),
+        (lambda s: np.where(s < 0.5, 1.0, np.minimum(1.0 + 1e3 * (s - 0.5), 20.0)), 0.5),  # it yields then
+        (lambda s: np.where((s > 0.5) & (s < 0.6), 50.0, 1.0), None),  # a snap-through comes back
+        (lambda s: 0.0 * s, None),
+    ],
+)
+def test_where_a_force_jumps(force, at):
+    way = np.linspace(0.0, 2.0, 101)
+    found = bottoming(-way, force(way / 2.0))
+    if at is None:
+        assert found is None
+    else:
+        assert -found.at == pytest.approx(2.0 * at, abs=0.11) and found.before < 0.3 * found.largest
