@@ -77,6 +77,7 @@ class LedAround(Tool):
             raise InvalidValue(
                 "a profile that is led around a rectangle must be open",
                 where="LedAround.profile",
+                cause="the section of a whole body in place of the line that goes around",
                 remedy="closed=False; its first and last line extend to infinity",
             )
         segments = self.profile.segments

@@ -151,6 +151,7 @@ def _corners(box: ArrayLike) -> tuple[Floats, Floats]:
             "the box of a blank has a lowest and a highest corner (x, y)",
             where="tool_sizes, box",
             value=box,
+            cause="the corners exchanged, or three coordinates",
             remedy="((0, 0), (100, 80))",
         )
     return corners[0], corners[1]

@@ -243,7 +243,7 @@ def test_the_stored_measurements_make_table_forecast_and_figure(script, monkeypa
     assert rows[0].split("|")[9].split() == ["1.00", "(1.00)"]
     assert "on 2 ranks the fullest one took +12% of that" in printed
     assert (tmp_path / "ranks.png").stat().st_size > 10_000
-    page = (FOLDER.parent / "docs" / "performance.md").read_text()
+    page = (FOLDER.parent / "docs" / "performance-ranks.md").read_text()
     assert all("|".join(row.split("|")[:9]) in page for row in rows)
 
 

@@ -228,5 +228,7 @@ class Cup:
 
     #: The whole cup over what is computed.
     parts: ClassVar[float] = 4.0
+    #: Normals of the planes of symmetry at which the computed part is mirrored.
+    mirrored: ClassVar[tuple[int, ...]] = (0, 1)
     #: Node set of the edge of the blank.
     edge: ClassVar[str] = "rim"

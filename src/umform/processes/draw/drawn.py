@@ -122,9 +122,16 @@ class Drawn:
 
     @cached_property
     def springback(self) -> Laid:
-        """The part, laid by the best fit into the shape that it had at the end of the stroke."""
+        """The whole part, laid by the best fit into the shape that it had at the end of the stroke.
+
+        The quarter or half that is computed cannot turn: its mirror images are fitted with it.
+        """
         X = self.result.model.mesh.points
-        return lay_by_best_fit(X + self.u_free.reshape(-1, 3), X + self.u.reshape(-1, 3))
+        part, places = X + self.u_free.reshape(-1, 3), X + self.u.reshape(-1, 3)
+        for axis in self.case.mirrored:
+            sign = np.where(np.arange(3) == axis, -1.0, 1.0)
+            part, places = np.concatenate([part, sign * part]), np.concatenate([places, sign * places])
+        return lay_by_best_fit(part, places)
 
     @property
     def friction_share(self) -> float:

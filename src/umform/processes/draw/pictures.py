@@ -65,8 +65,10 @@ def _whole(drawn: Drawn, shape: Shape) -> Shape:
     """The whole of the half or quarter that is computed."""
     if not isinstance(drawn.case, Cup):
         stretched = shape.points * np.array([1.0, 0.5 * drawn.case.width, 1.0])
-        return replace(shape, points=stretched).mirrored(0)
-    return shape.mirrored(0).mirrored(1)
+        shape = replace(shape, points=stretched)
+    for axis in drawn.case.mirrored:
+        shape = shape.mirrored(axis)
+    return shape
 
 
 def in_gauge(drawn: Drawn, free: Shape) -> Figure:

@@ -168,5 +168,7 @@ class UBend:
         """The whole blank over what is computed: both halves, and its width."""
         return 2.0 * self.width
 
+    #: Normal of the plane of symmetry at which the computed half is mirrored.
+    mirrored: ClassVar[tuple[int, ...]] = (0,)
     #: Node set of the edge of the blank.
     edge: ClassVar[str] = "x1"
