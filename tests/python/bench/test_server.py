@@ -53,7 +53,8 @@ def test_files_of_a_bend_can_be_taken(bench, done):
 def test_live_file_has_curve_and_section(done):
     live = done["live"]
     assert live["phase"] == "end" and live["fraction"] == 1.0
-    assert len(live["curve"]["x"]) == len(live["curve"]["y"]) > 5
+    assert live["increments"] == done["summary"]["increments"]
+    assert len(live["curve"]["x"]) == len(live["curve"]["y"]) == live["increments"] + 1
     outer, inner = live["section"]
     assert len(outer) == len(inner) > 5
 
