@@ -82,6 +82,7 @@ def _taking(ask: Callable[[Any, Request], _Json]) -> Callable[[Request], Any]:
             return PlainTextResponse("a question is JSON", 415)
         try:
             body = json.loads(await request.body(), parse_constant=_no_constant)
+            json.dumps(body, ensure_ascii=False).encode()  # half a surrogate pair cannot be written to files
         except (ValueError, RecursionError):
             return JSONResponse({"what": "the question is no JSON"}, 400)
         try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,6 +19,9 @@ ORDER, OUTCOME, LIVE, SHAPE, LOCK, DECK, RESULTS = (
     "deck.toml",
     "results",
 )
+
+#: Names of the folders of jobs.
+NAME = re.compile(r"[0-9a-f]{12}")
 
 
 @contextmanager

@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from umform.bench.folders import NAME
+
 _TABLE = """
 CREATE TABLE IF NOT EXISTS jobs (
     number INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -112,12 +114,12 @@ class Index:
         known = {job.id for job in self.jobs()}
         found = []
         for path in (self.folder / "jobs").glob("*/job.json"):
-            if path.parent.name not in known:
+            if NAME.fullmatch(path.parent.name) and path.parent.name not in known:
                 with suppress(OSError, ValueError, KeyError, TypeError):
                     order = json.loads(path.read_text(encoding="utf-8"))
                     found.append((float(order["created"]), path.parent.name, order))
         for created, name, order in sorted(found, key=lambda one: one[:2]):
-            with suppress(KeyError, TypeError):
+            with suppress(KeyError, TypeError, ValueError, sqlite3.Error):
                 self.add(name, order["kind"], order["title"], order["series"], order["parameters"], created=created)
 
     def close(self) -> None:

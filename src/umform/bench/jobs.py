@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import logging
 import os
-import re
 import secrets
 import shutil
 import signal
@@ -18,7 +17,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from umform.bench.folders import DECK, LIVE, LOCK, ORDER, OUTCOME, RESULTS, SHAPE, is_owned
+from umform.bench.folders import DECK, LIVE, LOCK, NAME, ORDER, OUTCOME, RESULTS, SHAPE, is_owned
 from umform.bench.index import UNFINISHED, Index, Job
 from umform.errors import InvalidValue, UmformError
 from umform.io.atomic import PendingFile
@@ -29,7 +28,6 @@ log = logging.getLogger("umform.bench")
 MOST_WAITING, LONGEST_DECK, MOST_STARTS = 200, 400_000, 3
 #: Seconds between two looks at the processes, and those that a process has to end gently.
 _LOOK, _GENTLE = 0.05, 10.0
-_NAME = re.compile(r"[0-9a-f]{12}")
 
 
 class Queue:
@@ -84,15 +82,20 @@ class Queue:
                 time.sleep(_LOOK)
             for name in self._running:
                 self._signal(name, signal.SIGKILL)
+                process = self._running[name]
+                if process is not None:
+                    with suppress(subprocess.TimeoutExpired):
+                        process.wait(timeout=_GENTLE)
                 job = self.index.job(name)
-                if job is not None and not self._settle(job, took_up=True):
-                    self.index.change(name, "waiting")
+                asked = name in self._asked
+                if job is not None and not self._settle(job, took_up=not asked):
+                    self.index.change(name, "stopped" if asked else "waiting")
             self._let_go()
             self.index.close()
 
     def place(self, name: str) -> Path:
         """Folder of a job."""
-        if not _NAME.fullmatch(name):
+        if not NAME.fullmatch(name):
             raise InvalidValue("there is no such job", where="job", value=name[:40])
         return self.folder / "jobs" / name
 
@@ -135,7 +138,7 @@ class Queue:
             if job is None or job.state not in UNFINISHED:
                 return
             if name in self._running:
-                self._asked[name] = time.monotonic() + _GENTLE
+                self._asked.setdefault(name, time.monotonic() + _GENTLE)
                 self._signal(name, signal.SIGTERM)
             else:
                 self.index.change(name, "stopped")
@@ -205,7 +208,7 @@ class Queue:
 
     def _begin(self) -> None:
         """Start waiting jobs while there is room; keep a process ready where nothing runs, or more jobs wait."""
-        for job in self.index.jobs("waiting")[: self.at_once - len(self._running)]:
+        for job in self.index.jobs("waiting")[: max(0, self.at_once - len(self._running))]:
             process = self._ready_process()
             self._ready = None
             self.index.change(job.id, "running", start=True)
@@ -245,14 +248,17 @@ class Queue:
         return is_owned(self.place(name)) if process is None else process.poll() is None
 
     def _signal(self, name: str, number: signal.Signals) -> None:
-        """Send a signal to the process of a job, if it lives; that of an earlier server says who it is in its lock."""
+        """Send a signal to the process of a job, if it lives; that of an earlier server says who it is in its lock.
+
+        SIGKILL goes to its whole group; on SIGTERM the job ends its children itself.
+        """
         process = self._running[name]
         with suppress(OSError, ValueError):
-            if process is not None:
-                if process.poll() is None:
-                    process.send_signal(number)
-            elif is_owned(self.place(name)):
-                os.kill(int((self.place(name) / LOCK).read_text()), number)
+            if not self._lives(name):
+                return
+            pid = process.pid if process is not None else int((self.place(name) / LOCK).read_text())
+            of_group = number == signal.SIGKILL and os.getpgid(pid) == pid
+            (os.killpg if of_group else os.kill)(pid, number)
 
     def _settle(self, job: Job, *, took_up: bool = False) -> bool:
         """Write down the outcome of a job if there is one; ``took_up``: one that was stopped is to go on later."""

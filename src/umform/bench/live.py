@@ -54,15 +54,18 @@ class Watch:
         self.content: dict[str, Any] = {"fraction": 0.0, "phase": "start", "increments": 0, "shape": 0}
         self._start = time.monotonic()
         self._next, self._next_shape = 0.0, self._start + _FIRST_SHAPE
+        self._run: Run | None = None
+        self._over = False
 
     def __call__(self, run: Run) -> None:
-        """Look at a run between two increments."""
+        """Look at a run between two increments; those of an error budget are none of the job's."""
         now = time.monotonic()
+        if self._over:
+            return
+        self._run = run
         if now < self._next:
             return
-        content = {"increments": len(run.result) - 1, **self.tell(run)}
-        content["fraction"] = max(content["fraction"], self.content["fraction"])
-        self.content |= content
+        self._take(run)
         if now > self._next_shape and len(run.result) > 1:
             write_shape(self.folder / SHAPE, run.result, self.title)
             self.content["shape"] += 1
@@ -71,9 +74,18 @@ class Watch:
         self._next = time.monotonic() + _OFTEN
 
     def phase(self, name: str, fraction: float) -> None:
-        """Go on to another part of the work."""
+        """Go on to another part of the work; the run has ended, and its last increments are told."""
+        self._over = True
+        if self._run is not None:
+            self._take(self._run)
+            self._run = None
         self.content |= {"phase": name, "fraction": fraction}
         self.write()
+
+    def _take(self, run: Run) -> None:
+        content = {"increments": len(run.result) - 1, **self.tell(run)}
+        content["fraction"] = max(content["fraction"], self.content["fraction"])
+        self.content |= content
 
     def write(self) -> None:
         """Write the file now."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import os
+import re
 import secrets
 import socket
 import threading
@@ -35,6 +36,7 @@ _KINDS = {
 }
 #: Open files of the process: each request has one.
 _MOST_FILES = 8192
+_TOKEN = re.compile(r"[A-Za-z0-9_-]{20,}")
 
 
 def application(queue: Queue, token: str, port: int) -> Starlette:
@@ -114,14 +116,15 @@ def owned(folder: Path) -> Iterator[None]:
 
 
 def token_of(folder: Path) -> str:
-    """The token of a folder, so that an open page goes on when the server has been started again."""
+    """The token of a folder: kept, so that an open page works after a restart, unless others can read it."""
     path = folder / "token"
-    with suppress(OSError):
+    with suppress(OSError, ValueError):
         known = path.read_text(encoding="ascii").strip()
-        if len(known) >= 20:
+        if _TOKEN.fullmatch(known) and path.stat().st_mode & 0o077 == 0:
             return known
     token = secrets.token_urlsafe(24)
-    with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "w") as text:
+    path.unlink(missing_ok=True)
+    with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as text:
         text.write(token)
     return token
 
@@ -138,6 +141,7 @@ def listening(port: int) -> socket.socket:
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listener.bind((HOST, port))
+        listener.listen()  # now: before, another server could bind the same port, and a browser would be refused
     except OSError as error:
         listener.close()
         raise InvalidValue(

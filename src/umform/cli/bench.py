@@ -21,10 +21,10 @@ def bench(
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
-    """Open a local page on which a sheet is bent, and the numbers are taken to the machine.
+    """Open a local page in the browser: bend a sheet, and read stroke, force, springback and flat length.
 
-    The server listens on 127.0.0.1 only, and asks for the token in the link. Jobs run in processes of their own; they
-    are kept in the folder, and go on when the bench is started again. Needs `pip install "umform[bench]"`.
+    The server listens on 127.0.0.1 only, and asks for the token in the link. Each job runs in a process of its own;
+    jobs are kept in the folder and continue when the bench is started again. Needs `pip install "umform[bench]"`.
     """
     try:
         from umform.bench.server import serve

@@ -28,11 +28,19 @@ def test_port_that_is_taken_is_refused():
     with listening(0) as first:
         assert first.getsockname()[0] == HOST == "127.0.0.1"
         with pytest.raises(InvalidValue, match="port"):
-            first.listen()
             listening(first.getsockname()[1])
 
 
 def test_token_is_kept_for_its_owner_only(tmp_path):
     token = token_of(tmp_path)
     assert len(token) >= 32 and token_of(tmp_path) == token
+    assert (tmp_path / "token").stat().st_mode & 0o077 == 0
+
+
+@pytest.mark.parametrize(("text", "mode"), [("a" * 32, 0o644), ("a" * 30 + "; b", 0o600), ("\u00e4" * 32, 0o600)])
+def test_token_that_others_can_read_or_that_is_none_is_replaced(tmp_path, text, mode):
+    (tmp_path / "token").write_text(text, encoding="utf-8")
+    (tmp_path / "token").chmod(mode)
+    token = token_of(tmp_path)
+    assert token != text and (tmp_path / "token").read_text() == token
     assert (tmp_path / "token").stat().st_mode & 0o077 == 0

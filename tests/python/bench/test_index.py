@@ -51,8 +51,19 @@ def test_index_is_made_again_from_the_folders(queue, tmp_path, harm):
     again.close()
 
 
+_ORDER = {"kind": "bend", "title": "", "series": "", "parameters": {}, "created": 1.0}
+_NO_JOBS = {
+    "a" * 12: "no json",
+    "b" * 12: "[]",
+    "c" * 12: json.dumps({"created": "x"}),
+    "d" * 12: json.dumps(_ORDER | {"kind": []}),
+    "e" * 12: json.dumps(_ORDER | {"title": "\ud800"}),
+    "0123456789ab (copy)": json.dumps(_ORDER),
+}
+
+
 def test_folders_that_are_no_jobs_are_left_alone(tmp_path):
-    for name, text in {"a": "no json", "b": "[]", "c": json.dumps({"created": "x"})}.items():
+    for name, text in _NO_JOBS.items():
         (tmp_path / "jobs" / name).mkdir(parents=True)
         (tmp_path / "jobs" / name / "job.json").write_text(text)
     index = Index(tmp_path)

@@ -4,14 +4,17 @@ import concurrent.futures
 import csv
 import http.client
 import json
+import os
 import re
 import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
+from umform.bench import jobs
 from umform.bench.index import UNFINISHED
 from umform.bench.jobs import MOST_STARTS, Queue
 from umform.bench.server import owned
@@ -192,3 +195,69 @@ def test_process_that_dies_without_a_word_is_started_again_but_not_for_ever(tmp_
     job = queue.index.job(name)
     assert (job.state, job.starts) == ("failed", MOST_STARTS) and "died" in job.reason
     queue.close()
+
+
+#: A process that does not stop when it is asked to, with a child; it writes down the numbers of both.
+_DEAF = """
+import os, signal, subprocess, sys, time
+signal.signal(signal.SIGTERM, signal.SIG_IGN)
+place = sys.stdin.readline().strip()
+child = subprocess.Popen(["sleep", "600"])
+with open(place + "/pids.new", "w") as text:
+    text.write(f"{os.getpid()} {child.pid}")
+os.rename(place + "/pids.new", place + "/pids")
+time.sleep(600)
+"""
+
+
+def test_job_that_does_not_stop_is_killed_with_its_children(tmp_path, monkeypatch):
+    monkeypatch.setattr(jobs, "_GENTLE", 0.2)
+    queue = Queue(tmp_path)
+    queue.command = [sys.executable, "-S", "-c", _DEAF]
+    queue.start()
+    name = queue.add("deck", "strip", {}, deck=DECK)
+    wait((queue.place(name) / "pids").is_file)
+    queue.stop(name)
+    wait(lambda: queue.index.job(name).state == "stopped")
+    queue.close()
+    child = int((queue.place(name) / "pids").read_text().split()[1])
+    wait(lambda: not _runs(child))
+
+
+def _runs(pid):
+    """Whether a process runs; one that has ended and waits for its parent does not."""
+    try:
+        os.kill(pid, 0)
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def test_job_that_was_stopped_while_the_server_ends_is_not_taken_up(tmp_path, monkeypatch):
+    monkeypatch.setattr(jobs, "_GENTLE", 0.2)
+    queue = Queue(tmp_path)
+    queue.command = [sys.executable, "-S", "-c", _DEAF]
+    queue.start()
+    name = queue.add("deck", "strip", {}, deck=DECK)
+    wait((queue.place(name) / "pids").is_file)
+    with queue._lock:
+        queue._over.set()
+        queue.stop(name)
+    queue.close()
+    queue = Queue(tmp_path)
+    assert queue.index.job(name).state == "stopped"
+    queue.index.close()
+
+
+def test_more_running_jobs_than_are_allowed_start_no_others(tmp_path):
+    queue = Queue(tmp_path, at_once=1)
+    names = [queue.add("deck", "strip", {}, deck=DECK) for _ in range(6)]
+    queue._running = dict.fromkeys(names[:3])  # of a server before this one, which ran three at a time
+    for name in names[:3]:
+        queue.index.change(name, "running")
+    queue.command = [sys.executable, "-S", "-c", "import sys; sys.stdin.readline()"]
+    queue._begin()
+    assert [queue.index.job(name).state for name in names[3:]] == ["waiting"] * 3
+    queue._running.clear()
+    queue._let_go()
+    queue.index.close()

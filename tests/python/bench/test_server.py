@@ -53,7 +53,8 @@ def test_files_of_a_bend_can_be_taken(bench, done):
 def test_live_file_has_curve_and_section(done):
     live = done["live"]
     assert live["phase"] == "end" and live["fraction"] == 1.0
-    assert len(live["curve"]["x"]) == len(live["curve"]["y"]) > 5
+    assert live["increments"] == done["summary"]["increments"]
+    assert len(live["curve"]["x"]) == len(live["curve"]["y"]) == live["increments"] + 1
     outer, inner = live["section"]
     assert len(outer) == len(inner) > 5
 
@@ -136,6 +137,11 @@ def test_form_of_another_kind_is_refused(bench):
 def test_cookie_is_kept_from_programs_and_other_sites(bench, stranger):
     cookie = stranger.get("/?token=a-token-that-nobody-guesses").headers["set-cookie"]
     assert "HttpOnly" in cookie and "SameSite=Strict" in cookie
+    stranger.cookies.clear()
+    others = 'theirs={"a": 1}; half; ' + cookie.partition(";")[0]  # other servers of this host
+    assert stranger.get("/api/jobs", headers={"cookie": others}).status_code == 200
+    assert stranger.get("/api/jobs", headers={"cookie": others + "x"}).status_code == 401
+    stranger.get("/?token=a-token-that-nobody-guesses")
     policy = stranger.get("/").headers["content-security-policy"]
     assert "default-src 'none'" in policy and "script-src 'self';" in policy
 
@@ -168,6 +174,7 @@ def test_link_in_the_results_is_not_followed(bench, done):
         b'{"forms": [' + b",".join([b"{}"] * 1000) + b"]}",
         b"\xff\xfe\x00",
         b'{"text": 3}',
+        b'{"forms": [{}], "series": "\\ud800", "text": "\\ud800"}',
         b"null",
     ],
 )

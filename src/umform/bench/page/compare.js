@@ -11,11 +11,13 @@ const GIVEN = ["material", "thickness", "opening", "die_angle", "punch_angle", "
 /** @param {any} library @param {string[]} names */
 export async function compare(library, names) {
   const place = element("compare");
-  if (!names.length) {
+  const asked = await Promise.allSettled(names.map((name) => get(`/api/jobs/${name}`)));
+  // A link may name jobs that are deleted or not finished.
+  const jobs = asked.flatMap((one) => (one.status === "fulfilled" && one.value.summary.measures ? [one.value] : []));
+  if (!jobs.length) {
     place.replaceChildren(make("p", { class: "soft" }, t("compare.empty")));
     return;
   }
-  const jobs = await Promise.all(names.map((name) => get(`/api/jobs/${name}`)));
   const curves = await Promise.all(jobs.map(async (job) => ({ name: `${job.number}`, ...(await get(`/api/jobs/${job.id}/curve`)) })));
   const head = make("tr", {}, make("td"), ...jobs.map((job, i) => make("th", { scope: "col" }, make("i", { class: `swatch c${i % 6}` }), `${job.number}`)));
   const given = GIVEN.filter((name) => new Set(jobs.map((job) => job.parameters[name])).size > 1 || ["material", "angle"].includes(name))
@@ -26,7 +28,7 @@ export async function compare(library, names) {
   place.replaceChildren(
     make("figure", { class: "card" }, plot(curves, { x: t("axis.stroke"), y: t("axis.force"), label: t("curve.label") }, 900, 320)),
     make("div", { class: "wide" }, make("table", { class: "columns" }, make("thead", {}, head), make("tbody", {}, ...given, press, ...found))),
-    make("p", { class: "bar" }, make("a", { class: "button", href: `/api/jobs.csv?ids=${names.join(",")}` }, t("file.table")),
+    make("p", { class: "bar" }, make("a", { class: "button", href: `/api/jobs.csv?ids=${jobs.map((job) => job.id).join(",")}` }, t("file.table")),
       make("button", { type: "button", onclick: () => window.print() }, t("print"))),
   );
 }

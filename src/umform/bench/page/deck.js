@@ -58,8 +58,10 @@ export class Deck {
 
   async check() {
     element("deck-found").replaceChildren(make("li", { class: "soft" }, t("deck.checking")));
+    const text = this.text.value;
     try {
-      const { findings } = await post("/api/decks/check", { text: this.text.value });
+      const { findings } = await post("/api/decks/check", { text });
+      if (text !== this.text.value) return; // the deck has changed meanwhile
       element("deck-found").replaceChildren(...findings.map((/** @type {any} */ one) => make("li", { class: one.level },
         make("b", {}, one.about), ` ${one.text}`, one.remedy ? make("em", {}, ` → ${one.remedy}`) : null)));
     } catch (problem) {

@@ -168,7 +168,7 @@ class Drawn:
             "largest major strain": (float(found["major_middle"].max()), ""),
             "margin to the forming limit": (float(found["limit_margin"].min()), ""),
             "work of friction": (self.friction_share, "%"),
-            "springback, largest way": (self.springback.largest, "mm"),
+            "largest springback": (self.springback.largest, "mm"),
         }
         if isinstance(self.case, Cup):
             ears = self.ears
