@@ -71,7 +71,7 @@ class Deck:
         before = _before(source, after)
         if before is not None:
             source = merged(source, before.source)
-        errors: list[DeckKey] = []
+        errors = _idle_trim(source)
         contents = None
         try:
             contents = Contents.model_validate(source.data)
@@ -106,6 +106,20 @@ class Deck:
             With all that does not fit.
         """
         return sheet(self.contents, self.source, self.before)
+
+
+def _idle_trim(source: Source) -> list[DeckKey]:
+    """The error of a deck that trims a part which no operation before has left."""
+    if "before" in source.data or not source.data.get("trim"):
+        return []
+    return [
+        DeckKey(
+            "a deck trims the part of the operation before, and names none",
+            where=source.place(("trim",)),
+            cause="the table before is missing",
+            remedy="[before] with deck, state and control",
+        )
+    ]
 
 
 def _before(source: Source, after: tuple[Path, ...]) -> Deck | None:

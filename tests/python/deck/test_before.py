@@ -156,6 +156,8 @@ def test_a_state_is_that_of_a_run_to_the_end(drawn):
         ("trim", ('kind = "rigid"\nname = "gauge"', 'kind = "fix"\nnodes = "x1"'), "cut off"),
         ("trim", ("to = { cut = 0.0 }", "to = { cur = 0.0 }"), "did you mean cut"),
         ("draw", ("cells = [5, 1]", "cells = [6, 1]"), "belongs to another model"),
+        ("draw", ("modulus = 500.0", "modulus = 400.0"), "material of the run: other than in the deck"),
+        ("trim", ("[before]", "[befor]"), "names none"),
     ],
 )
 def test_mistakes_are_named(drawn, deck, change, said):
