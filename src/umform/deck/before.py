@@ -6,9 +6,11 @@ a run of that deck has written.
 
 from __future__ import annotations
 
+import json
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path as File
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
@@ -38,8 +40,8 @@ class Before(Part):
     """Name of the control, of value 1, of the forces that nothing in this deck balances: of tools and supports of that
     operation, and of metal that is cut off. Steps move it to 0."""
 
-    def restore(self, model: Model, folder: File) -> None:
-        """Put a model into the state.
+    def restore(self, model: Model, folder: File, tables: Mapping[str, Any]) -> None:
+        """Put a model, made of the data of a deck, into the state.
 
         Raises
         ------
@@ -57,11 +59,18 @@ class Before(Part):
         tree = read_tree(path, _KIND)
         bodies = {body.key: {name: values.shape for name, values in body.state().items()} for body in model.bodies}
         there = {key: {name: values.shape for name, values in one.items()} for key, one in tree["bodies"].items()}
-        if tree["u"].shape != model.u.shape or not np.array_equal(tree["points"], model.mesh.points) or there != bodies:
+        other = [key for key in TAKEN if tree.get("tables", {}).get(key) != _written(tables)[key]]
+        if (
+            other
+            or tree["u"].shape != model.u.shape
+            or not np.array_equal(tree["points"], model.mesh.points)
+            or there != bodies
+        ):
             raise FileProblem(
                 "the state belongs to another model",
                 where=str(path),
-                value=f"{len(tree['points'])} nodes in the file, {len(model.mesh.points)} of the deck",
+                value=f"{len(tree['points'])} nodes in the file, {len(model.mesh.points)} of the deck"
+                + (f"; {' and '.join(other)} of the run: other than in the deck" if other else ""),
                 cause="the deck before has been changed since its run, or the file is that of another one",
                 remedy=f"run {self.deck} again",
             )
@@ -84,12 +93,17 @@ class Cut(Part):
         return Trim(profile_of(self.line, folder), self.view, self.formed)
 
 
-def write_state(model: Model, path: File) -> None:
-    """Write displacements and the history of all bodies, for the deck of the next operation."""
+def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
+    """Write displacements and the history of all bodies, for the deck of the next operation, with the data of this."""
     state = model.snapshot()
     bodies = {body.key: state.terms[body.key] for body in model.bodies}
     tree = {"points": model.mesh.points, "u": state.u, "time": state.time, "began": state.began, "bodies": bodies}
-    write_tree(path, tree, _KIND)
+    write_tree(path, {**tree, "tables": _written(tables)}, _KIND)
+
+
+def _written(tables: Mapping[str, Any]) -> dict[str, str]:
+    """The tables that the next operation takes, each as one text."""
+    return {key: json.dumps(tables.get(key, {}), sort_keys=True, default=str) for key in TAKEN}
 
 
 def merged(source: Source, before: Source) -> Source:

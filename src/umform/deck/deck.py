@@ -63,11 +63,15 @@ class Deck:
         DeckError
             With all that is wrong with it.
         """
-        source = parse(text, name, Path(folder), changes)
-        before = _before(source)
+        return cls._read(parse(text, name, Path(folder), changes))
+
+    @classmethod
+    def _read(cls, source: Source, after: tuple[Path, ...] = ()) -> Deck:
+        """Read a deck whose state the decks ``after`` it begin with."""
+        before = _before(source, after)
         if before is not None:
             source = merged(source, before.source)
-        errors: list[DeckKey] = []
+        errors = _idle_trim(source)
         contents = None
         try:
             contents = Contents.model_validate(source.data)
@@ -104,24 +108,40 @@ class Deck:
         return sheet(self.contents, self.source, self.before)
 
 
-def _before(source: Source) -> Deck | None:
+def _idle_trim(source: Source) -> list[DeckKey]:
+    """The error of a deck that trims a part which no operation before has left."""
+    if "before" in source.data or not source.data.get("trim"):
+        return []
+    return [
+        DeckKey(
+            "a deck trims the part of the operation before, and names none",
+            where=source.place(("trim",)),
+            cause="the table before is missing",
+            remedy="[before] with deck, state and control",
+        )
+    ]
+
+
+def _before(source: Source, after: tuple[Path, ...]) -> Deck | None:
     """The deck of the operation before, if a deck names one."""
     table = source.data.get("before")
     named = table.get("deck") if isinstance(table, dict) else None
     if not isinstance(named, str):
         return None
-    if (source.folder / named).resolve() == (source.folder / source.name).resolve():
+    path, chain = source.folder / named, (*after, (source.folder / source.name).resolve())
+    if path.resolve() in chain:
         raise DeckError(
             [
                 DeckKey(
                     "a deck cannot be the operation before itself",
                     where=source.place(("before", "deck")),
                     value=named,
+                    cause="decks that name each other as the operation before" if len(chain) > 1 else "",
                     remedy="the deck whose run comes first",
                 )
             ]
         )
-    return load(source.folder / named)
+    return Deck._read(parse(read_file(path), path.name, path.parent), chain)
 
 
 def load(path: str | Path, changes: Mapping[str, Any] | None = None) -> Deck:

@@ -215,7 +215,7 @@ class _Builder:
         assert part is not None
         with self._at("before"):
             model = self.before.sheet()
-            part.restore(model, folder)
+            part.restore(model, folder, self.source.data)
             for number, cut in enumerate(self.contents.trim):
                 with self._at("trim", number):
                     left = cut.build(folder).of(model)

@@ -41,7 +41,7 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole
     if wanted.vtkhdf:
         result.write(waiting / "fields.vtkhdf")
     if wanted.state and whole:
-        write_state(problem.model, waiting / STATE)
+        write_state(problem.model, waiting / STATE, deck.source.data)
     files = stage.commit([COPY, "history.csv", "fields.vtkhdf", STATE])
     if wanted.pictures:
         from umform.deck.pictures import draw_curve, draw_shape  # matplotlib takes time to load

@@ -161,8 +161,7 @@ class Mesh:
             if selector in self.sets:
                 ids = np.asarray(self.sets[selector], dtype=np.int32)
             elif selector in self.faces:
-                rows = np.asarray(self.faces[selector], dtype=np.int32)
-                ids = unique(np.concatenate([self._face_nodes(face) for face in rows])) if len(rows) else rows.ravel()
+                ids = self._nodes_on(np.asarray(self.faces[selector], dtype=np.int32))
             else:
                 raise _unknown("node", selector, [*self.sets, *self.faces])
         elif callable(selector):
@@ -173,7 +172,7 @@ class Mesh:
             raise EmptySet(
                 "a set selects no node",
                 value=selector if isinstance(selector, str) else "predicate or list",
-                cause="its metal was cut off" if isinstance(selector, str) else "",
+                cause="it is empty, or its metal was cut off" if isinstance(selector, str) else "",
                 remedy="another set" if isinstance(selector, str) else _LOOK,
             )
         if ids.min() < 0 or ids.max() >= len(self.points):
@@ -218,7 +217,7 @@ class Mesh:
             raise EmptySet(
                 "a set selects no face",
                 value=selector if isinstance(selector, str) else "predicate or list",
-                cause="its metal was cut off" if isinstance(selector, str) else "",
+                cause="it is empty, or its metal was cut off" if isinstance(selector, str) else "",
                 remedy="another set" if isinstance(selector, str) else _LOOK,
             )
         bad = (rows < 0).any(axis=1) | (rows[:, 0] >= len(self.connectivity)) | (rows[:, 1] >= len(FACES))
@@ -265,9 +264,11 @@ class Mesh:
         """The same mesh with its points (n, 3) mapped by ``function``."""
         return Mesh(function(self.points), self.cells, self.sets, self.faces)
 
-    def _face_nodes(self, face: Ids) -> Ids:
-        ids: Ids = self.connectivity[face[0]][nodes_of_faces(self.cell)[face[1]]]
-        return ids
+    def _nodes_on(self, rows: Ids) -> Ids:
+        """Nodes of faces, given as cell and number of the face."""
+        kinds = enumerate(nodes_of_faces(self.cell))
+        parts = [self.connectivity[np.ix_(rows[rows[:, 1] == number, 0], local)].ravel() for number, local in kinds]
+        return unique(np.concatenate(parts))
 
 
 def _as_ids(selector: ArrayLike, count: int) -> Ids:

@@ -150,12 +150,15 @@ class Trim:
         """The line as a surface: its kernel has the signed distance."""
         line = self.line
         if not isinstance(line, Profile):
-            corners = np.asarray(line, dtype=float)
+            try:
+                corners = np.asarray(line, dtype=float)
+            except (TypeError, ValueError):
+                corners = np.empty(0)
             if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 2:
                 raise InvalidValue(
                     "a line has two corners (x, y) or more",
                     where="Trim, line",
-                    value=f"shape {corners.shape}",
+                    value=line,
                     remedy="[(x, y), (x, y)], a Profile, or a function of x and y",
                 )
             line = Profile.from_corners([(float(x), float(y)) for x, y in corners], closed=False)

@@ -38,16 +38,18 @@ def bottoming(way: Floats, force: Floats) -> Bottoming | None:
     """Where the force of a tool jumps along its way; None where it does not.
 
     It does so where it exceeds four times its largest value so far within a twentieth of the way, and keeps that to the
-    end. First touch is none: the tool must have touched over a tenth of the way and in four rows.
+    end. First touch is none: the tool must have touched over a tenth of the way and in four rows. A tool that stands or
+    comes back does not bottom: others change its force.
 
     Parameters
     ----------
     way, force : ndarray, shape (n,)
         Way and force in the rows of a step.
     """
-    run, size = np.abs(way - way[0]), np.abs(force)
+    run, size = np.abs(way - way[:1]), np.abs(force)
     touching = np.flatnonzero(size > 1e-6 * size.max(initial=0.0))
-    if len(touching) <= _ROWS:
+    goes = len(run) > 0 and run[-1] > 0.0 and bool((np.diff(run) >= 0.0).all())
+    if not goes or len(touching) <= _ROWS:
         return None
     so_far = np.maximum.accumulate(size)
     first = touching[0]

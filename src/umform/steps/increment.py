@@ -94,8 +94,9 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
     elif failure.motion is not None:
         cause = f"{cause}: {loose_part(run.model, failure.motion)}"
         remedy = (
-            "hold what moves with fix(), symmetry() or hinge(), or join its nodes to those of the rest; at a limit "
-            "point prescribe displacements instead of forces"
+            "hold what moves with fix(), symmetry() or hinge(), or join its nodes to those of the rest; a sheet that "
+            "is thousands of times as long as thick between its supports needs more of them; at a limit point "
+            "prescribe displacements instead of forces"
         )
     pressed = pressed_tools(run)
     if pressed:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,7 @@ from umform.errors import InvalidValue
 from umform.surfaces.crossings import refuse_crossings
 from umform.surfaces.directions import Direction, Point, point, positive, right_angle
 from umform.surfaces.profile import Profile
-from umform.surfaces.segments import Line
+from umform.surfaces.segments import Arc, Line
 from umform.surfaces.swept import refuse_endless_arcs
 from umform.surfaces.tool import Tool
 
@@ -86,14 +87,24 @@ class LedAround(Tool):
         least = -self.corner - 1e-9 * self.profile.size
         outwards = -segments[0].tangents()[0][0], segments[-1].tangents()[1][0]
         for i, segment in enumerate(segments):
-            ends = [segment.start[0], segment.end[0]]
+            deepest = _deepest(segment)
             endless = (i == 0 and outwards[0] < 0.0) or (i == len(segments) - 1 and outwards[1] < 0.0)
             flat = isinstance(segment, Line) and segment.start[1] == segment.end[1]
-            if not flat and (endless or min(ends) < least):
+            if not flat and (endless or deepest < least):
                 raise InvalidValue(
                     "the profile must be flat where it is deeper inside of the rectangle than its corners are round",
                     where=f"segment {i} of LedAround.profile",
-                    value=f"x = {min(ends):.6g}, corners of radius {self.corner:g}",
+                    value=f"x = {deepest:.6g}, corners of radius {self.corner:g}",
                     cause="there the tool would have an edge along the diagonals",
                     remedy="a larger radius of the corners, or smaller ones of the profile",
                 )
+
+
+def _deepest(segment: Line | Arc) -> float:
+    """Least x of a segment; an arc may bulge beyond its ends."""
+    ends = min(segment.start[0], segment.end[0])
+    if isinstance(segment, Line):
+        return ends
+    start = math.atan2(segment.start[1] - segment.centre[1], segment.start[0] - segment.centre[0])
+    passes = (segment.turn * (math.pi - start)) % (2.0 * math.pi) < segment.angle
+    return segment.centre[0] - segment.radius if passes else ends

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +17,8 @@ Floats = NDArray[np.float64]
 
 #: Steps along a line towards a tool; distance that counts as on it, over the size of the blank.
 _STEPS, _ON = 300, 1e-6
+#: How often the height is doubled at which the lines begin.
+_DOUBLINGS = 20
 #: Lines of the map along the longer side of the blank.
 _LINES = 121
 
@@ -107,7 +109,7 @@ def tool_sizes(
     Raises
     ------
     InvalidValue
-        If a number is out of range.
+        If a number is out of range, or a tool lies on the other side.
 
     Examples
     --------
@@ -131,9 +133,9 @@ def tool_sizes(
     x, y = _lines(low, high)
     places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
     bend = np.zeros(len(places))
-    for tools, side in ((below, 1.0), (above, -1.0)):
-        for tool in tools:
-            at, on = _first_met(tool, places, side, float(np.linalg.norm(high - low)))
+    for tools, side, name in ((below, 1.0, "below"), (above, -1.0, "above")):
+        for number, tool in enumerate(tools):
+            at, on = _first_met(tool, places, side, float(np.linalg.norm(high - low)), f"{name}[{number}]")
             bend[on] = np.maximum(bend[on], _curvature(tool, at, 0.5 * thickness))
     with np.errstate(divide="ignore"):
         radius = np.where(bend > 0.0, 1.0 / bend + 0.5 * thickness, np.inf)
@@ -163,21 +165,54 @@ def _lines(low: Floats, high: Floats) -> tuple[Floats, Floats]:
     return np.linspace(low[0], high[0], counts[0]), np.linspace(low[1], high[1], counts[1])
 
 
-def _first_met(tool: Surface, places: Floats, side: float, reach: float) -> tuple[Floats, NDArray[np.int64]]:
+def _first_met(
+    tool: Surface, places: Floats, side: float, reach: float, where: str
+) -> tuple[Floats, NDArray[np.int64]]:
     """Where lines along z first meet a tool from one side, and which of them do."""
     kernel = tool.kernel()
-    z = np.full(len(places), side * reach)
-    going, met = np.arange(len(places)), np.zeros(len(places), dtype=bool)
+
+    def gap(which: NDArray[np.int64], z: Floats) -> Floats:
+        return kernel.gap(np.ascontiguousarray(np.column_stack([places[which], z])))[0]
+
+    def level(height: float) -> Floats:
+        return gap(np.arange(len(places)), np.full(len(places), side * height))
+
+    start, end = _beyond(level, reach), _beyond(lambda depth: level(-depth), reach, endless=True)
+    met, going = np.zeros(len(places), dtype=bool), np.flatnonzero(level(start) > 0.0)
+    if len(going) == 0:
+        raise InvalidValue(
+            "a tool fills the space on the side of the sheet",
+            where=f"tool_sizes, {where}",
+            cause="a tool from above given as one from below or the other way round, or one turned inside out",
+            remedy="below=[die], above=[punch, holder]",
+        )
+    z = np.full(len(places), side * start)
     for _ in range(_STEPS):  # no step is longer than the distance, so no surface is passed
-        gap = kernel.gap(np.ascontiguousarray(np.column_stack([places[going], z[going]])))[0]
-        on = gap <= _ON * reach
+        free = gap(going, z[going])
+        on = free <= _ON * reach
         met[going[on]] = True
-        z[going] -= side * np.maximum(gap, 0.0)
-        going = going[~on & (side * z[going] > -reach)]
+        z[going] -= side * np.maximum(free, 0.0)
+        going = going[~on & (side * z[going] > -end)]
         if len(going) == 0:
             break
     which = np.flatnonzero(met)
     return np.ascontiguousarray(np.column_stack([places[which], z[which]])), which
+
+
+def _beyond(level: Callable[[float], Floats], reach: float, *, endless: bool = False) -> float:
+    """A height beyond a tool: farther on no place comes nearer to it; or those inside of an endless one stay there."""
+    height, near, walled = reach, level(reach), 0.0
+    for _ in range(_DOUBLINGS):
+        height *= 2.0
+        far = level(height)
+        free = far > 0.0
+        stay = bool((free == (near > 0.0)).all())
+        if (far >= near).all() if free.all() else endless and stay:
+            return height
+        if not walled and stay and free.any():
+            walled = height  # between walls that may have no end
+        near = far
+    return walled or height
 
 
 def _curvature(tool: Surface, at: Floats, step: float) -> Floats:

@@ -130,6 +130,14 @@ def test_a_third_operation_and_a_run_that_was_stopped(drawn):
     assert whole.read_text() == taken_up.read_text()
 
 
+def test_decks_cannot_be_before_each_other(tmp_path):
+    table = '[before]\ndeck = "{}.toml"\nstate = "state.h5"\ncontrol = "cut"\n'
+    for name, other in (("a", "b"), ("b", "c"), ("c", "a")):
+        (tmp_path / f"{name}.toml").write_text(table.format(other))
+    with pytest.raises(UmformError, match=r"(?s)operation before itself.*c.toml"):
+        load(tmp_path / "a.toml")
+
+
 def test_a_state_is_that_of_a_run_to_the_end(drawn):
     (drawn / "draw" / "state.h5").unlink()
     answer = umform("run", drawn / "draw.toml", "--set", "solution.max_iterations=1", "--out", drawn / "failed")
@@ -148,6 +156,8 @@ def test_a_state_is_that_of_a_run_to_the_end(drawn):
         ("trim", ('kind = "rigid"\nname = "gauge"', 'kind = "fix"\nnodes = "x1"'), "cut off"),
         ("trim", ("to = { cut = 0.0 }", "to = { cur = 0.0 }"), "did you mean cut"),
         ("draw", ("cells = [5, 1]", "cells = [6, 1]"), "belongs to another model"),
+        ("draw", ("modulus = 500.0", "modulus = 400.0"), "material of the run: other than in the deck"),
+        ("trim", ("[before]", "[befor]"), "names none"),
     ],
 )
 def test_mistakes_are_named(drawn, deck, change, said):

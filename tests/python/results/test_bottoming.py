@@ -63,3 +63,21 @@ def test_where_a_force_jumps(force, at):
         assert found is None
     else:
         assert -found.at == pytest.approx(2.0 * at, abs=0.11) and found.before < 0.3 * found.largest
+
+
+@pytest.mark.parametrize("way", [np.zeros(40), np.concatenate([np.linspace(0.0, 1.0, 20), np.linspace(1.0, 0.5, 20)])])
+def test_a_tool_that_stands_or_comes_back_does_not_bottom(way):
+    assert bottoming(way, np.where(np.arange(40) < 25, 1.0, 50.0)) is None
+
+
+def test_a_tool_that_stands_while_another_one_moves_is_not_said_to_bottom():
+    model = uf.Model(uf.mesh.strip(2.0, 1.0, 1.0, (2, 1)), material=uf.SVK(E=1e3, nu=0.0))
+    model.symmetry("x0", "x")
+    model.fix(np.arange(len(model.mesh.points)), "y")
+    below = model.contact("lower", uf.Plane((0.0, 0.0, -0.5), (0.0, 0.0, 1.0)), penalty=1e4, name="below")
+    above = model.contact("upper", uf.Plane((0.0, 0.0, 0.5), (0.0, 0.0, -1.0)), penalty=1e4, name="above")
+    stands, moves = model.drive(below, "z", name="stands"), model.drive(above, "-z", name="moves")
+    model.rest()
+    result = uf.solve(model, [uf.Move(stands, 1e-3), uf.Move(moves, 0.02, steps=30)], frames=0, progress=False)
+    assert abs(result["stands_force"][-1]) > 10.0 * abs(result["stands_force"][1])
+    assert not any("stands" in text and "bottoms" in text for text in result.warnings)

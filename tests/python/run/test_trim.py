@@ -175,6 +175,8 @@ def test_what_cannot_be_trimmed_is_refused(bent):
         uf.Trim(BEYOND_13, view="r")
     with pytest.raises(InvalidValue, match="two corners"):
         uf.Trim([(1.0, 2.0)])
+    with pytest.raises(InvalidValue, match="two corners"):
+        uf.Trim("x1")
     with pytest.raises(InvalidValue, match="finite number"):
         uf.Trim(lambda x, y: 1.0).of(bent)
     part = uf.Trim(BEYOND_13, formed=False).of(bent)

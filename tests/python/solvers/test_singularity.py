@@ -166,3 +166,11 @@ def test_the_error_of_a_run_names_what_moves():
     ) as caught:
         uf.solve(model, uf.Move(push, 1.0, steps=1, cuts=1), progress=False)
     assert "join its nodes" in str(caught.value)
+
+
+def test_the_error_of_a_thin_sheet_says_that_it_needs_more_supports():
+    model = uf.Model(uf.mesh.strip(100.0, 1.0, 0.01, (20, 1)), material=uf.SVK(E=210e3, nu=0.0))
+    model.fix("x0")
+    push = model.force("x1", (0.0, 0.0, -1e-12), "push")
+    with pytest.raises(NoConvergence, match="thousands of times as long as thick"):
+        uf.solve(model, uf.Move(push, 1.0, steps=1, cuts=1), progress=False)

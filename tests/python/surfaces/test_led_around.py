@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from umform.errors import InvalidValue
-from umform.surfaces import Box, LedAround, Profile, Revolved, check_surface
+from umform.surfaces import Arc, Box, LedAround, Line, Profile, Revolved, check_surface
 
 
 def section(edge: float, *, start: float = -9.0) -> Profile:
@@ -52,3 +52,15 @@ def test_what_cannot_be_led_around_is_refused():
         LedAround(section(8), (70, 70), 5).kernel()
     with pytest.raises(InvalidValue, match="must be open"):
         LedAround(Profile.from_corners([(0, 0), (9, 0), (9, 9)]), (70, 70), 10).kernel()
+
+
+@pytest.mark.parametrize(("clockwise", "accepted"), [(True, False), (False, True)])
+def test_an_arc_that_bulges_to_the_diagonals_is_refused(clockwise, accepted):
+    arc = Arc((-8.0, 2.0), (-8.0, 12.0), (-8.0, 7.0), clockwise=clockwise)
+    lines = Line((-30.0, 0.0), (-8.0, 0.0)), Line((-8.0, 0.0), (-8.0, 2.0)), arc, Line((-8.0, 12.0), (-8.0, 40.0))
+    tool = LedAround(Profile(lines, closed=False), (70, 70), 10)
+    if accepted:
+        tool.kernel()
+        return
+    with pytest.raises(InvalidValue, match=r"(?s)deeper inside.*x = -13"):
+        tool.kernel()

@@ -24,6 +24,29 @@ def test_the_radius_of_a_profile():
     assert grows == pytest.approx(np.log(1.5), rel=0.02)
 
 
+@pytest.mark.parametrize("height", [-500.0, -90.0, 90.0, 1e4])
+def test_the_height_of_a_tool_does_not_matter(height):
+    there, here = (tool_sizes([DIE.moved((0.0, 0.0, z))], [], BOX, **GIVEN) for z in (height, 0.0))
+    np.testing.assert_allclose(there.size, here.size, rtol=1e-5)
+    ball = uf.Sphere((0.0, 5.0, height), 20.0)
+    for tools in (([ball], []), ([], [ball])):
+        assert tool_sizes(*tools, BOX, **GIVEN)(0.0, 5.0) == pytest.approx(np.radians(10.0) * 20.5, rel=0.01)
+
+
+@pytest.mark.parametrize("ends", [[(20.0, 300.0), (90.0, 300.0)], [(20.0, 900.0)]], ids=["walls", "endless wall"])
+def test_a_die_is_found_between_high_walls(ends):
+    corners = [(-90.0, 300.0), (-60.0, 300.0), (-60.0, 0.0), (-20.0, 0.0), (-20.0, -50.0), (20.0, -50.0), *ends]
+    radii = [0.0, 0.0, 0.0, 5.0, *[0.0] * (2 + len(ends))]
+    die = uf.Extruded(uf.Profile.from_corners(corners[::-1], radii[::-1], closed=False), x="x", y="z")
+    assert die.gap([(0.0, 0.0, 0.0)])[0][0] > 0.0
+    assert tool_sizes([die], [], BOX, **GIVEN)(-22.5, 5.0) == pytest.approx(np.radians(10.0) * 5.5, rel=0.01)
+
+
+def test_a_tool_on_the_wrong_side_is_refused():
+    with pytest.raises(InvalidValue, match=r"(?s)fills the space.*above\[0\]"):
+        tool_sizes([], [DIE], BOX, **GIVEN)
+
+
 def test_metal_that_flows_over_a_radius_has_its_size():
     sizes = tool_sizes([DIE], [], BOX, **GIVEN, flow=10.0)
     assert sizes(33.0, 5.0) == pytest.approx(np.radians(10.0) * 5.5, rel=0.01)
