@@ -25,8 +25,8 @@ MU, PENALTY, SLIP = 0.2, 1e3, 1e-3
 PRESSURE, RADIUS = 1.0, 10.0
 #: Round-off of positions over the penetration.
 EXACT = 1e-9
-#: Of the elastic energy: round-off raises the pressure here and there, and stick that stiffens with it loses energy, eq.
-#: (4.174); 5e-10 to 1.2e-9 in 8 to 180 increments a turn.
+#: Of the elastic energy: round-off raises the pressure here and there, and stick that stiffens with it loses energy:
+#: eq. (4.174); 5e-10 to 1.2e-9 in 8 to 180 increments a turn.
 LOST = 1e-8
 
 
