@@ -11,7 +11,7 @@ import { Jobs } from "./jobs.js";
 import { Result } from "./result.js";
 import { askTable, seriesTable } from "./table.js";
 import { loadTexts, number, problemText, t } from "./texts.js";
-import { tour } from "./tour.js";
+import { retell, tour } from "./tour.js";
 
 const VIEWS = ["bend", "compare", "deck"];
 
@@ -58,6 +58,7 @@ async function start() {
   });
   element("language").addEventListener("change", async () => {
     await loadTexts(element("language").value);
+    retell();
     form.build();
     form.look();
     jobs.mark(jobs.shown);

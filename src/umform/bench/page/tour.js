@@ -6,6 +6,9 @@ import { t } from "./texts.js";
 
 const STOPS = [["fields", "form"], ["sketch", "drawing"], ["n-angle", "checks"], ["run", "run"], ["jobs-title", "jobs"], ["result", "numbers"]];
 
+/** Shows the present stop again, in the language of the page; nothing where no tour is open. */
+export let retell = () => {};
+
 /** @param {boolean} [asked] */
 export function tour(asked = true) {
   try {
@@ -34,6 +37,7 @@ export function tour(asked = true) {
     if (at >= STOPS.length) dialog.close();
     else show();
   };
+  retell = () => { if (dialog.open) show(); };
   dialog.onclose = () => document.querySelectorAll(".lit").forEach((node) => node.classList.remove("lit"));
   dialog.show();
   dialog.onkeydown = (/** @type {KeyboardEvent} */ event) => {
