@@ -120,8 +120,8 @@ def left_free(model: Evaluated, modes: Floats, more: Sequence[Floats] = ()) -> F
     rows = [modes[:, np.flatnonzero(model.constrained())].T]
     rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.ties]
     rows += [np.einsum("mkd,kd->km", modes[:, part.dofs], part.weights) for part in model.rows]
-    matrix = model.ranks.rows(np.concatenate([np.zeros((1, 6)), *rows, *more]))
-    _, singular, directions = np.linalg.svd(matrix, full_matrices=True)
+    matrix = model.ranks.rows(np.concatenate([np.zeros((6, 6)), *rows, *more]))  # six rows: all six directions come out
+    _, singular, directions = np.linalg.svd(matrix, full_matrices=False)
     rank = int((singular > 1e-8 * max(singular.max(), 1e-300)).sum())
     return np.asarray(directions[rank:])
 
