@@ -71,6 +71,8 @@ def test_measures_of_a_cup():
     assert drawn.released is not None
     assert abs(drawn.released["die_fz"][-1]) < 1e-9
     assert 0 < drawn.springback.largest < 0.5
+    np.testing.assert_allclose(drawn.springback.rotation, np.eye(3), atol=1e-9)  # a quarter cannot turn
+    np.testing.assert_allclose(drawn.springback.shift[:2], 0.0, atol=1e-9)
     assert "major_middle" in drawn.result.frames[-1].cells
 
 
