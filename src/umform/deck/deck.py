@@ -10,10 +10,11 @@ from typing import Any
 from pydantic import ValidationError
 
 from umform.deck.before import merged
+from umform.deck.building import build, sheet
 from umform.deck.contents import Contents
 from umform.deck.errors import DeckError, DeckKey
 from umform.deck.messages import messages
-from umform.deck.problem import Problem, build, sheet
+from umform.deck.problem import Problem
 from umform.deck.references import unknown_names
 from umform.deck.source import Source, parse, read_file
 from umform.model import Model
