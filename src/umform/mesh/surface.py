@@ -37,9 +37,7 @@ def alike(points: Floats, quads: Whole) -> Whole:
     """
     edges = np.stack([quads[:, :4], np.roll(quads[:, :4], -1, axis=1)], axis=2).reshape(-1, 2)
     pairs = shared_sides(points, edges, "edge")
-    same_way = (
-        edges[pairs[:, 0], 0] == edges[pairs[:, 1], 0]
-    )  # consistent neighbours traverse a common edge in opposite directions
+    same_way = edges[pairs[:, 0], 0] == edges[pairs[:, 1], 0]  # consistent neighbours run in opposite directions
     sign = _signs(len(quads), pairs // 4, np.where(same_way, -1, 1))
     wrong = np.flatnonzero(sign[pairs[:, 0] // 4] * sign[pairs[:, 1] // 4] != np.where(same_way, -1, 1))
     if wrong.size:
