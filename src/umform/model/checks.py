@@ -197,9 +197,7 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
                 cause="the point lies on the axis or the centre of the tool",
                 remedy="move the tool so that it just touches the sheet",
             )
-        gap = contact.gap(
-            (mesh.points + model.u.reshape(-1, 3))[contact.nodes]
-        )  # the far face would report the wrong side
+        gap = contact.gap((mesh.points + model.u.reshape(-1, 3))[contact.nodes])  # the far face has the wrong sign
         deepest = int(np.argmin(gap))
         if gap[deepest] < -0.5 * thickness:
             raise ToolSwallowsSheet(
