@@ -1,7 +1,7 @@
 """Ties of a lower and an upper node: the mean of their displacements is held, their difference is free.
 
-A sheet of solid-shells has no node on its mid-surface. A hinge there holds the mean of the two nodes of a fibre, which
-may rotate about it. docs/theory, 5.10
+A sheet of solid-shells has no node on its mid-surface. A hinge holds the mean of the two nodes of a fibre, which may
+rotate about it. docs/theory, 5.10
 """
 
 from __future__ import annotations
