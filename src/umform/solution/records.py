@@ -82,7 +82,7 @@ class Failed(Exception):
 
 @dataclass(frozen=True)
 class Converged:
-    """A converged step: the evaluation there, the iterations, those of more passes at the same loads."""
+    """A converged increment: the evaluation, the iterations, and those of augmentations at the same loads."""
 
     evaluation: Any
     iterations: list[Iteration]
@@ -101,7 +101,7 @@ class Converged:
 
 @dataclass(frozen=True)
 class First:
-    """What the first increment came from: factors of the tangent, and its largest entry."""
+    """Source of the first increment: factors of the tangent, and its largest entry."""
 
     factors: Factorisation
     entry: float
