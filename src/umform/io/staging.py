@@ -142,9 +142,7 @@ def is_taken(folder: Path) -> bool:
 
 def _is_left_behind(waiting: Path) -> bool:
     """Whether a run was killed here."""
-    owner = _owner(
-        waiting
-    )  # a mark with the number of this process, which does not hold the folder, is of another process
+    owner = _owner(waiting)  # this process does not hold the folder: its own number means another one
     return owner == mark() or is_left_behind(waiting, owner)
 
 

@@ -237,9 +237,7 @@ class Newton:
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
             recorder.add(evaluation.flowing, norm / scale, increment, energy, entered, left, step_length, pivots)
             lean = self._lean(reuse, manner) and not evaluation.border.unknowns
-            evaluation = (
-                evaluation.without_tangent()
-            )  # these are existing factors: the next factorisation takes their memory
+            evaluation = evaluation.without_tangent()  # factors exist: release the memory of the tangent
             u, evaluation, step_length = self._advance(u, du, r, manner, longest, lean, shifted)
             criteria.entry = criteria.entry if lean else None
             increment = step_length * self._relative(du, evaluation)
