@@ -1,4 +1,4 @@
-"""Build the problem of a deck: model, contacts, supports, controls and steps, with all mistakes in one error."""
+"""Build the problem of a deck: model, contacts, supports, controls and steps; all mistakes are reported together."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from umform.surfaces import Tool
 
 
 class Earlier(Protocol):
-    """A deck whose run comes before."""
+    """The deck of the previous operation."""
 
     def sheet(self) -> Model:
         """Its model without tools and supports."""
@@ -46,18 +46,18 @@ def build(contents: Contents, source: Source, solver: str | None = None, before:
     Parameters
     ----------
     contents : Contents
-        What stands in it.
+        Content of the deck.
     source : Source
-        Where it stands.
+        Its source.
     solver : str, optional
         Another sparse solver than that of the deck.
     before : Earlier, optional
-        The deck of the operation before.
+        The deck of the previous operation.
 
     Raises
     ------
     DeckError
-        With all that does not fit.
+        With all mistakes.
     """
     with np.errstate(all="ignore"):
         return _Builder(contents, source, solver or contents.solution.solver, before).problem()
@@ -75,7 +75,7 @@ def sheet(contents: Contents, source: Source, before: Earlier | None) -> Model:
 
 @dataclass
 class _Builder:
-    """Builds part after part, and goes on after one that fails as far as others do not need it."""
+    """Builds the parts in order; after a failure it continues with all parts that do not depend on the failed one."""
 
     contents: Contents
     source: Source
@@ -127,7 +127,7 @@ class _Builder:
         return tools
 
     def sheet(self) -> Model | None:
-        """The model without tools and supports, in the state that it begins in."""
+        """The model without tools and supports, in its initial state."""
         if self.before is None:
             return self._model()
         part, folder = self.contents.before, self.source.folder
@@ -144,7 +144,7 @@ class _Builder:
         return None
 
     def _missing_forces(self, model: Model, supports: dict[str, Support]) -> dict[str, Control]:
-        """What tools, supports and metal exerted that are not there any more; supports that wait hold at once."""
+        """Unbalanced forces of removed tools, supports and metal; supports that no step activates are activated now."""
         part = self.contents.before
         if part is None or self.errors:
             return {}
@@ -203,7 +203,7 @@ class _Builder:
         contacts = {}
         for name, part in self.contents.contacts.items():
             if part.tool not in tools:
-                continue  # it has failed, and said why
+                continue  # it has failed, with an error of its own
             with self._at("contacts", name):
                 contacts[name] = part.add_to(model, tools[part.tool], name)
         for name, bead in self.contents.beads.items():
@@ -213,7 +213,7 @@ class _Builder:
         return contacts
 
     def _supports(self, model: Model, *, rigid: bool) -> dict[str, Support]:
-        """The supports by name, those that hold what is free beside all others or these others."""
+        """The supports by name: statically determinate ones, or all others."""
         supports: dict[str, Support] = {}
         for number, part in enumerate(self.contents.supports):
             if isinstance(part, Rigid) != rigid:
@@ -229,13 +229,13 @@ class _Builder:
             touched = [getattr(part, "contact", None), *getattr(part, "followers", [])]
             touched.append(getattr(getattr(part, "gap", None), "to", None))
             if any(contact not in (None, *contacts) for contact in touched):
-                continue  # the same
+                continue  # likewise
             with self._at("controls", name):
                 controls[name] = part.add_to(model, name, contacts)
         return controls
 
     def _rest(self, model: Model) -> None:
-        """Springs under a loose sheet: where a run needs them, never, or as the deck has them."""
+        """Springs under a loose sheet: automatic, never, or with the stiffness of the deck."""
         rest = self.contents.solution.rest
         model.carries_loose_sheet = rest == "auto"
         if isinstance(rest, float) and not self.errors:
@@ -246,7 +246,7 @@ class _Builder:
         options = NewtonOptions()
         with self._at("solution"):
             options = self.contents.solution.build()
-        if self.solver == "petsc":  # each rank will have the pattern of its share
+        if self.solver == "petsc":  # each rank has the pattern of its share
             from umform.parallel.petsc import petsc
 
             with self._at("solution", "solver"):
@@ -254,7 +254,7 @@ class _Builder:
             return options
         if not self.errors and any(body.rolling is not None for body in model.bodies):
             with self._at("material", "rolling"):
-                _ = [body.block for body in model.bodies]  # its elements know where it stands on the sheet
+                _ = [body.block for body in model.bodies]  # the elements check the rolling direction
         if not self.errors:
             with self._at("supports"):
                 _ = model.pattern
@@ -271,7 +271,7 @@ class _Builder:
         return steps
 
     def _at(self, *path: str | int) -> Place:
-        """Where what is built inside of the block stands in the deck."""
+        """Context for a part of the deck: errors get its place."""
         return Place(path, self.source, self.errors)
 
     def _raise(self) -> None:

@@ -18,12 +18,13 @@ from umform.surfaces import Tool
 
 @dataclass(frozen=True, kw_only=True)
 class Solving:
-    """How a problem is solved; on one rank of many that is all, and the share of the model comes from the first one.
+    """Settings of a solution; on a rank other than the first these suffice, and the rank receives its share of the
+    model.
 
     Attributes
     ----------
     options : NewtonOptions
-        How hard to iterate.
+        Options of Newton's method.
     solver : str
         Sparse solver.
     frames : int
@@ -40,7 +41,7 @@ class Solving:
         return solve(model, steps, **self._settings(solver), **options)
 
     def resume(self, path: str | PathLike[str], *, solver: str | None = None, **options: Any) -> Result:
-        """Take up a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
+        """Resume a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
         model, steps = self._given()
         return resume(path, model, steps, **self._settings(solver), **options)
 
@@ -53,7 +54,7 @@ class Solving:
 
 @dataclass(frozen=True, kw_only=True)
 class Problem(Solving):
-    """A model and what happens to it.
+    """A model and its steps.
 
     Attributes
     ----------
@@ -64,11 +65,11 @@ class Problem(Solving):
     controls : dict of str to Control
         Its controls by name.
     steps : list of Step
-        What happens, in a row.
+        Steps, in order.
     tools : dict of str to Tool
         Surfaces of its tools by name.
     notes : sequence of str
-        What was cut off, in words for the results.
+        Notes on cuts, for the results.
     """
 
     model: Model
@@ -83,7 +84,7 @@ class Problem(Solving):
         return self._noted(super().solve(solver=solver, **options))
 
     def resume(self, path: str | PathLike[str], *, solver: str | None = None, **options: Any) -> Result:
-        """Take up a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
+        """Resume a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
         return self._noted(super().resume(path, solver=solver, **options))
 
     def _noted(self, result: Result) -> Result:
