@@ -6,8 +6,8 @@ the values are gathered in that order, which saves about a tenth of each call. A
 all other matrices, 2 to 4 times faster than SciPy's default COLAMD.
 
 A pivot stays on the diagonal unless it is 1000 times smaller than its column (10 times if the matrix is not symmetric),
-so that the signs of the pivots give the inertia; a step of iterative refinement, where the if necessary restores the
-accuracy. SuperLU's blocking parameters are not changed: SciPy accepts values that overrun SuperLU's work arrays.
+so that the signs of the pivots give the inertia; a step of iterative refinement, if necessary, restores
+the accuracy. SuperLU's blocking parameters are not changed: SciPy accepts values that overrun SuperLU's work arrays.
 """
 
 from __future__ import annotations
