@@ -1,4 +1,4 @@
-"""Tools that bottom: the force of a tool on its way jumps, since the sheet is squeezed between tools."""
+"""Detect bottoming: the force of a tool jumps because the sheet is squeezed between tools."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from umform.results.history import History
 
 Floats = NDArray[np.float64]
 
-#: Growth of the force within a part of the way, after the tool has touched for another part of it and for some rows.
+#: Growth of the force within a part of the travel, after contact over another part of it and in some rows.
 _GROWTH, _WITHIN, _AFTER, _ROWS = 4.0, 0.05, 0.1, 4
 
 
@@ -24,9 +24,9 @@ class Bottoming:
     Attributes
     ----------
     at : float
-        Value of its way.
+        Value of its control.
     before, largest : float
-        Largest force up to there, and up to the end of the step.
+        Largest force up to that value, and up to the end of the step.
     """
 
     at: float
@@ -35,16 +35,16 @@ class Bottoming:
 
 
 def bottoming(way: Floats, force: Floats) -> Bottoming | None:
-    """Where the force of a tool jumps along its way; None where it does not.
+    """Where the force of a tool jumps along its travel; None if it does not.
 
-    It does so where it exceeds four times its largest value so far within a twentieth of the way, and keeps that to the
-    end. First touch is none: the tool must have touched over a tenth of the way and in four rows. A tool that stands or
-    comes back does not bottom: others change its force.
+    The tool bottoms where the force exceeds four times its previous maximum within a twentieth of the travel and stays
+    there to the end. First contact does not count: the tool must have touched over a tenth of the travel and in four
+    rows. A tool that stands still or moves back does not bottom: other tools change its force.
 
     Parameters
     ----------
     way, force : ndarray, shape (n,)
-        Way and force in the rows of a step.
+        Control value and force in the rows of a step.
     """
     run, size = np.abs(way - way[:1]), np.abs(force)
     touching = np.flatnonzero(size > 1e-6 * size.max(initial=0.0))
@@ -62,7 +62,7 @@ def bottoming(way: Floats, force: Floats) -> Bottoming | None:
 
 
 def warn_of_bottoming(model: Model, result: History) -> None:
-    """Say for each tool that steps move whether it has bottomed."""
+    """Report for each moving tool whether it has bottomed."""
     steps = result["step"] if len(result) else np.empty(0)
     for control in model.controls:
         if not isinstance(control, ToolMotion):

@@ -23,9 +23,9 @@ struct Blas {
     Trsm trsm_ = nullptr;
     Gemv gemv_ = nullptr;
     Trsv trsv_ = nullptr;
-    /// Numbers that OpenBLAS maps for a thread at its first large product, at most; it waits for ever where it gets none.
+    /// Numbers that OpenBLAS maps for a thread at its first large product, at most; it blocks forever if it gets none.
     static constexpr std::size_t buffer = (std::size_t{160} << 20) / sizeof(double);
-    SetThreads set_threads = nullptr;  // none where the library has no threads of its own, or does not say
+    SetThreads set_threads = nullptr;  // none if the library has no threads, or no function to set them
     GetThreads get_threads = nullptr;
 
     /// How many of the threads have not had that buffer yet.

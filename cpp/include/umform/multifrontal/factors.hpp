@@ -28,7 +28,7 @@ struct Outcome {
 };
 
 /// What a front has become. Rows and columns that could not be eliminated here, since no pivot among them was stable, are
-/// eliminated in the front of the parent: they follow the pivots of its own.
+/// eliminated in the front of the parent: they follow its own pivots.
 struct Eliminated {
     int pivots = 0, size = 0, done = 0;  // with those that the children have left; of them eliminated
     double* a = nullptr;                 // columns of the factor, `size` rows each; rows of the other one follow

@@ -7,7 +7,7 @@
 
 namespace umform {
 
-/// R = B - K X for columns of length n; of a symmetric matrix the upper triangle is given.
+/// R = B - K X for columns of length n; of a symmetric matrix the upper triangle is stored.
 inline void residual(const Rows& rows, bool symmetric, const double* values, const double* b, const double* x,
                      int columns, double* r) {
     for (int j = 0; j < columns; ++j, b += rows.n, x += rows.n, r += rows.n) {
