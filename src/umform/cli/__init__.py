@@ -5,6 +5,7 @@ Nothing else is imported here, so that Ctrl-C is understood from the first momen
 
 from __future__ import annotations
 
+import gc
 import importlib
 import io
 import os
@@ -14,6 +15,8 @@ from typing import Any
 
 #: What a shell reports of a program that is ended by SIGPIPE: 128 + 13; and of one that is ended by Ctrl-C.
 CLOSED_PIPE, INTERRUPTED = 141, 130
+#: New objects between two searches for cycles. Python's 700 is for small programs: a command imports for longer than that.
+_COLLECT_AFTER = 20_000
 
 
 def __getattr__(name: str) -> Any:
@@ -26,6 +29,7 @@ def __getattr__(name: str) -> Any:
 def main() -> None:
     """Start the command line; it ends quietly if nobody reads on, as in ``umform new | head -1``."""
     try:
+        gc.set_threshold(_COLLECT_AFTER)
         _prepare_streams()
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # the end that a batch system sends: as Ctrl-C
         importlib.import_module("umform.cli.commands").app(prog_name="umform")
