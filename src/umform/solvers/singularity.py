@@ -8,7 +8,8 @@ right-hand sides, Numer. Math. 6 (1964) 405-409). Where that is below the roundi
 matrix is not that one.
 
 It is asked where a pivot is weak, and of the first matrix of a pattern where a solution is large beside its right-hand
-side, eq. (5.75): a mechanism that hardly moves the equations which are eliminated last leaves no weak pivot.
+side, eq. (5.75): a mechanism that hardly moves the equations which are eliminated last leaves no weak pivot. Bending of
+very thin sheets resists less than rounding, too, eq. (5.80).
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ import numpy as np
 
 from .protocol import FloatArray
 
-#: Parts of its column: a pivot above the first is none to ask about, one below the second is not worth it.
+#: Parts of its column: a pivot above the first is none to ask about, one below the second is nothing but rounding.
 _WEAK, _NOTHING = 1e-8, 1e-15
 #: A solution that its matrix resists more than this is none of a mechanism: rounding leaves 1e-13 of one.
 _LARGE = 1e-10
@@ -63,12 +64,12 @@ def weak_pivot(pivots: FloatArray, size: FloatArray, resistance: Resistance) -> 
     weakest = int(np.argmin(part))
     if part[weakest] > _WEAK:
         return None
+    if not part[weakest] > 0.0:
+        return Loose(weakest)  # nothing can be divided by it
     start = np.zeros(len(pivots))
     start[weakest] = 1.0
-    if not part[weakest] > _NOTHING:
-        return Loose(weakest)
     least, motion = resistance(start)
-    return None if least > _ROUNDING else Loose(weakest, motion)
+    return None if least > _ROUNDING and part[weakest] > _NOTHING else Loose(weakest, motion)
 
 
 def large_solution(count: int, once: Resistance, resistance: Resistance) -> Loose | None:
