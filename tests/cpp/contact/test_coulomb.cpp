@@ -92,6 +92,23 @@ void check_states() {
     CHECK(gone[1] == 0.0 && gone[8] == 0.0 && gone[17] == after[17] && gone[18] == after[18]);
 }
 
+/// Whatever the direction of the slide, a state at the bound sticks at rest, and slips as soon as it slides on.
+void check_rest() {
+    const Coulomb rubbing = law();
+    for (int i = 0; i < 100; ++i) {
+        double state[numbers]{}, held[numbers]{}, after[numbers]{}, again[numbers]{};
+        const double angle = 0.063 * i, c = std::cos(angle), s = std::sin(angle);
+        rubbing.leave({0.0, 0.0, 1.95}, state, state);
+        at(rubbing, {0.01 * c, 0.01 * s, 1.93}, state, held);
+        const Vec3 slid{0.3 * c, 0.3 * s, 1.93 - 0.0005 * i};
+        CHECK(at(rubbing, slid, held, after).slipping);
+        CHECK(!at(rubbing, slid, after, again).slipping);
+        CHECK(!at(rubbing, slid, again, held).slipping);
+        check_tangent(rubbing, {slid[0] - 1e-4 * c, slid[1] - 1e-4 * s, slid[2]}, after, false);
+        check_tangent(rubbing, {slid[0] + 1e-4 * c, slid[1] + 1e-4 * s, slid[2]}, after, true);
+    }
+}
+
 /// A sheet and a tool that are turned together, after a slide, feel the same traction, turned: all is kept in the frame of the tool.
 void check_frame() {
     const Coulomb rubbing = law();
@@ -155,6 +172,7 @@ void check_laws() {
 
 int main() {
     check_states();
+    check_rest();
     check_frame();
     check_transport();
     check_laws();
