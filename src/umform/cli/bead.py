@@ -1,4 +1,4 @@
-"""``umform bead``: a sheet drawn through a draw bead of real geometry."""
+"""``umform bead``: a sheet drawn through a modelled draw bead."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def bead(
         try:
             with printing(f"the files of the bead are in {place}"):
                 _show(drawn, note)
-        finally:  # also if nobody reads the table
+        finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
                 without_help_texts()
                 files = write_files(place, drawn, note)
@@ -120,7 +120,7 @@ def bead(
 
 @contextmanager
 def _what_was_reached(out: Path) -> Iterator[None]:
-    """Write the history of a run that is ended early."""
+    """Write the history of a run that ended early."""
     try:
         yield
     except (UmformError, KeyboardInterrupt) as stop:

@@ -1,4 +1,4 @@
-"""What is left of a sheet after a cut: a model of the remaining cells in the state that they were in."""
+"""The part of a sheet that remains after a cut: a model of the remaining cells in their present state."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ Numbers = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class ModelPart:
-    """The part that a cut leaves.
+    """The part that remains after a cut.
 
     Attributes
     ----------
     model : Model
         Its model, in the state of the sheet: displacements, history of the points, thickness points, axes. It has
-        neither supports nor tools nor loads; :meth:`umform.Model.unbalanced` gives the forces that are missing then.
+        neither supports nor tools nor loads; :meth:`umform.Model.unbalanced` gives the missing forces.
     cells, nodes : ndarray of int
-        Numbers that its cells and nodes have in the whole sheet, increasing.
+        Indices of its cells and nodes in the whole sheet, increasing.
     edge_distance : float
         Largest distance of a node of the cut edge from the line, in the view of the line.
     removed_energies : Energies
@@ -55,7 +55,7 @@ class ModelPart:
         Raises
         ------
         ModelError
-            If the model was solved on many ranks: they have its history.
+            If the model was solved on many ranks, which hold its history.
         """
         before = whole.snapshot()
         bodies = {body.key: kept for body in whole.bodies if (kept := _kept_body(body, part.cells)) is not None}
@@ -88,7 +88,7 @@ def _energies(body: Body, model: Model) -> Energies:
 
 
 def _kept_body(body: Body, cells: Numbers) -> tuple[Body, Numbers] | None:
-    """The same body of the cells that are left, and their rows in it; None if it has none of them."""
+    """The same body of the remaining cells, and their rows in it; None if no cell remains."""
     rows = np.flatnonzero(np.isin(body.cells, cells))
     if len(rows) == 0:
         return None

@@ -1,7 +1,7 @@
-"""Trimming: a line parts the sheet, and the elements beyond it go.
+"""Trimming: remove the elements on one side of a line.
 
-What stays keeps its state. The forces that the metal beyond the line exerted become a dead load, which a stage then
-takes to zero. docs/operations.md
+The part keeps its state. The forces of the removed metal become a dead load, which the next operation reduces to zero.
+docs/operations.md
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _STEP = 1e-6
 #: Largest share of the cells that stay in pieces that hang by an edge or a node: they are the teeth of a slanting cut.
 _TEETH = 0.05
 
-#: A profile, corners of an open polyline, or a function that is negative where the part is.
+#: A profile, corners of an open polyline, or a function that is negative on the part.
 Line = Profile | Sequence[tuple[float, float]] | Callable[[Floats, Floats], ArrayLike]
 
 
@@ -37,31 +37,31 @@ class AtItsEnd(Protocol):
 
     @property
     def model(self) -> Model:
-        """Its model, where the run has ended."""
+        """Its model, at the end of the run."""
 
 
 @dataclass(frozen=True)
 class Trim:
     """A cut along a line: the elements whose centres lie beyond it are removed.
 
-    The cut follows edges of elements. Elements on each other through the thickness stay or go together.
+    The cut follows edges of elements. Elements stacked through the thickness are kept or removed together.
 
     Parameters
     ----------
     line : Profile, sequence of (x, y) or callable
-        Lines and arcs in the view; what lies on the left of who walks along them stays: the inside of a
+        Lines and arcs in the view; the part is on the left of the direction of travel: the inside of a
         counter-clockwise curve, the outside of a clockwise one, which cuts a hole. The first and the last line of an
-        open one go on for ever. Or corners of such an open one; or a function of two arrays of coordinates that is
-        negative where the part stays.
+        open one extend to infinity. Or corners of such an open one; or a function of two arrays of coordinates that is
+        negative on the part.
     view : {"z", "x", "y"}
         Direction of the view: the coordinates of the line are x, y; y, z; or x, z.
     formed : bool
-        Whether the line lies on the formed part, or on the flat blank that it was made of.
+        Whether the line is given on the formed part, or on the flat blank.
 
     Raises
     ------
     InvalidValue
-        If the line is none, or the view is no axis.
+        If the line is invalid, or the view is no axis.
 
     Examples
     --------
@@ -88,7 +88,7 @@ class Trim:
             self._tool().kernel()
 
     def of(self, before: Model | AtItsEnd) -> ModelPart:
-        """The part that is left of a sheet.
+        """The remaining part of a sheet.
 
         Parameters
         ----------
@@ -98,7 +98,7 @@ class Trim:
         Raises
         ------
         EmptySet
-            If the line misses the sheet, or nothing is left.
+            If the line does not cut the sheet, or nothing remains.
         MeshError
             If what is left is in pieces, or hangs together by edges or nodes. Cells that hang so are cut off too where
             they are few.
@@ -133,7 +133,7 @@ class Trim:
         return np.ascontiguousarray(points[:, _VIEWS[self.view]])
 
     def _kept(self, mesh: Mesh, sheet: Floats) -> NDArray[np.bool_]:
-        """Cells whose stack has its centre on the side that stays."""
+        """Mask of the cells whose stack has its centre on the kept side."""
         stack = stacks(mesh)
         count = np.bincount(stack)
         centres = sheet[mesh.connectivity].mean(axis=1)
@@ -175,7 +175,7 @@ class Trim:
         return Extruded(line, x="x", y="y")
 
     def _values(self, xy: Floats) -> Floats:
-        """Negative on the side that stays; the signed distance of a line."""
+        """Negative on the kept side; the signed distance of a line."""
         if callable(self.line):
             values = np.asarray(self.line(xy[:, 0], xy[:, 1]), dtype=float)
             if values.shape != (len(xy),) or not np.isfinite(values).all():
@@ -189,7 +189,7 @@ class Trim:
         return self._tool().gap(np.column_stack([xy, np.zeros(len(xy))]))[0]
 
     def _distance(self, xy: Floats) -> Floats:
-        """Distance from the line; of a function its value over its slope, to first order."""
+        """Distance from the line; for a function its value over its slope, to first order."""
         values = self._values(xy)
         if not callable(self.line):
             return values

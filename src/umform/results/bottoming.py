@@ -1,4 +1,4 @@
-"""Tools that bottom: the force of a tool on its way jumps, and the sheet is squeezed between it and other tools."""
+"""Detect bottoming: the force of a tool jumps because the sheet is squeezed between tools."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from umform.results.history import History
 
 Floats = NDArray[np.float64]
 
-#: Growth of the force within a part of the way, after the tool has touched for another part of it and for some rows.
+#: Growth of the force within a part of the travel, after contact over another part of it and in some rows.
 _GROWTH, _WITHIN, _AFTER, _ROWS = 4.0, 0.05, 0.1, 4
 #: Part of the force of a tool that other tools answer across the sheet where it bottoms, and how far across and beside
 #: it the points which they hold may lie, in thicknesses.
@@ -30,9 +30,9 @@ class Bottoming:
     Attributes
     ----------
     at : float
-        Value of its way.
+        Value of its control.
     before, largest : float
-        Largest force up to there, and up to the end of the step.
+        Largest force up to that value, and up to the end of the step.
     """
 
     at: float
@@ -41,16 +41,16 @@ class Bottoming:
 
 
 def bottoming(way: Floats, force: Floats) -> Bottoming | None:
-    """Where the force of a tool jumps along its way; None where it does not.
+    """Where the force of a tool jumps along its travel; None if it does not.
 
-    It does so where it exceeds four times its largest value so far within a twentieth of the way, and keeps that to the
-    end. First touch is none: the tool must have touched over a tenth of the way and in four rows. A tool that stands or
-    comes back does not bottom: others change its force.
+    The tool bottoms where the force exceeds four times its previous maximum within a twentieth of the travel and stays
+    there to the end. First contact does not count: the tool must have touched over a tenth of the travel and in four
+    rows. A tool that stands still or moves back does not bottom: other tools change its force.
 
     Parameters
     ----------
     way, force : ndarray, shape (n,)
-        Way and force in the rows of a step.
+        Control value and force in the rows of a step.
     """
     run, size = np.abs(way - way[:1]), np.abs(force)
     touching = np.flatnonzero(size > 1e-6 * size.max(initial=0.0))

@@ -1,4 +1,4 @@
-// Tree of boxes around things in space, eight to a node: those that may lie nearest to a point, the near ones first.
+// Tree of boxes around items in space, eight to a node: finds the items that may be nearest to a point, near ones first.
 #pragma once
 
 #include <algorithm>
@@ -42,18 +42,18 @@ void prefetch(const T& thing) {
 
 class BoxTree {
   public:
-    /// Parts the things by medians of their middles along the longest sides, until each has a box of its own.
+    /// Divides the items by medians of their centres along the longest sides, until each box has one item.
     explicit BoxTree(const std::vector<Box>& boxes) : order_(boxes.size()) {
         std::iota(order_.begin(), order_.end(), 0);
         nodes_.reserve(boxes.size());
         if (!boxes.empty()) split(boxes, {0, static_cast<int>(boxes.size())});
     }
 
-    /// The things in the order of the leaves.
+    /// The items in the order of the leaves.
     const std::vector<int>& order() const { return order_; }
 
-    /// Calls visit(place in the order) for each thing whose box is no farther than the square of a distance, which visit
-    /// returns and which may only fall; ahead(place in the order) for each that may be visited soon.
+    /// Calls visit(place in the order) for each item whose box is no farther than the square of a distance, which visit
+    /// returns and which may only fall; ahead(place in the order) for each item that may be visited soon.
     template <class Visit, class Ahead>
     void near_first(const Vec3& x, double square, const Visit& visit, const Ahead& ahead) const {
         std::array<Waiting, (width - 1) * deepest + 1> stack;
@@ -84,9 +84,9 @@ class BoxTree {
     }
 
   private:
-    static constexpr int registers = 2, width = registers * lane_count, deepest = 11;  // 8^10 things do not exist
+    static constexpr int registers = 2, width = registers * lane_count, deepest = 11;  // enough for 8^10 items
 
-    /// A node, or a thing by the complement of its place; the square of the distance of its box.
+    /// A node, or an item by the complement of its place; the square of the distance of its box.
     struct Waiting {
         int child;
         double square;
@@ -151,7 +151,7 @@ class BoxTree {
         return at;
     }
 
-    /// Brings the things of a range on both sides of the median of their middles along the longest side.
+    /// Partitions a range of items at the median of their centres along the longest side.
     int halve(const std::vector<Box>& boxes, Range range) {
         Box middles = Box::empty();
         for (int i = range.first; i < range.last; ++i) middles.take_in(middle(boxes[order_[i]]));

@@ -13,7 +13,7 @@ from umform.processes.draw_bead.parameters import DrawBead
 from umform.run import solve
 from umform.steps import Move, Step
 
-#: Elements of a mesh over those of the next coarser one.
+#: Ratio of the element counts of successive meshes.
 _FINER = math.sqrt(2.0)
 #: Margin of the penalty that follows from a coarser mesh.
 _MARGIN = 1.2
@@ -22,9 +22,9 @@ FRAMES = 12
 
 
 def build(case: DrawBead) -> tuple[Model, list[Step]]:
-    """Model of a case, and its steps: the upper tool goes down while the right end is held, then this end is drawn.
+    """Model of a case, and its steps: the upper tool closes while the right end is held, then this end is drawn.
 
-    The sheet flows in from the left only, where its end is free.
+    The sheet flows in from the left, where its end is free.
     """
     direction = None if case.rolling is None else rolling_at(case.rolling)
     model = Model(case.sheet(), case.element, material=case.material, rolling=direction)
@@ -51,7 +51,7 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
     Returns
     -------
     Drawn
-        That of the finest mesh, with its limits and their errors.
+        Results on the finest mesh, with extrapolated forces and their errors.
     """
     every: list[Drawn] = []
     for part in (_FINER**-2, 1.0 / _FINER, 1.0):
@@ -75,7 +75,7 @@ def penalty_by(coarser: Drawn, case: DrawBead) -> float:
 
 
 def limits_of(coarse: Drawn, fine: Drawn) -> Limits:
-    """Both forces extrapolated to elements of zero length, from two meshes."""
+    """Both forces extrapolated to zero element size, from several meshes."""
     refined = fine.case.elements / coarse.case.elements
     return Limits(Limit.of(coarse.restraint, fine.restraint, refined), Limit.of(coarse.uplift, fine.uplift, refined))
 
@@ -102,7 +102,7 @@ def drawn_through(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto",
     Raises
     ------
     NoConvergence
-        If it cannot be continued; the attribute ``result`` holds what was reached.
+        If it does not converge; the attribute ``result`` holds the run up to the failure.
     """
     model, steps = build(case)
     return Drawn.of(case, solve(model, steps, frames=frames, solver=solver, progress=progress))

@@ -34,18 +34,17 @@ class DrawBead:
     material : J2 or Metal
         Law of the sheet.
     radius, height : float
-        Radius of the tip of the bead, and how far it stands out of its flat. A bead higher than its radius has upright
-        sides.
+        Radius of the tip of the bead, and its height above the flat. A bead higher than its radius has vertical sides.
     groove_radius : float
         Radius of both edges of the groove.
     groove : float, optional
-        Width of the groove between its walls; default: bead, two thicknesses and a tenth of them.
+        Width of the groove between its walls; default: that of the bead plus 2.1 thicknesses.
     gap : float, optional
-        Air between the flats of the closed tools beside the sheet; default 5 % of the thickness.
+        Clearance beside the sheet between the flats of the closed tools; default 5 % of the thickness.
     friction : float
         Coefficient of friction on both tools.
     draw : float, optional
-        Way of the strip; default 1.5 times the way through the bead.
+        Travel of the strip; default: 1.5 times the length of the path through the bead.
     element : str or Element
         Name in the catalogue, or an element of your own.
     elements : float
@@ -56,7 +55,7 @@ class DrawBead:
         Pressure per penetration on both tools; default as for any contact, and on finer meshes by the penetration of
         the coarser ones.
     rolling : float, optional
-        Degrees from the line of the bead to the rolling direction, 90 across it; a law with directions needs it.
+        Degrees from the line of the bead to the rolling direction, 90 across it; required by an anisotropic law.
     """
 
     thickness: float
@@ -95,7 +94,7 @@ class DrawBead:
 
     @property
     def air(self) -> float:
-        """Air between the flats beside the sheet."""
+        """Clearance beside the sheet between the flats."""
         return 0.05 * self.thickness if self.gap is None else self.gap
 
     @property
@@ -105,17 +104,19 @@ class DrawBead:
 
     @property
     def through(self) -> float:
-        """No less than the length of the sheet between both edges: what goes in there and comes out has passed all."""
+        """Upper bound of the length of the sheet between both edges: sheet that enters and leaves has passed the whole
+        bead.
+        """
         return 2.0 * (self.reach + self.height)
 
     @property
     def way(self) -> float:
-        """Way of the strip."""
+        """Travel of the strip."""
         return 1.5 * self.through if self.draw is None else self.draw
 
     @property
     def closing(self) -> float:
-        """Way of the upper tool from where it touches the sheet to where the flats have closed."""
+        """Travel of the upper tool from first contact with the sheet until the flats are closed."""
         return self.height - self.air
 
     @property
