@@ -42,13 +42,13 @@ struct Coulomb {
         trial[Stiffness] = ratio * penalty;
     }
 
-    /// Puts the multipliers that were wanted into the history that was read.
+    /// Writes the requested multipliers to the input history.
     void put_wanted(const double* trial, double* read) const {
         read[Multiplier] = trial[Multiplier];
         put(read + Change, at(trial + Change));
     }
 
-    /// The multipliers wanted have become those of the new history.
+    /// The requested multipliers are now those of the new history.
     void settle(double* trial) const { put(trial + Change, Vec3{}); }
 
     Rubbing rubbing(const double* history) const {

@@ -1,4 +1,4 @@
-"""What the parameters of air bending may be; what does not fit is refused with its likely cause and remedy."""
+"""Checks of the parameters of air bending; errors name the likely cause and remedy."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from umform.errors import InvalidValue
 from umform.processes.air_bending.rules import RULES, angle_rule
 from umform.processes.rules import Rule, check_rolling, check_rules, number
 
-#: Openings over the thickness between which a sheet is bent in the air; press brakes take 5 to 16.
+#: Range of opening over thickness for air bending; press brakes use 5 to 16.
 _NARROWEST, _WIDEST = 1.0, 500.0
-#: Penalty over E / thickness beyond which Newton's method creeps.
+#: Penalty times thickness over E beyond which Newton's method converges slowly.
 _STIFFEST = 1e3
 
 
 class Geometry(Protocol):
-    """What is looked at of :class:`umform.processes.air_bending.AirBending`."""
+    """Parameters of :class:`umform.processes.air_bending.AirBending` that the checks use."""
 
     @property
     def thickness(self) -> float:
@@ -64,18 +64,30 @@ class Geometry(Protocol):
         """Way of the punch."""
 
     def free_length(self, slope: float) -> float:
-        """Length of the sheet between the tools at a slope."""
+        """Free length of the leg at a slope."""
+
+    @property
+    def bottoming(self) -> bool:
+        """Whether the punch may press the sheet onto the flanks of the die."""
+
+    @property
+    def punch_width(self) -> float | None:
+        """Width of the body of the punch."""
 
     @property
     def largest_stroke(self) -> float:
-        """Way at which the punch has bent the sheet into the die."""
+        """Stroke at which the sheet touches a flank."""
+
+    @property
+    def stroke_limit(self) -> float:
+        """The largest stroke that is taken."""
 
     @property
     def steepest(self) -> float:
-        """Smallest angle of bending that the tools allow."""
+        """Smallest angle that the tools allow."""
 
 
-#: The force that counts as zero after unloading leaves about the smallest of these open; see `brake`.
+#: The force that counts as zero after unloading leaves about the smallest of these as error; see `brake`.
 _FINEST, _COARSEST = 0.001, 10.0
 _TOLERANCE = Rule(
     lambda value: number(value) and _FINEST <= value <= _COARSEST,
@@ -89,7 +101,7 @@ _WANTED = angle_rule(
 
 
 def check_parameters(values: Mapping[str, Any]) -> None:
-    """Refuse parameters that do not fit, each by itself, and a penalty beside the penetration that it follows from.
+    """Refuse invalid parameters one by one, and a penalty given together with the allowed penetration.
 
     Raises
     ------
@@ -108,28 +120,51 @@ def check_parameters(values: Mapping[str, Any]) -> None:
 
 
 def check_geometry(case: Geometry) -> None:
-    """Refuse tools between which the sheet finds no room, and strokes beyond the end of air bending.
+    """Refuse tools that leave no room for the sheet, and strokes beyond the end of air bending.
 
     Raises
     ------
     InvalidValue
-        ``where`` is the name of the parameter that is the likeliest to be wrong.
+        ``where`` is the parameter that is most likely wrong.
     """
     _check_proportions(case)
     _check_room(case)
     _check_rolling(case)
-    if case.stroke is not None and case.stroke > case.largest_stroke:
+    _check_bottoming(case)
+    if case.stroke is not None and not case.bottoming and case.stroke > case.largest_stroke:
         raise _unfit(
             case,
             "stroke",
             "the stroke goes beyond air bending: the sheet would be pressed against a flank",
             f"with these tools a leg lies against a flank at {case.largest_stroke:.4g} at the latest",
-            "a smaller stroke, or sharper angles of punch and die",
+            "a smaller stroke, sharper angles of punch and die, or bottoming=True",
+        )
+
+
+def _check_bottoming(case: Geometry) -> None:
+    """Refuse tools that cannot bottom, and strokes that squeeze the sheet by more than half of its thickness."""
+    if not case.bottoming:
+        return
+    if case.punch_angle > case.die_angle:
+        raise _unfit(
+            case,
+            "punch_angle",
+            "a punch cannot press the sheet onto the flanks of a sharper die",
+            f"the flanks of the die have {case.die_angle:g} degrees: the punch meets its shoulders first",
+            "an angle of the punch up to that of the die; 88 and 88, or 90 and 90 are usual",
+        )
+    if case.stroke is not None and case.stroke > case.stroke_limit:
+        raise _unfit(
+            case,
+            "stroke",
+            "the stroke squeezes the sheet by more than half of its thickness",
+            f"half a thickness beyond the bottom is {case.stroke_limit:.4g}",
+            "a smaller stroke, or a force",
         )
 
 
 def _check_rolling(case: Geometry) -> None:
-    """Refuse a law with directions without its rolling direction, and one that breaks the symmetry of a half width."""
+    """Refuse an anisotropic law without rolling direction, and one that breaks the symmetry of a half width."""
     check_rolling(case.material, case.rolling)
     anisotropic = getattr(case.material, "directional", False)
     if anisotropic and case.width is not None and (case.rolling or 0.0) % 90.0 != 0.0:
@@ -143,12 +178,12 @@ def _check_rolling(case: Geometry) -> None:
 
 
 def _unfit(case: Geometry, name: str, what: str, cause: str, remedy: str) -> InvalidValue:
-    """Error for a parameter that does not fit the others."""
+    """Error for a parameter that does not agree with the others."""
     return InvalidValue(what, where=name, value=getattr(case, name), cause=cause, remedy=remedy)
 
 
 def _check_proportions(case: Geometry) -> None:
-    """Refuse an opening and a penalty of another size than the sheet's."""
+    """Refuse an opening and a penalty of an unlikely order of magnitude."""
     if not _NARROWEST <= case.opening / case.thickness <= _WIDEST:
         raise _unfit(
             case,
@@ -168,7 +203,7 @@ def _check_proportions(case: Geometry) -> None:
 
 
 def _check_room(case: Geometry) -> None:
-    """Refuse a tip that is wider than the die, shoulders without flanks, and a sheet that would be drawn."""
+    """Refuse a tip that is wider than the die, shoulders without flanks, and a sheet that would be drawn in."""
     tip = 2.0 * case.punch_radius * math.cos(math.radians(0.5 * case.punch_angle))
     if tip >= case.opening:
         raise _unfit(
@@ -178,7 +213,7 @@ def _check_room(case: Geometry) -> None:
             f"the tip is round on a width of {tip:.4g}, the opening is {case.opening:.4g}",
             "a smaller punch_radius, or a wider opening",
         )
-    flank = 0.5 * case.opening / math.sin(math.radians(0.5 * case.die_angle))  # from the top to the point of the V
+    flank = 0.5 * case.opening / math.sin(math.radians(0.5 * case.die_angle))  # from the top to the apex of the V
     setback = case.die_radius * math.tan(math.radians(0.25 * (180.0 - case.die_angle)))
     if setback >= flank:
         raise _unfit(
@@ -216,7 +251,7 @@ def needed_stroke(case: Geometry) -> float:
 
 
 def check_tolerance(tolerance: float) -> None:
-    """Refuse a tolerance of the angle that cannot be met, or that says nothing.
+    """Refuse a tolerance of the angle that is too small or too large.
 
     Raises
     ------
@@ -231,7 +266,7 @@ def check_angle(case: Geometry, angle: float) -> None:
     Raises
     ------
     InvalidValue
-        If the angle is no angle of a bend, or not above those of punch and die.
+        If the angle is not between 0 and 180 degrees, or not above those of punch and die.
     """
     _WANTED.check("angle", angle)
     least = max(case.die_angle, case.punch_angle)
@@ -240,7 +275,7 @@ def check_angle(case: Geometry, angle: float) -> None:
 
 
 def unreachable(angle: float, cause: str) -> InvalidValue:
-    """Error for an angle that the sheet does not take before it lies against a flank."""
+    """Error for an angle that is not reached before the sheet touches a flank."""
     return InvalidValue(
         "the angle cannot be reached before the sheet lies against a flank",
         where="angle",

@@ -1,4 +1,4 @@
-"""How triangles hang together: what lies on the other side of each edge; holes and turned triangles are refused."""
+"""Connectivity of triangles: the neighbour across each edge; holes and flipped triangles are refused."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from umform.errors import HoleInSurface, TurnedNormals, UnfitTriangles
 from umform.surfaces.joined import groups
 from umform.surfaces.triangles import Floats, Ids, Triangles
 
-#: How many places a message names.
+#: Number of places that a message names.
 _PLACES = 4
-#: A triangle that is lower than this part of its longest edge is a line.
+#: A triangle whose height is below this part of its longest edge is degenerate.
 _FLAT = 1e-9
 #: Cosine between the normals of two triangles beside each other from which one lies folded on the other.
 _FOLDED = -0.985
@@ -142,7 +142,7 @@ def _refuse_holes(points: Floats, start: Ids, end: Ids, where: str) -> None:
 
 
 def _places(at: Floats, what: str) -> str:
-    """The first places of a list, and how many there are."""
+    """The first places of a list, and their number."""
     named = ", ".join(_point(x) for x in at[:_PLACES])
     return f"{len(at)} {what}{'s' if len(at) > 1 else ''}, at {named}{', ...' if len(at) > _PLACES else ''}"
 
