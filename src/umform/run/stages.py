@@ -168,7 +168,7 @@ def continued(model: Model, before: Result, motion: RigidMotion | None = None) -
     before : Result
         Result of the stage before.
     motion : RigidMotion, optional
-        How the part is moved as a rigid body first, into other tools for instance.
+        How the part is moved as a rigid body first, into other tools for instance. eq. (5.91)
 
     Returns
     -------
