@@ -56,6 +56,10 @@ def bead(
     element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND8",
     elements: Annotated[float, option("Elements per quarter turn of the smaller radius.", SOLUTION)] = 14.0,
     contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 4,
+    penalty: Annotated[
+        float | None,
+        option("Contact pressure per penetration, MPa/mm; default by the allowed penetration.", SOLUTION),
+    ] = None,
     extrapolate: Annotated[
         bool,
         option(
@@ -95,6 +99,7 @@ def bead(
         element=element,
         elements=elements,
         contact_points=contact_points,
+        penalty=penalty,
     )
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))

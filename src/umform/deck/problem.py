@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from os import PathLike
 from typing import Any
 
@@ -81,16 +82,27 @@ class Problem(Solving):
 
     def solve(self, *, solver: str | None = None, **options: Any) -> Result:
         """Solve the problem; ``progress``, ``checkpoint``, ``every`` and ``note`` as for :func:`umform.solve`."""
-        return self._noted(super().solve(solver=solver, **options))
+        return self._noted(partial(super().solve, solver=solver, **options))
 
     def resume(self, path: str | PathLike[str], *, solver: str | None = None, **options: Any) -> Result:
         """Resume a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
-        return self._noted(super().resume(path, solver=solver, **options))
+        return self._noted(partial(super().resume, path, solver=solver, **options))
 
-    def _noted(self, result: Result) -> Result:
+    def _noted(self, run: Callable[[], Result]) -> Result:
+        """Run, and leave the notes with the result, or with what was reached of it."""
+        try:
+            result = run()
+        except BaseException as error:
+            self._note(getattr(error, "result", None))
+            raise
+        self._note(result)
+        return result
+
+    def _note(self, result: Result | None) -> None:
+        if result is None:
+            return
         for note in self.notes:
             result.note(note)
-        return result
 
     def _given(self) -> tuple[Model | None, list[Step]]:
         return self.model, self.steps

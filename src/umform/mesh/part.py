@@ -64,6 +64,17 @@ def part_of_mesh(mesh: Mesh, kept: NDArray[np.bool_]) -> MeshPart:
     return MeshPart(made, cells, nodes.astype(np.int64), pieces)
 
 
+def joined_by_faces(mesh: Mesh, cells: Numbers) -> Numbers:
+    """Number of the part in which each of some cells lies; parts share edges or single nodes at most; (cells,)."""
+    sides = [np.sort(mesh.connectivity[cells][:, nodes], axis=1) for nodes in nodes_of_faces(mesh.cell)]
+    links, before = [], len(cells)
+    for kind in (sides[:2], sides[2:]):  # upper and lower faces may have more nodes than the lateral ones
+        number = np.unique(np.concatenate(kind), axis=0, return_inverse=True)[1].ravel()
+        links.append(np.stack([np.tile(np.arange(len(cells)), len(kind)), before + number], axis=1))
+        before += int(number.max()) + 1
+    return connected(before, np.concatenate(links))[: len(cells)]
+
+
 def stacks(mesh: Mesh) -> Numbers:
     """Stack of each cell: cells above each other through the thickness, shape (cells,)."""
     half, count = mesh.connectivity.shape[1] // 2, len(mesh.connectivity)

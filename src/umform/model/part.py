@@ -31,7 +31,9 @@ class ModelPart:
     edge_distance : float
         Largest distance of a node of the cut edge from the line, in the view of the line.
     removed_energies : Energies
-        Elastic energy and plastic work in the removed metal; NaN if a law does not know them.
+        Elastic energy and plastic work in the metal that was cut off; NaN where a law does not know them.
+    dropped : int
+        Number of cells on the side that stays which were removed as well: they hung by an edge or a node.
     """
 
     model: Model
@@ -39,6 +41,7 @@ class ModelPart:
     nodes: Numbers
     edge_distance: float
     removed_energies: Energies
+    dropped: int = 0
 
     @property
     def mesh(self) -> Mesh:
@@ -46,7 +49,7 @@ class ModelPart:
         return self.model.mesh
 
     @classmethod
-    def of(cls, whole: Model, part: MeshPart, edge_distance: float) -> ModelPart:
+    def of(cls, whole: Model, part: MeshPart, edge_distance: float, dropped: int = 0) -> ModelPart:
         """The part of a model at a converged state.
 
         Raises
@@ -65,14 +68,15 @@ class ModelPart:
         gone = [_energies(body, whole) for body in whole.bodies]
         left = [_energies(body, model) for body in model.bodies]
         removed = [sum(getattr(e, kind) for e in gone) - sum(getattr(e, kind) for e in left) for kind in _KINDS]
-        return cls(model, part.cells, part.nodes, edge_distance, Energies(*removed))
+        return cls(model, part.cells, part.nodes, edge_distance, Energies(*removed), dropped)
 
     def __str__(self) -> str:
         lost = self.removed_energies
+        hanging = f"; {self.dropped} more are cut off, which hung by an edge or a node only" if self.dropped else ""
         return (
-            f"{len(self.cells)} cells are left; the cut edge is at most {self.edge_distance:.4g} from the line; "
-            f"the metal that was cut off had the elastic energy {lost.elastic:.4g} and the plastic work "
-            f"{lost.plastic:.4g}"
+            f"{len(self.cells)} cells are left{hanging}; "
+            f"the cut edge is at most {self.edge_distance:.4g} from the line; the metal that was "
+            f"cut off had the elastic energy {lost.elastic:.4g} and the plastic work {lost.plastic:.4g}"
         )
 
 

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import EmptySet, InvalidValue, MeshError
 from umform.mesh import Mesh
-from umform.mesh.part import part_of_mesh, stacks
+from umform.mesh.part import joined_by_faces, part_of_mesh, stacks
 from umform.model.model import Model
 from umform.model.part import ModelPart
 from umform.surfaces import Extruded, Profile
@@ -25,6 +25,8 @@ Floats = NDArray[np.float64]
 #: Coordinates of a view along an axis.
 _VIEWS = {"x": (1, 2), "y": (0, 2), "z": (0, 1)}
 _STEP = 1e-6
+#: Largest share of the cells that stay in pieces that hang by an edge or a node: they are the teeth of a slanting cut.
+_TEETH = 0.05
 
 #: A profile, corners of an open polyline, or a function that is negative on the part.
 Line = Profile | Sequence[tuple[float, float]] | Callable[[Floats, Floats], ArrayLike]
@@ -98,13 +100,21 @@ class Trim:
         EmptySet
             If the line does not cut the sheet, or nothing remains.
         MeshError
-            If the remaining part is in pieces.
+            If what is left is in pieces, or hangs together by edges or nodes. Cells that hang so are cut off too where
+            they are few.
         """
         model = before if isinstance(before, Model) else before.model
         mesh, sheet = model.mesh, self._in_view(model)
         kept = self._kept(mesh, sheet)
         self._refuse(kept, sheet)
         part = part_of_mesh(mesh, kept)
+        dropped = 0
+        if part.pieces == 1:
+            hanging = _hanging(mesh, kept)
+            dropped = len(hanging)
+            if dropped:
+                kept[hanging] = False
+                part = part_of_mesh(mesh, kept)
         if part.pieces > 1:
             raise MeshError(
                 "the line leaves the part in pieces that hang together nowhere",
@@ -114,7 +124,7 @@ class Trim:
                 remedy="trim along one line after the other, or along a closed curve around one piece",
             )
         edge = self._distance(sheet[part.nodes[part.mesh.nodes("cut")]])
-        return ModelPart.of(model, part, float(np.abs(edge).max()))
+        return ModelPart.of(model, part, float(np.abs(edge).max()), dropped)
 
     def _in_view(self, model: Model) -> Floats:
         points = model.mesh.points
@@ -187,3 +197,26 @@ class Trim:
         shifts = step * np.eye(2)
         slope = np.stack([self._values(xy + s) - self._values(xy - s) for s in shifts], axis=1) / (2.0 * step)
         return np.asarray(values / np.maximum(np.linalg.norm(slope, axis=1), 1e-300))
+
+
+def _hanging(mesh: Mesh, kept: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Cells that stay and share edges or nodes at most with the largest piece.
+
+    Raises
+    ------
+    MeshError
+        If these are more than teeth of the cut.
+    """
+    cells = np.flatnonzero(kept)
+    piece = joined_by_faces(mesh, cells)
+    sizes = np.bincount(piece)
+    hanging: NDArray[np.int64] = cells[piece != np.argmax(sizes)]
+    if len(hanging) > _TEETH * len(cells):
+        raise MeshError(
+            "the line leaves pieces that hang together by an edge or a node",
+            where="Trim",
+            value=f"{len(sizes)} pieces, {len(hanging)} of {len(cells)} elements beside the largest one",
+            cause="a cut that nearly meets itself or the edge of the sheet",
+            remedy="a line that stays two elements away from others, or smaller elements there",
+        )
+    return hanging

@@ -89,16 +89,16 @@ def taken(
         try:
             while run.number <= len(steps):
                 _finish(run, steps[run.number - 1])
+                warn_of_bottoming(run.model, result, run.number, run.evaluation.found)
                 run.number, run.loop = run.number + 1, None
             if last:
                 warn_of_contact(run.model, result)
-                warn_of_bottoming(run.model, result)
                 tell_of_rest(run.model, result)
             _pause(run, start, checkpoints, stop, last=last)
         except BaseException as error:  # whatever ends the run, the error carries the results so far
             result.seconds = clock.perf_counter() - start
             if isinstance(error, NoConvergence):
-                warn_of_bottoming(run.model, result)
+                warn_of_bottoming(run.model, result, run.number, run.evaluation.found)
             error.result = result  # type: ignore[attr-defined]
             raise
 

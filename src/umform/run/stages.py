@@ -16,6 +16,7 @@ import numpy as np
 
 from umform.errors import InvalidValue
 from umform.model import Model, Snapshot
+from umform.model.rigid_motion import RigidMotion
 from umform.run.execute import resume, solve
 from umform.run.result import Result
 from umform.steps import Step
@@ -155,7 +156,7 @@ def _result_of(stage: Stage, before: Result | None, file: Path | None, options: 
     return solve(model, steps, checkpoint=file, **options)
 
 
-def continued(model: Model, before: Result) -> Model:
+def continued(model: Model, before: Result, motion: RigidMotion | None = None) -> Model:
     """Start a model of the same mesh and bodies from the final state of a run.
 
     Parameters
@@ -165,6 +166,8 @@ def continued(model: Model, before: Result) -> Model:
         ``here=True`` hold the nodes in their positions at that time.
     before : Result
         Result of the stage before.
+    motion : RigidMotion, optional
+        Rigid motion of the part before the stage, into other tools for instance.
 
     Returns
     -------
@@ -191,5 +194,6 @@ def continued(model: Model, before: Result) -> Model:
         )
     state = old.snapshot()
     terms = {body.key: state.terms[body.key] for body in old.bodies}
-    model.restore(Snapshot(state.u, terms=terms))
+    u = state.u if motion is None else motion.displacement(old.mesh.points, state.u)
+    model.restore(Snapshot(u, terms=terms))
     return model

@@ -210,7 +210,7 @@ def equilibrium(increment: Increment) -> Converged:
     plain = [failure for name, failure in failures.items() if name != "softer penalties"]
     for one in plain:
         if one.cause is Cause.SINGULAR:
-            plain[-1].cause, plain[-1].motion = Cause.SINGULAR, one.motion
+            plain[-1].cause = Cause.SINGULAR  # the motion stays that of the last attempt, whose state the message is of
     raise plain[-1]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import sys
+import threading
 from importlib import import_module, util
 from importlib.machinery import PathFinder
 from pathlib import Path
@@ -14,11 +15,17 @@ from .. import _core
 
 # Functions that set the number of threads of OpenBLAS: as built for SciPy, and by others.
 _PREFIXES = ("scipy_openblas", "openblas")
+_first = threading.Lock()
+
+
+def hand_over() -> None:
+    """Pass the functions of BLAS to the kernels, once per process; other threads wait until it is done."""
+    with _first:
+        _hand_over()
 
 
 @functools.cache
-def hand_over() -> None:
-    """Pass the functions of BLAS to the kernels, once per process."""
+def _hand_over() -> None:
     module = _module("scipy.linalg.cython_blas")
     _core.set_blas(module.__pyx_capi__, *_thread_control(module))
 

@@ -109,7 +109,6 @@ class Multifrontal:
 
     def _iteration(self, values: FloatArray) -> Iteration:
         """Inverse iteration with the factors."""
-        sizes, nothing = np.abs(values), np.zeros(self._pattern.n)
         row, column = self._factors.scales
         if self._with_cholesky:
             row = column = 1.0 / np.sqrt(values[self._pattern.indptr[:-1]])
@@ -123,7 +122,7 @@ class Multifrontal:
 
         def magnitude(x: FloatArray) -> FloatArray:
             product = np.empty_like(x)
-            self._factors.residual(sizes, nothing, x, product)
+            self._factors.residual_of_magnitudes(values, np.zeros_like(x), x, product)
             return -product
 
         return Iteration(row, column, solve, magnitude)

@@ -9,6 +9,7 @@ singular one.
 
 The test is made for a weak pivot, and for the first matrix of a pattern if a solution is large relative to its
 right-hand side, eq. (5.75): a mechanism that hardly moves the equations which are eliminated last leaves no weak pivot.
+Bending of very thin sheets resists less than round-off, too, eq. (5.80).
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ import numpy as np
 
 from .protocol import FloatArray
 
-#: Range of pivots, relative to their columns, for which the test is made; smaller ones are singular in any case.
+#: Range of pivots, relative to their columns, for which the test is made; smaller ones are round-off alone.
 _WEAK, _NOTHING = 1e-8, 1e-15
 #: Resistance above which a solution is no mechanism: round-off leaves 1e-13 of one.
 _LARGE = 1e-10
@@ -63,12 +64,12 @@ def weak_pivot(pivots: FloatArray, size: FloatArray, resistance: Resistance) -> 
     weakest = int(np.argmin(part))
     if part[weakest] > _WEAK:
         return None
+    if not part[weakest] > 0.0:
+        return Loose(weakest)  # nothing can be divided by it
     start = np.zeros(len(pivots))
     start[weakest] = 1.0
-    if not part[weakest] > _NOTHING:
-        return Loose(weakest)
     least, motion = resistance(start)
-    return None if least > _ROUNDING else Loose(weakest, motion)
+    return None if least > _ROUNDING and part[weakest] > _NOTHING else Loose(weakest, motion)
 
 
 def large_solution(count: int, once: Resistance, resistance: Resistance) -> Loose | None:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -55,7 +56,7 @@ class Factors {
     Outcome factor(Kind kind, const double* values, Scaling scaling, int threads) {
         kind_ = kind, values_ = values, scaling_ = std::move(scaling), state_ = Outcome::Done, equation_ = -1;
         const OneBlasThread alone;
-        reserve(threads);
+        const std::optional<Buffers> buffers = reserve(threads);
         schedule_.run(
             plan_, threads,
             [&](const Schedule::Unit& unit, int thread) {
@@ -114,17 +115,14 @@ class Factors {
     static constexpr int kLarge = 256;  // rows of an update that is shared among threads
 
     /// Takes all memory that is planned, or throws: before any product is made, since BLAS may not come back where none is left.
-    void reserve(int threads) {
+    std::optional<Buffers> reserve(int threads) {
         const int team = schedule_.worth_a_team ? threads : 1;
         storage_.grow(plan_.factor_size);
         if (static_cast<int>(workers_.size()) < threads) workers_ = std::vector<Worker>(threads);
         for (int t = 0; t < team; ++t) workers_[t].stacks.reserve(schedule_.even, schedule_.odd);
-        if (!schedule_.worth_a_team) return;
+        if (!schedule_.worth_a_team) return {};
         const std::size_t above = schedule_.peak > pool_.held() ? schedule_.peak - pool_.held() : 0;
-        {
-            const Block room(above + static_cast<std::size_t>(blas().cold(team)) * Blas::buffer);
-        }
-        blas().warm(team);
+        return std::optional<Buffers>(std::in_place, team, above);
     }
 
     void process(int f, Worker& worker, bool stack) {

@@ -112,13 +112,17 @@ class Triangulated final : public Surface {
             if (least > bound) return;
             if (count == candidates.size()) settle(x, candidates, count, bound, best);
             candidates[count++] = {i, least, foot.p};
+            prefetch(thirds_[i].patch);
             bound = std::min(bound, (distance + flat.lift) * (1.0 + 1e-9));
         };
         look_at(last);
-        tree_.near_first(x, bound * bound, [&](int i) {
-            if (i != last) look_at(i);
-            return bound * bound;
-        });
+        tree_.near_first(
+            x, bound * bound,
+            [&](int i) {
+                if (i != last) look_at(i);
+                return bound * bound;
+            },
+            [&](int i) { prefetch(flats_[i]); });
         settle(x, candidates, count, bound, best);
         return best;
     }

@@ -50,7 +50,7 @@ def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
     yield "[material]", law_keys(case.material, rolling)
     die = {"shape": "VDie", "opening": case.opening, "angle": case.die_angle, "shoulder_radius": case.die_radius}
     yield "[tools.die]", die
-    tip = {"tip_radius": case.punch_radius, "angle": case.punch_angle}
+    tip = {"tip_radius": case.punch_radius, "angle": case.punch_angle, "width": case.punch_width}
     yield "[tools.punch]", {"shape": "Punch", **tip, "origin": case.punch.origin}
     for tool, faces in (("die", "lower"), ("punch", "upper")):
         how = {"penalty": case.penalty, "penetration": case.penetration, "points": case.contact_points}

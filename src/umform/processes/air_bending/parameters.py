@@ -43,6 +43,10 @@ class AirBending:
         Length of the bend. Without it, plane strain: a sheet so wide that nothing moves along the bend.
     stroke : float, optional
         Way of the punch from where it touches the sheet; a search or a table does not need it.
+    bottoming : bool
+        Whether the punch may press the sheet onto the flanks of the die.
+    punch_width : float, optional
+        Width of the body of the punch; by default its flanks have no end.
     material : J2 or Metal
         Law of the sheet.
     rolling : float, optional
@@ -77,6 +81,8 @@ class AirBending:
     punch_radius: float = 1.5
     width: float | None = None
     stroke: float | None = None
+    bottoming: bool = False
+    punch_width: float | None = None
     material: J2 | Metal = DC04_LIKE
     rolling: float | None = None
     element: str | Element = "BEND18"
@@ -105,7 +111,7 @@ class AirBending:
     @property
     def punch(self) -> Punch:
         """The punch, touching the sheet at z = thickness."""
-        return Punch(self.punch_radius, self.punch_angle, origin=(0.0, 0.0, self.thickness))
+        return Punch(self.punch_radius, self.punch_angle, self.punch_width, origin=(0.0, 0.0, self.thickness))
 
     @property
     def rolling_direction(self) -> Vector | None:
@@ -147,6 +153,18 @@ class AirBending:
     def largest_stroke(self) -> float:
         """Stroke at which a sheet wrapped around the tip lies against a flank."""
         return self.rigid_stroke(self.steepest)
+
+    @property
+    def bottom_stroke(self) -> float:
+        """Stroke at which tip and flanks of the angle of the die are one thickness from the die. eq. (5.90)"""
+        flank = math.radians(90.0 - 0.5 * self.die_angle)
+        tip = (self.punch_radius + self.thickness) / math.cos(flank) - 0.5 * self.opening * math.tan(flank)
+        return self.thickness + self.punch_radius - tip
+
+    @property
+    def stroke_limit(self) -> float:
+        """The largest stroke that is taken: the end of air bending, or half a thickness beyond the bottom."""
+        return self.bottom_stroke + 0.5 * self.thickness if self.bottoming else self.largest_stroke
 
     @property
     def reach(self) -> float:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from umform.errors import NoConvergence
-from umform.results.bottoming import bottoming
+from umform.results.bottoming import bottoming, bottoms
 from umform.results.forming import FormingLimit, distance_from, forming_fields
 from umform.run import Result
 
@@ -76,7 +76,8 @@ def ending_of(case: Cup | UBend, result: Result, limit: FormingLimit, failure: N
         text = f"the sheet wrinkles under the holder{reached}: it stands off both tools by {air:.3g}; a stronger holder"
         return Ending("wrinkled", text, early)
     bottom = bottoming(result["stroke"], result["punch_fz"])
-    if bottom is not None:
+    punch = next(tool for tool in model.tools if tool.name == "punch")
+    if bottom is not None and bottoms(model, punch, {pair: pair.found for pair in model.contacts}):
         text = f"the punch bottoms at a stroke of {abs(bottom.at):.4g}{reached}: its force rises from"
         remedy = "a shorter stroke, or more clearance"
         return Ending("bottomed", f"{text} {bottom.before:.4g} to {bottom.largest:.4g}; {remedy}", early)

@@ -15,6 +15,8 @@ from umform.steps import Move, Step
 
 #: Ratio of the element counts of successive meshes.
 _FINER = math.sqrt(2.0)
+#: Margin of the penalty that follows from a coarser mesh.
+_MARGIN = 1.2
 #: States that each step keeps for pictures.
 FRAMES = 12
 
@@ -28,11 +30,13 @@ def build(case: DrawBead) -> tuple[Model, list[Step]]:
     model = Model(case.sheet(), case.element, material=case.material, rolling=direction)
     model.fix(lambda x, y, z: y > -1.0, "y")
     pull = model.prescribe("x1", "x", "way")
-    given = {"points": case.contact_points, "friction": case.friction}
+    given = {"points": case.contact_points, "friction": case.friction, "penalty": case.penalty}
     lower, upper = model.tool("lower_tool", case.lower_tool), model.tool("upper_tool", case.upper_tool)
     down = model.drive(upper, "-z", name="closing")
     model.contact("lower", lower, name="below", **given)  # type: ignore[arg-type]
     model.contact("upper", upper, name="above", **given)  # type: ignore[arg-type]
+    for pair in model.contacts:
+        pair.allowed = case.allowed
     return model, [Move(down, to=case.closing), Move(pull, to=case.way)]
 
 
@@ -49,16 +53,25 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
     Drawn
         Results on the finest mesh, with extrapolated forces and their errors.
     """
-    coarser = [
-        drawn_through(replace(case, elements=case.elements * part), frames=0, solver=solver, progress=progress)
-        for part in (_FINER**-2, 1.0 / _FINER)
-    ]
-    fine = drawn_through(case, frames=frames, solver=solver, progress=progress)
-    every = [*coarser, fine]
+    every: list[Drawn] = []
+    for part in (_FINER**-2, 1.0 / _FINER, 1.0):
+        mesh = replace(case, elements=case.elements * part)
+        if every and case.penalty is None:
+            mesh = replace(mesh, penalty=penalty_by(every[-1], mesh))
+        every.append(drawn_through(mesh, frames=frames if part == 1.0 else 0, solver=solver, progress=progress))
+    fine = every[-1]
     limits = Limits(
         Limit.of_three([one.restraint for one in every], _FINER), Limit.of_three([one.uplift for one in every], _FINER)
     )
     return replace(fine, limits=limits)
+
+
+def penalty_by(coarser: Drawn, case: DrawBead) -> float:
+    """Penalty with which a mesh keeps its allowed penetration, by what a coarser one has reached. eq. (4.191)"""
+    pairs, result = coarser.result.model.contacts, coarser.result
+    deepest = max(float(result[f"{pair.name}_penetration"].max()) for pair in pairs)
+    excess = deepest * coarser.case.elements / case.elements / case.allowed
+    return max(1.0, _MARGIN * excess**2) * max(pair.penalty for pair in pairs)
 
 
 def limits_of(coarse: Drawn, fine: Drawn) -> Limits:

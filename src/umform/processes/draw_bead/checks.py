@@ -45,6 +45,12 @@ RULES: dict[str, Rule] = {
         "20 is usual, 10 with 18 nodes",
     ),
     "contact_points": contact_points("such as 4"),
+    "penalty": Rule(
+        positive,
+        "the penalty must be positive",
+        "a sign or a missing value",
+        "in MPa/mm, such as 1e5; omit it",
+    ).optional(),
 }
 
 

@@ -51,6 +51,9 @@ class DrawBead:
         Elements along the sheet on a quarter turn of the sharper radius.
     contact_points : int
         Contact points per direction and facet.
+    penalty : float, optional
+        Pressure per penetration on both tools; default as for any contact, and on finer meshes by the penetration of
+        the coarser ones.
     rolling : float, optional
         Degrees from the line of the bead to the rolling direction, 90 across it; required by an anisotropic law.
     """
@@ -67,6 +70,7 @@ class DrawBead:
     element: str | Element = "BEND8"
     elements: float = 14.0
     contact_points: int = 4
+    penalty: float | None = None
     rolling: float | None = None
 
     def __post_init__(self) -> None:
@@ -138,12 +142,21 @@ class DrawBead:
         """The bead, whose tip touches the sheet."""
         return Extruded(self.profile, origin=(0.0, 0.0, self.thickness + self.height))
 
+    @property
+    def size(self) -> float:
+        """Length of an element."""
+        return 0.5 * math.pi * min(self.radius, self.groove_radius) / self.elements
+
+    @property
+    def allowed(self) -> float:
+        """Allowed penetration: half the rise of an arc over an element, 1/200 of the thickness at least. eq. (4.190)"""
+        return max(self.size**2 / (16.0 * min(self.radius, self.groove_radius)), self.thickness / 200.0)
+
     def sheet(self) -> Mesh:
-        """A strip of unit width; its right end lies beside the groove, its left end is drawn up to there."""
-        size = 0.5 * math.pi * min(self.radius, self.groove_radius) / self.elements
+        """A strip of the width one; its right end lies beside the groove, its left end is drawn up to there."""
         right = self.reach + 6.0 * self.thickness
         left = -(self.reach + 4.0 * self.thickness + self.way + 2.0 * self.height)
         flat = strip(
-            right - left, 1.0, self.thickness, (round((right - left) / size), 1), cell=element(self.element).cell
+            right - left, 1.0, self.thickness, (round((right - left) / self.size), 1), cell=element(self.element).cell
         )
         return flat.transformed(lambda x: x + np.array([left, 0.0, 0.5 * self.thickness]))
