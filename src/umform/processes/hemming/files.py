@@ -24,7 +24,7 @@ _PICTURES = ("hem.png", "hem.svg")
 FILES = (*_DATA, *_PICTURES)
 RESULTS = FILES
 
-#: The measures, in the order of tables; docs/bending-operations.md defines each.
+#: The measures, in the order of tables, defined in docs/bending-operations.md.
 QUANTITIES = {
     "force": Quantity("force", "N/mm", 1),
     "largest_force": Quantity("largest force", "N/mm", 1),
@@ -40,7 +40,7 @@ QUANTITIES = {
 
 
 def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
-    """Write all that is known of a hem.
+    """Write all files of a hem.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
     hem : Hem
         The hem.
     note : str
-        Where the material comes from; may be empty.
+        Source of the material data; may be empty.
     """
     from umform.plotting import save
 
@@ -67,7 +67,7 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
 
 
 def record(hem: Hem) -> dict[str, Any]:
-    """Parameters and results in a form that JSON can hold; ``profile`` is a list of [x, z], the base on z = 0."""
+    """Parameters and results as JSON data; ``profile`` is a list of [x, z], the base on z = 0."""
     case, first = hem.case, hem.first.bends[0]
     given = {name: getattr(case, name) for name in ("gap", "flange", "base", "insert", "insert_edge", "angle")}
     return {
@@ -90,7 +90,7 @@ def rows(measures: HemMeasures) -> list[list[str]]:
 
 
 def picture(hem: Hem) -> Figure:
-    """Force over the way of the plate, and the hem after unloading."""
+    """Force over the travel of the plate, and the hem after unloading."""
     with house_style():
         figure = Picture(figsize=(9.0, 3.6))
         left, right = figure.subplots(1, 2)
