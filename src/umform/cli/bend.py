@@ -14,6 +14,7 @@ import typer
 
 from umform.cli.check import Force
 from umform.cli.drawing import without_help_texts
+from umform.cli.drawn_tools import drawn_tools
 from umform.cli.metal import law_of, numbers
 from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
@@ -36,6 +37,7 @@ _MOST_ROWS = 1000
 
 @app.command()
 def bend(
+    context: typer.Context,
     out: Annotated[
         str | None,
         typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/bend."),
@@ -49,6 +51,10 @@ def bend(
     die_radius: Annotated[float, option("Radius of the die shoulders.", _TOOLS)] = 2.0,
     punch_angle: Annotated[float, option("Angle of the punch.", _TOOLS)] = 85.0,
     punch_radius: Annotated[float, option("Radius of the punch tip.", _TOOLS)] = 1.5,
+    punch_dxf: Annotated[Path | None, option("DXF drawing of the punch, in place of its numbers.", _TOOLS)] = None,
+    punch_layer: Annotated[str | None, option("Layer with its section; default: the whole drawing.", _TOOLS)] = None,
+    die_dxf: Annotated[Path | None, option("DXF drawing of the die, in place of its numbers.", _TOOLS)] = None,
+    die_layer: Annotated[str | None, option("Layer with its section; default: the whole drawing.", _TOOLS)] = None,
     thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 2.0,
     width: Annotated[float | None, option("Length of the bend; default: plane strain.", SHEET)] = None,
     material: Material = None,
@@ -113,6 +119,7 @@ def bend(
         die_radius=die_radius,
         punch_angle=punch_angle,
         punch_radius=punch_radius,
+        **drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer),
         width=width,
         material=law,
         rolling=rolling,
