@@ -53,13 +53,13 @@ def library() -> dict[str, Any]:
     }
 
 
-def tools_for(wanted: Wanted) -> dict[str, float] | None:
+def tools_for(wanted: Wanted) -> dict[str, float | None] | None:
     """Die and punch of the library, nearest to those at hand, with which the wanted angle can be reached.
 
     Returns
     -------
-    dict of str to float or None
-        The parameters to change; None if there are none, or if no angle is wanted.
+    dict of str to float, or None
+        The parameters to change, drawn tools are put away; None if there are none, or if no angle is wanted.
     """
     if wanted.angle is None:
         return None
@@ -68,10 +68,11 @@ def tools_for(wanted: Wanted) -> dict[str, float] | None:
     punches = [punch for punch in tools()["punches"] if punch["angle"] <= most] or tools()["punches"][-1:]
     for angle in angles:
         for punch in sorted(punches, key=lambda one: -float(one["angle"])):
-            change = {"die_angle": angle, "punch_angle": punch["angle"], "punch_radius": punch["radius"]}
+            sizes = {"die_angle": angle, "punch_angle": punch["angle"], "punch_radius": punch["radius"]}
+            change = {name: float(value) for name, value in sizes.items()} | {"punch": None, "die": None}
             try:
-                wanted.model_copy(update={name: float(value) for name, value in change.items()}).case()
+                wanted.model_copy(update=change).case()
             except UmformError:
                 continue
-            return {name: float(value) for name, value in change.items()}
+            return change
     return None

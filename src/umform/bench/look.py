@@ -9,10 +9,12 @@ import numpy as np
 from pydantic import ValidationError
 
 from umform.bench.library import ROOM, tools_for
+from umform.bench.refusals import said
+from umform.bench.shelf import Shelf
 from umform.bench.wanted import Wanted, problems_of
-from umform.deck.errors import DeckError
 from umform.errors import UmformError
 from umform.materials import J2, Metal
+from umform.processes.air_bending.drawn_tools import drawn_sizes
 from umform.processes.air_bending.formulas import FORCE_FACTORS, tensile_strength
 from umform.processes.air_bending.parameters import AirBending
 
@@ -22,13 +24,15 @@ _NARROW, _WIDE = 5.0, 16.0
 _RADIUS = 0.16
 
 
-def look(values: object) -> dict[str, Any]:
+def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
     """Look at the values of a form.
 
     Parameters
     ----------
     values : object
         What has come from the page; anything.
+    shelf : Shelf, optional
+        Drawn tools.
 
     Returns
     -------
@@ -41,31 +45,21 @@ def look(values: object) -> dict[str, Any]:
     except ValidationError as error:
         return {"problems": problems_of(error), "warnings": []}
     try:
-        case = wanted.at_tools()
+        case = wanted.at_tools(shelf)
     except UmformError as error:
         return {"problems": [said(error)], "warnings": [], "change": tools_for(wanted)}
     found: dict[str, Any] = {"problems": [], "warnings": _warnings(wanted, case), "drawing": drawing(case)}
     found["expected"] = _expected(wanted, case)
+    found["measured"] = {
+        name: round(value, 4) for name, value in drawn_sizes(case.punch_section, case.die_section).items()
+    }
     try:
-        wanted.case()
+        wanted.case(shelf)
     except UmformError as error:
         found |= {"problems": [said(error)], "change": tools_for(wanted)}
     else:
         found["change"] = tools_for(wanted) if any(row["kind"] == "close" for row in found["warnings"]) else None
     return found
-
-
-def said(error: UmformError) -> dict[str, Any]:
-    """An error in parts."""
-    if isinstance(error, DeckError) and len(error.errors) > 1:
-        return {**_parts(error), "all": [_parts(one) for one in error.errors[:50]]}
-    return _parts(error)
-
-
-def _parts(error: UmformError) -> dict[str, Any]:
-    value = "" if error.value is None else str(error.value)[:200]
-    parts = {"what": error.what, "where": error.where, "value": value, "cause": error.cause, "remedy": error.remedy}
-    return {"kind": "refused", **{name: str(text)[:2000] for name, text in parts.items()}}
 
 
 def drawing(case: AirBending) -> dict[str, Any]:
@@ -75,6 +69,10 @@ def drawing(case: AirBending) -> dict[str, Any]:
     return {
         "die": case.die.profile.points(chord, far).tolist(),
         "punch": np.add(case.punch.profile.points(chord, far), (0.0, case.thickness)).tolist(),
+        "closed": {"die": case.die.profile.closed, "punch": case.punch.profile.closed},
+        "depth": case.depth,
+        "opening": case.opening,
+        "punch_radius": case.punch_radius,
         "half_length": case.half_length,
         "largest_stroke": case.largest_stroke,
         "thickness": case.thickness,

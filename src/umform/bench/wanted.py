@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
+from umform.bench.shelf import Shelf
 from umform.materials import J2, Metal
 from umform.processes.air_bending.checks import check_angle
+from umform.processes.air_bending.drawn_tools import drawn_sizes
 from umform.processes.air_bending.parameters import AirBending
 
 #: Meshes by name: a quick look, the default of `umform bend`, and what docs/air-bending.md says is better.
@@ -35,6 +38,8 @@ class Wanted(BaseModel):
         Degrees from the bend line to the rolling direction.
     thickness, opening, die_angle, die_radius, punch_angle, punch_radius : float
         See `AirBending`.
+    punch, die : str or None
+        Drawn tools by their names; the numbers of the tool are then those of its drawing.
     angle, stroke : float or None
         What is wanted: one of them.
     length : float
@@ -60,6 +65,8 @@ class Wanted(BaseModel):
     die_radius: _Radius = 2.0
     punch_angle: _Degrees = 85.0
     punch_radius: _Radius = 1.5
+    punch: Annotated[str, Field(min_length=1, max_length=40)] | None = None
+    die: Annotated[str, Field(min_length=1, max_length=40)] | None = None
     angle: Annotated[float, Field(ge=20.0, le=179.0)] | None = 90.0
     stroke: Annotated[float, Field(ge=0.01, le=1000.0)] | None = None
     length: Annotated[float, Field(ge=1.0, le=20000.0)] = 1000.0
@@ -88,21 +95,30 @@ class Wanted(BaseModel):
             metal = of_certificate(self.material, self.yield_stress, self.tensile_strength, elongation)
         return metal.law, f"{metal.name}: {metal.source}; {metal.caveat}"
 
-    def case(self) -> AirBending:
+    def case(self, shelf: Shelf | None = None) -> AirBending:
         """Parameters of the bend; an angle that the tools cannot reach is refused.
+
+        Parameters
+        ----------
+        shelf : Shelf, optional
+            Where drawn tools are.
 
         Raises
         ------
         InvalidValue
             ``where`` is the name of the parameter.
         """
-        case = self.at_tools()
+        case = self.at_tools(shelf)
         if self.angle is not None:
             check_angle(case, self.angle)
         return case
 
-    def at_tools(self) -> AirBending:
+    def at_tools(self, shelf: Shelf | None = None) -> AirBending:
         """Parameters of the bend, whatever angle is wanted."""
+        drawn: dict[str, Any] = {}
+        for kind, name in self.drawn.items():
+            if name is not None:
+                drawn[f"{kind}_section"] = (shelf or Shelf(Path())).tool(kind, name)
         return AirBending(
             thickness=self.thickness,
             opening=self.opening,
@@ -110,6 +126,7 @@ class Wanted(BaseModel):
             die_radius=self.die_radius,
             punch_angle=self.punch_angle,
             punch_radius=self.punch_radius,
+            **drawn,
             width=self.length if self.whole else None,
             stroke=self.stroke,
             material=self.law()[0],
@@ -118,10 +135,19 @@ class Wanted(BaseModel):
         )
 
     @property
+    def drawn(self) -> dict[str, str | None]:
+        """Names of the drawn tools."""
+        return {"punch": self.punch, "die": self.die}
+
+    def with_sizes(self, case: AirBending) -> Wanted:
+        """The same with the sizes of its drawn tools."""
+        return self.model_copy(update=drawn_sizes(case.punch_section, case.die_section))
+
+    @property
     def title(self) -> str:
         """A few words for lists."""
         goal = f"{self.angle:g}°" if self.angle is not None else f"{self.stroke:g} mm"
-        return f"{self.material} {self.thickness:g} mm, V{self.opening:g}, {goal}"
+        return f"{self.material} {self.thickness:g} mm, V{self.opening:.4g}, {goal}"
 
 
 def problems_of(error: ValidationError) -> list[dict[str, Any]]:

@@ -4,6 +4,7 @@
 import { post } from "./api.js";
 import { element, make } from "./dom.js";
 import { number, problemText, t } from "./texts.js";
+import { MEASURED, Tools } from "./tools.js";
 
 /** @typedef {{name: string, unit?: string, step?: number, kind?: "number" | "select" | "check", list?: string}} Field */
 /** @type {Record<string, Field[]>} */
@@ -16,6 +17,8 @@ const GROUPS = {
     { name: "length", unit: "mm", step: 10 },
   ],
   tools: [
+    { name: "die", kind: "select" },
+    { name: "punch", kind: "select" },
     { name: "die_angle", unit: "°", step: 1, list: "die-angles" },
     { name: "die_radius", unit: "mm", step: 0.1 },
     { name: "punch_angle", unit: "°", step: 1, list: "punch-angles" },
@@ -43,11 +46,13 @@ export class Form {
     this.library = library;
     this.looked = looked;
     this.values = { ...library.defaults, ...kept() };
+    this.tools = new Tools((kind, name) => this.takeTool(kind, name));
     this.round = 0;
     /** @type {AbortController | null} */
     this.asking = null;
     this.build();
     this.look();
+    this.tools.refresh().then(() => this.build());
   }
 
   build() {
@@ -56,8 +61,9 @@ export class Form {
       const rows = fields.map((field) => this.row(field));
       if (!name) return make("div", { class: "group" }, ...rows);
       const hint = make("p", { class: "soft" }, t(`group.${name}.hint`));
+      const more = name === "tools" ? [make("button", { type: "button", id: "tool-ask", onclick: () => this.tools.ask() }, t("tool.ask"))] : [];
       return make("details", { "data-group": name, open: open.has(name) }, make("summary", {}, t(`group.${name}`)),
-        make("div", { class: "group" }, hint, ...rows));
+        make("div", { class: "group" }, hint, ...rows, ...more));
     });
     element("fields").replaceChildren(...groups, ...this.lists());
   }
@@ -69,7 +75,7 @@ export class Form {
     let input;
     if (kind === "select") {
       input = make("select", { ...common, oninput: null, onchange: () => this.take(name) }, ...this.options(name));
-      input.value = value;
+      input.value = value ?? "";
     } else if (kind === "check") {
       input = make("input", { ...common, type: "checkbox", checked: Boolean(value) });
     } else {
@@ -94,6 +100,7 @@ export class Form {
 
   /** @param {string} name */
   options(name) {
+    if (name === "punch" || name === "die") return this.tools.options(name, this.values[name]);
     if (name === "mesh") return this.library.meshes.map((/** @type {string} */ one) => make("option", { value: one }, t(`mesh.${one}`)));
     const group = (/** @type {boolean} */ card) => this.library.metals.filter((/** @type {any} */ metal) => metal.card === card)
       .map((/** @type {any} */ metal) => make("option", { value: metal.name }, metal.number && metal.number !== metal.name ? `${metal.name} (${metal.number})` : metal.name));
@@ -123,12 +130,19 @@ export class Form {
   take(name) {
     const input = element(`f-${name}`);
     this.values[name] = input.type === "checkbox" ? input.checked
-      : input.tagName === "SELECT" ? input.value
+      : input.tagName === "SELECT" ? input.value || null
       : input.value === "" ? (input.validity.badInput ? "?" : null) : Number(input.value);
     if (name === "stroke" && this.values.stroke !== null) this.change({ angle: null });
     if (name === "angle" && this.values.angle !== null) this.change({ stroke: null });
     if (name === "opening") this.suitRadius();
     if (name === "material") this.suitMaterial();
+    this.look();
+  }
+
+  /** A drawn tool was read, or was deleted: then it is none. @param {"punch" | "die"} kind @param {string | null} name */
+  takeTool(kind, name) {
+    if (name || !this.tools.rows.some((one) => one.kind === kind && one.name === this.values[kind])) this.values[kind] = name;
+    this.build();
     this.look();
   }
 
@@ -180,6 +194,8 @@ export class Form {
       element(`f-${name}`).removeAttribute("aria-invalid");
     }
     element("form-note").textContent = "";
+    this.change(found.measured ?? {});
+    for (const [kind, names] of Object.entries(MEASURED)) names.forEach((name) => (element(`f-${name}`).disabled = Boolean(this.values[kind])));
     for (const row of found.warnings) this.note(row, "warn", problemText(row));
     for (const row of found.problems) this.note(row, "bad", problemText(row));
     if (found.change) this.offer(found.change);

@@ -27,7 +27,8 @@ async function start() {
     expected,
     ask: (/** @type {string} */ name, /** @type {any} */ what) => jobs.ask(name, what),
     again: (/** @type {any} */ job) => {
-      form.change(job.parameters);
+      Object.assign(form.values, job.parameters);
+      form.build();
       go("bend");
       form.look();
     },

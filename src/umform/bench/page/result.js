@@ -4,13 +4,11 @@
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
 import { plot } from "./plot.js";
-import { language, number, t } from "./texts.js";
+import { language, number, problemText, t } from "./texts.js";
 
 const OFTEN = 200;
 /** The numbers that go to the machine, in the order of the page. */
 const HEROES = ["stroke", "largest_force", "angle", "springback", "radius", "k_factor", "bend_deduction", "outer_strain", "thinning"];
-/** Seconds between two looks at the shape of a run that goes on. */
-const SHAPE_EVERY = 5;
 
 export class Result {
   /** @param {any} library @param {import("./drawing.js").Drawing} drawing @param {any} actions */
@@ -22,7 +20,6 @@ export class Result {
     this.timer = 0;
     /** @type {any} */
     this.job = null;
-    this.shapeAt = 0;
     this.shapeOf = "";
     // Buttons stay while the numbers change, lest a click be lost; the frame of the shape stays, lest it load again.
     this.bar = make("div", { class: "bar-part" });
@@ -80,7 +77,7 @@ export class Result {
     }
     if (job.live.section && job.kind === "bend") this.drawing.setComputed(job.live);
     if (job.state === "running" || job.state === "waiting") parts.push(this.progress(job));
-    if (job.state === "failed" || job.reason) parts.push(make("pre", { class: "bad" }, job.reason));
+    if (job.state === "failed" || job.reason) parts.push(this.failure(job));
     if (job.state === "stopped") parts.push(make("p", { class: "soft" }, t(`stopped.${job.kind}`)));
     if (job.state === "done" && job.summary.measures) parts.push(...this.numbers(job));
     if (job.state === "done" && job.summary.last) parts.push(this.last(job));
@@ -109,6 +106,13 @@ export class Result {
     if (what === "again") this.actions.again(job);
     else if (what !== "remove" || window.confirm(t("remove.sure", { title: job.title }))) await this.actions.ask(job.id, what);
     await this.refresh();
+  }
+
+  /** What went wrong, in parts where they are known. @param {any} job */
+  failure({ reason, summary: { error } }) {
+    const all = error ? error.all ?? [error] : [{ what: reason }];
+    const text = (/** @type {any} */ one) => [problemText({ ...one, kind: "" }), one.where && `${one.where}: ${one.value}`].filter(Boolean).join("\n");
+    return make("pre", { class: "bad" }, all.map(text).join("\n\n"));
   }
 
   /** @param {any} job */
@@ -191,15 +195,28 @@ export class Result {
     return make("figure", { class: "card" }, plot([{ name: "", ...curve }], words), caption);
   }
 
-  /** Scene and curves of the report in a frame of their own; while a run goes on they are loaded again now and then. @param {any} job */
+  /** Scene and curves of the report in a frame of their own. @param {any} job */
   shape(job) {
-    const now = performance.now() / 1000;
-    const version = `${job.id}-${job.live.shape}-${job.state}`;
-    if (version === this.shapeOf || (job.state === "running" && this.shapeOf && now - this.shapeAt < SHAPE_EVERY)) return;
+    const version = `${job.id}-${job.live.shape}`;
+    if (version === this.shapeOf) return;
+    const before = this.shapeOf;
     this.shapeOf = version;
-    this.shapeAt = now;
-    const src = `/files/${job.id}/shape.html?v=${encodeURIComponent(version)}`;
-    this.space.replaceChildren(make("iframe", { title: t("shape.title"), sandbox: "allow-scripts allow-downloads", src }));
+    if (before) {
+      this.renew(job.id);
+      return;
+    }
+    const frame = make("iframe", { title: t("shape.title"), sandbox: "allow-scripts allow-downloads", src: `/files/${job.id}/shape.html` });
+    frame.addEventListener("load", () => this.renew(job.id)); // the page of the shape is as old as the first state
+    this.space.replaceChildren(frame);
+  }
+
+  /** Hand the present scene to the frame of the shape, which keeps view and choices. @param {string} name */
+  async renew(name) {
+    const frame = this.space.querySelector("iframe");
+    try {
+      const scene = await get(`/api/jobs/${name}/scene`);
+      if (name === this.name) frame?.contentWindow?.postMessage(scene, "*"); // a frame without an origin has no name
+    } catch { /* the next state is as good */ }
   }
 
   /** @param {any} job */

@@ -136,8 +136,7 @@ def read_punch(path: str | Path, layer: str | None = None) -> DrawnPunch:
     FileProblem, InvalidValue, OpenSection
         If there is no such file or layer, or its lines and arcs are no outline, or none of a punch.
     """
-    profile = Profile.from_dxf(path, layer, tolerance=_APART)
-    return DrawnPunch.of(profile if profile.closed else profile.reversed(), str(path))
+    return DrawnPunch.of(read_section(path, layer, above=True), str(path))
 
 
 def read_die(path: str | Path, layer: str | None = None) -> DrawnDie:
@@ -148,7 +147,13 @@ def read_die(path: str | Path, layer: str | None = None) -> DrawnDie:
     FileProblem, InvalidValue, OpenSection
         If there is no such file or layer, or its lines and arcs are no outline, or none of a die.
     """
-    return DrawnDie.of(Profile.from_dxf(path, layer, tolerance=_APART), str(path))
+    return DrawnDie.of(read_section(path, layer, above=False), str(path))
+
+
+def read_section(path: str | Path, layer: str | None, *, above: bool) -> Profile:
+    """The section in a DXF drawing, where it was drawn; the solid of an open one is above or below it."""
+    profile = Profile.from_dxf(path, layer, tolerance=_APART)
+    return profile.reversed() if above and not profile.closed else profile
 
 
 def drawn_sizes(punch: DrawnPunch | None, die: DrawnDie | None) -> dict[str, float]:

@@ -161,8 +161,14 @@ class AirBending:
     @property
     def largest_stroke(self) -> float:
         """Stroke at which a sheet wrapped around the tip lies against a flank, or on the bottom of a drawn die."""
-        depth = math.inf if self.die_section is None else self.die_section.depth
-        return min(self.rigid_stroke(self.steepest), depth)
+        return min(self.rigid_stroke(self.steepest), self.depth)
+
+    @property
+    def depth(self) -> float:
+        """Depth of the die in its middle."""
+        if self.die_section is not None:
+            return self.die_section.depth
+        return 0.5 * self.opening / math.tan(math.radians(0.5 * self.die_angle))
 
     @property
     def reach(self) -> float:
