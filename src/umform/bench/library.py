@@ -8,7 +8,7 @@ from importlib.resources import files
 from typing import Any
 
 from umform import sheet_metals
-from umform.bench.wanted import MESHES, Wanted
+from umform.bench.wanted import MESHES, WORKS, Wanted
 from umform.errors import UmformError
 from umform.processes.air_bending.measures import QUANTITIES
 
@@ -48,6 +48,7 @@ def library() -> dict[str, Any]:
         "metals": metals,
         "tools": tools(),
         "meshes": list(MESHES),
+        "works": list(WORKS),
         "quantities": quantities,
         "defaults": Wanted().model_dump(),
     }
@@ -61,7 +62,7 @@ def tools_for(wanted: Wanted) -> dict[str, float | None] | None:
     dict of str to float, or None
         The parameters to change, drawn tools are put away; None if there are none, or if no angle is wanted.
     """
-    if wanted.angle is None:
+    if wanted.work != "bend" or wanted.angle is None:
         return None
     most = wanted.angle - ROOM
     angles = [angle for angle in tools()["die_angles"] if angle <= most] or tools()["die_angles"][-1:]

@@ -50,6 +50,8 @@ def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
         return {"problems": [said(error)], "warnings": [], "change": tools_for(wanted)}
     found: dict[str, Any] = {"problems": [], "warnings": _warnings(wanted, case), "drawing": drawing(case)}
     found["expected"] = _expected(wanted, case)
+    if wanted.work == "bottom":  # the sheet has the angle of the die there
+        found["shown"] = {"angle": case.die_angle, "stroke": None}
     found["measured"] = {
         name: round(value, 4) for name, value in drawn_sizes(case.punch_section, case.die_section).items()
     }
@@ -107,7 +109,7 @@ def _warnings(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
     if not _NARROW <= ratio <= _WIDE:
         found.append({"where": "opening", "kind": "ratio", "bounds": {"ratio": round(ratio, 1)}})
     sharpest = max(case.die_angle, case.punch_angle)
-    if wanted.angle is not None and sharpest < wanted.angle < sharpest + ROOM:
+    if wanted.work == "bend" and wanted.angle is not None and sharpest < wanted.angle < sharpest + ROOM:
         found.append({"where": "angle", "kind": "close", "bounds": {"angle": sharpest}})
     if wanted.whole and wanted.length > 20.0 * case.thickness:
         found.append({"where": "whole", "kind": "long", "bounds": {"ratio": round(wanted.length / case.thickness)}})

@@ -10,6 +10,7 @@ from pydantic_core import PydanticCustomError
 
 from umform.bench.shelf import Shelf
 from umform.materials import J2, Metal
+from umform.processes.air_bending.bottoming import with_travel
 from umform.processes.air_bending.checks import check_angle
 from umform.processes.air_bending.drawn_tools import drawn_sizes
 from umform.processes.air_bending.parameters import AirBending
@@ -21,6 +22,9 @@ MESHES: dict[str, dict[str, Any]] = {
     "fine": {"layers": 4, "thickness_points": 5},
 }
 
+#: Kinds of work.
+WORKS = ("bend", "bottom")
+
 _Degrees = Annotated[float, Field(ge=10.0, le=175.0)]
 _Radius = Annotated[float, Field(ge=0.05, le=200.0)]
 
@@ -30,6 +34,8 @@ class Wanted(BaseModel):
 
     Attributes
     ----------
+    work : str
+        "bend": one bend in the air; "bottom": pressed onto the flanks of the die.
     material : str
         Metal of the library.
     yield_stress, tensile_strength, uniform_elongation : float or None
@@ -41,7 +47,10 @@ class Wanted(BaseModel):
     punch, die : str or None
         Drawn tools by their names; the numbers of the tool are then those of its drawing.
     angle, stroke : float or None
-        What is wanted: one of them.
+        What is wanted of a bend in the air: one of them.
+    press_force, travel : float or None
+        What is wanted of bottoming, one of them: force in kN for each metre, or way in mm beyond where flanks and tip are
+        one thickness from the die.
     length : float
         Length of the bend, for the force in kN.
     whole : bool
@@ -54,6 +63,7 @@ class Wanted(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
 
+    work: Literal["bend", "bottom"] = "bend"
     material: Annotated[str, Field(min_length=1, max_length=60)] = "DC04"
     yield_stress: Annotated[float, Field(ge=20.0, le=3000.0)] | None = None
     tensile_strength: Annotated[float, Field(ge=20.0, le=3000.0)] | None = None
@@ -69,6 +79,8 @@ class Wanted(BaseModel):
     die: Annotated[str, Field(min_length=1, max_length=40)] | None = None
     angle: Annotated[float, Field(ge=20.0, le=179.0)] | None = 90.0
     stroke: Annotated[float, Field(ge=0.01, le=1000.0)] | None = None
+    press_force: Annotated[float, Field(ge=1.0, le=100000.0)] | None = None
+    travel: Annotated[float, Field(ge=-5.0, le=20.0)] | None = None
     length: Annotated[float, Field(ge=1.0, le=20000.0)] = 1000.0
     whole: bool = False
     mesh: Literal["quick", "usual", "fine"] = "usual"
@@ -76,7 +88,10 @@ class Wanted(BaseModel):
 
     @model_validator(mode="after")
     def _one_goal(self) -> Wanted:
-        if (self.angle is None) == (self.stroke is None):
+        if self.work == "bottom":
+            if (self.press_force is None) == (self.travel is None):
+                raise PydanticCustomError("bottom_goal", "give the force or the way beyond the bottom, one of them")
+        elif (self.angle is None) == (self.stroke is None):
             raise PydanticCustomError("goal", "give the angle or the stroke, one of them")
         if (self.yield_stress is None) != (self.tensile_strength is None):
             raise PydanticCustomError("coil", "a coil has both, Re and Rm")
@@ -109,7 +124,7 @@ class Wanted(BaseModel):
             ``where`` is the name of the parameter.
         """
         case = self.at_tools(shelf)
-        if self.angle is not None:
+        if self.work == "bend" and self.angle is not None:
             check_angle(case, self.angle)
         return case
 
@@ -119,7 +134,8 @@ class Wanted(BaseModel):
         for kind, name in self.drawn.items():
             if name is not None:
                 drawn[f"{kind}_section"] = (shelf or Shelf(Path())).tool(kind, name)
-        return AirBending(
+        bottoms = self.work == "bottom"
+        case = AirBending(
             thickness=self.thickness,
             opening=self.opening,
             die_angle=self.die_angle,
@@ -128,11 +144,13 @@ class Wanted(BaseModel):
             punch_radius=self.punch_radius,
             **drawn,
             width=self.length if self.whole else None,
-            stroke=self.stroke,
+            stroke=None if bottoms else self.stroke,
+            bottoming=bottoms,
             material=self.law()[0],
             rolling=self.rolling,
             **MESHES[self.mesh],
         )
+        return case if not bottoms or self.travel is None else with_travel(case, self.travel)
 
     @property
     def drawn(self) -> dict[str, str | None]:
@@ -146,7 +164,10 @@ class Wanted(BaseModel):
     @property
     def title(self) -> str:
         """A few words for lists."""
-        goal = f"{self.angle:g}°" if self.angle is not None else f"{self.stroke:g} mm"
+        if self.work == "bottom":
+            goal = f"{self.press_force:g} kN/m" if self.press_force is not None else f"{self.travel:+g} mm"
+        else:
+            goal = f"{self.angle:g}°" if self.angle is not None else f"{self.stroke:g} mm"
         return f"{self.material} {self.thickness:g} mm, V{self.opening:.4g}, {goal}"
 
 

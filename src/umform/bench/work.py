@@ -25,6 +25,7 @@ from umform.errors import UmformError
 from umform.io.atomic import PendingFile
 from umform.io.staging import staging
 from umform.io.tables import write_csv
+from umform.processes.air_bending.bottoming import press_to_force
 from umform.processes.air_bending.branches import FRAMES, Brake
 from umform.processes.air_bending.budget import Budget, error_budget
 from umform.processes.air_bending.case import air_bending
@@ -82,13 +83,17 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     case, note = wanted.case(Shelf(folder)), wanted.law()[1]
     brake = Brake(case, frames=FRAMES)
     accept(of_model(brake.model, millimetres=True))
-    watch = Watch(folder, order["title"], BendTold(brake, wanted.angle, wanted.stroke))
+    bottom = case.bottom_stroke if wanted.work == "bottom" else None
+    watch = Watch(folder, order["title"], BendTold(brake, wanted.angle, bottom or wanted.stroke))
 
     with staging(folder / RESULTS, FILES), watching(watch):
         try:
-            if wanted.angle is None:
+            if wanted.work == "bottom" and wanted.press_force is not None:
+                done = press_to_force(case, wanted.press_force, brake=brake, progress=False).bend
+            elif case.stroke is not None:
                 done = air_bending(case, brake=brake, progress=False)
             else:
+                assert wanted.angle is not None
                 done = find_stroke(case, wanted.angle, brake=brake, progress=False).bend
         except (UmformError, KeyboardInterrupt):
             if len(brake.run.result) > 1:

@@ -17,6 +17,7 @@ import numpy as np
 
 from umform.errors import InvalidValue
 from umform.model import Model, Snapshot
+from umform.model.rigid_motion import RigidMotion
 from umform.run.execute import resume, solve
 from umform.run.result import Result
 from umform.steps import Step
@@ -156,7 +157,7 @@ def _result_of(stage: Stage, before: Result | None, file: Path | None, options: 
     return solve(model, steps, checkpoint=file, **options)
 
 
-def continued(model: Model, before: Result) -> Model:
+def continued(model: Model, before: Result, motion: RigidMotion | None = None) -> Model:
     """Let a model of the same mesh and bodies begin in the state that a run has ended in.
 
     Parameters
@@ -166,6 +167,8 @@ def continued(model: Model, before: Result) -> Model:
         with ``here=True`` hold the nodes where they are then.
     before : Result
         Result of the stage before.
+    motion : RigidMotion, optional
+        How the part is moved as a rigid body first, into other tools for instance.
 
     Returns
     -------
@@ -192,5 +195,6 @@ def continued(model: Model, before: Result) -> Model:
         )
     state = old.snapshot()
     terms = {body.key: state.terms[body.key] for body in old.bodies}
-    model.restore(Snapshot(state.u, terms=terms))
+    u = state.u if motion is None else motion.displacement(old.mesh.points, state.u)
+    model.restore(Snapshot(u, terms=terms))
     return model

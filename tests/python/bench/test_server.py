@@ -39,6 +39,15 @@ def test_numbers_are_those_of_the_library_to_the_last_bit(bench, done):
         assert done["summary"][name] == expected[name], name
 
 
+def test_bottoming_is_that_of_the_library(bench):
+    form = {"work": "bottom", "angle": None, "travel": 0.0, "mesh": "quick", "die_angle": 88.0, "punch_angle": 88.0}
+    wanted = Wanted.model_validate(form)
+    job = bench.ended(bench.order(**form, stroke=None))
+    assert job["state"] == "done", job["reason"]
+    assert job["summary"]["measures"]["angle"] == air_bending(wanted.case(), progress=False).measures.angle
+    assert wanted.case().bottoming and not any("flank" in text for text in job["summary"]["warnings"])
+
+
 def test_files_of_a_bend_can_be_taken(bench, done):
     assert set(done["files"]) == set(FILES) - {"table.csv"}
     for file in done["files"]:

@@ -6,14 +6,17 @@ import { element, make } from "./dom.js";
 import { number, problemText, t } from "./texts.js";
 import { MEASURED, Tools } from "./tools.js";
 
-/** @typedef {{name: string, unit?: string, step?: number, kind?: "number" | "select" | "check", list?: string}} Field */
-/** @type {Record<string, Field[]>} */
+/** @typedef {{name: string, unit?: string, step?: number, kind?: "number" | "select" | "check", list?: string, of?: string[]}} Field */
+/** Fields by group; `of`: the kinds of work that have it. @type {Record<string, Field[]>} */
 const GROUPS = {
   "": [
+    { name: "work", kind: "select" },
     { name: "material", kind: "select" },
     { name: "thickness", unit: "mm", step: 0.1 },
     { name: "opening", unit: "mm", step: 1, list: "openings" },
-    { name: "angle", unit: "°", step: 1 },
+    { name: "angle", unit: "°", step: 1, of: ["bend"] },
+    { name: "press_force", unit: "kN/m", step: 10, of: ["bottom"] },
+    { name: "travel", unit: "mm", step: 0.05, of: ["bottom"] },
     { name: "length", unit: "mm", step: 10 },
   ],
   tools: [
@@ -31,7 +34,7 @@ const GROUPS = {
     { name: "rolling", unit: "°", step: 15 },
   ],
   run: [
-    { name: "stroke", unit: "mm", step: 0.1 },
+    { name: "stroke", unit: "mm", step: 0.1, of: ["bend"] },
     { name: "mesh", kind: "select" },
     { name: "budget", kind: "check" },
     { name: "whole", kind: "check" },
@@ -58,7 +61,7 @@ export class Form {
   build() {
     const open = new Set([...document.querySelectorAll("#fields details[open]")].map((one) => /** @type {any} */ (one).dataset.group));
     const groups = Object.entries(GROUPS).map(([name, fields]) => {
-      const rows = fields.map((field) => this.row(field));
+      const rows = fields.filter(({ of }) => !of || of.includes(this.values.work)).map((field) => this.row(field));
       if (!name) return make("div", { class: "group" }, ...rows);
       const hint = make("p", { class: "soft" }, t(`group.${name}.hint`));
       const more = name === "tools" ? [make("button", { type: "button", id: "tool-ask", onclick: () => this.tools.ask() }, t("tool.ask"))] : [];
@@ -101,6 +104,7 @@ export class Form {
   /** @param {string} name */
   options(name) {
     if (name === "punch" || name === "die") return this.tools.options(name, this.values[name]);
+    if (name === "work") return this.library.works.map((/** @type {string} */ one) => make("option", { value: one }, t(`work.${one}`)));
     if (name === "mesh") return this.library.meshes.map((/** @type {string} */ one) => make("option", { value: one }, t(`mesh.${one}`)));
     const group = (/** @type {boolean} */ card) => this.library.metals.filter((/** @type {any} */ metal) => metal.card === card)
       .map((/** @type {any} */ metal) => make("option", { value: metal.name }, metal.number && metal.number !== metal.name ? `${metal.name} (${metal.number})` : metal.name));
@@ -132,6 +136,10 @@ export class Form {
     this.values[name] = input.type === "checkbox" ? input.checked
       : input.tagName === "SELECT" ? input.value || null
       : input.value === "" ? (input.validity.badInput ? "?" : null) : Number(input.value);
+    if (name === "work") this.suitWork();
+    for (const [one, other] of [["press_force", "travel"], ["travel", "press_force"]]) {
+      if (name === one && this.values[one] !== null) this.change({ [other]: null });
+    }
     if (name === "stroke" && this.values.stroke !== null) this.change({ angle: null });
     if (name === "angle" && this.values.angle !== null) this.change({ stroke: null });
     if (name === "opening") this.suitRadius();
@@ -144,6 +152,15 @@ export class Form {
     if (name || !this.tools.rows.some((one) => one.kind === kind && one.name === this.values[kind])) this.values[kind] = name;
     this.build();
     this.look();
+  }
+
+  /** Tools and goal that suit another kind of work. */
+  suitWork() {
+    if (this.values.work === "bottom" && this.values.press_force === null && this.values.travel === null) {
+      this.change({ travel: 0, die_angle: 88, punch_angle: 88, punch: null, die: null });
+    }
+    this.build();
+    element("f-work").focus();
   }
 
   /** The shoulder radius of the library's die with this opening. */
@@ -189,6 +206,7 @@ export class Form {
   /** Put what was found beside the fields. @param {any} found */
   say(found) {
     for (const { name } of FIELDS) {
+      if (!element(`f-${name}`)) continue;
       element(`n-${name}`).replaceChildren();
       element(`n-${name}`).className = "note";
       element(`f-${name}`).removeAttribute("aria-invalid");

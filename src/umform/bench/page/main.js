@@ -34,7 +34,7 @@ async function start() {
     },
   });
   const form = new Form(library, (found, values) => {
-    if (found.drawing && !result.name) drawing.set(found.drawing, values);
+    if (found.drawing && !result.name) drawing.set(found.drawing, { ...values, ...found.shown });
     element("sketch").classList.toggle("old", !found.drawing);
     if (!result.name) expected(found, values);
   });

@@ -71,7 +71,7 @@ export class Result {
     if (!this.job && job.kind === "bend") {
       const found = await post("/api/look", job.parameters);
       if (found.drawing && job.id === this.name) {
-        this.drawing.set(found.drawing, job.parameters);
+        this.drawing.set(found.drawing, { ...job.parameters, ...found.shown });
         this.actions.expected(found, job.parameters);
       }
     }
@@ -134,7 +134,7 @@ export class Result {
     const ratio = measures.largest_force / (0.5 * (shop[0] + shop[1]));
     if (ratio < 0.93) notes.push(t("note.below", { percent: Math.round(100 * (1 - ratio)) }));
     if (measures.k_factor !== null && measures.k_factor < 0.33) notes.push(t("note.k"));
-    if (!job.parameters.budget) notes.push(t("note.nobudget"));
+    if (!job.parameters.budget && job.parameters.work !== "bottom") notes.push(t("note.nobudget"));
     const all = Object.entries(this.library.quantities).map(([name, one]) => this.row(name, one, measures[name], spread[name]));
     return [
       ...warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, text)),

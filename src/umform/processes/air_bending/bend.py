@@ -9,7 +9,6 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.model import Model
 from umform.processes.air_bending.brake import force_per_width, loading
 from umform.processes.air_bending.measures import Measures, measure
 from umform.processes.air_bending.parameters import AirBending
@@ -46,8 +45,8 @@ class Loaded:
         """Angle between the legs in degrees."""
         return self.section.angle
 
-    def measured(self, released: Model) -> Measures:
-        """Measures with the model after unloading."""
+    def measured(self, released: Section) -> Measures:
+        """Measures with the section after unloading."""
         return measure(self.stroke, self.force, self.largest_force, self.section, released)
 
 
@@ -133,13 +132,15 @@ class AirBend:
     def warnings(self) -> list[str]:
         """What to look at."""
         lying = f"the sheet lies against a flank of the {self.against}: this is no air bending any more"
+        hollow = "the sheet does not lie on the flanks of the die: this is no bottoming yet"
         deep = (
             f"the tools penetrate by {self.penetration:.3g}: so much of the stroke is lost; take a smaller penetration"
         )
         flat = "the sheet springs back flat: radius, K-factor and what follows cannot be determined: a larger stroke"
         exceeded = any("the penetration of" in warning for warning in self.result.warnings)
         found = {
-            lying: self.against,
+            lying: bool(self.against) and not self.case.bottoming,
+            hollow: self.case.bottoming and not self.against,
             deep: self.penetration > _DEEP * self.case.thickness and not exceeded,
             flat: not self.released.is_bent,
         }

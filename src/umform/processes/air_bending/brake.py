@@ -89,8 +89,8 @@ def against_flank(case: AirBending, contacts: Mapping[str, ContactPoints]) -> st
     """Tool, "die" or "punch", that the sheet touches on its flank, a quarter of a thickness beyond the radius."""
     beyond = 0.25 * case.thickness
     die, punch = (0.5 * math.radians(180.0 - angle) for angle in (case.die_angle, case.punch_angle))
-    x_die = contacts["die"].x[contacts["die"].gap <= 0.0, 0]
+    x_die = np.abs(contacts["die"].x[contacts["die"].gap <= 0.0, 0])
     if (x_die < case.shoulder - case.die_radius * math.sin(die) - beyond * math.cos(die)).any():
         return "die"
-    x_punch = contacts["punch"].x[contacts["punch"].gap <= 0.0, 0]
+    x_punch = np.abs(contacts["punch"].x[contacts["punch"].gap <= 0.0, 0])
     return "punch" if (x_punch > case.punch_radius * math.sin(punch) + beyond * math.cos(punch)).any() else ""

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.model import Model
+from umform.model.control import Control
 from umform.processes.air_bending.bend import AirBend, Loaded
 from umform.processes.air_bending.brake import (
     INCREMENTS,
@@ -21,6 +26,8 @@ from umform.processes.air_bending.section import Section
 from umform.progress import Tick, silent
 from umform.run.open_run import Mark, OpenRun
 from umform.steps import Move
+
+Floats = NDArray[np.float64]
 
 #: About how many states of a bend are kept for pictures.
 FRAMES = 60
@@ -46,12 +53,24 @@ class Brake:
 
     def __init__(self, case: AirBending, solver: str = "auto", frames: int = 0) -> None:
         self.case = case
-        self.model, self.punch = build(case)
+        self.model, self.punch = self.build()
         share = frames * INCREMENTS * case.way / case.largest_stroke
         self.run = OpenRun(self.model, solver=solver, options=OPTIONS, frames=min(frames, max(1, round(share))))
         self._parts: list[Mark] = [self.run.mark()]
         self._done: int | None = 0  # parts that the run has behind it, if it stands at the end of one
         self._loaded: Loaded | None = None
+
+    def build(self) -> tuple[Model, Control]:
+        """Model of the sheet in the tools, and the control that moves the punch down."""
+        return build(self.case)
+
+    def section(self) -> Section:
+        """Section of the sheet as it is now."""
+        return Section.of(self.model.mesh, self.model.u)
+
+    def forces(self) -> Floats:
+        """Force of the punch in N for each mm of the bend, all increments up to now."""
+        return force_per_width(self.case, -self.run.result["stroke_force"])
 
     def load(self, stroke: float, tick: Tick = silent) -> Loaded:
         """Load to a stroke, from the nearest remembered state below it.
@@ -73,9 +92,8 @@ class Brake:
         for end, count in rest:
             self._down(end, count, tick)
         found = {pair.name: self.run.evaluation.found[pair].points() for pair in self.model.contacts}
-        section = Section.of(self.model.mesh, self.model.u)
-        forces = force_per_width(self.case, -self.run.result["stroke_force"])
-        self._loaded = Loaded(stroke, float(forces[-1]), float(forces.max()), section, against_flank(self.case, found))
+        forces, against = self.forces(), against_flank(self.case, found)
+        self._loaded = Loaded(stroke, float(forces[-1]), float(forces.max()), self.section(), against)
         return self._loaded
 
     def _down(self, stroke: float, count: int, tick: Tick) -> None:
@@ -94,7 +112,7 @@ class Brake:
         assert self._loaded is not None
         self._done = None
         self.run.take(unloading(self.case, self.punch))
-        return self._loaded.measured(self.model)
+        return self._loaded.measured(self.section())
 
     def bend(self, stroke: float, tick: Tick = silent) -> AirBend:
         """Load to a stroke, and unload: the run ends there."""

@@ -67,8 +67,20 @@ class Geometry(Protocol):
         """Length of the sheet between the tools at a slope."""
 
     @property
+    def bottoming(self) -> bool:
+        """Whether the punch may press the sheet onto the flanks of the die."""
+
+    @property
+    def punch_width(self) -> float | None:
+        """Width of the body of the punch."""
+
+    @property
     def largest_stroke(self) -> float:
         """Way at which the punch has bent the sheet into the die."""
+
+    @property
+    def stroke_limit(self) -> float:
+        """The largest stroke that is taken."""
 
     @property
     def steepest(self) -> float:
@@ -118,13 +130,36 @@ def check_geometry(case: Geometry) -> None:
     _check_proportions(case)
     _check_room(case)
     _check_rolling(case)
-    if case.stroke is not None and case.stroke > case.largest_stroke:
+    _check_bottoming(case)
+    if case.stroke is not None and not case.bottoming and case.stroke > case.largest_stroke:
         raise _unfit(
             case,
             "stroke",
             "the stroke goes beyond air bending: the sheet would be pressed against a flank",
             f"with these tools a leg lies against a flank at {case.largest_stroke:.4g} at the latest",
-            "a smaller stroke, or sharper angles of punch and die",
+            "a smaller stroke, sharper angles of punch and die, or bottoming=True",
+        )
+
+
+def _check_bottoming(case: Geometry) -> None:
+    """Refuse tools that cannot bottom, and strokes that squeeze the sheet by more than half of its thickness."""
+    if not case.bottoming:
+        return
+    if case.punch_angle > case.die_angle:
+        raise _unfit(
+            case,
+            "punch_angle",
+            "a punch cannot press the sheet onto the flanks of a sharper die",
+            f"the flanks of the die have {case.die_angle:g} degrees: the punch meets its shoulders first",
+            "an angle of the punch up to that of the die; 88 and 88, or 90 and 90 are usual",
+        )
+    if case.stroke is not None and case.stroke > case.stroke_limit:
+        raise _unfit(
+            case,
+            "stroke",
+            "the stroke squeezes the sheet by more than half of its thickness",
+            f"half a thickness beyond the bottom is {case.stroke_limit:.4g}",
+            "a smaller stroke, or a force",
         )
 
 

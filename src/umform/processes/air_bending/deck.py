@@ -75,7 +75,8 @@ def _punch(case: AirBending) -> dict[str, Any]:
     if case.punch_section is not None:
         shape: dict[str, Any] = {"shape": "Extruded", "profile": _profile(case.punch_section.profile)}
     else:
-        shape = {"shape": "Punch", "tip_radius": case.punch_radius, "angle": case.punch_angle}
+        tip = {"tip_radius": case.punch_radius, "angle": case.punch_angle, "width": case.punch_width}
+        shape = {"shape": "Punch", **tip}
     return {**shape, "origin": case.punch.origin}
 
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from umform.model import Model
 from umform.processes.air_bending.section import Floats, Section
 
 
@@ -107,7 +106,7 @@ _OF_BENDS = (
 )
 
 
-def measure(stroke: float, force: float, largest_force: float, loaded: Section, released: Model) -> Measures:
+def measure(stroke: float, force: float, largest_force: float, loaded: Section, section: Section) -> Measures:
     """Measures of a bend.
 
     Parameters
@@ -116,10 +115,9 @@ def measure(stroke: float, force: float, largest_force: float, loaded: Section, 
         State of the punch before unloading.
     loaded : Section
         Section under load.
-    released : Model
-        The model after unloading.
+    section : Section
+        Section after unloading.
     """
-    section = Section.of(released.mesh, released.u)
     return Measures(
         stroke=stroke,
         force=force,

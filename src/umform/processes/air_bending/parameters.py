@@ -48,6 +48,10 @@ class AirBending:
         A die from a drawing; ``opening``, ``die_angle`` and ``die_radius`` are then those of the drawing.
     stroke : float, optional
         Way of the punch from where it touches the sheet; a search or a table does not need it.
+    bottoming : bool
+        Whether the punch may press the sheet onto the flanks of the die.
+    punch_width : float, optional
+        Width of the body of the punch; by default its flanks have no end.
     material : J2 or Metal
         Law of the sheet.
     rolling : float, optional
@@ -84,6 +88,8 @@ class AirBending:
     die_section: DrawnDie | None = None
     width: float | None = None
     stroke: float | None = None
+    bottoming: bool = False
+    punch_width: float | None = None
     material: J2 | Metal = DC04_LIKE
     rolling: float | None = None
     element: str | Element = "BEND18"
@@ -120,7 +126,7 @@ class AirBending:
         """The punch, touching the sheet at z = thickness."""
         if self.punch_section is not None:
             return Extruded(self.punch_section.profile, origin=(0.0, 0.0, self.thickness))
-        return Punch(self.punch_radius, self.punch_angle, origin=(0.0, 0.0, self.thickness))
+        return Punch(self.punch_radius, self.punch_angle, self.punch_width, origin=(0.0, 0.0, self.thickness))
 
     @property
     def rolling_direction(self) -> Vector | None:
@@ -169,6 +175,18 @@ class AirBending:
         if self.die_section is not None:
             return self.die_section.depth
         return 0.5 * self.opening / math.tan(math.radians(0.5 * self.die_angle))
+
+    @property
+    def bottom_stroke(self) -> float:
+        """Stroke at which tip and flanks of the angle of the die are one thickness from the die. eq. (5.90)"""
+        flank = math.radians(90.0 - 0.5 * self.die_angle)
+        tip = (self.punch_radius + self.thickness) / math.cos(flank) - 0.5 * self.opening * math.tan(flank)
+        return self.thickness + self.punch_radius - tip
+
+    @property
+    def stroke_limit(self) -> float:
+        """The largest stroke that is taken: the end of air bending, or half a thickness beyond the bottom."""
+        return self.bottom_stroke + 0.5 * self.thickness if self.bottoming else self.largest_stroke
 
     @property
     def reach(self) -> float:

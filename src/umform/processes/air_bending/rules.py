@@ -45,6 +45,15 @@ RULES: dict[str, Rule] = {
     "punch_radius": length("the radius of the tip", "in mm, such as 1.5"),
     "width": length("the length of the bend", "in mm, such as 50; omit it for plane strain").optional(),
     "stroke": length("the way of the punch", "in mm, downwards, such as 6").optional(),
+    "bottoming": Rule(
+        lambda value: isinstance(value, bool),
+        "bottoming is true or false",
+        "a force or a way in its place",
+        "bottoming=True; the force is that of press_to_force",
+    ),
+    "punch_width": length(
+        "the width of the body of the punch", "in mm, such as 16; omit it for flanks without an end"
+    ).optional(),
     "material": plastic_material("air bending"),
     "rolling": ROLLING,
     "layers": _count("the number of layers", 1, MOST_LAYERS, "2"),

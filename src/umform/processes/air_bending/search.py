@@ -13,7 +13,7 @@ from umform.processes.air_bending.branches import FRAMES, Brake
 from umform.processes.air_bending.checks import check_angle, check_tolerance, unreachable
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
-from umform.progress import progress_bar
+from umform.progress import Tick, progress_bar, silent
 
 _MOST_TRIALS = 10
 
@@ -92,21 +92,35 @@ def find_stroke(
     check_tolerance(tolerance)
     with progress_bar(progress) as tick:
         brake = brake or Brake(case, solver, max(1, frames))
-        state, slope = _load_to_angle(brake, angle, lambda done: tick("loading", done))
-        trials: list[tuple[float, float]] = []
-        while True:
-            measures = brake.unload()
-            trials.append((state.stroke, measures.angle))
-            tick("trials", min(1.0, len(trials) / 4))
-            if abs(measures.angle - angle) <= tolerance:
-                if state.against:
-                    raise unreachable(angle, f"at this angle it lies against the {state.against}")
-                return Found(brake.end(state, measures), tuple(trials), brake.run.iterations)
-            if state.against and measures.angle > angle:
-                raise unreachable(angle, f"at {measures.angle:.2f} degrees it lies against the {state.against}")
-            if len(trials) == _MOST_TRIALS:
-                raise SolveError("the stroke for the angle cannot be closed in", where="find_stroke", value=trials)
-            state = brake.load(_next_stroke(trials, angle, slope, case.largest_stroke))
+        state, measures, trials = bent_to_angle(brake, angle, tolerance, tick)
+        return Found(brake.end(state, measures), trials, brake.run.iterations)
+
+
+def bent_to_angle(
+    brake: Brake, angle: float, tolerance: float, tick: Tick = silent
+) -> tuple[Loaded, Measures, tuple[tuple[float, float], ...]]:
+    """Bend and unload a sheet on a brake until it has the angle: `find_stroke` without the end of the run.
+
+    Returns
+    -------
+    tuple
+        State under load, measures after unloading, and the trials as pairs of stroke and angle.
+    """
+    state, slope = _load_to_angle(brake, angle, lambda done: tick("loading", done))
+    trials: list[tuple[float, float]] = []
+    while True:
+        measures = brake.unload()
+        trials.append((state.stroke, measures.angle))
+        tick("trials", min(1.0, len(trials) / 4))
+        if abs(measures.angle - angle) <= tolerance:
+            if state.against:
+                raise unreachable(angle, f"at this angle it lies against the {state.against}")
+            return state, measures, tuple(trials)
+        if state.against and measures.angle > angle:
+            raise unreachable(angle, f"at {measures.angle:.2f} degrees it lies against the {state.against}")
+        if len(trials) == _MOST_TRIALS:
+            raise SolveError("the stroke for the angle cannot be closed in", where="find_stroke", value=trials)
+        state = brake.load(_next_stroke(trials, angle, slope, brake.case.largest_stroke))
 
 
 def bending_table(

@@ -1,0 +1,88 @@
+"""What bends and sequences may be; what does not fit is refused with its likely cause and remedy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+from umform.errors import InvalidValue
+from umform.processes.air_bending.checks import check_angle
+from umform.processes.rules import length, number
+
+if TYPE_CHECKING:
+    from umform.processes.bend_sequence.parameters import Bend, BendSequence
+
+#: More bends than any part of a press brake has.
+_MOST_BENDS = 50
+_LENGTH = length("the length of the flat strip", "in mm, such as 80")
+_POSITION = length("the position of a bend line", "in mm from the left end of the flat strip")
+_BODY = length("a size of the bodies of the tools", "in mm")
+
+
+def check_bend(bend: Bend, tools: Iterable[str]) -> None:
+    """Refuse a bend without a goal, with two, or with tools that are none.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    _POSITION.check("position", bend.position)
+    where = f"bend at {bend.position:g}"
+    if (bend.angle is None) == (bend.stroke is None):
+        raise InvalidValue("give the angle of a bend or its stroke, one of them", where=where, remedy="angle=90")
+    if bend.direction not in ("up", "down"):
+        raise InvalidValue("a bend goes up or down", where=where, value=bend.direction, remedy="direction='down'")
+    unknown = sorted(set(bend.tools) - set(tools))
+    if unknown:
+        raise InvalidValue(
+            "this is no size of the tools of a bend",
+            where=where,
+            value=", ".join(unknown),
+            remedy="one of " + ", ".join(tools),
+        )
+
+
+def check_sequence(sequence: BendSequence) -> None:
+    """Refuse bends outside the strip, at one place, or so near that their dies do not find a flat sheet.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    _LENGTH.check("length", sequence.length)
+    for name, value in asdict(sequence.bodies).items():
+        _BODY.check(name, value)
+    if not 1 <= len(sequence.bends) <= _MOST_BENDS:
+        raise InvalidValue(f"a part has 1 to {_MOST_BENDS} bends", where="bends", value=len(sequence.bends))
+    if sequence.sheet.width is not None:
+        raise InvalidValue(
+            "a sequence of bends is in plane strain",
+            where="width",
+            value=sequence.sheet.width,
+            remedy="leave the width out; forces are those for each mm of the bend",
+        )
+    for count, bend in enumerate(sequence.bends, start=1):
+        _check_place(sequence, bend, count)
+
+
+def _check_place(sequence: BendSequence, bend: Bend, count: int) -> None:
+    """Refuse a bend whose shoulders do not carry flat sheet."""
+    case = sequence.case(bend)
+    if bend.angle is not None:
+        check_angle(case, bend.angle)
+    if not number(bend.position) or bend.position >= sequence.length:
+        raise InvalidValue(
+            "the bend line lies beyond the strip", where=f"bend {count}", value=bend.position, cause="another unit"
+        )
+    least, at = case.reach + case.thickness, bend.position
+    nearest = min(at, sequence.length - at, sequence.zone(bend))
+    if nearest < least:
+        raise InvalidValue(
+            "a flange is too short for the die",
+            where=f"bend {count} at {at:g}",
+            value=nearest,
+            cause=f"with an opening of {case.opening:g} the sheet rests on the shoulders up to {case.reach:.4g} from "
+            "the bend line; the flange must go on straight by a thickness",
+            remedy=f"{least:.4g} at least up to an end or the metal of another bend, or a narrower die for this bend",
+        )

@@ -1,0 +1,126 @@
+"""A part after all of its bends: each bend, flanges, profile."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.processes.air_bending.measures import Measures
+from umform.processes.bend_sequence.collisions import Collision
+from umform.processes.bend_sequence.parameters import Bend, BendSequence
+from umform.processes.bend_sequence.sides import Sides, Strip
+from umform.run import Result
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class BendDone:
+    """One bend of a part.
+
+    Attributes
+    ----------
+    bend : Bend
+        What was wanted.
+    measures : Measures
+        What is measured of it, as of a single bend; where both sides differ, their mean.
+    stroke, force : ndarray, shape (n,)
+        Way of the punch in mm and its force in N for each mm of the bend, all converged increments.
+    states : tuple of (float, Strip)
+        Stroke, and the strip in the frame of the tools: some states, the last one after unloading.
+    collisions : tuple of Collision
+        Bodies of the tools that the part would go through.
+    trials : tuple of tuple of float
+        Stroke and angle of each trial, where an angle was wanted.
+    warnings : tuple of str
+        What to look at.
+    result : Result
+        History, frames and iterations.
+    """
+
+    bend: Bend
+    measures: Measures
+    stroke: Floats
+    force: Floats
+    states: tuple[tuple[float, Strip], ...]
+    collisions: tuple[Collision, ...]
+    trials: tuple[tuple[float, float], ...]
+    warnings: tuple[str, ...]
+    result: Result
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part after all of its bends.
+
+    Attributes
+    ----------
+    sequence : BendSequence
+        The parameters.
+    bends : tuple of BendDone
+        Its bends, in their order.
+    """
+
+    sequence: BendSequence
+    bends: tuple[BendDone, ...]
+
+    @property
+    def strip(self) -> Strip:
+        """The strip after the last bend, its first leg on x, in the order of the flat strip."""
+        strip = Strip.of(self.bends[-1].result.model.mesh, self.bends[-1].result.model.u)
+        near = strip.reference[:, 0, 0] <= self.sequence.sheet.thickness
+        x = strip.middle[near]
+        along = x[-1] - x[0]
+        c, s = along / np.linalg.norm(along)
+        return Strip(strip.reference, (strip.current - x[0]) @ np.array([[c, -s], [s, c]]), strip.order)
+
+    @property
+    def angles(self) -> list[float]:
+        """Angle of each bend after the last one, in degrees."""
+        return [self._sides(done.bend).angle for done in self.bends]
+
+    @property
+    def flanges(self) -> list[float]:
+        """Outer lengths of the flanges from left to right: between the apices of bends, and to the ends."""
+        placed = sorted((done.bend for done in self.bends), key=lambda bend: bend.position)
+        sides = [self._sides(bend) for bend in placed]
+        left = [side.right_leg if bend.over else side.left_leg for side, bend in zip(sides, placed, strict=True)]
+        right = [side.left_leg if bend.over else side.right_leg for side, bend in zip(sides, placed, strict=True)]
+        middle = self.strip.middle
+        lengths = [float((middle[0] - sides[0].apex) @ left[0].direction)]
+        for k in range(len(placed) - 1):
+            along = right[k].direction - left[k + 1].direction
+            lengths.append(float((sides[k + 1].apex - sides[k].apex) @ along / np.linalg.norm(along)))
+        return [*lengths, float((middle[-1] - sides[-1].apex) @ right[-1].direction)]
+
+    def _sides(self, bend: Bend) -> Sides:
+        return self.strip.at(bend.position, over=bend.over).sides(self.sequence.zone(bend))
+
+    @property
+    def length_balance(self) -> float:
+        """Outer lengths of the flanges less the bend deductions less the flat length."""
+        return sum(self.flanges) - sum(done.measures.bend_deduction for done in self.bends) - self.sequence.length
+
+    @property
+    def profile(self) -> Floats:
+        """Outline (n, 2) of the part: the lower face from left to right, then the upper face back."""
+        x = self.strip.current
+        outline: Floats = np.concatenate([x[:, 0], x[::-1, -1]])
+        return outline
+
+    @property
+    def warnings(self) -> list[str]:
+        """What to look at, with the number of the bend."""
+        found = []
+        for number, done in enumerate(self.bends, start=1):
+            for hit in done.collisions:
+                when = "before it is bent" if hit.stroke == 0.0 else f"from a stroke of {hit.stroke:.4g} on"
+                place = done.bend.position + (-hit.distance if done.bend.over else hit.distance)
+                found.append(
+                    f"bend {number}: the part touches the {hit.tool} {when}, {place:.4g} from the left end of the flat "
+                    "strip; another order of the bends, or other tools"
+                )
+            found += [f"bend {number}: {text}" for text in done.warnings]
+        return found

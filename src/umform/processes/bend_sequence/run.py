@@ -1,0 +1,105 @@
+"""All bends of a part, one after the other, each from the state that the bend before has left."""
+
+from __future__ import annotations
+
+from umform.mesh import Mesh
+from umform.processes.air_bending.bend import Loaded
+from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.search import bent_to_angle
+from umform.processes.bend_sequence.collisions import collisions
+from umform.processes.bend_sequence.parameters import BendSequence
+from umform.processes.bend_sequence.part import BendDone, Part
+from umform.processes.bend_sequence.sides import Strip
+from umform.processes.bend_sequence.strip import flat_strip
+from umform.processes.bend_sequence.strip_brake import StripBrake
+from umform.progress import Tick, progress_bar
+from umform.run import Result
+
+#: About how many states of a bend are kept for pictures and for collisions.
+FRAMES = 30
+
+
+def bend_sequence(
+    sequence: BendSequence, *, tolerance: float = 0.02, frames: int = FRAMES, progress: bool | None = None
+) -> Part:
+    """Bend a strip several times, each bend from the state before: displacements, stresses, plastic strains.
+
+    Parameters
+    ----------
+    sequence : BendSequence
+        The parameters.
+    tolerance : float
+        Largest deviation of a wanted angle in degrees.
+    frames : int
+        About how many states of each bend are kept: collisions are looked for in them.
+    progress : bool, optional
+        Show a progress bar; default: only on a terminal.
+
+    Returns
+    -------
+    Part
+        Measures of each bend, flanges, profile, collisions.
+
+    Raises
+    ------
+    InvalidValue
+        If an angle is out of reach of its tools.
+    NoConvergence
+        If the strip cannot be bent so far. The exception has the bends before as its attribute ``bends``.
+    """
+    mesh, before, done = flat_strip(sequence), None, list[BendDone]()
+    with progress_bar(progress) as tick:
+        for number in range(len(sequence.bends)):
+            try:
+                done.append(_bent(sequence, number, mesh, before, tolerance, frames, tick))
+            except BaseException as error:
+                error.bends = tuple(done)  # type: ignore[attr-defined]
+                error.add_note(f"  in bend {number + 1} of {len(sequence.bends)}")
+                raise
+            before = done[-1].result
+    return Part(sequence, tuple(done))
+
+
+def _bent(
+    sequence: BendSequence, number: int, mesh: Mesh, before: Result | None, tolerance: float, frames: int, tick: Tick
+) -> BendDone:
+    """One bend."""
+    bend, case = sequence.bends[number], sequence.case(sequence.bends[number])
+    brake = StripBrake(sequence, bend, mesh, before, frames)
+    trials: tuple[tuple[float, float], ...] = ()
+    if bend.angle is None:
+        assert bend.stroke is not None
+        state, measures = brake.load(bend.stroke), brake.unload()
+    else:
+        state, measures, trials = bent_to_angle(brake, bend.angle, tolerance)
+    forces, result = brake.forces(), brake.run.close()
+    strips = [
+        (float(result["stroke"][frame.number]), Strip.of(mesh, frame.points["displacement"])) for frame in result.frames
+    ]
+    states = [(stroke, strip.at(bend.position, over=bend.over)) for stroke, strip in strips]
+    hits = collisions(case, sequence.zone(bend), sequence.bodies, states)
+    return BendDone(
+        bend,
+        measures,
+        result["stroke"],
+        forces,
+        tuple(states),
+        tuple(hits),
+        trials,
+        _warnings(brake, state, measures),
+        result,
+    )
+
+
+def _warnings(brake: StripBrake, state: Loaded, measures: Measures) -> tuple[str, ...]:
+    """What to look at in a bend."""
+    found = []
+    if state.against:
+        found.append(f"the sheet lies against a flank of the {state.against}: this is no air bending any more")
+    for name, allowed in brake.allowed.items():
+        deep = float(brake.run.result[f"{name}_penetration"].max())
+        if allowed is not None and deep > allowed * 1.05:
+            found.append(f"contact {name}: the penetration of {deep:.3g} exceeds the {allowed:.3g} allowed")
+    if measures.radius != measures.radius:
+        found.append("the sheet springs back flat: a larger stroke")
+    return (*found, *brake.run.result.warnings)
