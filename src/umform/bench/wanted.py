@@ -49,8 +49,8 @@ class Wanted(BaseModel):
     angle, stroke : float or None
         What is wanted of a bend in the air: one of them.
     press_force, travel : float or None
-        What is wanted of bottoming, one of them: force in kN for each metre, or way in mm beyond where flanks and tip are
-        one thickness from the die.
+        What is wanted of bottoming, one of them: force in kN/m, or way in mm beyond where flanks and tip are one
+        thickness from the die.
     length : float
         Length of the bend, for the force in kN.
     whole : bool
