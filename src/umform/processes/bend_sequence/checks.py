@@ -62,6 +62,10 @@ def check_sequence(sequence: BendSequence) -> None:
             value=sequence.sheet.width,
             remedy="leave the width out; forces are those for each mm of the bend",
         )
+    places = [bend.position for bend in sequence.bends]
+    twice = sorted({place for place in places if places.count(place) > 1})
+    if twice:
+        raise InvalidValue("a bend line is bent once", where="bends", value=twice, cause="two bends at one position")
     for count, bend in enumerate(sequence.bends, start=1):
         _check_place(sequence, bend, count)
 

@@ -105,7 +105,8 @@ class BendSequence:
 
         Half of the sheet of a single bend; less where the bent metal of another bend is nearer.
         """
-        others = [abs(other.position - bend.position) - self.bent(other) for other in self.bends if other is not bend]
+        here = bend.position
+        others = [abs(other.position - here) - self.bent(other) for other in self.bends if other.position != here]
         return min([self.case(bend).half_length, *others])
 
     def bent(self, bend: Bend) -> float:
