@@ -22,13 +22,14 @@ from umform.bench.jobs import MOST_WAITING, Queue, result_file
 from umform.bench.library import library
 from umform.bench.look import look
 from umform.bench.refusals import said
+from umform.bench.strips import FILES as STRIP_FILES
 from umform.bench.wanted import Wanted, problems_of
 from umform.deck.results import FILES as DECK_FILES
 from umform.errors import InvalidValue, UmformError
 from umform.processes.air_bending.files import RESULTS as BEND_FILES
 from umform.processes.air_bending.measures import QUANTITIES
 
-_FILES = frozenset({*BEND_FILES, *DECK_FILES, SHAPE})
+_FILES = frozenset({*BEND_FILES, *DECK_FILES, *STRIP_FILES, SHAPE})
 #: Reports run their own programs: as a page of no origin, which cannot ask this server for anything.
 _SANDBOX = "sandbox allow-scripts allow-downloads allow-popups"
 _SHOWN = (".html", ".png", ".svg")

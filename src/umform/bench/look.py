@@ -17,6 +17,8 @@ from umform.materials import J2, Metal
 from umform.processes.air_bending.drawn_tools import drawn_sizes
 from umform.processes.air_bending.formulas import FORCE_FACTORS, tensile_strength
 from umform.processes.air_bending.parameters import AirBending
+from umform.processes.bend_sequence.collisions import die_body, punch_body
+from umform.processes.bend_sequence.parameters import Bodies
 
 #: Openings over the thickness that are usual on a press brake.
 _NARROW, _WIDE = 5.0, 16.0
@@ -48,10 +50,15 @@ def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
         case = wanted.at_tools(shelf)
     except UmformError as error:
         return {"problems": [said(error)], "warnings": [], "change": tools_for(wanted)}
-    found: dict[str, Any] = {"problems": [], "warnings": _warnings(wanted, case), "drawing": drawing(case)}
+    found: dict[str, Any] = {
+        "problems": [],
+        "warnings": _warnings(wanted, case),
+        "drawing": drawing(case, bodies=wanted.of_strip),
+    }
     found["expected"] = _expected(wanted, case)
-    if wanted.work == "bottom":  # the sheet has the angle of the die there
-        found["shown"] = {"angle": case.die_angle, "stroke": None}
+    angles = {"bottom": case.die_angle, "hem": wanted.first_angle}  # a bottomed sheet has the angle of the die
+    if wanted.work in angles:
+        found["shown"] = {"angle": angles[wanted.work], "stroke": None}
     found["measured"] = {
         name: round(value, 4) for name, value in drawn_sizes(case.punch_section, case.die_section).items()
     }
@@ -64,14 +71,22 @@ def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
     return found
 
 
-def drawing(case: AirBending) -> dict[str, Any]:
-    """Outlines of die and punch in mm, the punch where it touches the sheet; half of the sheet's length."""
+def drawing(case: AirBending, *, bodies: bool = False) -> dict[str, Any]:
+    """Outlines of die and punch in mm, the punch where it touches the sheet; half of the sheet's length.
+
+    ``bodies``: with the bodies that a part of several bends may collide with.
+    """
     far = 2.0 * case.half_length
     chord = 2e-3 * case.opening
+    die, punch = case.die.profile, case.punch.profile
+    if bodies and case.die_section is None:
+        die = die_body(case, Bodies())
+    if bodies and case.punch_section is None:
+        punch = punch_body(case, Bodies())
     return {
-        "die": case.die.profile.points(chord, far).tolist(),
-        "punch": np.add(case.punch.profile.points(chord, far), (0.0, case.thickness)).tolist(),
-        "closed": {"die": case.die.profile.closed, "punch": case.punch.profile.closed},
+        "die": die.points(chord, far).tolist(),
+        "punch": np.add(punch.points(chord, far), (0.0, case.thickness)).tolist(),
+        "closed": {"die": die.closed, "punch": punch.closed},
         "depth": case.depth,
         "opening": case.opening,
         "punch_radius": case.punch_radius,

@@ -5,15 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import Field, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
 from umform.bench.shelf import Shelf
+from umform.bench.wanted_strips import WantedStrip
 from umform.materials import J2, Metal
 from umform.processes.air_bending.bottoming import with_travel
 from umform.processes.air_bending.checks import check_angle
 from umform.processes.air_bending.drawn_tools import drawn_sizes
 from umform.processes.air_bending.parameters import AirBending
+from umform.processes.bend_sequence import BendSequence
+from umform.processes.hemming import Hemming
 
 #: Meshes by name: a quick look, the default of `umform bend`, and what docs/air-bending.md says is better.
 MESHES: dict[str, dict[str, Any]] = {
@@ -23,19 +26,20 @@ MESHES: dict[str, dict[str, Any]] = {
 }
 
 #: Kinds of work.
-WORKS = ("bend", "bottom")
+WORKS = ("bend", "bottom", "sequence", "hem")
 
 _Degrees = Annotated[float, Field(ge=10.0, le=175.0)]
 _Radius = Annotated[float, Field(ge=0.05, le=200.0)]
 
 
-class Wanted(BaseModel):
-    """A bend in mm, degrees and MPa; the bounds are those of a press brake, with room on both sides.
+class Wanted(WantedStrip):
+    """A bend, or several, in mm, degrees and MPa; the bounds are those of a press brake, with room on both sides.
 
     Attributes
     ----------
     work : str
-        "bend": one bend in the air; "bottom": pressed onto the flanks of the die.
+        "bend": one bend in the air; "bottom": pressed onto the flanks of the die; "sequence": several bends in one
+        part; "hem": an acute bend, flattened.
     material : str
         Metal of the library.
     yield_stress, tensile_strength, uniform_elongation : float or None
@@ -61,9 +65,7 @@ class Wanted(BaseModel):
         Whether the error budget is wanted.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
-
-    work: Literal["bend", "bottom"] = "bend"
+    work: Literal["bend", "bottom", "sequence", "hem"] = "bend"
     material: Annotated[str, Field(min_length=1, max_length=60)] = "DC04"
     yield_stress: Annotated[float, Field(ge=20.0, le=3000.0)] | None = None
     tensile_strength: Annotated[float, Field(ge=20.0, le=3000.0)] | None = None
@@ -91,7 +93,7 @@ class Wanted(BaseModel):
         if self.work == "bottom":
             if (self.press_force is None) == (self.travel is None):
                 raise PydanticCustomError("bottom_goal", "give the force or the way beyond the bottom, one of them")
-        elif (self.angle is None) == (self.stroke is None):
+        elif self.work == "bend" and (self.angle is None) == (self.stroke is None):
             raise PydanticCustomError("goal", "give the angle or the stroke, one of them")
         if (self.yield_stress is None) != (self.tensile_strength is None):
             raise PydanticCustomError("coil", "a coil has both, Re and Rm")
@@ -124,7 +126,9 @@ class Wanted(BaseModel):
             ``where`` is the name of the parameter.
         """
         case = self.at_tools(shelf)
-        if self.work == "bend" and self.angle is not None:
+        if self.of_strip:
+            self.strip(case)
+        elif self.work == "bend" and self.angle is not None:
             check_angle(case, self.angle)
         return case
 
@@ -143,14 +147,23 @@ class Wanted(BaseModel):
             punch_angle=self.punch_angle,
             punch_radius=self.punch_radius,
             **drawn,
-            width=self.length if self.whole else None,
-            stroke=None if bottoms else self.stroke,
+            width=self.length if self.whole and not self.of_strip else None,
+            stroke=self.stroke if self.work == "bend" else None,
             bottoming=bottoms,
             material=self.law()[0],
             rolling=self.rolling,
             **MESHES[self.mesh],
         )
         return case if not bottoms or self.travel is None else with_travel(case, self.travel)
+
+    @property
+    def of_strip(self) -> bool:
+        """Whether a whole strip is modelled, in place of half of a bend."""
+        return self.work in ("sequence", "hem")
+
+    def strip(self, sheet: AirBending) -> BendSequence | Hemming:
+        """The bends of a part, or the hem."""
+        return self.hem(sheet) if self.work == "hem" else self.sequence(sheet)
 
     @property
     def drawn(self) -> dict[str, str | None]:
@@ -164,6 +177,10 @@ class Wanted(BaseModel):
     @property
     def title(self) -> str:
         """A few words for lists."""
+        if self.work == "sequence":
+            return f"{self.material} {self.thickness:g} mm, {' '.join(f'{one.angle:g}°' for one in self.bends)}"
+        if self.work == "hem":
+            return f"{self.material} {self.thickness:g} mm, hem {self.gap:g} mm"
         if self.work == "bottom":
             goal = f"{self.press_force:g} kN/m" if self.press_force is not None else f"{self.travel:+g} mm"
         else:
@@ -176,6 +193,7 @@ def problems_of(error: ValidationError) -> list[dict[str, Any]]:
     found = []
     for row in error.errors(include_url=False, include_input=False):
         where = ".".join(str(part) for part in row["loc"][:1]) or "goal"
+        row_number = next((part + 1 for part in row["loc"][1:2] if isinstance(part, int)), None)
         bounds = {key: value for key, value in row.get("ctx", {}).items() if isinstance(value, int | float | str)}
-        found.append({"where": where, "kind": row["type"], "bounds": bounds, "what": row["msg"]})
+        found.append({"where": where, "kind": row["type"], "bounds": bounds, "what": row["msg"], "row": row_number})
     return found[:20]

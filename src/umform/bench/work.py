@@ -18,6 +18,7 @@ from umform.bench.limits import limit_memory
 from umform.bench.live import BendTold, DeckTold, Watch, write_live
 from umform.bench.refusals import said
 from umform.bench.shelf import Shelf
+from umform.bench.strips import run_strip
 from umform.bench.wanted import Wanted
 from umform.deck.findings import accept
 from umform.deck.plausible import of_model
@@ -81,6 +82,8 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     """The work of `umform bend`: the same calls, so the same numbers."""
     wanted = Wanted.model_validate(order["parameters"])
     case, note = wanted.case(Shelf(folder)), wanted.law()[1]
+    if wanted.of_strip:
+        return run_strip(folder, order["title"], wanted, case) | {"length": wanted.length, "note": note}
     brake = Brake(case, frames=FRAMES)
     accept(of_model(brake.model, millimetres=True))
     bottom = case.bottom_stroke if wanted.work == "bottom" else None

@@ -11,7 +11,7 @@ from umform import errors
 
 SOURCE = Path(umform.__file__).parent
 #: Code that a form can lead to, before a run.
-ROOMS = ("bench", "processes/air_bending", "sheet_metals")
+ROOMS = ("bench", "processes/air_bending", "processes/bend_sequence", "processes/hemming", "sheet_metals")
 FILES = (
     "processes/rules.py",
     "surfaces/dxf.py",

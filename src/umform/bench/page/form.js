@@ -2,11 +2,12 @@
 // The form: what is to be bent, with which tools; each change is looked at by the server at once.
 
 import { post } from "./api.js";
+import { Bends } from "./bends.js";
 import { element, make } from "./dom.js";
 import { number, problemText, t } from "./texts.js";
 import { MEASURED, Tools } from "./tools.js";
 
-/** @typedef {{name: string, unit?: string, step?: number, kind?: "number" | "select" | "check", list?: string, of?: string[]}} Field */
+/** @typedef {{name: string, unit?: string, step?: number, kind?: "number" | "select" | "check" | "bends", list?: string, of?: string[]}} Field */
 /** Fields by group; `of`: the kinds of work that have it. @type {Record<string, Field[]>} */
 const GROUPS = {
   "": [
@@ -17,6 +18,13 @@ const GROUPS = {
     { name: "angle", unit: "°", step: 1, of: ["bend"] },
     { name: "press_force", unit: "kN/m", step: 10, of: ["bottom"] },
     { name: "travel", unit: "mm", step: 0.05, of: ["bottom"] },
+    { name: "strip_length", unit: "mm", step: 1, of: ["sequence"] },
+    { name: "bends", kind: "bends", of: ["sequence"] },
+    { name: "gap", unit: "mm", step: 0.1, of: ["hem"] },
+    { name: "insert", kind: "check", of: ["hem"] },
+    { name: "flange", unit: "mm", step: 1, of: ["hem"] },
+    { name: "base", unit: "mm", step: 1, of: ["hem"] },
+    { name: "first_angle", unit: "°", step: 1, of: ["hem"] },
     { name: "length", unit: "mm", step: 10 },
   ],
   tools: [
@@ -36,8 +44,8 @@ const GROUPS = {
   run: [
     { name: "stroke", unit: "mm", step: 0.1, of: ["bend"] },
     { name: "mesh", kind: "select" },
-    { name: "budget", kind: "check" },
-    { name: "whole", kind: "check" },
+    { name: "budget", kind: "check", of: ["bend", "bottom"] },
+    { name: "whole", kind: "check", of: ["bend", "bottom"] },
   ],
 };
 const FIELDS = Object.values(GROUPS).flat();
@@ -48,7 +56,8 @@ export class Form {
     Object.assign(this, { library, looked });
     this.library = library;
     this.looked = looked;
-    this.values = { ...library.defaults, ...kept() };
+    this.values = structuredClone({ ...library.defaults, ...kept() });
+    this.bends = new Bends(() => this.look());
     this.tools = new Tools((kind, name) => this.takeTool(kind, name));
     this.round = 0;
     /** @type {AbortController | null} */
@@ -68,12 +77,14 @@ export class Form {
       return make("details", { "data-group": name, open: open.has(name) }, make("summary", {}, t(`group.${name}`)),
         make("div", { class: "group" }, hint, ...rows, ...more));
     });
+    element("table").hidden = this.values.work !== "bend"; // a table is one of angles
     element("fields").replaceChildren(...groups, ...this.lists());
   }
 
   /** @param {Field} field */
   row({ name, unit, step, kind = "number", list }) {
     const value = this.values[name];
+    if (kind === "bends") return this.bends.build(value);
     const common = { id: `f-${name}`, "aria-describedby": `n-${name}`, onchange: () => this.take(name), oninput: () => this.take(name) };
     let input;
     if (kind === "select") {
@@ -156,8 +167,12 @@ export class Form {
 
   /** Tools and goal that suit another kind of work. */
   suitWork() {
-    if (this.values.work === "bottom" && this.values.press_force === null && this.values.travel === null) {
-      this.change({ travel: 0, die_angle: 88, punch_angle: 88, punch: null, die: null });
+    const { work, thickness: t, press_force: force, travel, die_angle: angle } = this.values;
+    if (work === "bottom" && force === null && travel === null) this.change({ travel: 0, die_angle: 88, punch_angle: 88, punch: null, die: null });
+    if (work === "hem") {
+      this.change({ opening: 8 * t, die_angle: 30, die_radius: t, punch_angle: 30, punch_radius: 0.5 * t, punch: null, die: null, gap: t, flange: 12 * t, base: 30 * t });
+    } else if (angle < 40) {
+      this.change({ die_angle: 85, punch_angle: 85, die_radius: t, punch_radius: 0.75 * t });
     }
     this.build();
     element("f-work").focus();
@@ -222,8 +237,9 @@ export class Form {
 
   /** @param {any} row @param {string} kind @param {string} text */
   note(row, kind, text) {
-    const place = element(`n-${row.where}`) ?? element("form-note");
-    place.append(make("span", {}, text));
+    const bend = row.row ?? /^bend (\d+)/.exec(row.where)?.[1];
+    const place = element(bend ? "n-bends" : `n-${row.where}`) ?? element("form-note");
+    place.append(make("span", {}, bend ? `${t("bend.number", { number: Number(bend) })}: ${text}` : text));
     place.className = `note ${kind}`;
     if (kind === "bad") element(`f-${row.where}`)?.setAttribute("aria-invalid", "true");
     place.closest("details")?.setAttribute("open", "");

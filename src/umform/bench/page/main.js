@@ -27,7 +27,7 @@ async function start() {
     expected,
     ask: (/** @type {string} */ name, /** @type {any} */ what) => jobs.ask(name, what),
     again: (/** @type {any} */ job) => {
-      Object.assign(form.values, job.parameters);
+      Object.assign(form.values, structuredClone(job.parameters));
       form.build();
       go("bend");
       form.look();

@@ -3,7 +3,9 @@
 
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
+import { message } from "./messages.js";
 import { plot } from "./plot.js";
+import { stripNumbers } from "./strips.js";
 import { language, number, problemText, t } from "./texts.js";
 
 const OFTEN = 200;
@@ -74,12 +76,15 @@ export class Result {
         this.drawing.set(found.drawing, { ...job.parameters, ...found.shown });
         this.actions.expected(found, job.parameters);
       }
+      if (job.id !== this.name) return; // another job was opened meanwhile
     }
-    if (job.live.section && job.kind === "bend") this.drawing.setComputed(job.live);
+    if (job.summary.profile) this.drawing.setComputed({ profile: job.summary.profile });
+    else if (job.live.section || job.live.outline) this.drawing.setComputed(job.live);
     if (job.state === "running" || job.state === "waiting") parts.push(this.progress(job));
     if (job.state === "failed" || job.reason) parts.push(this.failure(job));
     if (job.state === "stopped") parts.push(make("p", { class: "soft" }, t(`stopped.${job.kind}`)));
     if (job.state === "done" && job.summary.measures) parts.push(...this.numbers(job));
+    if (job.state === "done" && job.summary.profile) parts.push(...stripNumbers(job));
     if (job.state === "done" && job.summary.last) parts.push(this.last(job));
     const curve = this.curve(job);
     if (curve) parts.push(curve);
@@ -119,7 +124,7 @@ export class Result {
   progress(job) {
     const { live } = job;
     const percent = Math.round(100 * (live.fraction ?? 0));
-    const text = job.state === "waiting" ? t("state.waiting") : [t(`phase.${live.phase}`, live),
+    const text = job.state === "waiting" ? t("state.waiting") : [live.operations > 1 ? t("operation", live) : "", t(`phase.${live.phase}`, live),
       live.increments ? t("increments", live) : "", live.stroke === undefined ? "" : `${number(live.stroke, 2)} mm`,
       live.angle === undefined ? "" : `${number(live.angle, 1)}°`, live.seconds ? `${number(live.seconds, 0)} s` : ""].filter(Boolean).join(" · ");
     return make("div", { class: "progress" }, make("progress", { max: 100, value: percent, "aria-label": t("progress") }), make("p", { role: "status" }, text));
@@ -137,7 +142,7 @@ export class Result {
     if (!job.parameters.budget && job.parameters.work !== "bottom") notes.push(t("note.nobudget"));
     const all = Object.entries(this.library.quantities).map(([name, one]) => this.row(name, one, measures[name], spread[name]));
     return [
-      ...warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, text)),
+      ...warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, message(text))),
       make("dl", { class: "heroes" }, ...heroes),
       ...notes.map((text) => make("p", { class: "note" }, text)),
       this.flat(measures),
@@ -221,7 +226,7 @@ export class Result {
 
   /** @param {any} job */
   files(job) {
-    const named = { "report.html": "file.report", "curve.csv": "file.csv", "history.csv": "file.history", "bend.toml": "file.deck", "as-run.toml": "file.deck", "bend.json": "file.json" };
+    const named = { "report.html": "file.report", "curve.csv": "file.csv", "history.csv": "file.history", "bend.toml": "file.deck", "as-run.toml": "file.deck", "bend.json": "file.json", "part.json": "file.json", "profile.csv": "file.profile" };
     const link = (/** @type {string} */ file, /** @type {string} */ text) => make("a", { class: "button", href: `/files/${job.id}/${file}`, target: file.endsWith(".html") ? "_blank" : null, rel: "noopener" }, text);
     const first = Object.entries(named).filter(([file]) => job.files.includes(file)).map(([file, key]) => link(file, t(key)));
     const others = job.files.filter((/** @type {string} */ file) => !(file in named)).map((/** @type {string} */ file) => make("li", {}, link(file, file)));

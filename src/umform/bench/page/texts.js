@@ -52,6 +52,7 @@ export function number(value, decimals) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const options = decimals === undefined
     ? { maximumFractionDigits: 4 } : { minimumFractionDigits: decimals, maximumFractionDigits: decimals };
+  if (decimals !== undefined && Math.abs(value) < 0.5 * 10 ** -decimals) value = 0; // no -0.00
   return value.toLocaleString(language, { useGrouping: false, ...options });
 }
 
