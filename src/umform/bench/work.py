@@ -83,7 +83,7 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     wanted = Wanted.model_validate(order["parameters"])
     case, note = wanted.case(Shelf(folder)), wanted.law()[1]
     if wanted.of_strip:
-        return run_strip(folder, order["title"], wanted, case) | {"length": wanted.length, "note": note}
+        return run_strip(folder, order["title"], wanted, case, note) | {"length": wanted.length, "note": note}
     brake = Brake(case, frames=FRAMES)
     accept(of_model(brake.model, millimetres=True))
     bottom = case.bottom_stroke if wanted.work == "bottom" else None

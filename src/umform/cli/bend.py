@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -15,9 +14,11 @@ import typer
 from umform.cli.check import Force
 from umform.cli.drawing import without_help_texts
 from umform.cli.drawn_tools import drawn_tools
-from umform.cli.metal import law_of, numbers
+from umform.cli.goals import check_goal, check_no_goal, check_press, strokes_of
+from umform.cli.metal import law_of
 from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import echo_warnings, print_warnings_once
 from umform.errors import UmformError
@@ -31,8 +32,6 @@ if TYPE_CHECKING:
 
 
 _GOAL, _TOOLS = "What to do", "Tools (mm, degrees)"
-#: Each row of a table is an unloading.
-_MOST_ROWS = 1000
 
 
 @app.command()
@@ -45,12 +44,25 @@ def bend(
     angle: Annotated[float | None, option("Find the stroke for this angle after springback, degrees.", _GOAL)] = None,
     stroke: Annotated[float | None, option("Bend to this stroke in mm.", _GOAL)] = None,
     table: Annotated[str | None, option("Strokes of a bending table: first:last:step, such as 4:6:0.5.", _GOAL)] = None,
+    bottoming: Annotated[
+        bool, option("Press the sheet onto the flanks of the die, with --force-per-metre or --travel.", _GOAL)
+    ] = False,
+    force_per_metre: Annotated[float | None, option("Force of bottoming in kN/m.", _GOAL)] = None,
+    travel: Annotated[
+        float | None, option("Bottom to this distance beyond where tip and flanks are a thickness apart.", _GOAL)
+    ] = None,
+    sequence: Annotated[
+        Path | None, option("Several bends in one part: a TOML file, see docs/bending-operations.md.", _GOAL)
+    ] = None,
     budget: Annotated[bool, option("Error budget: repeat with refinements and show the changes.", _GOAL)] = False,
     opening: Annotated[float, option("Opening of the die.", _TOOLS)] = 16.0,
     die_angle: Annotated[float, option("Angle of the die.", _TOOLS)] = 85.0,
     die_radius: Annotated[float, option("Radius of the die shoulders.", _TOOLS)] = 2.0,
     punch_angle: Annotated[float, option("Angle of the punch.", _TOOLS)] = 85.0,
     punch_radius: Annotated[float, option("Radius of the punch tip.", _TOOLS)] = 1.5,
+    punch_width: Annotated[
+        float | None, option("Width of the punch above its flanks; default: without end.", _TOOLS)
+    ] = None,
     punch_dxf: Annotated[Path | None, option("DXF drawing of the punch, in place of its numbers.", _TOOLS)] = None,
     punch_layer: Annotated[str | None, option("Layer with its section; default: the whole drawing.", _TOOLS)] = None,
     die_dxf: Annotated[Path | None, option("DXF drawing of the die, in place of its numbers.", _TOOLS)] = None,
@@ -98,6 +110,7 @@ def bend(
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.pool import check_processes
+    from umform.processes.air_bending.bottoming import press_to_force, with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
     from umform.processes.air_bending.budget import error_budget
     from umform.processes.air_bending.case import air_bending
@@ -108,7 +121,8 @@ def bend(
     from umform.timing import Timing, timings
 
     print_warnings_once()
-    _check_goal(angle, stroke)
+    if not bottoming and sequence is None:
+        check_goal(angle, stroke, force_per_metre, travel)
     check_tolerance(tolerance)
     check_processes(processes)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
@@ -133,14 +147,25 @@ def bend(
         penetration=penetration,
         increment=increment,
         stroke=stroke,
+        bottoming=bottoming,
+        punch_width=punch_width,
     )
-    strokes = [] if table is None else _strokes(table)
+    if sequence is not None:
+        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel)
+        run_sequence(sequence, case, note, out, tolerance=tolerance, overwrite=overwrite)
+        return
+    if bottoming:
+        check_press(angle, table, budget, stroke, force_per_metre, travel)
+        case = case if travel is None else with_travel(case, travel)
+    strokes = [] if table is None else strokes_of(table)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if print_deck:
         from umform.deck import deck_of
 
-        if angle is not None:
+        if force_per_metre is not None:
+            case = press_to_force(case, force_per_metre, frames=1).case
+        elif angle is not None:
             case = find_stroke(case, angle, tolerance=tolerance, frames=1).case
         typer.echo(deck_of(case), nl=False)
         return
@@ -152,7 +177,9 @@ def bend(
     with staging(place, FILES):
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
-            if angle is None:
+            if force_per_metre is not None:
+                done = press_to_force(case, force_per_metre, brake=brake).bend
+            elif angle is None:
                 done = air_bending(case, brake=brake)
             else:
                 done = find_stroke(case, angle, tolerance=tolerance, brake=brake).bend
@@ -208,42 +235,6 @@ def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
         if files:
             stop.add_note(f"  results so far are in {out}: {', '.join(file.name for file in files)}")
         raise
-
-
-def _check_goal(angle: float | None, stroke: float | None) -> None:
-    if (angle is None) == (stroke is None):
-        from umform.errors import InvalidValue
-
-        raise InvalidValue(
-            "give the stroke or the angle, one of them",
-            where="umform bend",
-            cause="both or none are given",
-            remedy="--angle 90 looks for the stroke, --stroke 6 bends to it",
-        )
-
-
-def _strokes(text: str) -> list[float]:
-    """Strokes of first:last:step, the last one included."""
-    from umform.errors import InvalidValue
-
-    first, last, step = numbers(text, ":", 3, "--table", "first:last:step as 4:6:0.5")
-    if not 0.0 < first <= last < math.inf or not 0.0 < step < math.inf:
-        raise InvalidValue(
-            "a table goes from a positive stroke up to a larger one, in positive steps",
-            where="--table",
-            value=text,
-            cause="a sign, the two exchanged, or a number that is not finite",
-            remedy="first:last:step as 4:6:0.5",
-        )
-    if not last - first < _MOST_ROWS * step:
-        raise InvalidValue(
-            f"a table has at most {_MOST_ROWS} strokes",
-            where="--table",
-            value=text,
-            cause="the number of strokes in place of the step between them, or a step of another unit",
-            remedy="first:last:step as 4:6:0.5",
-        )
-    return [first + number * step for number in range(int((last - first) / step + 1e-9) + 1)]
 
 
 def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str) -> None:

@@ -1,6 +1,6 @@
 """All commands: the application with those of umform, and with those that other packages offer."""
 
-from umform.cli import bead, bench, bend, check, demo, draw, elements, metals, new, plot, resume, run, sweep, view
+from umform.cli import bead, bench, bend, check, demo, draw, elements, hem, metals, new, plot, resume, run, sweep, view
 from umform.cli.root import app
 
 __all__ = [
@@ -12,6 +12,7 @@ __all__ = [
     "demo",
     "draw",
     "elements",
+    "hem",
     "metals",
     "new",
     "plot",

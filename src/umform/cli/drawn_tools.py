@@ -13,7 +13,10 @@ if TYPE_CHECKING:
     from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch
 
 #: Options that follow from the drawing of each tool.
-_FROM_DRAWING = {"punch_dxf": ("punch_angle", "punch_radius"), "die_dxf": ("opening", "die_angle", "die_radius")}
+_FROM_DRAWING = {
+    "punch_dxf": ("punch_angle", "punch_radius", "punch_width"),
+    "die_dxf": ("opening", "die_angle", "die_radius"),
+}
 
 
 def drawn_tools(

@@ -43,6 +43,7 @@ ELSEWHERE = (
     "sheet_metals/least_squares.py",
     "sheet_metals/directional_fit.py",
     "processes/air_bending/deck.py",
+    "processes/bend_sequence/form.py",
     "bench/server.py",
 )
 #: Beginnings of what only Python users can cause: friction, drawn tools, the interface of profiles.

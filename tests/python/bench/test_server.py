@@ -14,6 +14,7 @@ from umform.deck.templates import template
 from umform.processes.air_bending import air_bending, find_stroke
 from umform.processes.air_bending.files import FILES, record
 from umform.processes.bend_sequence import bend_sequence
+from umform.processes.bend_sequence.files import FILES as PART_FILES
 from umform.processes.hemming import hemming
 
 JSON = {"content-type": "application/json"}
@@ -61,7 +62,7 @@ def test_part_of_a_bend_is_that_of_the_library(bench):
     [bend] = job["summary"]["bends"]
     assert bend["stroke"] == part.bends[0].measures.stroke and bend["over"]
     assert job["summary"]["flanges"] == part.flanges and len(job["summary"]["profile"]) > 20
-    assert {"part.json", "profile.csv", "curve.csv"} == set(job["files"])
+    assert set(job["files"]) == set(PART_FILES)
     assert job["live"]["operation"] == job["live"]["operations"] == 1 and len(job["live"]["outline"]) > 20
 
 

@@ -226,7 +226,7 @@ export class Result {
 
   /** @param {any} job */
   files(job) {
-    const named = { "report.html": "file.report", "curve.csv": "file.csv", "history.csv": "file.history", "bend.toml": "file.deck", "as-run.toml": "file.deck", "bend.json": "file.json", "part.json": "file.json", "profile.csv": "file.profile" };
+    const named = { "report.html": "file.report", "curve.csv": "file.csv", "history.csv": "file.history", "bend.toml": "file.deck", "as-run.toml": "file.deck", "bend.json": "file.json", "sequence.json": "file.json", "hem.json": "file.json", "curves.csv": "file.csv", "profile.csv": "file.profile" };
     const link = (/** @type {string} */ file, /** @type {string} */ text) => make("a", { class: "button", href: `/files/${job.id}/${file}`, target: file.endsWith(".html") ? "_blank" : null, rel: "noopener" }, text);
     const first = Object.entries(named).filter(([file]) => job.files.includes(file)).map(([file, key]) => link(file, t(key)));
     const others = job.files.filter((/** @type {string} */ file) => !(file in named)).map((/** @type {string} */ file) => make("li", {}, link(file, file)));

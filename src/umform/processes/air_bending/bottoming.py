@@ -16,12 +16,12 @@ from umform.progress import Tick, progress_bar
 
 #: Part of the force that may be left open, and trials for it.
 _TOLERANCE, _MOST_TRIALS = 0.005, 30
-_FORCE = length("the force of bottoming", "in N for each mm of the bend (kN/m): 3 to 5 times that of air bending")
+_FORCE = length("the force of bottoming", "in kN/m: 3 to 5 times that of air bending")
 
 
 def press_to_force(
     case: AirBending,
-    force: float,
+    force_per_metre: float,
     *,
     tolerance: float = _TOLERANCE,
     frames: int = FRAMES,
@@ -35,8 +35,8 @@ def press_to_force(
     ----------
     case : AirBending
         The parameters, with ``bottoming=True``; the stroke is not used.
-    force : float
-        Force of the punch in N for each mm of the bend, the same number as kN/m.
+    force_per_metre : float
+        Force of the punch in kN/m, the same number as N for each mm of the bend.
     tolerance : float
         Largest deviation of the force, over the force.
     frames : int
@@ -61,7 +61,8 @@ def press_to_force(
     NoConvergence
         If the sheet cannot be pressed so far.
     """
-    _FORCE.check("force", force)
+    force = force_per_metre
+    _FORCE.check("force_per_metre", force)
     if not case.bottoming:
         raise InvalidValue(
             "these tools are to bend in the air",
@@ -91,7 +92,7 @@ def _bracket(brake: Brake, force: float, tick: Tick) -> tuple[tuple[float, float
         if force <= in_the_air:
             raise InvalidValue(
                 "the force is that of air bending: the sheet does not lie on the flanks yet",
-                where="force",
+                where="force_per_metre",
                 value=force,
                 cause=f"in the air the sheet needs up to {in_the_air:.4g} N for each mm",
                 remedy="3 to 5 times that force, or a wider opening",
@@ -103,7 +104,7 @@ def _bracket(brake: Brake, force: float, tick: Tick) -> tuple[tuple[float, float
         if stroke == limit:
             raise InvalidValue(
                 "the force squeezes the sheet by more than half of its thickness",
-                where="force",
+                where="force_per_metre",
                 value=force,
                 cause=f"half a thickness beyond the bottom the force is {state.force:.4g} N for each mm",
                 remedy="a smaller force",

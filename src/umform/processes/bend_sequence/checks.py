@@ -2,16 +2,65 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
 from umform.errors import InvalidValue
 from umform.processes.air_bending.checks import check_angle
-from umform.processes.rules import length, number
+from umform.processes.air_bending.parameters import AirBending
+from umform.processes.rules import length
 
-if TYPE_CHECKING:
-    from umform.processes.bend_sequence.parameters import Bend, BendSequence
+
+class Bend(Protocol):
+    """What is looked at of :class:`umform.processes.bend_sequence.Bend`."""
+
+    @property
+    def position(self) -> float:
+        """Distance of the bend line from the left end."""
+
+    @property
+    def angle(self) -> float | None:
+        """Wanted angle."""
+
+    @property
+    def stroke(self) -> float | None:
+        """Stroke in its place."""
+
+    @property
+    def direction(self) -> str:
+        """Up or down."""
+
+    @property
+    def tools(self) -> Mapping[str, float]:
+        """Tools of its own."""
+
+
+class BendSequence(Protocol):
+    """What is looked at of :class:`umform.processes.bend_sequence.BendSequence`."""
+
+    @property
+    def length(self) -> float:
+        """Length of the flat strip."""
+
+    @property
+    def bends(self) -> Sequence[Any]:
+        """The bends."""
+
+    @property
+    def sheet(self) -> AirBending:
+        """Sheet and tools."""
+
+    @property
+    def bodies(self) -> Any:
+        """Bodies of the tools."""
+
+    def case(self, bend: Any) -> AirBending:
+        """Sheet and tools of a bend."""
+
+    def zone(self, bend: Any) -> float:
+        """Length on each side of a bend line that touches the tools."""
+
 
 #: More bends than any part of a press brake has.
 _MOST_BENDS = 50
@@ -75,7 +124,7 @@ def _check_place(sequence: BendSequence, bend: Bend, count: int) -> None:
     case = sequence.case(bend)
     if bend.angle is not None:
         check_angle(case, bend.angle)
-    if not number(bend.position) or bend.position >= sequence.length:
+    if bend.position >= sequence.length:
         raise InvalidValue(
             "the bend line lies beyond the strip", where=f"bend {count}", value=bend.position, cause="another unit"
         )

@@ -106,9 +106,7 @@ class Part:
     @property
     def profile(self) -> Floats:
         """Outline (n, 2) of the part: the lower face from left to right, then the upper face back."""
-        x = self.strip.current
-        outline: Floats = np.concatenate([x[:, 0], x[::-1, -1]])
-        return outline
+        return self.strip.outline
 
     @property
     def warnings(self) -> list[str]:

@@ -56,6 +56,12 @@ class Strip:
         half: Floats = 0.5 * (self.current[:, 0] + self.current[:, -1])
         return half
 
+    @property
+    def outline(self) -> Floats:
+        """Outline (n, 2): one face from one end to the other, then the other face back."""
+        around: Floats = np.concatenate([self.current[:, 0], self.current[::-1, -1]])
+        return around
+
     def laid(self, reach: float) -> RigidMotion:
         """Motion that lays the strip as far as ``reach`` on both sides of x = 0 flat on the plane z = 0, mid at x = 0.
 

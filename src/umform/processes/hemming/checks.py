@@ -2,13 +2,31 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
 from umform.errors import InvalidValue
 from umform.processes.rules import Rule, length, whole
 
-if TYPE_CHECKING:
-    from umform.processes.hemming.parameters import Hemming
+
+class Hemming(Protocol):
+    """What is looked at of :class:`umform.processes.hemming.Hemming`."""
+
+    @property
+    def angle(self) -> float:
+        """Angle after the first bend."""
+
+    @property
+    def flange(self) -> float:
+        """Length of the flange."""
+
+    @property
+    def base(self) -> float:
+        """Length of the base."""
+
+    @property
+    def first(self) -> Any:
+        """The first bend."""
+
 
 #: Angles of the first bend: more cannot be flattened between plates.
 _SHARPEST, _BLUNTEST = 20.0, 70.0

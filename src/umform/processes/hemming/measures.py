@@ -85,9 +85,7 @@ class Hem:
     @property
     def profile(self) -> Floats:
         """Outline (n, 2): the outer face from the tip of the flange to the end of the base, then the inner face."""
-        x = self.strip.current
-        outline: Floats = np.concatenate([x[:, 0], x[::-1, -1]])
-        return outline
+        return self.strip.outline
 
 
 def measured(case: Hemming, force: Floats, loaded: Strip, released: Strip) -> HemMeasures:

@@ -1,0 +1,85 @@
+"""What ``umform bend`` is asked for: an angle, a stroke, a force, a table of strokes."""
+
+from __future__ import annotations
+
+import math
+
+from umform.cli.metal import numbers
+from umform.errors import InvalidValue
+
+#: Each row of a table is an unloading.
+_MOST_ROWS = 1000
+
+
+def check_goal(angle: float | None, stroke: float | None, force: float | None, travel: float | None) -> None:
+    """Refuse a bend without a stroke or an angle, or with both."""
+    if force is not None or travel is not None:
+        raise InvalidValue(
+            "a force or a way beyond the bottom is one of bottoming",
+            where="--force-per-metre, --travel",
+            remedy="--bottoming beside it",
+        )
+    if (angle is None) == (stroke is None):
+        raise InvalidValue(
+            "give the stroke or the angle, one of them",
+            where="umform bend",
+            cause="both or none are given",
+            remedy="--angle 90 looks for the stroke, --stroke 6 bends to it",
+        )
+
+
+def check_no_goal(option: str, *goals: object) -> None:
+    """Refuse a goal of a single bend beside an option that has goals of its own."""
+    if any(goal is not None for goal in goals):
+        raise InvalidValue(
+            "the bends of a file have angles and strokes of their own",
+            where=option,
+            cause="--angle, --stroke, --table, --force-per-metre or --travel beside it",
+            remedy=f"leave them out, or {option}",
+        )
+
+
+def check_press(
+    angle: float | None,
+    table: str | None,
+    budget: bool,
+    stroke: float | None,
+    force: float | None,
+    travel: float | None,
+) -> None:
+    """Refuse bottoming without one goal, and what it does not have."""
+    if [stroke, force, travel].count(None) != 2:
+        raise InvalidValue(
+            "give the force of bottoming, the way beyond the bottom, or the stroke: one of them",
+            where="--bottoming",
+            remedy="--force-per-metre 400, or --travel 0.05",
+        )
+    if angle is not None or table is not None or budget:
+        raise InvalidValue(
+            "bottoming has no search for an angle, no table and no budget",
+            where="--bottoming",
+            cause="--angle, --table or --budget beside it",
+            remedy="the angle is about that of the die; leave them out",
+        )
+
+
+def strokes_of(text: str) -> list[float]:
+    """Strokes of first:last:step, the last one included."""
+    first, last, step = numbers(text, ":", 3, "--table", "first:last:step as 4:6:0.5")
+    if not 0.0 < first <= last < math.inf or not 0.0 < step < math.inf:
+        raise InvalidValue(
+            "a table goes from a positive stroke up to a larger one, in positive steps",
+            where="--table",
+            value=text,
+            cause="a sign, the two exchanged, or a number that is not finite",
+            remedy="first:last:step as 4:6:0.5",
+        )
+    if not last - first < _MOST_ROWS * step:
+        raise InvalidValue(
+            f"a table has at most {_MOST_ROWS} strokes",
+            where="--table",
+            value=text,
+            cause="the number of strokes in place of the step between them, or a step of another unit",
+            remedy="first:last:step as 4:6:0.5",
+        )
+    return [first + number * step for number in range(int((last - first) / step + 1e-9) + 1)]

@@ -1,0 +1,104 @@
+"""``umform hem``: an acute bend, flattened over an insert or open."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from umform.cli.metal import law_of
+from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
+from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
+from umform.cli.warnings import echo_warnings, print_warnings_once
+
+_HEM, _TOOLS = "Hem (mm, degrees)", "Tools of the first bend (mm, degrees)"
+
+
+@app.command()
+def hem(
+    out: Annotated[
+        str | None,
+        typer.Option(metavar="FOLDER", help="Folder for tables, pictures and fields; default: results/hem."),
+    ] = None,
+    gap: Annotated[float, option("Distance of flange and base in the end, thickness of the insert.", _HEM)] = 1.0,
+    flange: Annotated[float, option("Length of the flat flange.", _HEM)] = 12.0,
+    base: Annotated[float, option("Length of the flat base.", _HEM)] = 30.0,
+    insert: Annotated[
+        bool, option("A rigid plate between flange and base, or an open hem.", _HEM, "--insert/--open")
+    ] = True,
+    angle: Annotated[float, option("Angle after the first bend.", _HEM)] = 40.0,
+    opening: Annotated[float, option("Opening of the die.", _TOOLS)] = 8.0,
+    die_angle: Annotated[float, option("Angle of the die.", _TOOLS)] = 30.0,
+    die_radius: Annotated[float, option("Radius of the die shoulders.", _TOOLS)] = 1.0,
+    punch_angle: Annotated[float, option("Angle of the punch.", _TOOLS)] = 30.0,
+    punch_radius: Annotated[float, option("Radius of the punch tip.", _TOOLS)] = 0.5,
+    thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 1.0,
+    material: Material = None,
+    rolling: Annotated[
+        float | None, option("Degrees from the bend line to the rolling direction: 0 along it, 90 across.", SHEET)
+    ] = None,
+    young: Young = None,
+    poisson: Poisson = None,
+    yield_stress: Yield = None,
+    hardening_modulus: Modulus = None,
+    swift: SwiftCurve = None,
+    flow_curve: FlowCurve = None,
+    layers: Annotated[int, option("Elements through the thickness.", SOLUTION)] = 2,
+    elements_per_thickness: Annotated[float, option("Elements per thickness along the sheet.", SOLUTION)] = 3.0,
+    overwrite: Overwrite = False,
+    verbose: Verbose = 0,
+    debug: Debug = False,
+) -> None:
+    """Hem a sheet: an acute bend in a V-die, then flattened between a plate and a table.
+
+    Each number is defined in docs/bending-operations.md.
+    """
+    from umform.io.folders import folder_for
+    from umform.io.staging import staging
+    from umform.processes.air_bending.parameters import AirBending
+    from umform.processes.hemming import Hemming, hemming
+    from umform.processes.hemming.files import FILES, RESULTS, rows, write_files
+
+    print_warnings_once()
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    sheet = AirBending(
+        thickness=thickness,
+        opening=opening,
+        die_angle=die_angle,
+        die_radius=die_radius,
+        punch_angle=punch_angle,
+        punch_radius=punch_radius,
+        material=law,
+        rolling=rolling,
+        layers=layers,
+        elements_per_thickness=elements_per_thickness,
+    )
+    case = Hemming(gap=gap, flange=flange, base=base, insert=insert, angle=angle, sheet=sheet)
+    say = partial(typer.echo, err=True)
+    place = folder_for(out, Path("results/hem"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    with staging(place, FILES):
+        done = hemming(case)
+        try:
+            with printing(f"the files of the hem are in {place}"):
+                _show(rows(done.measures), note)
+                echo_warnings(list(done.warnings))
+        finally:  # also if nobody reads the table
+            files = write_files(place, done, note)
+    console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
+
+
+def _show(rows: list[list[str]], note: str) -> None:
+    """Print the measures."""
+    from rich import box
+    from rich.table import Table
+
+    table = Table("quantity", title="Hem", box=box.SIMPLE_HEAD)
+    table.add_column("value", justify="right")
+    table.add_column("unit")
+    for row in rows:
+        table.add_row(*row)
+    console().print(table)
+    if note:
+        console().print(note, soft_wrap=True)

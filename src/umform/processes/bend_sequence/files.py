@@ -1,0 +1,113 @@
+"""The files of a part: numbers, profile, curves, fields, pictures."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform.io.staging import staging
+from umform.io.tables import write_csv, write_json
+from umform.processes.air_bending.files import parameters
+from umform.processes.bend_sequence.part import BendDone, Part
+from umform.report.versions import versions
+
+_DATA = ("sequence.json", "profile.csv", "curves.csv", "part.vtkhdf")
+_PICTURES = ("part.png", "part.svg")
+#: Files of a part.
+FILES = (*_DATA, *_PICTURES)
+RESULTS = FILES
+
+
+def write_files(out: str | Path, part: Part, note: str = "") -> list[Path]:
+    """Write all that is known of a part.
+
+    Parameters
+    ----------
+    out : str or Path
+        Folder for sequence.json, profile.csv, curves.csv, part.vtkhdf (the last bend), part.png and part.svg.
+    part : Part
+        The part.
+    note : str
+        Where the material comes from; may be empty.
+    """
+    from umform.plotting import save
+    from umform.processes.bend_sequence.pictures import picture
+
+    with staging(out, FILES) as stage:
+        here = stage.waiting
+        write_json(here / "sequence.json", record(part) | {"note": note})
+        write_csv(here / "profile.csv", {"x": part.profile[:, 0], "z": part.profile[:, 1]})
+        number = np.concatenate([np.full(len(done.stroke), k) for k, done in enumerate(part.bends, start=1)])
+        stroke, force = (np.concatenate([getattr(done, name) for done in part.bends]) for name in ("stroke", "force"))
+        write_csv(here / "curves.csv", {"bend": number, "stroke": stroke, "force": force})
+        part.bends[-1].result.write(here / "part.vtkhdf")
+        files = stage.commit(_DATA)
+        figure = picture(part)
+        for name in _PICTURES:
+            save(figure, here / name)
+        return [*files, *stage.commit(_PICTURES)]
+
+
+def record(part: Part) -> dict[str, Any]:
+    """Parameters and results in a form that JSON can hold; None for what cannot be told.
+
+    ``profile`` and ``outline`` are lists of [x, z]: the part with its first leg on x, and the part in the tools of a
+    bend (die at z = 0, bend line at x = 0, punch tip at thickness - stroke) with stroke 0 and with the largest one.
+    """
+    sequence = part.sequence
+    return {
+        "parameters": {
+            "length": sequence.length,
+            "sheet": parameters(sequence.sheet),
+            "bodies": asdict(sequence.bodies),
+            "bends": [
+                {
+                    "position": bend.position,
+                    "angle": bend.angle,
+                    "stroke": bend.stroke,
+                    "direction": bend.direction,
+                    "tools": dict(bend.tools),
+                }
+                for bend in sequence.bends
+            ],
+        },
+        "bends": [_bend(done, angle) for done, angle in zip(part.bends, part.angles, strict=True)],
+        "flanges": part.flanges,
+        "length_balance": _number(part.length_balance),
+        "profile": _points(part.profile),
+        "increments": sum(len(done.result) - 1 for done in part.bends),
+        "iterations": int(sum(done.result["iterations"].sum() for done in part.bends)),
+        "seconds": sum(done.result.seconds for done in part.bends),
+        "warnings": part.warnings,
+        "versions": versions(),
+    }
+
+
+def _bend(done: BendDone, angle: float) -> dict[str, Any]:
+    """One bend."""
+    loaded = max(done.states[:-1] or done.states, key=lambda state: state[0])
+    return {
+        "measures": {name: _number(value) for name, value in asdict(done.measures).items()},
+        "final_angle": _number(angle),
+        "collisions": [asdict(hit) for hit in done.collisions],
+        "trials": [list(trial) for trial in done.trials],
+        "curve": {"stroke": done.stroke.tolist(), "force": done.force.tolist()},
+        "outline": {
+            name: {"stroke": stroke, "points": _points(strip.outline)}
+            for name, (stroke, strip) in {"before": done.states[0], "loaded": loaded}.items()
+        },
+        "warnings": list(done.warnings),
+    }
+
+
+def _points(points: NDArray[np.float64]) -> list[list[float]]:
+    return [[float(value) for value in row] for row in np.round(points, 4)]
+
+
+def _number(value: float) -> float | None:
+    return None if math.isnan(value) else float(value)

@@ -1,0 +1,111 @@
+"""Sequences of bends as data: of a TOML file, or of a form in JSON."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from umform.errors import FileProblem, InvalidValue
+from umform.processes.air_bending.parameters import AirBending
+from umform.processes.bend_sequence.parameters import TOOLS, Bend, BendSequence, Bodies
+
+_Size = Annotated[float, Field(gt=0.0, le=10000.0)]
+_Degrees = Annotated[float, Field(gt=0.0, lt=180.0)]
+
+
+class _Form(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class BendForm(_Form):
+    """One bend: `Bend`, with the sizes of its own tools beside the others."""
+
+    position: _Size
+    angle: _Degrees | None = None
+    stroke: _Size | None = None
+    direction: Literal["up", "down"] = "up"
+    opening: _Size | None = None
+    die_angle: _Degrees | None = None
+    die_radius: _Size | None = None
+    punch_angle: _Degrees | None = None
+    punch_radius: _Size | None = None
+
+    def bend(self) -> Bend:
+        """The bend."""
+        tools = {name: getattr(self, name) for name in TOOLS if getattr(self, name) is not None}
+        return Bend(self.position, self.angle, self.stroke, self.direction, tools)
+
+
+class BodiesForm(_Form):
+    """`Bodies`."""
+
+    punch_width: _Size = 16.0
+    punch_height: _Size = 90.0
+    ram_width: _Size = 60.0
+    die_width: _Size = 24.0
+    die_height: _Size = 60.0
+    table_width: _Size = 90.0
+
+
+class SequenceForm(_Form):
+    """Length of the flat strip, its bends in their order, bodies of the tools."""
+
+    length: _Size
+    bends: Annotated[list[BendForm], Field(min_length=1, max_length=50)]
+    bodies: BodiesForm = BodiesForm()
+
+    def sequence(self, sheet: AirBending) -> BendSequence:
+        """The sequence with thickness, material, mesh and the tools that bends do not have of their own.
+
+        Raises
+        ------
+        InvalidValue
+            ``where`` is the name of the parameter, or the number of the bend.
+        """
+        return BendSequence(
+            self.length, tuple(bend.bend() for bend in self.bends), sheet, Bodies(**self.bodies.model_dump())
+        )
+
+
+def read_sequence(path: Path) -> SequenceForm:
+    """Read a TOML file.
+
+    Raises
+    ------
+    FileProblem, InvalidValue
+        If it cannot be read, or says what no sequence is.
+    """
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise FileProblem(
+            "the sequence of bends cannot be read",
+            where=str(path),
+            cause=str(error),
+            remedy="a TOML file with length and a table [[bends]] for each bend, see docs/bending-operations.md",
+        ) from error
+    return sequence_form(data, str(path))
+
+
+def sequence_form(data: Any, where: str = "sequence") -> SequenceForm:
+    """The form of data.
+
+    Raises
+    ------
+    InvalidValue
+        With the key that is wrong.
+    """
+    try:
+        return SequenceForm.model_validate(data)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        key = ".".join(str(part + 1) if isinstance(part, int) else part for part in first["loc"])
+        raise InvalidValue(
+            f"{key}: {first['msg']}",
+            where=where,
+            value=str(first["input"])[:60],
+            remedy="length, and position with angle or stroke for each of the bends",
+        ) from error

@@ -1,0 +1,106 @@
+"""The files of a hem: numbers, curve, profile, fields, picture."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from umform.io.staging import staging
+from umform.io.tables import write_csv, write_json
+from umform.processes.air_bending.files import parameters
+from umform.processes.air_bending.measures import Quantity
+from umform.processes.hemming.measures import Hem, HemMeasures
+from umform.report.versions import versions
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_DATA = ("hem.json", "curve.csv", "profile.csv", "hem.vtkhdf")
+_PICTURES = ("hem.png", "hem.svg")
+#: Files of a hem.
+FILES = (*_DATA, *_PICTURES)
+RESULTS = FILES
+
+#: The measures, in the order of tables; docs/bending-operations.md defines each.
+QUANTITIES = {
+    "force": Quantity("force", "N/mm", 1),
+    "largest_force": Quantity("largest force", "N/mm", 1),
+    "loaded_height": Quantity("height under load", "mm", 3),
+    "height": Quantity("height", "mm", 3),
+    "springback": Quantity("springback", "mm", 3),
+    "tip_gap": Quantity("gap at the tip", "mm", 3),
+    "loop_gap": Quantity("largest gap", "mm", 3),
+    "angle": Quantity("angle of the flange", "deg", 2),
+    "outer_strain": Quantity("outer strain", "", 4),
+    "thinning": Quantity("smallest thickness ratio", "", 4),
+}
+
+
+def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
+    """Write all that is known of a hem.
+
+    Parameters
+    ----------
+    out : str or Path
+        Folder for hem.json, curve.csv, profile.csv, hem.vtkhdf, hem.png and hem.svg.
+    hem : Hem
+        The hem.
+    note : str
+        Where the material comes from; may be empty.
+    """
+    from umform.plotting import save
+
+    with staging(out, FILES) as stage:
+        here = stage.waiting
+        write_json(here / "hem.json", record(hem) | {"note": note})
+        write_csv(here / "curve.csv", {"stroke": hem.stroke, "force": hem.force})
+        write_csv(here / "profile.csv", {"x": hem.profile[:, 0], "z": hem.profile[:, 1]})
+        hem.result.write(here / "hem.vtkhdf")
+        files = stage.commit(_DATA)
+        figure = picture(hem)
+        for name in _PICTURES:
+            save(figure, here / name)
+        return [*files, *stage.commit(_PICTURES)]
+
+
+def record(hem: Hem) -> dict[str, Any]:
+    """Parameters and results in a form that JSON can hold; ``profile`` is a list of [x, z], the base on z = 0."""
+    case, first = hem.case, hem.first.bends[0]
+    given = {name: getattr(case, name) for name in ("gap", "flange", "base", "insert", "insert_edge", "angle")}
+    return {
+        "parameters": {**given, "increments": case.increments, "sheet": parameters(case.sheet)},
+        "first": {name: None if math.isnan(value) else value for name, value in asdict(first.measures).items()},
+        "measures": asdict(hem.measures),
+        "curve": {"stroke": hem.stroke.tolist(), "force": hem.force.tolist()},
+        "profile": np.round(hem.profile, 4).tolist(),
+        "increments": len(hem.result) - 1 + len(first.result) - 1,
+        "iterations": int(hem.result["iterations"].sum() + first.result["iterations"].sum()),
+        "seconds": hem.result.seconds + first.result.seconds,
+        "warnings": list(hem.warnings),
+        "versions": versions(),
+    }
+
+
+def rows(measures: HemMeasures) -> list[list[str]]:
+    """Measures as rows of text: name, value, unit."""
+    return [[q.label, f"{getattr(measures, name):.{q.decimals}f}", q.unit] for name, q in QUANTITIES.items()]
+
+
+def picture(hem: Hem) -> Figure:
+    """Force over the way of the plate, and the hem after unloading."""
+    from umform.plotting import COLOURS, INK, Picture, house_style
+
+    with house_style():
+        figure = Picture(figsize=(9.0, 3.6))
+        left, right = figure.subplots(1, 2)
+        left.plot(hem.stroke, hem.force, color=COLOURS[0])
+        left.set(xlabel="way of the plate in mm", ylabel="force in N for each mm of the hem", title="Force")
+        right.fill(*hem.profile.T, facecolor="#d9dde2", edgecolor=INK, linewidth=0.8)
+        right.set_title(f"released: height {hem.measures.height:.2f} mm")
+        right.set_aspect("equal")
+        right.axis("off")
+    return figure
