@@ -102,7 +102,7 @@ class Shelf:
             path = Path(folder) / "drawing.dxf"
             path.write_bytes(_bytes(drawing))
             arguments = ["umform.bench.read_tool", kind, str(path), layer]
-            found = answer_of(arguments, _LONGEST_READING, "the reading of the drawing")
+            found: dict[str, Any] = answer_of(arguments, _LONGEST_READING, "the reading of the drawing")
             if "problem" in found:
                 return found
             shutil.move(path, place.with_suffix(".dxf"))

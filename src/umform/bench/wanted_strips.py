@@ -69,5 +69,11 @@ class WantedStrip(BaseModel):
 
     def hem(self, sheet: AirBending) -> Hemming:
         """The hem."""
-        lengths = {"gap": self.gap, "flange": self.flange, "base": self.base}
-        return Hemming(**lengths, insert=self.insert, angle=self.first_angle, sheet=replace(sheet, stroke=None))
+        return Hemming(
+            gap=self.gap,
+            flange=self.flange,
+            base=self.base,
+            insert=self.insert,
+            angle=self.first_angle,
+            sheet=replace(sheet, stroke=None),
+        )

@@ -259,5 +259,5 @@ def test_more_running_jobs_than_are_allowed_start_no_others(tmp_path):
     queue._begin()
     assert [queue.index.job(name).state for name in names[3:]] == ["waiting"] * 3
     queue._running.clear()
-    queue._let_go()
+    queue.ready.let_go()
     queue.index.close()
