@@ -34,6 +34,17 @@ from umform.processes.air_bending.files import FILES, record, write_files
 from umform.processes.air_bending.search import find_stroke
 from umform.run.watching import watching
 
+#: What a run needs after its first increments: pictures, and the pages of the shape and of the report.
+_LATER = (
+    "matplotlib",
+    "matplotlib.transforms",
+    "matplotlib.text",
+    "matplotlib.figure",
+    "umform.bench.shape",
+    "umform.processes.air_bending.page",
+    "umform.processes.air_bending.pictures",
+)
+
 
 def main(arguments: list[str]) -> int:
     """Run the job of a folder; its outcome is a file there."""
@@ -52,11 +63,11 @@ def main(arguments: list[str]) -> int:
 
 
 def _order() -> str:
-    """The folder from standard input; what is needed later is loaded while nobody wants anything."""
-    if not select.select([sys.stdin], [], [], 0.0)[0]:
-        importlib.import_module("umform.bench.shape")
-        importlib.import_module("umform.processes.air_bending.page")
-        importlib.import_module("umform.processes.air_bending.pictures")
+    """The folder from standard input; what is needed later is loaded in pieces while nobody waits for this process."""
+    for name in _LATER:
+        if select.select([sys.stdin], [], [], 0.0)[0]:
+            break
+        importlib.import_module(name)
     return sys.stdin.readline().strip()
 
 
