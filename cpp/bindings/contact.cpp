@@ -53,7 +53,7 @@ nb::object copied(const Vectors& vectors) {
     return to_numpy(std::move(values), {vectors.size(), 3});
 }
 
-/// Arrays that the object owns, which nobody can write to.
+/// Read-only arrays that the object owns.
 template <class T>
 using View = nb::ndarray<const T, nb::numpy, nb::c_contig, nb::device::cpu>;
 template <class T>

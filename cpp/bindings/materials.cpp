@@ -111,7 +111,7 @@ MaterialFromFunction::EnergyFunction energy_from_function(nb::callable function,
     };
 }
 
-/// Axes of the points (n, 3, 3), size of the element and step, or None for a law that does not ask for them.
+/// Axes of the points (n, 3, 3), size of the element and step, or None for a law that does not need them.
 nb::object context(const FunctionArguments& at) {
     if (at.axes == nullptr) return nb::none();
     const auto* axes = reinterpret_cast<const double*>(at.axes);

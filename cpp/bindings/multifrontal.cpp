@@ -137,6 +137,16 @@ void bind_multifrontal(nb::module_& m) {
             nb::arg("values"), nb::arg("b"), nb::arg("x"), nb::arg("r"),
             nb::sig("def residual(self, values: NDArray[float64], b: NDArray[float64], x: NDArray[float64], "
                     "r: NDArray[float64]) -> None"))
+        .def(
+            "residual_of_magnitudes",
+            [](const Multifrontal& s, const Input& values, const Input& b, const Input& x, const Output& r) {
+                nb::gil_scoped_release release;
+                residual_of_magnitudes(s.rows(), s.symmetric(), values.data(), b.data(), x.data(), r.data());
+            },
+            nb::arg("values"), nb::arg("b"), nb::arg("x"), nb::arg("r"),
+            nb::sig("def residual_of_magnitudes(self, values: NDArray[float64], b: NDArray[float64], "
+                    "x: NDArray[float64], r: NDArray[float64]) -> None"),
+            "r = b - |K| x, without a copy of the matrix.")
         .def_prop_ro(
             "column_sizes",
             [](Multifrontal& s) {

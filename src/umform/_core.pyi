@@ -367,6 +367,9 @@ class Multifrontal:
 
     def residual(self, values: NDArray[float64], b: NDArray[float64], x: NDArray[float64], r: NDArray[float64]) -> None: ...
 
+    def residual_of_magnitudes(self, values: NDArray[float64], b: NDArray[float64], x: NDArray[float64], r: NDArray[float64]) -> None:
+        """r = b - |K| x, without a copy of the matrix."""
+
     @property
     def column_sizes(self) -> NDArray[float64]:
         """

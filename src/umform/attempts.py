@@ -1,4 +1,4 @@
-"""What becomes of the attempts of a run: which strategy was tried, which one won, and what was given up.
+"""Statistics of the attempts of a run: strategies tried and successful, discarded evaluations.
 
 >>> attempts = Attempts()
 >>> with attempts.trying("tangent"):
@@ -20,15 +20,15 @@ class Attempts:
     Attributes
     ----------
     evaluations : int
-        Of residuals, with a tangent or without.
+        Evaluations of the residual, with or without a tangent.
     thrown : int
-        Those of attempts that were given up.
+        Evaluations in discarded attempts.
     tried, won : Counter of str
-        How often each strategy was tried, and led to the equilibrium that was taken.
+        How often each strategy was tried, and succeeded.
     causes : Counter of str
-        Why attempts were given up.
+        Causes of failed attempts.
     staged : int
-        Points of the material, over all evaluations, whose return map went through stages of a shrinking yield surface.
+        Material points, over all evaluations, whose return map used stages of a shrinking yield surface.
     """
 
     def __init__(self) -> None:
@@ -39,12 +39,12 @@ class Attempts:
 
     @property
     def share(self) -> float:
-        """Share of the evaluations that was thrown away."""
+        """Fraction of discarded evaluations."""
         return self.thrown / self.evaluations if self.evaluations else 0.0
 
     @contextmanager
     def trying(self, strategy: str) -> Iterator[None]:
-        """Count an attempt; what is evaluated inside is thrown away if it ends with an exception."""
+        """Count an attempt; its evaluations are discarded if it ends with an exception."""
         mark = self.mark()
         self.tried[strategy] += 1
         try:
@@ -55,11 +55,11 @@ class Attempts:
         self.won[strategy] += 1
 
     def mark(self) -> tuple[int, int]:
-        """Where the counts stand before an increment, for :meth:`take_back`."""
+        """The counts before an increment, for :meth:`take_back`."""
         return self.evaluations, self.thrown
 
     def take_back(self, mark: tuple[int, int], cause: str) -> None:
-        """Count all that came since a mark as thrown away: an increment that had converged is not taken."""
+        """Count all evaluations since a mark as discarded: a converged increment is not accepted."""
         self._throw(mark)
         self.causes[cause] += 1
 
@@ -77,7 +77,7 @@ class Attempts:
         self.causes.update(other.causes)
 
     def rows(self) -> list[tuple[str, int, int]]:
-        """Each strategy that was tried: name, how often, and how often it won."""
+        """Each tried strategy: name, number of trials, number of successes."""
         return [(name, tried, self.won[name]) for name, tried in self.tried.items()]
 
     def record(self) -> dict[str, object]:

@@ -1,7 +1,7 @@
-"""Every way in which umform refuses: one exception a mistake, each with place, value, cause and remedy.
+"""Errors of umform: one exception class per kind of mistake, each with place, value, cause and remedy.
 
-A message answers five questions in the same order: what is wrong, where, which value, why it is likely so and
-what to do about it. The command line prints the message; Python users catch the class.
+A message answers five questions in the same order: what is wrong, where, which value, the likely cause, and the remedy.
+The command line prints the message; Python users catch the class.
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ from typing import Any
 
 
 class UmformError(Exception):
-    """Base of all errors that umform raises on purpose.
+    """Base of all errors that umform raises intentionally.
 
     Parameters
     ----------
     what : str
         One sentence that says what is wrong.
     where : str, optional
-        The place: element, node, set, file, key, step.
+        Place: element, node, set, file, key, step.
     value : object, optional
         The offending value.
     cause : str, optional
@@ -61,12 +61,12 @@ class UmformError(Exception):
 
 
 def _rebuild(kind: type[UmformError], what: str, where: str, value: object, cause: str, remedy: str) -> UmformError:
-    """Rebuild an error on the other side of a process boundary."""
+    """Rebuild an error in another process."""
     return kind(what, where=where, value=value, cause=cause, remedy=remedy)
 
 
 class InvalidValue(UmformError, ValueError):
-    """A number or name outside of what is allowed (negative penalty, NaN, unknown option)."""
+    """An invalid number or name (negative penalty, NaN, unknown option)."""
 
     id = "value.invalid"
 
@@ -84,13 +84,13 @@ class InvalidPenalty(InvalidValue):
 
 
 class InvalidFriction(InvalidValue):
-    """A law of friction that makes no sense."""
+    """An invalid friction law."""
 
     id = "contact.friction"
 
 
 class InvalidBead(InvalidValue):
-    """A draw bead that makes no sense, or lies beside its tool."""
+    """An invalid draw bead, or one that is not on its tool."""
 
     id = "contact.bead"
 
@@ -120,13 +120,13 @@ class FoldedElement(MeshError):
 
 
 class WrongNodeOrder(MeshError):
-    """Elements that become valid once their nodes are put in another order."""
+    """Elements that become valid in another node order."""
 
     id = "mesh.node-order"
 
 
 class WrongCellType(MeshError):
-    """Cells that the chosen element cannot be built on."""
+    """Cells that the chosen element does not support."""
 
     id = "mesh.cell-type"
 
@@ -146,7 +146,7 @@ class EmptySet(MeshError):
 
 
 class DrawingError(UmformError):
-    """A drawing from which no tool can be made."""
+    """A drawing that defines no tool."""
 
     id = "drawing"
 
@@ -158,49 +158,49 @@ class UnfitTriangles(DrawingError):
 
 
 class TurnedNormals(DrawingError):
-    """Normals of a surface that look to different sides, or into the sheet."""
+    """Normals of a surface that point to different sides, or into the sheet."""
 
     id = "drawing.turned-normals"
 
 
 class HoleInSurface(DrawingError):
-    """A surface with a rim where it must be closed."""
+    """A surface with a rim that must be closed."""
 
     id = "drawing.hole"
 
 
 class OpenSection(DrawingError):
-    """Lines and arcs of a drawing that do not meet, or make more than one curve."""
+    """Lines and arcs of a drawing that do not meet, or form several curves."""
 
     id = "drawing.section"
 
 
 class ModelError(UmformError):
-    """A model that cannot be solved as it stands."""
+    """A model that cannot be solved."""
 
     id = "model"
 
 
 class RigidBodyMotion(ModelError):
-    """Supports that leave the body free to move as a rigid whole."""
+    """Supports that leave a rigid-body motion free."""
 
     id = "model.rigid-body-motion"
 
 
 class ToolSwallowsSheet(ModelError):
-    """A tool that lies over the sheet before anything has moved."""
+    """A tool that overlaps the sheet at the start."""
 
     id = "model.tool-swallows-sheet"
 
 
 class SolveError(UmformError):
-    """The solution could not be continued; the last converged state is kept."""
+    """The solution failed; the last converged state is kept."""
 
     id = "solve"
 
 
 class NoConvergence(SolveError):
-    """Newton's method did not converge at the smallest step allowed."""
+    """Newton's method did not converge at the smallest allowed step."""
 
     id = "solve.no-convergence"
 
@@ -211,7 +211,7 @@ class SingularMatrix(SolveError):
     Attributes
     ----------
     motion : ndarray, shape (n,), optional
-        The displacement of the unknowns that it does not resist, where the solver knows it.
+        The displacement of the unknowns that it does not resist, if the solver knows it.
     """
 
     id = "solve.singular-matrix"

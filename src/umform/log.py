@@ -6,7 +6,7 @@ import logging
 
 
 def log_to_stderr(level: int) -> None:
-    """Write the messages of umform from a level on to standard error."""
+    """Print the messages of umform from a level upwards on standard error."""
     handler = logging.StreamHandler()
     handler.setFormatter(logging.Formatter("%(processName)s  %(message)s"))
     logger = logging.getLogger("umform")

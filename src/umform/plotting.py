@@ -1,4 +1,4 @@
-"""Pictures with matplotlib: histories and deformed shapes, saved whole as PNG or SVG; no global state is touched."""
+"""Plots with matplotlib: histories and deformed shapes, as PNG, SVG or PDF; no global state is changed."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _STYLE: Any = {
     "axes.titlesize": 10.0,
     "axes.titleweight": "bold",
     "axes.titlelocation": "left",
-    "axes.titley": 1.0,  # matplotlib would look for room above ticks, which are all below
+    "axes.titley": 1.0,  # matplotlib would reserve space above ticks, which are all below
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.edgecolor": "#777777",
@@ -53,40 +53,40 @@ _STYLE: Any = {
     "lines.linewidth": 1.4,
     "legend.frameon": False,
     "svg.hashsalt": "umform",
-    "figure.autolayout": False,  # each figure says how it is laid out
+    "figure.autolayout": False,  # each figure defines its layout
     "figure.constrained_layout.use": False,
 }
 
-#: More faces than these are drawn without their edges, and as pixels in SVG and PDF too.
+#: With more faces than this, no edges are drawn, and faces are pixels in SVG and PDF too.
 _MANY = 4000
 _FORMATS = (".png", ".svg", ".pdf")
-#: Dots an inch of pictures, and of what is pixels in SVG and PDF.
+#: Dots per inch of pictures, and of pixels in SVG and PDF.
 _DPI = 200
-#: Lines compress as well by a low level, in two thirds of the time.
+#: Lines compress as well at a low level, in two thirds of the time.
 _PNG = {"compress_level": 3}
-#: Fields that a shape is coloured by unless another is wanted: the first that is there.
+#: Default fields of a shape: the first available one is shown.
 _FAVOURITES = ("plastic_strain_max", "thickness_change", "displacement")
 
 
 @contextmanager
 def house_style() -> Iterator[None]:
-    """Draw what is made in this block in the style of the house."""
+    """Style of umform for figures made in this block."""
     with mpl.rc_context(_STYLE):
         yield
 
 
 class Picture(Figure):
-    """A figure for several files, which the first of them finishes: laid out once, and drawn once as SVG.
+    """A figure for several files: laid out once, and drawn once as SVG.
 
-    matplotlib lays a figure out anew for each file, which takes as long as to draw it twice.
+    matplotlib would repeat the layout for each file, which doubles the time.
     """
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
-        self.svg: dict[int, str] = {}  # by dots an inch
+        self.svg: dict[int, str] = {}  # by dots per inch
 
     def savefig(self, *args: Any, **kwargs: Any) -> None:
-        """Write the picture as `Figure` does, with the layout of the first time."""
+        """Write the picture as `Figure` does, with the first layout."""
         engine = self.get_layout_engine()
         if engine is not None:
             engine.execute(self)
@@ -95,7 +95,7 @@ class Picture(Figure):
 
 
 def save(figure: Figure, path: str | Path, dpi: int = _DPI) -> Path:
-    """Write a figure as PNG (with so many dots an inch), SVG or PDF, whole or not at all."""
+    """Write a figure as PNG (with a resolution in dots per inch), SVG or PDF, atomically."""
     path = Path(path)
     if path.suffix not in _FORMATS:
         raise InvalidValue(
@@ -129,7 +129,7 @@ def _svg(figure: Figure, dpi: int) -> str:
 
 
 def inline_svg(figure: Figure) -> str:
-    """The figure as an <svg> element for a page of HTML: no prologue, no metadata, no address of any kind."""
+    """The figure as an <svg> element for an HTML page: no prologue, no metadata, no links."""
     svg = _svg(figure, _DPI)
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<metadata>.*?</metadata>\s*", "", svg, flags=re.DOTALL)
@@ -177,7 +177,7 @@ def compare_histories(
     x : str
         Column of the abscissa.
     ys : sequence of str
-        Columns of the ordinate; runs have colours, columns have kinds of lines.
+        Columns of the ordinate; colours show runs, line styles show columns.
     path : str or Path, optional
         Where to save the picture: .png, .svg or .pdf.
 
@@ -205,7 +205,7 @@ def compare_histories(
 
 
 def _check_column(name: str, columns: Mapping[str, Floats], run: str) -> None:
-    """Reject a column that a history does not have, and name the nearest that it has."""
+    """Reject a column that a history does not have, and name the most similar one."""
     if name in columns:
         return
     near = get_close_matches(name, columns, n=1, cutoff=0.4)
@@ -230,9 +230,9 @@ def plot_shape(
     Parameters
     ----------
     shape : Shape or History
-        What to draw; of a result, the last frame.
+        What to draw; for a result, the last frame.
     values : str, optional
-        Scalar field, such as plastic_strain_max or thickness_change; by default the first of these that is there.
+        Scalar field, such as plastic_strain_max or thickness_change; default: the first available of these.
     path : str or Path, optional
         Where to save the picture: .png, .svg or .pdf.
     view : tuple of float
@@ -263,7 +263,7 @@ def draw_shape(
     view: tuple[float, float],
     limits: tuple[float, float] | None = None,
 ) -> PolyCollection:
-    """Draw the faces that look at the observer into axes, the near ones last; returns what a colour bar needs."""
+    """Draw the visible faces into axes, the near ones last; returns the data of a colour bar."""
     if values is not None and values not in shape.values:
         raise InvalidValue("the shape has no such field", value=values, remedy=f"one of {', '.join(shape.values)}")
     towards, across, up = camera(*view)

@@ -19,7 +19,7 @@ from umform.log import log_to_stderr
 
 Task = TypeVar("Task")
 Answer = TypeVar("Answer")
-#: Numbers of tasks, each with a call that returns its answer, or raises its exception.
+#: Indices of tasks, each with a call that returns its result, or raises its exception.
 _Answers = Generator[tuple[int, Callable[[], Answer]], None, None]
 
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -36,7 +36,7 @@ def run_all(
     tick: Callable[[float], None] = lambda fraction: None,
     each: Callable[[Answer], None] = lambda answer: None,
 ) -> list[Answer]:
-    """Apply a function to all tasks, the dearest ones first.
+    """Apply a function to all tasks, the most expensive ones first.
 
     Processes are spawned, so a script that calls this needs ``if __name__ == "__main__":``.
 
@@ -45,18 +45,18 @@ def run_all(
     function : callable
         A function of a module.
     tasks, costs : sequence
-        What it is called with, and how long this will take, in any unit.
+        Its arguments, and the estimated durations, in any unit.
     on_failure : callable
-        Makes the answer for a task whose call raised an exception; the other tasks go on.
+        Makes the result for a task whose call raised an exception; the other tasks continue.
     processes : int, optional
-        How many at a time; default: as many as this process may use processors, at most one a task. With one,
-        everything happens here.
+        Number of parallel processes; default: the number of processors available to this process, at most one per task.
+        With 1 all tasks run in this process.
     executor : concurrent.futures.Executor, optional
-        Runs the tasks in place of processes of this machine; it is not shut down.
+        Runs the tasks instead of processes of this machine; it is not shut down.
     tick : callable
-        Called with the part of the costs that is done.
+        Called with the completed fraction of the costs.
     each : callable
-        Called with each answer when it is there.
+        Called with each result when it is available.
 
     Raises
     ------
@@ -76,7 +76,7 @@ def run_all(
         for number, answer in finished:
             try:
                 answers[number] = answer()
-            except BrokenExecutor:  # it takes along all tasks that are not done
+            except BrokenExecutor:  # it terminates all unfinished tasks
                 answers[number] = on_failure(tasks[number], _died())
             except Exception as error:
                 answers[number] = on_failure(tasks[number], error)
@@ -93,7 +93,7 @@ def _here(calls: Mapping[int, Callable[[], Answer]]) -> _Answers[Answer]:
 
 @contextmanager
 def _one_thread() -> Iterator[None]:
-    """Let the kernels work with one thread in this block."""
+    """Run the kernels with one thread in this block."""
     before = _core.threads()
     _core.set_threads(1)
     try:
@@ -103,7 +103,7 @@ def _one_thread() -> Iterator[None]:
 
 
 def _in_processes(calls: Mapping[int, Callable[[], Answer]], count: int) -> _Answers[Answer]:
-    """Calls that give the answers of other processes; these end at once if nobody waits for the answers any more."""
+    """Calls that return the results of other processes, which end immediately if no caller waits for them."""
     level, others = logging.getLogger("umform").getEffectiveLevel(), set(multiprocessing.active_children())
     before = {name: os.environ.get(name) for name in _THREADS}
     os.environ.update(dict.fromkeys(_THREADS, "1"))
@@ -125,7 +125,7 @@ def _in_processes(calls: Mapping[int, Callable[[], Answer]], count: int) -> _Ans
 
 
 def _in_executor(calls: Mapping[int, Callable[[], Answer]], executor: Executor) -> _Answers[Answer]:
-    """Calls that give the answers of an executor; what has not begun is cancelled if nobody waits any more."""
+    """Calls that return the results of an executor; pending tasks are cancelled if no caller waits for them."""
     futures = {}
     try:
         for number, call in calls.items():
@@ -138,13 +138,13 @@ def _in_executor(calls: Mapping[int, Callable[[], Answer]], executor: Executor) 
 
 
 def _with_one_thread(call: Callable[[], Answer]) -> Answer:
-    """Call a function with one kernel thread, wherever it is called."""
+    """Call a function with one kernel thread, in any process."""
     with _one_thread():
         return call()
 
 
 def check_processes(processes: int | None) -> None:
-    """Reject a number of processes that is less than 1, for callers that do something else first.
+    """Reject a number of processes that is less than 1, for an early check.
 
     Raises
     ------
@@ -169,20 +169,23 @@ def _died() -> SolveError:
 
 
 def _processors() -> int:
-    """Number of processors that this process may use."""
+    """Number of processors available to this process."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def _prepare(level: int) -> None:
-    """Make a new process ready: one kernel thread, the log of its parent; Ctrl-C, SIGTERM and its death end it at once.
+    """Initialise a process: one kernel thread, the log of its parent; Ctrl-C, SIGTERM and the end of the parent stop it
+    immediately.
 
-    Without a log, warnings come back with the answers and are not printed here too.
+    Without a log, warnings are returned with the results and not printed here.
     """
     threading.Thread(target=_end_with_parent, daemon=True).start()
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    signal.signal(signal.SIGTERM, lambda number, frame: os._exit(128 + number))  # a run would end after its increment
+    signal.signal(
+        signal.SIGTERM, lambda number, frame: os._exit(128 + number)
+    )  # a run would first finish its increment
     _core.set_threads(1)
     if level < logging.WARNING:
         log_to_stderr(level)
@@ -191,7 +194,7 @@ def _prepare(level: int) -> None:
 
 
 def _end_with_parent() -> None:
-    """Wait for the death of the parent, which may be killed, and end this process then: nobody takes its answers."""
+    """Wait for the end of the parent, which may be killed, and then end this process."""
     parent = multiprocessing.parent_process()
     if parent is not None:
         parent.join()

@@ -1,4 +1,4 @@
-"""A progress bar on a terminal, silence elsewhere."""
+"""A progress bar on a terminal; no output elsewhere."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Protocol
 
 
 class Tick(Protocol):
-    """Takes the part of something that is done, and a few words on where it stands."""
+    """Takes the completed fraction, and a short text on the state."""
 
     def __call__(self, name: str, fraction: float, detail: str = "", /) -> None:
         """Move the bar of a name."""
@@ -17,7 +17,7 @@ class Tick(Protocol):
 
 @contextmanager
 def progress_bar(show: bool | None = None) -> Iterator[Tick]:
-    """Yield ``tick(name, fraction, detail)``; one bar a name, on a terminal only unless ``show`` says otherwise."""
+    """Yield ``tick(name, fraction, detail)``; one bar per name, on a terminal only unless ``show`` overrides it."""
     if show is None:
         show = sys.stderr is not None and sys.stderr.isatty()
     if not show:
@@ -38,7 +38,7 @@ def progress_bar(show: bool | None = None) -> Iterator[Tick]:
         tasks: dict[str, int] = {}
 
         def tick(name: str, fraction: float, detail: str = "", /) -> None:
-            if name not in tasks:  # what is done before the first look says nothing of the speed
+            if name not in tasks:  # work before the first call does not count for the speed
                 tasks[name] = progress.add_task(name, total=1.0, completed=fraction, detail=detail)  # type: ignore[arg-type]
             progress.update(tasks[name], completed=fraction, detail=detail)  # type: ignore[arg-type]
 

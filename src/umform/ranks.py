@@ -1,7 +1,7 @@
-"""What processes that share a model must agree on: sums, largest values, errors. In one process each is its own share.
+"""Collective operations of processes that share a model: sums, maxima, errors. A single process is a trivial case.
 
-A rank is one process of a run under MPI. Everything that decides how a run goes on passes through here, so that all
-ranks decide alike; `umform.parallel` has the ranks of MPI.
+A rank is one process of a run under MPI. All data that decide the course of a run pass through here, so that all ranks
+decide alike; `umform.parallel` implements the ranks of MPI.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ _Sum = TypeVar("_Sum", float, Floats)
 
 
 class Ranks(Protocol):
-    """The ranks that share a model; each method gives the same answer on all of them, to the last bit."""
+    """The ranks that share a model; each method returns the same result on all of them, to the last bit."""
 
     @property
     def rank(self) -> int:
-        """Number of this rank, counted from 0; the first one writes files and talks."""
+        """Index of this rank, from 0; the first one writes files and prints."""
 
     @property
     def size(self) -> int:
-        """How many there are."""
+        """Number of ranks."""
 
     def sum(self, value: _Sum) -> _Sum:
         """Sum of a number or of an array of one shape."""
@@ -33,13 +33,13 @@ class Ranks(Protocol):
         """Largest of the numbers."""
 
     def any(self, flag: bool) -> bool:
-        """Whether one of them says so."""
+        """Whether the condition holds on any rank."""
 
     def dot(self, a: Floats, b: Floats) -> float:
         """Scalar product of two vectors of which each rank has its own entries."""
 
     def join(self, state: bytes) -> bytes:
-        """Something that is equal only if the states of all ranks are."""
+        """A value that is equal only if the states of all ranks are equal."""
 
     def rows(self, matrix: Floats) -> Floats:
         """A matrix with the same row space and singular values as the rows of all ranks."""
@@ -55,15 +55,15 @@ class OneRank:
     size = 1
 
     def sum(self, value: _Sum) -> _Sum:
-        """The number itself."""
+        """The number."""
         return value
 
     def max(self, value: float) -> float:
-        """The number itself."""
+        """The number."""
         return value
 
     def any(self, flag: bool) -> bool:
-        """The answer itself."""
+        """The condition."""
         return bool(flag)
 
     def dot(self, a: Floats, b: Floats) -> float:
@@ -71,11 +71,11 @@ class OneRank:
         return float(a @ b)
 
     def join(self, state: bytes) -> bytes:
-        """The state itself."""
+        """The state."""
         return state
 
     def rows(self, matrix: Floats) -> Floats:
-        """The matrix itself."""
+        """The matrix."""
         return matrix
 
     def agree(self, error: Exception | None) -> None:

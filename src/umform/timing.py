@@ -1,4 +1,4 @@
-"""Where the time of a run goes: seconds and calls of its parts, at the cost of two looks at the clock for each call.
+"""Timing of a run: seconds and calls of its parts, at the cost of two readings of the clock per call.
 
 >>> timing = Timing()
 >>> with timing.elements:
@@ -19,7 +19,7 @@ from umform.attempts import Attempts
 
 
 class Part:
-    """Adds up what is spent inside of its ``with`` blocks, which never stand in each other.
+    """Accumulates the time of its ``with`` blocks, which are never nested.
 
     Attributes
     ----------
@@ -47,12 +47,12 @@ class Part:
 
 
 class Timing:
-    """Seconds and calls of the parts of a run; no part lies within another, but all within `run` or in `files`.
+    """Seconds and calls of the parts of a run; parts are not nested, and all lie within `run` or in `files`.
 
     Attributes
     ----------
     run : Part
-        The whole of it: :func:`umform.solve`.
+        The whole run: :func:`umform.solve`.
     elements : Part
         Residual and tangent of the elements with their scatter into the matrix; one call an evaluation.
     recovery : Part
@@ -62,15 +62,15 @@ class Timing:
     ties : Part
         Reduction of the matrix by the ties.
     analysis : Part
-        Order of elimination, once for a pattern.
+        Elimination order, once per pattern.
     factorisation, solve : Part
-        What they say.
+        Factorisation, and solution with the factors.
     output : Part
         Rows and frames of the result, checkpoints.
     files : Part
         Tables, fields, pictures and pages after the run.
     attempts : Attempts
-        Evaluations, those that were thrown away, and strategies.
+        Evaluations, discarded ones, and strategies.
     """
 
     def __init__(self) -> None:
@@ -88,7 +88,7 @@ class Timing:
 
     @property
     def parts(self) -> list[Part]:
-        """All parts of the run and the files, without the whole."""
+        """All parts of the run and the files, without the total."""
         return [part for name, part in self._clocks() if name != "run"]
 
     def _clocks(self) -> list[tuple[str, Part]]:
@@ -106,11 +106,11 @@ class Timing:
 
     @property
     def rest(self) -> float:
-        """Seconds of the run outside of all parts: Python itself."""
+        """Seconds of the run outside of all parts: Python code."""
         return self.total - sum(part.seconds for part in self.parts)
 
     def rows(self) -> list[tuple[str, float, float, int | None]]:
-        """Name, seconds, share of the total and calls of each part that was called, and of the rest of Python."""
+        """Name, seconds, fraction of the total and calls of each part that was called, and of the rest of Python."""
         whole = self.total or 1.0
         rows: list[tuple[str, float, float, int | None]] = [
             (part.name, part.seconds, part.seconds / whole, part.calls) for part in self.parts if part.calls
@@ -124,7 +124,7 @@ class Timing:
 
     @classmethod
     def sum(cls, timings: Iterable[Timing]) -> Timing:
-        """All of several runs together."""
+        """Sum of several runs."""
         whole = cls()
         for timing in timings:
             whole.attempts.add(timing.attempts)
@@ -139,7 +139,7 @@ _listening: ContextVar[list[Timing] | None] = ContextVar("_listening", default=N
 
 @contextmanager
 def timings() -> Iterator[list[Timing]]:
-    """List the timings of all runs that begin inside of the ``with`` block, in this process."""
+    """List the timings of all runs that begin in the ``with`` block, in this process."""
     found: list[Timing] = []
     token = _listening.set(found)
     try:
@@ -149,7 +149,7 @@ def timings() -> Iterator[list[Timing]]:
 
 
 def new_timing() -> Timing:
-    """Timing of a run that begins; whoever listens hears of it."""
+    """Timing of a new run, also passed to the observers."""
     timing = Timing()
     found = _listening.get()
     if found is not None:

@@ -31,6 +31,27 @@ void test_derivatives() {
     }
 }
 
+/// The foot on a flat triangle is in it, and what is left of the way to it leads out of the triangle: no corner lies on its side.
+void test_flat_foot() {
+    const Vec3 a{0.1, 0.0, 0.2}, b{2.0, 0.3, -0.1}, c{0.4, 1.5, 0.6};
+    int inside = 0, edges = 0, corners = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 x{4.0 * std::fmod(0.61803 * i, 1.0) - 1.0, 4.0 * std::fmod(0.41421 * i, 1.0) - 1.5,
+                     2.0 * std::fmod(0.73205 * i, 1.0) - 1.0};
+        const FlatFoot foot = foot_on_triangle(x, a, b, c);
+        const auto [u, v] = foot.p;
+        CHECK(u >= 0.0 && v >= 0.0 && u + v <= 1.0 + 1e-15);
+        Vec3 y;
+        for (int k = 0; k < 3; ++k) y[k] = a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]);
+        const Vec3 r = difference(x, y);
+        CHECK_NEAR(foot.square, dot(r, r), 1e-13);
+        for (const Vec3& corner : {a, b, c}) CHECK(dot(r, difference(corner, y)) <= 1e-13);
+        const int zeros = (u == 0.0) + (v == 0.0) + (u + v == 1.0);
+        ++(zeros == 0 ? inside : zeros == 1 ? edges : corners);
+    }
+    CHECK(inside > 50 && edges > 50 && corners > 50);
+}
+
 /// No point of a fine grid is nearer than the foot.
 void test_foot() {
     const QuarticPatch made = patch(0.1);
@@ -65,6 +86,7 @@ void test_tree() {
 
 int main() {
     test_derivatives();
+    test_flat_foot();
     test_foot();
     test_tree();
     return report("triangulated");

@@ -44,6 +44,9 @@ def cited(text: str) -> set[str]:
     return {number for match in CITED.finditer(text) for number in expanded(match[1])}
 
 
+CITATIONS = {file: cited(text) for file, text in CODE.items()}
+
+
 def table() -> list[tuple[str, str]]:
     """Rows of the table "Equation, what it is, file": equations and files as they stand there."""
     section = PAGES[THEORY / "README.md"].split("## Equation, what it is, file")[1].split("\n## ")[0]
@@ -59,16 +62,16 @@ def code_file(name: str) -> Path:
 def test_citations_are_read():
     assert cited("// eqs. (3.5), (3.6)") == {"3.5", "3.6"}
     assert cited('"""Convergence.\neqs. (5.8)-(5.11)"""') == {"5.8", "5.9", "5.10", "5.11"}
-    assert sum(bool(cited(text)) for text in CODE.values()) > 15
+    assert sum(map(bool, CITATIONS.values())) > 15
 
 
 def test_no_equation_has_the_number_of_another():
     assert [tag for tag, count in TAGS.items() if count > 1] == []
 
 
-@pytest.mark.parametrize("file", [file for file, text in CODE.items() if cited(text)], ids=lambda file: file.name)
+@pytest.mark.parametrize("file", [file for file, found in CITATIONS.items() if found], ids=lambda file: file.name)
 def test_equations_cited_in_the_code_exist(file):
-    assert cited(CODE[file]) - set(TAGS) == set()
+    assert CITATIONS[file] - set(TAGS) == set()
 
 
 def test_equations_cited_in_the_theory_exist():
@@ -96,7 +99,7 @@ def test_files_of_the_table_exist_and_hold_the_citation(row):
     for name in names:
         assert code_file(name).is_file(), name
     for number in expanded(equations):
-        where = [file for file, text in CODE.items() if number in cited(text) and BOOK not in file.parents]
+        where = [file for file, found in CITATIONS.items() if number in found and BOOK not in file.parents]
         assert not where or {code_file(name) for name in names} & set(where), (number, where)
 
 

@@ -24,7 +24,7 @@ from umform.sheet_metals import (
 YIELD_FUNCTIONS = ("hill48", "yld2004")
 HARDENINGS = ("auto", *CURVE_FITS)
 BACK_STRESSES = ("chaboche1", "chaboche2", "chaboche3", "chaboche4", "yoshida-uemori")
-#: Curves among which the best is taken.
+#: Curves from which the best one is selected.
 _CANDIDATES = ("swift", "voce", "linear-voce")
 #: Plastic strain below which a tension test depends more on the extensometer than on the metal.
 _FIRST_PLASTIC = 5e-4
@@ -32,7 +32,7 @@ _FIRST_PLASTIC = 5e-4
 
 @dataclass(frozen=True)
 class Calibration:
-    """What was fitted.
+    """Result of a calibration.
 
     Attributes
     ----------
@@ -43,9 +43,9 @@ class Calibration:
     yield_function : YieldFunction
         Its yield function.
     fits : mapping of str to Fit
-        The fits of which the law is made, by "yield function", "hardening" and "cycles".
+        The fits of the law, by "yield function", "hardening" and "cycles".
     others : mapping of str to float
-        Misfits of the hardening curves that were tried.
+        Misfits of the other hardening curves.
     """
 
     measurements: Measurements
@@ -71,24 +71,24 @@ def calibrate(
     Parameters
     ----------
     measurements : Measurements
-        What was measured, one part at least.
+        Measurements, at least of one kind.
     young, poisson : float
         Elastic constants.
     yield_function : {"hill48", "yld2004"}
-        What is fitted to the values over the angle.
+        Function to fit to the values over the angle.
     exponent : float
         Of Yld2004: 6 for bcc metals, 8 for fcc metals.
     hardening : str
-        Curve that is fitted to tension, one of `HARDENINGS`; "auto": the best of Swift, Voce and both parts of Voce.
+        Curve to fit to tension, one of `HARDENINGS`; "auto": the best of Swift, Voce and the sum of linear and Voce.
     back_stress : str
-        What is fitted to cycles, one of `BACK_STRESSES`; its hardening is then Voce's, or none.
+        Model to fit to cycles, one of `BACK_STRESSES`; its hardening is then Voce's, or none.
     largest_step : float
-        Largest strain of a step through the cycles.
+        Largest strain increment along the cycles.
 
     Raises
     ------
     InvalidValue
-        If nothing was measured, or a name is not known.
+        If there are no measurements, or a name is unknown.
     """
     for name, value, known in (
         ("yield_function", yield_function, YIELD_FUNCTIONS),

@@ -23,14 +23,14 @@ def texts(found: Calibration) -> tuple[str, str]:
 
 
 def write_files(out: str | Path, found: Calibration) -> list[Path]:
-    """Write what was found into a folder; the files get their names together.
+    """Write the results to a folder; the files appear together.
 
     Parameters
     ----------
     out : str or Path
         Folder for metal.toml, metal.py, constants.csv and a picture of each kind of measurement as .png and .svg.
     found : Calibration
-        What was found.
+        The result.
     """
     from umform.plotting import house_style, save
 

@@ -1,4 +1,4 @@
-"""What was measured of a sheet: values over the angle, a tension test, cycles; files are read and checked."""
+"""Measurements of a sheet: values over the angle, a tension test, cycles; files are read and checked."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from umform.sheet_metals import Directions
 Floats = NDArray[np.float64]
 Path = str | PathLike[str]
 
-#: A fraction of strain beyond which per cent are meant, and stresses in MPa between which a metal yields.
+#: A strain that must be in per cent, and the range of stresses in MPa at which metals yield.
 _LARGEST_STRAIN, _SOFTEST, _HARDEST = 2.0, 10.0, 5000.0
-#: A true stress of a tension test does not fall by more than this part of the largest.
+#: Largest relative decrease of the true stress in a tension test.
 _FALL = 0.01
 
 
@@ -39,7 +39,7 @@ class Test:
 
 @dataclass(frozen=True)
 class Measurements:
-    """All that was measured; what is None was not.
+    """All measurements; None for missing ones.
 
     Attributes
     ----------

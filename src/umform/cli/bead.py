@@ -1,4 +1,4 @@
-"""``umform bead``: a sheet drawn through a draw bead of real geometry."""
+"""``umform bead``: a sheet drawn through a modelled draw bead."""
 
 from __future__ import annotations
 
@@ -56,6 +56,10 @@ def bead(
     element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND8",
     elements: Annotated[float, option("Elements per quarter turn of the smaller radius.", SOLUTION)] = 14.0,
     contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 4,
+    penalty: Annotated[
+        float | None,
+        option("Contact pressure per penetration, MPa/mm; default by the allowed penetration.", SOLUTION),
+    ] = None,
     extrapolate: Annotated[
         bool,
         option(
@@ -95,6 +99,7 @@ def bead(
         element=element,
         elements=elements,
         contact_points=contact_points,
+        penalty=penalty,
     )
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/bead"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
@@ -104,7 +109,7 @@ def bead(
         try:
             with printing(f"the files of the bead are in {place}"):
                 _show(drawn, note)
-        finally:  # also if nobody reads the table
+        finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
                 without_help_texts()
                 files = write_files(place, drawn, note)
@@ -115,7 +120,7 @@ def bead(
 
 @contextmanager
 def _what_was_reached(out: Path) -> Iterator[None]:
-    """Write the history of a run that is ended early."""
+    """Write the history of a run that ended early."""
     try:
         yield
     except (UmformError, KeyboardInterrupt) as stop:

@@ -24,8 +24,8 @@ def bench(
 ) -> None:
     """Open a local page in the browser: bend a sheet, and read stroke, force, springback and flat length.
 
-    The server listens on 127.0.0.1 only, and asks for the token in the link. Each job runs in a process of its own;
-    jobs are kept in the folder and continue when the bench is started again. Needs `pip install "umform[bench]"`.
+    The server listens on 127.0.0.1 only, and requires the token in the link. Each job runs in a separate process; jobs
+    are kept in the folder and continue when the bench is restarted. Needs `pip install "umform[bench]"`.
     """
     try:
         from umform.bench.server import serve

@@ -191,7 +191,7 @@ def bend(
         except KeyboardInterrupt as stop:
             stop.add_note(f"  results so far are in {place}: all but the budget")
             raise
-        finally:  # also if nobody reads the table
+        finally:  # even if the table cannot be printed
             with done.result.timing.files:
                 without_help_texts()
                 files = write_files(place, done, rows, errors, note=note)
@@ -201,7 +201,7 @@ def bend(
 
 
 def _refuse_implausible(model: Model, *, force: bool) -> None:
-    """Refuse numbers that cannot be meant, and warn of those that are unusual, before time is spent on a run."""
+    """Refuse numbers that are certainly wrong, and warn of unusual ones, before the run."""
     from umform.deck.findings import accept
     from umform.deck.plausible import of_model
 
@@ -211,12 +211,12 @@ def _refuse_implausible(model: Model, *, force: bool) -> None:
 
 @contextmanager
 def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
-    """Write the history of a run that is ended early, its states, and the rows of the table before it.
+    """Write the history and the states of a run that ended early, and the finished rows of the table.
 
     Yields
     ------
     list of Measures
-        Takes the rows of the table once all are there.
+        Gets the rows of the table when all are finished.
     """
     rows: list[Measures] = []
     try:
@@ -238,7 +238,7 @@ def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
 
 
 def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str) -> None:
-    """Print measures, bending table, and what is to be said of them."""
+    """Print measures, bending table, and remarks."""
     from umform.processes.air_bending.formulas import shop_forces
     from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
     from umform.results.penetration import penetrations

@@ -1,4 +1,4 @@
-"""``umform check``: whether a deck can be read, built, and meant, without solving it."""
+"""``umform check``: check a deck without solving it."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def check_deck(deck: DeckFile, changes: Changes = None, verbose: Verbose = 0, de
 
 
 def read(path: Path, changes: Sequence[str]) -> Deck:
-    """The deck of a file with some values changed."""
+    """The deck of a file with some changed values."""
     from umform.deck import load
 
     return load(path, dict(_change(text) for text in changes))
@@ -53,7 +53,7 @@ def read(path: Path, changes: Sequence[str]) -> Deck:
 
 @contextmanager
 def deck_errors() -> Iterator[None]:
-    """Print what is wrong with a deck in the words of decks, and end with exit code 1."""
+    """Print the mistakes in a deck in terms of its keys, and exit with code 1."""
     try:
         yield
     except UmformError as error:
@@ -76,7 +76,7 @@ def _change(text: str) -> tuple[str, Any]:
 
 
 def _show(findings: Sequence[Finding]) -> None:
-    """One row a finding, the remedy in the row below."""
+    """One row per finding, the remedy in the next row."""
     from rich import box
     from rich.table import Table
     from rich.text import Text

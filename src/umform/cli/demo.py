@@ -129,7 +129,7 @@ def free_bending(
 
 
 def _show(outcome: Outcome, out: Path, *, timing: bool) -> None:
-    """Print the table, where the files are, and what went wrong."""
+    """Print the table, the files, and failures."""
     from rich import box
     from rich.table import Table
 

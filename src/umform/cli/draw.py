@@ -1,4 +1,4 @@
-"""``umform draw``: a round cup, and a U-bend, drawn, released and measured."""
+"""``umform draw``: draw, release and measure a round cup or a U-bend."""
 
 from __future__ import annotations
 
@@ -165,7 +165,7 @@ def u(
 
 
 def _chosen(given: Any, coarse: bool, first: Any, usual: Any) -> Any:
-    """What is given, or the value for a coarse or the usual mesh."""
+    """The given value, or the default for a coarse or the usual mesh."""
     return given if given is not None else first if coarse else usual
 
 
@@ -210,7 +210,7 @@ def _run(
         try:
             with printing(f"the files of the part are in {place}"):
                 _show(drawn, note)
-        finally:  # also if nobody reads the table
+        finally:  # even if the table cannot be printed
             with drawn.result.timing.files:
                 files = write_files(place, drawn, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)

@@ -1,13 +1,13 @@
-"""matplotlib as a command needs it: quickly."""
+"""Fast import of matplotlib for commands."""
 
 from __future__ import annotations
 
 
 def without_help_texts() -> None:
-    """Keep matplotlib from writing the help text of each of its classes while it is imported, a third of that time.
+    """Prevent matplotlib from building the help texts of its classes at import, which takes a third of that time.
 
-    These are the docstrings and signatures of ``set``, for people at a prompt: nothing is drawn by them. For processes
-    of a command only, before :mod:`umform.plotting` is imported.
+    These are the docstrings and signatures of ``set``, which only interactive users need. For processes of a command
+    only, before :mod:`umform.plotting` is imported.
     """
     from matplotlib.artist import Artist
 

@@ -25,7 +25,7 @@ def elements() -> None:
 
 
 def _described(element: Element) -> tuple[str, str, str, str]:
-    """Nodes, tied components, number of modes a component, source."""
+    """Nodes, tied components, number of modes per component, source."""
     tied = " ".join(dict.fromkeys(f"E{row.component}" for row in element.tying)) or "none"
     counts: dict[str, int] = {}
     for mode in element.modes:

@@ -1,4 +1,4 @@
-"""The law of a sheet from options of the command line: a metal of the library, or numbers."""
+"""The law of a sheet from options of the command line: a metal of the library, or constants."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def law_of(
     swift: str | None,
     flow_curve: Path | None,
 ) -> tuple[J2 | Metal, str]:
-    """Law of the sheet, and what is to be said of it."""
+    """Law of the sheet, and a remark on it."""
     from umform.processes.air_bending.parameters import DC04_LIKE
 
     own = [value for value in (young, poisson, yield_stress, modulus, swift, flow_curve) if value is not None]
@@ -73,7 +73,7 @@ def _own_law(
 
 @contextmanager
 def _asked_by(options: str) -> Iterator[None]:
-    """Name the options in place of the law that refuses what they say."""
+    """Name the options instead of the law in errors."""
     try:
         yield
     except InvalidValue as error:
@@ -82,7 +82,7 @@ def _asked_by(options: str) -> Iterator[None]:
 
 
 def numbers(text: str, separator: str, count: int, where: str, remedy: str) -> list[float]:
-    """Numbers that are written with a separator between them; what is not so many numbers is refused."""
+    """Numbers with a separator between them; any other number of them is refused."""
     try:
         values = [float(part) for part in text.split(separator)]
     except ValueError:

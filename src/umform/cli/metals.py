@@ -49,7 +49,7 @@ def list_metals() -> None:
 
 
 def _kind(metal: SheetMetal) -> str:
-    """Yield function, hardening and back stress in a few words."""
+    """Yield function, hardening and back stress as short text."""
     from umform.materials import Hill48, Metal, Mises, YoshidaUemori
 
     law = metal.law
@@ -92,7 +92,7 @@ def _rolling(metal: SheetMetal) -> str:
 
 
 def _print_directions(metal: SheetMetal) -> None:
-    """Yield stress and r over the angle, beside what the source measured."""
+    """Yield stress and r over the angle, beside the measured values."""
     from rich import box
     from rich.table import Table
 
@@ -176,7 +176,7 @@ def fit(
     try:
         with printing(f"the files of the fit are in {place}"):
             _show(found)
-    finally:  # also if nobody reads the table
+    finally:  # even if the table cannot be printed
         files = write_files(place, found)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
 

@@ -23,7 +23,7 @@ def new(
     from umform.deck import templates
 
     if schema:
-        from umform.deck.contents import json_schema  # all of umform, which the list does not need
+        from umform.deck.contents import json_schema  # without the rest of umform, which the list does not need
 
         typer.echo(json_schema(), nl=False)
     elif template is None:

@@ -1,4 +1,4 @@
-"""Options of the command line: their panels in the help, and those that describe the sheet."""
+"""Options of the command line: their panels in the help, and the options of the sheet."""
 
 from __future__ import annotations
 

@@ -40,6 +40,6 @@ def plot(
 
 
 def _list_columns(histories: dict[str, History]) -> None:
-    """Which columns each run has."""
+    """Columns of each run."""
     for name, columns in histories.items():
         typer.echo(f"{name}: {', '.join(columns)}")

@@ -12,14 +12,14 @@ GROUP = "umform.commands"
 
 @cache
 def plugins() -> dict[str, Any]:
-    """Commands that installed packages offer, by their names; looked for when none of umform's own is meant.
+    """Commands of installed packages by name; loaded only for a command that umform does not have.
 
     Returns
     -------
     dict of str to command of click
         The name of an entry point becomes that of the command.
     """
-    from importlib.metadata import entry_points  # slow to import
+    from importlib.metadata import entry_points  # the import is slow
 
     found = {}
     for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):

@@ -1,4 +1,4 @@
-"""A command under mpiexec: one rank talks, options of PETSc are PETSc's, and no rank is left waiting."""
+"""A command under mpiexec: one rank prints, PETSc gets its options, and errors end all ranks."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ _KEY = "options of PETSc"
 
 
 class WithPetscOptions(TyperCommand):
-    """A command that hands words such as ``-umform_ksp_type cg`` to PETSc."""
+    """A command that passes words such as ``-umform_ksp_type cg`` to PETSc."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Take the options of PETSc out, with their values, before the others are looked at."""
+        """Remove the options of PETSc, with their values, before the others are parsed."""
         own, petsc = split(args)
         ctx.meta[_KEY] = petsc
         return super().parse_args(ctx, own)
 
 
 def split(words: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Words for the command, and those for PETSc: options of its prefix, each with a value if one follows."""
+    """Words for the command, and those for PETSc: options with its prefix, each with a value if one follows."""
     own: list[str] = []
     petsc: list[str] = []
     value_may_follow = False
@@ -46,20 +46,20 @@ def _is_option(word: str) -> bool:
 
 
 def petsc_options(ctx: typer.Context) -> list[str]:
-    """Options of PETSc that the command was given."""
+    """Options of PETSc on the command line."""
     found: list[str] = ctx.meta.get(_KEY, [])
     return found
 
 
 def let_the_first_talk() -> None:
-    """Print nothing from now on, but on the first of the ranks that mpiexec has started."""
+    """Print on the first of the ranks started by mpiexec only."""
     if launched()[0] > 0:
         sys.stdout = sys.stderr = Path(os.devnull).open("w")  # noqa: SIM115  (to the end)
 
 
 @contextmanager
 def on_all_ranks(solver: str, options: Sequence[str]) -> Iterator[None]:
-    """Do what follows on all ranks that mpiexec has started, or in this process.
+    """Run the block on all ranks started by mpiexec, or in this process.
 
     Raises
     ------
@@ -88,7 +88,9 @@ def on_all_ranks(solver: str, options: Sequence[str]) -> Iterator[None]:
 
 
 def launched() -> tuple[int, int]:
-    """Number of this process and of all that mpiexec has started, by their environment; (0, 1) without mpiexec."""
+    """Number of this process, and number of processes started by mpiexec, from the environment; (0, 1) without
+    mpiexec.
+    """
     for rank, size in (("OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"), ("PMI_RANK", "PMI_SIZE")):
         if rank in os.environ and size in os.environ:
             return int(os.environ[rank]), int(os.environ[size])

@@ -1,4 +1,4 @@
-"""``umform resume``: take up the run of a deck that was stopped."""
+"""``umform resume``: continue the stopped run of a deck."""
 
 from __future__ import annotations
 

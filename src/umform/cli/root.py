@@ -1,4 +1,4 @@
-"""The application: its options, its one place where errors become messages, and the console that tables go to."""
+"""The application: its options, the conversion of errors to messages, and the console for tables."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from umform.io.atomic import write_problem
 
 
 class Commands(TyperGroup):
-    """The commands, with the one place where errors become messages and exit codes."""
+    """The commands, with the conversion of errors to messages and exit codes."""
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """A command of umform, or of another package."""
@@ -33,7 +33,7 @@ class Commands(TyperGroup):
         return [*super().list_commands(ctx), *_plugins()]
 
     def invoke(self, ctx: Any) -> Any:
-        """Run a command; print what goes wrong on standard error, and a traceback only with ``--debug``."""
+        """Run a command; print errors on standard error, and a traceback only with ``--debug``."""
         try:
             with printing():
                 return super().invoke(ctx)
@@ -47,7 +47,7 @@ class Commands(TyperGroup):
             say_of(error, "interrupted; what was not finished is given up")
             raise typer.Exit(INTERRUPTED) from error
         except BrokenPipeError:
-            raise  # nobody reads on: `main` ends without a word
+            raise  # the reader stopped: `main` ends silently
         except OSError as error:
             _show_traceback(ctx)
             say_of(error, str(write_problem(Path(error.filename or "a file"), error)))
@@ -62,18 +62,18 @@ class Commands(TyperGroup):
 
 
 def say_of(error: BaseException, text: str = "") -> None:
-    """Print an error on standard error, and what was noted with it: what is kept, and how to go on."""
+    """Print an error on standard error, with its notes: available results, and how to continue."""
     typer.echo("\n".join([f"umform: {text or error}", *getattr(error, "__notes__", ())]), err=True)
 
 
 @contextmanager
 def printing(kept: str = "") -> Iterator[None]:
-    """Tell by one error if standard output is closed, or its disk is full.
+    """Raise a single error if standard output is closed, or its disk is full.
 
     Parameters
     ----------
     kept : str
-        What there is nevertheless.
+        What is available nevertheless.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def printing(kept: str = "") -> Iterator[None]:
 
 
 def _output_fails() -> bool:
-    """Whether standard output cannot be written, now that something could not; then it is led to nowhere."""
+    """Whether standard output cannot be written after a failure; it is then redirected to the null device."""
     try:
         sys.stdout.write("\n")
         sys.stdout.flush()
@@ -108,7 +108,9 @@ def _output_fails() -> bool:
 
 
 def _forget(stream: Any) -> None:
-    """Lead what a stream still has in its buffers to nowhere, lest Python complain at its end that nobody takes it."""
+    """Redirect the buffered data of a stream to the null device, so that Python does not report a broken pipe at
+    exit.
+    """
     if stream is not None and not stream.closed:
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
@@ -120,7 +122,7 @@ def _plugins() -> dict[str, Any]:
 
 
 def _options(group: TyperGroup, command: str | None) -> dict[str, str]:
-    """Options of a command and of those below it, by the names that Python has for them."""
+    """Options of a command and its subcommands, by their Python names."""
     chosen: Any = group.commands.get(command or "") or _plugins()[command or ""]
     below = chosen.commands.values() if isinstance(chosen, TyperGroup) else [chosen]
     return {str(parameter.name): parameter.opts[0] for each in below for parameter in each.params}
@@ -179,7 +181,7 @@ _root.__doc__ = umform.__doc__
 
 
 def console() -> Any:
-    """Where tables go: as wide as the terminal, wide enough for all columns elsewhere."""
+    """Console for tables: the width of the terminal, or wide enough for all columns elsewhere."""
     from rich.console import Console
 
     return Console(width=None if sys.stdout.isatty() else 120, highlight=False)

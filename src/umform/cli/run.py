@@ -69,7 +69,7 @@ def run(
 
 
 def finish(outcome: Outcome, *, timing: bool = False) -> None:
-    """Print what came of a run; end with the exit code of one that has ended early, or that cannot be printed."""
+    """Print the outcome of a run; exit with the code of an early end, or of a failure to print."""
     kept = f"the files of the run are in {outcome.files[0].parent}" if outcome.files else ""
     try:
         with printing(kept):
@@ -84,7 +84,7 @@ def finish(outcome: Outcome, *, timing: bool = False) -> None:
 
 
 def show(outcome: Outcome) -> None:
-    """The table, what happened, and where the files are."""
+    """The table, events, and the files."""
     from umform.results.penetration import penetrations
 
     screen = console()
@@ -119,7 +119,7 @@ def _table(result: Result) -> object:
 
 
 def end(outcome: Outcome) -> None:
-    """The message and the exit code of a run that has ended early."""
+    """The message and the exit code of a run that ended early."""
     error = outcome.ended_by
     if error is None:
         return

@@ -113,12 +113,12 @@ def _jobs(path: Path) -> list[dict[str, Written]]:
 
 
 def _say(row: dict[str, Any]) -> None:
-    """One line for each job that has ended, where there is no terminal for a bar."""
+    """One line for each finished job, if there is no terminal for a progress bar."""
     typer.echo(f"umform: {row['folder']}: {row['outcome']} {row['reason'][:100]}".rstrip(), err=True)
 
 
 def _show(found: Sweep) -> None:
-    """The table with the first measures, the reasons of failures, and where the files are."""
+    """The table with the first measures, the causes of failures, and the files."""
     from rich import box
     from rich.table import Table
 

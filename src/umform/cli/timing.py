@@ -1,4 +1,4 @@
-"""``--timing``: the table of where the time went."""
+"""``--timing``: table of the time of the parts of a run."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def show_timing(timing: Timing, title: str = "Where the time went") -> None:
 
 
 def _show_attempts(attempts: Attempts) -> None:
-    """Print how often each strategy was tried and won, and why attempts were given up."""
+    """Print how often each strategy was tried and succeeded, and the causes of failed attempts."""
     from rich import box
     from rich.table import Table
 

@@ -12,10 +12,10 @@ import typer
 
 from umform.cli.root import Debug, app
 
-#: Fields that are shown unless another is wanted: the first that is there.
+#: Default fields: the first available one is shown.
 _FAVOURITES = ("plastic_strain_max", "thickness_change", "displacement")
 
-#: Field of the rolling direction; its lines are drawn on faces that it lies in, of this length over that of a face.
+#: Field of the rolling direction; its lines are drawn on faces parallel to it, with this length relative to the face.
 _ROLLING = "rolling"
 _LYING, _LINE = 0.9, 0.3
 
@@ -86,7 +86,7 @@ def _add_rolling(pv: Any, plotter: Any, shape: Any, *, switch: bool) -> None:
 
     import numpy as np
 
-    with warnings.catch_warnings():  # newer versions ask for an argument that older ones do not know
+    with warnings.catch_warnings():  # newer versions require an argument that older ones do not have
         warnings.simplefilter("ignore")
         faces = shape.extract_surface().compute_cell_sizes(length=False, volume=False)
     faces = faces.compute_normals(point_normals=False, auto_orient_normals=True)
@@ -104,7 +104,7 @@ def _add_rolling(pv: Any, plotter: Any, shape: Any, *, switch: bool) -> None:
 
 
 def _file_of(path: Path) -> Path:
-    """The file itself, or the one file of fields in a folder."""
+    """The file, or the only file of fields in a folder."""
     from umform.errors import FileProblem
 
     if not path.is_dir():
@@ -121,7 +121,7 @@ def _file_of(path: Path) -> Path:
 
 
 def _check_names(file: Path, png: Path | None) -> None:
-    """Refuse what cannot be a file of fields or a picture, before anything slow is loaded."""
+    """Refuse invalid files before slow imports."""
     from umform.errors import FileProblem, InvalidValue
 
     if png is not None and png.suffix != ".png":
@@ -142,7 +142,7 @@ def _check_names(file: Path, png: Path | None) -> None:
 
 
 def _pyvista(*, off_screen: bool) -> Any:
-    """PyVista, or why it cannot be used here."""
+    """PyVista, or an error with the cause why it cannot be used."""
     from umform.errors import UmformError
 
     screen = sys.platform != "linux" or "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ
@@ -163,7 +163,7 @@ def _pyvista(*, off_screen: bool) -> Any:
             cause=str(error),
             remedy='pip install "umform[view]"; the page of result.report() needs a browser only',
         ) from error
-    if not screen:  # VTK looks for an X server first, and would complain before it does without
+    if not screen:  # VTK tries an X server first, and complains without one
         log.SetStderrVerbosity(log.VERBOSITY_ERROR)
     return pv
 
@@ -184,7 +184,7 @@ def _read(pv: Any, file: Path, frame: int) -> Any:
 
 
 def _chosen(grid: Any, field: str | None) -> str:
-    """The field to colour by: the one that is wanted, if it can be drawn."""
+    """The field to colour by: the requested one, if it can be drawn."""
     from umform.errors import InvalidValue
 
     arrays = {**dict(grid.point_data), **dict(grid.cell_data)}

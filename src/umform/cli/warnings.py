@@ -1,4 +1,4 @@
-"""Warnings on standard error: each of them once, when it comes; what came again is counted at the end."""
+"""Warnings on standard error: each one once, repetitions are counted at the end."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from umform.report.repeats import counted, without_place
 
 
 class _Warnings(logging.Handler):
-    """Prints each warning of the log when it comes first; what differs only in step and time is the same."""
+    """Prints each warning of the log at its first occurrence; those that differ only in step and time are the same."""
 
     def __init__(self, *, prints: bool) -> None:
         super().__init__(logging.WARNING)
@@ -23,7 +23,7 @@ class _Warnings(logging.Handler):
         if self.prints and text not in self.known:
             try:
                 typer.echo(f"umform: {record.getMessage()}", err=True)
-            except OSError:  # nobody reads it: no reason to end a run
+            except OSError:  # standard error is closed: no reason to end a run
                 self.handleError(record)
         self.known.add(text)
 
@@ -37,7 +37,7 @@ def print_warnings_once() -> None:
 
 
 def echo_warnings(warnings: Iterable[str]) -> None:
-    """Print the warnings of a result that were not printed when they came, and how often others came."""
+    """Print the remaining warnings of a result, and the number of repetitions."""
     known = {text for handler in logging.getLogger("umform").handlers for text in getattr(handler, "known", ())}
     for warning in counted(warnings):
         if without_place(warning) not in known:

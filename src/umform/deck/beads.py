@@ -14,29 +14,29 @@ from umform.model.contact.bead import Bead
 
 
 class BeadPart(Part):
-    """A line on the tool of a contact that holds the sheet back, in place of a draw bead of real geometry."""
+    """An equivalent draw bead: a line on the tool of a contact that restrains the sheet."""
 
     contact: Name
-    """Contact whose tool the line lies on."""
+    """Contact whose tool has the line."""
     curve: Annotated[list[Vector], Field(min_length=2)]
-    """Corners of the line, on the tool where it stands at first."""
+    """Corners of the line on the tool, in its initial position."""
     restraint: NotNegative
-    """Force per length across the line."""
+    """Restraining force per length across the line."""
     uplift: NotNegative = 0.0
-    """Force per length off the tool."""
+    """Lifting force per length off the tool."""
     width: Positive
-    """Width of the band that the forces are spread over."""
+    """Width of the band over which the forces are spread."""
     closed: bool = False
     """Whether the last point is joined to the first."""
     faces: Selection | None = None
-    """Faces that are drawn through; by default those of the contact."""
+    """Faces that pass the bead; by default those of the contact."""
     slip: Positive | None = None
-    """Elastic slip that is allowed; by default 1/200 of the thickness."""
+    """Allowed elastic slip; by default 1/200 of the thickness."""
     points: Annotated[int, Field(ge=1, le=10)] | None = None
-    """Gauss points per direction of a face; by default as many as the band asks for."""
+    """Gauss points per direction of a face; by default as many as the band needs."""
 
     def add_to(self, model: Model, contact: Contact, name: str) -> Bead:
-        """Let the model have the bead."""
+        """Add the bead to the model."""
         return model.bead(
             contact.faces if self.faces is None else faces_of(model.mesh, self.faces),
             contact,

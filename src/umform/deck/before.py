@@ -1,7 +1,7 @@
-"""The operation before: the deck and the state that a deck begins with, and what is cut off.
+"""The previous operation: its deck and final state, and cuts of the part.
 
-A deck with a table ``before`` has mesh, material and element from the deck that is named there, and the state from what
-a run of that deck has written.
+A deck with a table ``before`` takes mesh, material and element from the named deck, and the state from a file that a
+run of that deck has written.
 """
 
 from __future__ import annotations
@@ -24,24 +24,24 @@ from umform.io.trees import read_tree, write_tree
 from umform.model import Model, Snapshot
 from umform.model.trim import Trim
 
-#: Tables that come from the deck before.
+#: Tables of the previous deck.
 TAKEN = ("mesh", "material", "element")
 _KIND = "state of a umform model"
 
 
 class Before(Part):
-    """The operation before."""
+    """The previous operation."""
 
     deck: Annotated[str, Field(min_length=1)]
     """Its deck; path from the folder of this deck."""
     state: Annotated[str, Field(min_length=1)]
-    """The file state.h5 that its run has written, with state = true under output; path from the folder of this deck."""
+    """The file state.h5 of its run, written with state = true under output; path from the folder of this deck."""
     control: Name
-    """Name of the control, of value 1, of the forces that nothing in this deck balances: of tools and supports of that
-    operation, and of metal that is cut off. Steps move it to 0."""
+    """Name of the control, of value 1, of the unbalanced forces: those of tools and supports of that operation, and of
+    removed metal. Steps move it to 0."""
 
     def restore(self, model: Model, folder: File, tables: Mapping[str, Any]) -> None:
-        """Put a model, made of the data of a deck, into the state.
+        """Restore a model, built from the data of a deck, to the state.
 
         Raises
         ------
@@ -81,8 +81,8 @@ class Cut(Part):
     """A cut along a line."""
 
     line: ProfilePart
-    """Lines and arcs in the view: what lies on the left of who walks along them stays. The first and the last line of
-    an open one go on for ever."""
+    """Lines and arcs in the view; the part is on the left of the direction of travel. The first and the last line of an
+    open one extend to infinity."""
     view: Literal["x", "y", "z"] = "z"
     """Direction of the view: the coordinates of the line are y, z; x, z; or x, y."""
     formed: bool = True
@@ -94,7 +94,9 @@ class Cut(Part):
 
 
 def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
-    """Write displacements and the history of all bodies, for the deck of the next operation, with the data of this."""
+    """Write displacements and the history of all bodies, and the data of this deck, for the deck of the next
+    operation.
+    """
     state = model.snapshot()
     bodies = {body.key: state.terms[body.key] for body in model.bodies}
     tree = {"points": model.mesh.points, "u": state.u, "time": state.time, "began": state.began, "bodies": bodies}
@@ -107,12 +109,12 @@ def _written(tables: Mapping[str, Any]) -> dict[str, str]:
 
 
 def merged(source: Source, before: Source) -> Source:
-    """A deck with the tables that it takes from the deck before.
+    """A deck with the tables of the previous deck.
 
     Raises
     ------
     DeckError
-        If it has one of them itself.
+        If it also has one of them.
     """
     own = [key for key in TAKEN if key in source.data]
     if own:

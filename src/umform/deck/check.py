@@ -1,4 +1,4 @@
-"""What is checked of a problem before it is solved: supports, gaps, units, element sizes, thickness, effort."""
+"""Checks of a problem before its solution: supports, gaps, units, element sizes, thickness, effort."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from umform.run.loose import carried, carried_motions
 from umform.solution.newton import Newton
 from umform.surfaces import CadTool, Offset, Placed, Triangulated
 
-#: Iterations of an increment, on an average.
+#: Mean number of iterations of an increment.
 _ITERATIONS = 4
 
 
@@ -32,12 +32,12 @@ def check(deck: Deck, problem: Problem) -> Iterator[Finding]:
     deck : Deck
         The deck.
     problem : Problem
-        What was built from it; its model is left as it was.
+        The problem of the deck; its model is unchanged.
 
     Yields
     ------
     Finding
-        Errors are what `umform.solve` would refuse, and what cannot be meant; warnings are rules of thumb.
+        Errors: refused by `umform.solve`, or certainly a mistake; warnings: rules of thumb.
     """
     with np.errstate(all="ignore"):
         yield supports(problem)
@@ -47,7 +47,7 @@ def check(deck: Deck, problem: Problem) -> Iterator[Finding]:
 
 
 def before_run(deck: Deck, problem: Problem) -> Iterator[Finding]:
-    """All of :func:`check` but what takes time, and the supports, which `umform.solve` checks itself."""
+    """The fast part of :func:`check`, without the supports, which `umform.solve` checks."""
     with np.errstate(all="ignore"):
         yield from of_model(problem.model, millimetres=isinstance(deck.contents.material, FromLibrary))
         yield from resolution(deck, problem)
@@ -56,7 +56,7 @@ def before_run(deck: Deck, problem: Problem) -> Iterator[Finding]:
 
 
 def supports(problem: Problem) -> Finding:
-    """Whether supports and tools leave a rigid-body motion free, or a tool swallows the sheet."""
+    """Whether supports and tools leave a rigid-body motion free, or a tool overlaps the sheet too much."""
     motions = carried_motions(problem.model, problem.steps)
     if motions:
         return ok("supports", f"free until tools hold the sheet, which rests on weak springs: {'; '.join(motions)}")
@@ -69,7 +69,7 @@ def supports(problem: Problem) -> Finding:
 
 
 def drawings(problem: Problem) -> Iterator[Finding]:
-    """What became of tools that were drawn."""
+    """Report on tools from drawings."""
     for name, tool in problem.tools.items():
         own: object = tool
         while isinstance(own, Placed | Offset):
@@ -79,7 +79,7 @@ def drawings(problem: Problem) -> Iterator[Finding]:
 
 
 def idle(deck: Deck) -> Iterator[Finding]:
-    """Tools that touch nothing, controls that nothing moves."""
+    """Tools without contact, controls that no step moves."""
     used = {(kind, name) for kind, name, _ in references(deck.source.data)}
     for name in deck.contents.tools:
         if ("tools", name) not in used:
@@ -94,13 +94,13 @@ def idle(deck: Deck) -> Iterator[Finding]:
 
 
 def effort(contents: Contents, problem: Problem) -> Finding:
-    """Time that the run may take, from one evaluation and one factorisation."""
+    """Estimated time of the run, from one evaluation and one factorisation."""
     model = problem.model
     newton = Newton(model, problem.options, problem.solver)
     try:
         solver = newton.ready_solver()
         seconds = np.inf
-        for _ in range(2):  # the first one is slow: memory is new, and libraries wake up
+        for _ in range(2):  # the first one is slow: new memory, lazy libraries
             start = clock.perf_counter()
             solver.factor(model.evaluate(model.x))
             seconds = min(seconds, clock.perf_counter() - start)

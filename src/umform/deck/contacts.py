@@ -1,4 +1,4 @@
-"""The contacts of a deck: faces, a tool, a penalty or the penetration that is allowed, and what moves the tool."""
+"""The contacts of a deck: faces, a tool, a penalty or the allowed penetration, and the motion of the tool."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 
 
 class MotionPart(Part):
-    """Motion of a tool in time, in addition to what steps do to it: straight lines between points of a table.
+    """Motion of a tool in time, in addition to the steps: linear between the points of a table.
 
     The first step goes from time 0 to 1, the second from 1 to 2, and so on.
     """
@@ -35,7 +35,7 @@ class MotionPart(Part):
     rotation: list[Vector] | None = None
     """Rotation vector in degrees at each time."""
     about: Vector = (0.0, 0.0, 0.0)
-    """Point of the tool that the rotation is about."""
+    """Point of the tool about which it rotates."""
 
     @model_validator(mode="after")
     def _is_table(self) -> MotionPart:
@@ -52,7 +52,7 @@ class MotionPart(Part):
         return self
 
     def build(self) -> Motion:
-        """Function of time, which can be sent to other processes."""
+        """Motion as a picklable function of time."""
         return partial(_motion, self.time, self.translation, self.rotation)
 
 
@@ -91,16 +91,16 @@ _Row = Annotated[tuple[NotNegative, Coefficient], Strict(False)]
 
 
 class FrictionPart(Part):
-    """A law of friction: t <= min(mu p, cap)."""
+    """A friction law: t <= min(mu p, cap)."""
 
     mu: Annotated[
         Annotated[Coefficient, Tag("number")] | Annotated[list[_Row], Tag("array")], Discriminator(number_or_array)
     ]
     """Coefficient, or pairs of pressure and coefficient, linear in between."""
     kinetic: Coefficient | None = None
-    """Coefficient of a place that slides; with a table the first entry falls to it, and all others in proportion."""
+    """Coefficient of a sliding point; with a table its first entry falls to it, and all others in proportion."""
     decay: Positive | None = None
-    """Distance slid after which 1/e of the difference to the kinetic coefficient is left."""
+    """Distance slid after which 1/e of the difference to the kinetic coefficient remains."""
     cap: Positive | None = None
     """Largest tangential traction."""
 
@@ -110,7 +110,7 @@ class FrictionPart(Part):
 
 
 class FrictionRegionPart(FrictionPart):
-    """Another friction within a box in the frame of the tool."""
+    """Another friction law within a box in the frame of the tool."""
 
     lower: Corner
     """Lower corner; inf and -inf are numbers in TOML."""
@@ -119,10 +119,10 @@ class FrictionRegionPart(FrictionPart):
 
 
 class FrictionsPart(FrictionPart):
-    """A law of friction, and others in regions of the tool."""
+    """A friction law, and others in regions of the tool."""
 
     regions: list[FrictionRegionPart] = []
-    """The first one that a place is in counts."""
+    """The first region that contains a point applies."""
 
     def build(self) -> Friction | FrictionByRegion:  # type: ignore[override]
         """The law."""
@@ -149,11 +149,11 @@ class ContactPart(Part):
     faces: Selection
     """Lower or upper faces of the sheet."""
     penalty: Positive | None = None
-    """Contact pressure per penetration; without it, it follows from the penetration that is allowed."""
+    """Contact pressure per penetration; by default it follows from the allowed penetration."""
     penetration: Positive | None = None
-    """Penetration that is allowed; by default 1/200 of the thickness."""
+    """Allowed penetration; by default 1/200 of the thickness."""
     augmented: bool = False
-    """Multipliers take the penetration away that is not allowed."""
+    """Remove excess penetration by multipliers."""
     points: Points | None = None
     """Contact points per direction of a face, 1 to 10, by default 2; at the nodes; or as many as are needed (auto)."""
     cells: Cells | None = None
@@ -163,7 +163,7 @@ class ContactPart(Part):
     friction: AnyFriction | None = None
     """Coefficient of friction, or a law."""
     slip: Positive | None = None
-    """Elastic slip that is allowed; by default 1/200 of the thickness."""
+    """Allowed elastic slip; by default 1/200 of the thickness."""
     motion: MotionPart | None = None
     """Motion in time."""
 
@@ -178,7 +178,7 @@ class ContactPart(Part):
         return self
 
     def add_to(self, model: Model, tool: Tool, name: str) -> Contact:
-        """Let the model touch the tool."""
+        """Add the contact to the model."""
         contact = model.contact(
             faces_of(model.mesh, self.faces),
             tool,

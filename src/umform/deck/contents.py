@@ -1,4 +1,4 @@
-"""What stands in a deck: all its tables, and their JSON schema for editors."""
+"""The tables of a deck, and their JSON schema for editors."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class Contents(Part):
     """A problem of umform: mesh, material, element, tools, contacts, supports, controls, steps."""
 
     title: str = ""
-    """What it is about."""
+    """Title of the problem."""
     before: Before | None = None
-    """The deck of the operation before, whose mesh, material and element these are then."""
+    """The previous operation, whose deck then defines mesh, material and element."""
     trim: list[Cut] = []
-    """What is cut off the part of the operation before, one cut after the other."""
+    """Cuts of the part of the previous operation, in order."""
     mesh: MeshPart
     """Points and cells."""
     material: MaterialPart
@@ -39,23 +39,23 @@ class Contents(Part):
     tools: dict[Name, ToolPart] = {}
     """Rigid tools by name."""
     contacts: dict[Name, ContactPart] = {}
-    """Contacts by name; their names begin columns of the history."""
+    """Contacts by name; the names are prefixes of history columns."""
     beads: dict[Name, BeadPart] = {}
-    """Equivalent draw beads by name; their names begin columns of the history."""
+    """Equivalent draw beads by name; the names are prefixes of history columns."""
     supports: list[Support] = []
-    """What is held."""
+    """Supports."""
     controls: dict[Name, ControlPart] = {}
-    """What steps move, by name: displacements, loads, tools; their names are columns of the history."""
+    """Quantities that steps move, by name: displacements, loads, tools; the names are history columns."""
     steps: Annotated[list[StepPart], Field(min_length=1)]
-    """What happens, in a row."""
+    """Steps of the run, in order."""
     solution: Solution = Solution()
     """Sparse solver and Newton's method."""
     output: Output = Output()
-    """What is written."""
+    """Files of the results."""
 
 
 def json_schema() -> str:
-    """JSON schema (draft 2020-12) of all that may stand in a deck."""
+    """JSON schema (draft 2020-12) of a deck."""
     schema = Contents.model_json_schema()
     head = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

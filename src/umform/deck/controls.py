@@ -1,4 +1,4 @@
-"""The controls of a deck: all that steps move, by name."""
+"""The controls of a deck: quantities that steps move, by name."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Displacement(Part):
 
 
 class MidLine(Part):
-    """Displacement of the mid-line of an edge, which may turn about it."""
+    """Displacement of the mid-line of an edge; the section may rotate about it."""
 
     kind: Literal["midline"]
     """The word midline."""
@@ -121,12 +121,12 @@ class BodyForce(Part):
 
 
 class _OfTool(Part):
-    """What controls of tools have in common."""
+    """Common keys of controls of tools."""
 
     contact: Name
     """Name of the contact."""
     followers: list[Name] = []
-    """Contacts whose tools go with this one."""
+    """Contacts whose tools move together with this one."""
 
     def _followed(self, model: Model, way: ToolWay, contacts: Contacts) -> ToolWay:
         for name in self.followers:
@@ -148,7 +148,7 @@ class Drive(_OfTool):
 
 
 class Turn(_OfTool):
-    """Turn of the tool of a contact about an axis, in radians; its force is the moment of the sheet on the tool."""
+    """Rotation of the tool of a contact about an axis, in radians; its force is the moment of the sheet on the tool."""
 
     kind: Literal["turn"]
     """The word turn."""
@@ -163,32 +163,32 @@ class Turn(_OfTool):
 
 
 class StopPart(Part):
-    """Something that a pressed tool comes to lie on: distance blocks, the end of a spring."""
+    """A stop of a pressed tool: distance blocks, the end of a spring."""
 
     at: float
-    """Way at which the tool meets it."""
+    """Displacement at which the tool meets it."""
     stiffness: Positive | None = None
     """Force per length beyond; by default it is rigid."""
     below: bool = False
-    """The way must not fall below it, instead of not growing beyond it."""
+    """Whether it is a lower bound of the displacement; by default an upper bound."""
 
 
 class GapPart(Part):
-    """Gap that a pressed tool keeps to another one: rigid distance blocks between both."""
+    """Gap between a pressed tool and another one: rigid distance blocks between both."""
 
     to: Name
     """Contact of the other tool."""
     least: Positive
-    """Least distance of both tools."""
+    """Smallest distance of both tools."""
 
 
 class _Pressed(Part):
-    """What controls of pressed tools have in common."""
+    """Common keys of controls of pressed tools."""
 
     contact: Name
     """Name of the contact."""
     stops: list[StopPart] = []
-    """What keeps the way within bounds."""
+    """Limits of the displacement."""
 
     def _stopped(self, model: Model, force: ToolForce) -> ToolForce:
         for stop in self.stops:
@@ -197,14 +197,14 @@ class _Pressed(Part):
 
 
 class Press(_Pressed):
-    """Force on the tool of a contact along a direction; its way is found."""
+    """Force on the tool of a contact along a direction; the displacement is an unknown."""
 
     kind: Literal["press"]
     """The word press."""
     direction: Way
     """Direction."""
     gap: GapPart | None = None
-    """Gap that the tool keeps to another one; the force is then the largest."""
+    """Gap between the tool and another one; the force is then an upper bound."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
@@ -215,7 +215,7 @@ class Press(_Pressed):
 
 
 class Spring(_Pressed):
-    """A spring that holds the tool of a contact, and a force beside it; its way is found."""
+    """A spring that holds the tool of a contact, and an additional force; the displacement is an unknown."""
 
     kind: Literal["spring"]
     """The word spring."""
@@ -224,7 +224,7 @@ class Spring(_Pressed):
     stiffness: Positive
     """Force per length."""
     preload: float = 0.0
-    """Force with which it pushes the tool where it stands."""
+    """Force of the spring at the initial position of the tool."""
 
     def add_to(self, model: Model, name: str, contacts: Contacts) -> Control:
         """The control."""
@@ -233,7 +233,7 @@ class Spring(_Pressed):
 
 
 class Moment(_Pressed):
-    """Moment on the tool of a contact about an axis; its angle is found."""
+    """Moment on the tool of a contact about an axis; the angle is an unknown."""
 
     kind: Literal["moment"]
     """The word moment."""

@@ -10,10 +10,11 @@ from typing import Any
 from pydantic import ValidationError
 
 from umform.deck.before import merged
+from umform.deck.building import build, sheet
 from umform.deck.contents import Contents
 from umform.deck.errors import DeckError, DeckKey
 from umform.deck.messages import messages
-from umform.deck.problem import Problem, build, sheet
+from umform.deck.problem import Problem
 from umform.deck.references import unknown_names
 from umform.deck.source import Source, parse, read_file
 from umform.model import Model
@@ -21,16 +22,16 @@ from umform.model import Model
 
 @dataclass(frozen=True)
 class Deck:
-    """A deck that was read and found right in its keys, types and names.
+    """A deck with valid keys, types and names.
 
     Attributes
     ----------
     contents : Contents
-        What stands in it.
+        Its content.
     source : Source
-        Its text, and where in it each key stands.
+        Its text, and the place of each key.
     before : Deck or None
-        The deck of the operation before.
+        The deck of the previous operation.
     """
 
     contents: Contents
@@ -54,20 +55,20 @@ class Deck:
         name : str
             For messages.
         folder : str or Path
-            Where files that it names are looked for.
+            Folder of the files that it names.
         changes : mapping of str to object, optional
             Other values of some keys: ``{"steps.0.increments": 3}``.
 
         Raises
         ------
         DeckError
-            With all that is wrong with it.
+            With all mistakes in it.
         """
         return cls._read(parse(text, name, Path(folder), changes))
 
     @classmethod
     def _read(cls, source: Source, after: tuple[Path, ...] = ()) -> Deck:
-        """Read a deck whose state the decks ``after`` it begin with."""
+        """Read a deck of a previous operation of the decks ``after``."""
         before = _before(source, after)
         if before is not None:
             source = merged(source, before.source)
@@ -83,7 +84,7 @@ class Deck:
         return cls(contents, source, before)
 
     def build(self, solver: str | None = None) -> Problem:
-        """Build the model and all that happens to it.
+        """Build the model, its controls and its steps.
 
         Parameters
         ----------
@@ -93,23 +94,23 @@ class Deck:
         Raises
         ------
         DeckError
-            With all that does not fit.
+            With all mistakes.
         """
         return build(self.contents, self.source, solver, self.before)
 
     def sheet(self) -> Model:
-        """The model without tools and supports, as it stands before the first step.
+        """The model without tools and supports, before the first step.
 
         Raises
         ------
         DeckError
-            With all that does not fit.
+            With all mistakes.
         """
         return sheet(self.contents, self.source, self.before)
 
 
 def _idle_trim(source: Source) -> list[DeckKey]:
-    """The error of a deck that trims a part which no operation before has left."""
+    """The error of a deck with a trim but without a previous operation."""
     if "before" in source.data or not source.data.get("trim"):
         return []
     return [
@@ -123,7 +124,7 @@ def _idle_trim(source: Source) -> list[DeckKey]:
 
 
 def _before(source: Source, after: tuple[Path, ...]) -> Deck | None:
-    """The deck of the operation before, if a deck names one."""
+    """The deck of the previous operation, if the deck names one."""
     table = source.data.get("before")
     named = table.get("deck") if isinstance(table, dict) else None
     if not isinstance(named, str):
@@ -159,7 +160,7 @@ def load(path: str | Path, changes: Mapping[str, Any] | None = None) -> Deck:
     FileProblem
         If the file cannot be read.
     DeckError
-        With all that is wrong with the deck.
+        With all mistakes in the deck.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The tools of a deck that are drawn: from profiles, and from files."""
+"""Tools of a deck from profiles and from files."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from umform.deck.placeable import ORIGIN, Placeable
 from umform.deck.profiles import ProfilePart, profile_of
 from umform.surfaces import Tool
 
-#: Sine of the angle between two segments of a section from which they make an edge.
+#: Sine of the angle between two segments of a section above which they form an edge.
 _EDGE = 1e-3
 
 
 class Profiled(Placeable):
-    """A tool that is made of a profile."""
+    """A tool with a profile."""
 
     profile: ProfilePart
     """Its section."""
 
     def convex_radii(self, own: Tool) -> Iterator[float]:
-        """Radii of the arcs that turn to the left, and 0 if there is a sharp edge."""
+        """Radii of convex arcs, and 0 if there is a sharp edge."""
         assert isinstance(own, surfaces.Extruded | surfaces.Revolved | surfaces.LedAround)
         segments, closed = own.profile.segments, own.profile.closed
         for i, segment in enumerate(segments):
@@ -38,7 +38,7 @@ class Profiled(Placeable):
 
 
 class Extruded(Profiled):
-    """A profile that is drawn out; by default its plane is the xz-plane and the tool goes along y."""
+    """An extruded profile; by default its plane is the xz-plane and the tool extends along y."""
 
     shape: Literal["Extruded"]
     """The word Extruded."""
@@ -54,7 +54,7 @@ class Extruded(Profiled):
 
 
 class Revolved(Profiled):
-    """A profile that is turned about an axis: its first coordinate is the radius, its second that along the axis."""
+    """A profile revolved about an axis: its first coordinate is the radius, its second one lies along the axis."""
 
     shape: Literal["Revolved"]
     """The word Revolved."""
@@ -68,7 +68,7 @@ class Revolved(Profiled):
 
 
 class LedAround(Profiled):
-    """A profile that is led around a rectangle with rounded corners: its first coordinate is the distance outwards."""
+    """A profile swept around a rectangle with rounded corners: its first coordinate is the distance outwards."""
 
     shape: Literal["LedAround"]
     """The word LedAround."""
@@ -81,7 +81,7 @@ class LedAround(Profiled):
     x: Way = "x"
     """First side."""
     y: Way = "y"
-    """Second side, at right angles; the second coordinate of the profile goes along x cross y."""
+    """Second side, at right angles; the second coordinate of the profile lies along x cross y."""
 
     def _tool(self, folder: File) -> Tool:
         return surfaces.LedAround(profile_of(self.profile, folder), self.size, self.corner, self.origin, self.x, self.y)
@@ -99,9 +99,9 @@ class Drawing(Placeable):
     sharp: Annotated[float, Field(gt=0, lt=90)] | None = None
     """Angle in degrees from which an edge is sharp: by default 30 between triangles of STL, 2 between faces."""
     open: bool = False
-    """The surface may have rims; beyond them nothing is touched."""
+    """The surface may have rims; beyond them there is no contact."""
     scale: Positive = 1.0
-    """Factor to the unit of the model: from millimetres for STEP and IGES, from what stands in an STL file."""
+    """Factor to the unit of the model: from millimetres for STEP and IGES, from the unit of an STL file."""
 
     def convex_radii(self, own: Tool) -> Iterator[float]:
         """One over the largest curvature."""

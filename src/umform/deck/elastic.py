@@ -30,5 +30,5 @@ class Elastic(Part):
         return self
 
     def constants(self) -> dict[str, Any]:
-        """Those that are given."""
+        """The given constants."""
         return self.model_dump(include={"E", "nu", "kappa", "mu"}, exclude_none=True)

@@ -20,22 +20,22 @@ class ElementPart(Part):
     thickness_modes: Literal[1, 4, 9] | None = None
     """Enhanced modes of the thickness strain."""
     thickness_order: Annotated[int, Field(ge=1, le=19)] | None = None
-    """Order of the thickness strain; by default complete with a plastic law: the number of points less one."""
+    """Order of the thickness strain; by default complete with a plastic law: the number of points minus one."""
     order_modes: Literal[1, 4, 9] | None = None
-    """Modes in the surface that go with each order above 1."""
+    """Modes in the surface for each order above 1."""
     membrane_modes: Literal[4, 5, 7] | None = None
     """Enhanced in-plane modes of EAS3DEAS."""
     tie_E33: bool | None = None
     """Tie the thickness strain."""
     compatible_E12: bool | None = None
-    """Leave the tying of E_12 out of MI9K3DEAS or BEND18."""
+    """Omit the tying of E_12 in MI9K3DEAS or BEND18."""
     thickness_points: Annotated[int, Field(ge=2, le=20)] | None = None
-    """Points through the thickness; by default what suits the material."""
+    """Points through the thickness; by default those of the material."""
     thickness_rule: Literal["gauss", "lobatto", "split", "graded"] | None = None
-    """Where they lie; by default gauss, but graded where the points are those of the material."""
+    """Quadrature rule; by default gauss, but graded if the default of the material applies."""
 
     def options(self) -> dict[str, Any]:
-        """Options that were given, as the catalogue and the model take them."""
+        """The given options, for the catalogue and the model."""
         through = {"name", "thickness_points", "thickness_rule"}
         return self.model_dump(exclude=through, exclude_none=True)
 

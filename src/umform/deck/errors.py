@@ -1,4 +1,4 @@
-"""Errors of decks, and how keys and values are written in them."""
+"""Errors of decks, and the notation of keys and values in them."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from umform.errors import InvalidValue, UmformError
 
 
 class DeckSyntax(InvalidValue):
-    """A text that is no TOML."""
+    """A text that is not valid TOML."""
 
     id = "deck.syntax"
 
 
 class DeckKey(InvalidValue):
-    """A key of a deck that is unknown, missing, or has a value that does not fit."""
+    """A key of a deck that is unknown, missing, or has an invalid value."""
 
     id = "deck.key"
 
 
 class DeckError(UmformError):
-    """All that is wrong with a deck.
+    """All mistakes of a deck.
 
     Parameters
     ----------
@@ -48,13 +48,13 @@ class DeckError(UmformError):
         return (DeckError, (self.errors,))
 
 
-#: What is said where nothing better is known.
+#: Default cause and remedy.
 ANY_CAUSE = "values that do not go together, or a value of another key"
 ANY_REMEDY = "docs/decks.md says what each table may hold"
 
 
 def written(path: Path) -> str:
-    """A path as in tools.die.corners[2]."""
+    """A path in the form tools.die.corners[2]."""
     text = ""
     for part in path:
         if isinstance(part, int):
@@ -66,17 +66,17 @@ def written(path: Path) -> str:
 
 
 def shortened(value: object) -> str:
-    """A value in one short line."""
+    """A value as one short line."""
     try:
         text = value if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else repr(value)
-    except ValueError:  # a whole number of more digits than Python writes
+    except ValueError:  # an integer with more digits than Python prints
         text = "a very long number"
     text = " ".join(text.split())
     return text if len(text) <= 80 else text[:77] + "..."
 
 
 def nearest(word: object, known: Iterable[str]) -> str:
-    """The known word that looks most like one, or nothing."""
+    """The most similar known word, or nothing."""
     names = {name.lower(): name for name in known}
     given = str(word).lower()[:100]
     found = difflib.get_close_matches(given, names, n=1, cutoff=0.55)

@@ -1,4 +1,4 @@
-"""What a check of a problem finds: how bad it is, about what, in which words."""
+"""Findings of a check: severity, subject, text."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from umform.errors import InvalidValue
 
 
 class Implausible(InvalidValue):
-    """Numbers that cannot be meant: units that do not go together, a tool deep in the sheet."""
+    """Numbers that are certainly wrong: inconsistent units, a tool deep in the sheet."""
 
     id = "check"
 
 
 class Level(Enum):
-    """How bad a finding is."""
+    """Severity of a finding."""
 
     OK = "ok"
     WARNING = "warning"
@@ -31,13 +31,13 @@ class Finding:
     Attributes
     ----------
     level : Level
-        How bad it is.
+        Severity.
     about : str
-        What was checked: a contact, the element, the units.
+        Subject of the check: a contact, the element, the units.
     text : str
-        What was found.
+        Finding.
     remedy : str
-        What to do about it.
+        Remedy.
     """
 
     level: Level
@@ -57,19 +57,19 @@ def warning(about: str, text: str, remedy: str) -> Finding:
 
 
 def error(about: str, text: str, remedy: str) -> Finding:
-    """It cannot be solved, or cannot be meant."""
+    """It cannot be solved, or is certainly wrong."""
     return Finding(Level.ERROR, about, text, remedy)
 
 
 def accept(findings: Iterable[Finding], *, force: bool = False) -> list[str]:
-    """Warnings of findings, as text; an error among them is refused.
+    """Warnings of findings, as text; errors among them are raised.
 
     Parameters
     ----------
     findings : iterable of Finding
-        What a check has found.
+        Findings of a check.
     force : bool
-        Take errors as warnings.
+        Treat errors as warnings.
 
     Returns
     -------
@@ -79,7 +79,7 @@ def accept(findings: Iterable[Finding], *, force: bool = False) -> list[str]:
     Raises
     ------
     DeckError
-        With all errors that were found.
+        With all errors among the findings.
     """
     found = [finding for finding in findings if finding.level is not Level.OK]
     errors = [finding for finding in found if finding.level is Level.ERROR]

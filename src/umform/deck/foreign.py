@@ -21,7 +21,7 @@ Points = Annotated[int, Field(ge=2, le=20)]
 
 
 class Foreign(Part):
-    """What laws of a library have in common."""
+    """Common keys of laws of a library."""
 
     file: Annotated[str, Field(min_length=1)]
     """Shared library, a path from the folder of the deck."""
@@ -30,9 +30,9 @@ class Foreign(Part):
     properties: list[float] = []
     """Constants of the law."""
     initial: list[float] = []
-    """State of the virgin material; zeros if it is left out."""
+    """State of the virgin material; default zeros."""
     symmetric: bool = True
-    """Whether the tangent is symmetric; one that is not is then refused."""
+    """Whether the tangent is symmetric; an asymmetric one then raises an error."""
     rolling: RollingPart | None = None
     """Rolling direction."""
 
@@ -42,18 +42,18 @@ class Foreign(Part):
 
 
 class Umat(Foreign):
-    """A UMAT, the interface of Abaqus, for three-dimensional small strains; it gets logarithmic strains."""
+    """A UMAT, the interface of Abaqus, for three-dimensional small strains; it receives logarithmic strains."""
 
     law: Literal["UMAT"]
     """The word UMAT."""
     energies: bool = False
     """Whether it fills SSE, SPD and SCD."""
     parallel: bool = False
-    """Whether several threads may call it at once."""
+    """Whether several threads may call it at the same time."""
     directional: bool = True
     """Whether it is anisotropic and needs rolling."""
     symbol: Annotated[str, Field(min_length=1)] | None = None
-    """Name of the function; by default what compilers make of UMAT."""
+    """Name of the function; by default the usual names that compilers give to UMAT."""
     name: Annotated[str, Field(min_length=1, max_length=80)] = "UMAT"
     """CMNAME."""
 
@@ -73,9 +73,9 @@ class Compiled(Foreign):
     energy: Annotated[str, Field(min_length=1)] | None = None
     """Name of the function of its energies."""
     strain: Literal["logarithmic", "green-lagrange"] = "logarithmic"
-    """Strain that it gets."""
+    """Strain that it receives."""
     parallel: bool = True
-    """Whether several threads may call it at once."""
+    """Whether several threads may call it at the same time."""
     sees_points: bool = False
     """Whether it uses axes and length of the cell."""
     directional: bool = False

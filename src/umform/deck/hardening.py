@@ -19,7 +19,7 @@ class Perfect(Part):
     curve: Literal["Perfect"]
     """The word Perfect."""
     yield_stress: Positive
-    """First yield stress."""
+    """Initial yield stress."""
 
     def build(self) -> Hardening:
         """The curve."""
@@ -32,7 +32,7 @@ class Linear(Part):
     curve: Literal["Linear"]
     """The word Linear."""
     yield_stress: Positive
-    """First yield stress."""
+    """Initial yield stress."""
     modulus: NotNegative
     """Slope over the plastic strain."""
 
@@ -47,11 +47,11 @@ class Voce(Part):
     curve: Literal["Voce"]
     """The word Voce."""
     yield_stress: Positive
-    """First yield stress."""
+    """Initial yield stress."""
     saturation: Positive
-    """Last yield stress."""
+    """Saturation stress."""
     rate: NotNegative
-    """How fast the curve saturates."""
+    """Rate of saturation."""
 
     def build(self) -> Hardening:
         """The curve."""
@@ -59,18 +59,18 @@ class Voce(Part):
 
 
 class LinearVoce(Part):
-    """Linear and Voce hardening together."""
+    """Sum of linear and Voce hardening."""
 
     curve: Literal["LinearVoce"]
     """The word LinearVoce."""
     yield_stress: Positive
-    """First yield stress."""
+    """Initial yield stress."""
     modulus: NotNegative
     """Slope of the linear part."""
     saturation: Positive
-    """Last yield stress of the Voce part."""
+    """Saturation stress of the Voce part."""
     rate: NotNegative
-    """How fast the Voce part saturates."""
+    """Rate of saturation of the Voce part."""
 
     def build(self) -> Hardening:
         """The curve."""
@@ -95,7 +95,7 @@ class Swift(Part):
 
 
 class Table(Part):
-    """Points of a measured curve with straight lines between them, constant behind the last one."""
+    """Piecewise linear curve through measured points, constant beyond the last one."""
 
     curve: Literal["Table"]
     """The word Table."""

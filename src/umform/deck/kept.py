@@ -1,4 +1,4 @@
-"""What a checkpoint keeps of a deck, so that a run can be taken up with the checkpoint alone."""
+"""Deck and folders in a checkpoint, so that the checkpoint alone suffices to resume a run."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from umform.run.checkpoint import read_note
 
 @dataclass(frozen=True)
 class Kept:
-    """A run of a deck as far as the command line has it.
+    """A run of a deck with the options of the command line.
 
     Attributes
     ----------
     deck : Deck
         The deck, with its changes.
     out : Path
-        Folder for what comes out.
+        Folder of the results.
     solver : str or None
         Another sparse solver than that of the deck.
     """
@@ -36,7 +36,7 @@ class Kept:
         return self.solver or self.deck.contents.solution.solver
 
     def note(self, checkpoint: Path) -> dict[str, Any]:
-        """What goes into a checkpoint; folders also as seen from there, for the case that all of them move."""
+        """Note for a checkpoint; folders also relative to it, in case all of them are moved."""
         source, here = self.deck.source, checkpoint.parent
         return {
             "deck": source.text,
@@ -50,14 +50,14 @@ class Kept:
 
     @classmethod
     def read(cls, checkpoint: Path) -> Kept:
-        """What a checkpoint has kept.
+        """Content of the note of a checkpoint.
 
         Raises
         ------
         FileProblem
             If it cannot be read, is no checkpoint, or was not written by a run of a deck.
         DeckError
-            If the deck in it cannot be read any more.
+            If the deck in it is no longer valid.
         """
         note = read_note(checkpoint)
         if "deck" not in note:

@@ -1,7 +1,7 @@
-"""On which line of a deck each key stands, which tomllib does not tell.
+"""Line number of each key of a deck, which tomllib does not report.
 
-The scanner follows headers, arrays of tables, dotted keys, inline tables, arrays and strings of all kinds. It judges
-nothing: of text that is no TOML it keeps what it has understood, and it never fails.
+The scanner follows headers, arrays of tables, dotted keys, inline tables, arrays and strings of all kinds. It does not
+validate: for invalid TOML it keeps what it has understood, and it never fails.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from bisect import bisect_right
 from collections.abc import Mapping
 from contextlib import suppress
 
-#: Keys of tables and numbers of array entries, from the outside inwards.
+#: Keys of tables and indices of array entries, from the outside inwards.
 Path = tuple[str | int, ...]
 
 _BLANK = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
@@ -23,7 +23,7 @@ _ESCAPE = re.compile(r"\\u([0-9A-Fa-f]{4})|\\U([0-9A-Fa-f]{8})|\\(.)")
 _SHORT = {"b": "\b", "t": "\t", "n": "\n", "f": "\f", "r": "\r"}
 _PLAIN = re.compile(r"[^,\]}\n#]*")
 _REST = re.compile(r"[^\n]*")
-#: Values that are nested deeper than this keep the line of what holds them.
+#: Values nested deeper than this get the line of their container.
 _DEEPEST = 60
 
 
@@ -33,7 +33,7 @@ def lines_of(text: str) -> dict[Path, int]:
     Parameters
     ----------
     text : str
-        The text, right or wrong.
+        The text, valid or not.
 
     Returns
     -------
@@ -41,13 +41,13 @@ def lines_of(text: str) -> dict[Path, int]:
         ``("steps", 0, "to")`` is the path of ``to`` in the first of the tables ``[[steps]]``.
     """
     scanner = _Scanner(text)
-    with suppress(Exception):  # whatever it is, the message that asks for a line matters more
+    with suppress(Exception):  # whatever the cause, the message that needs a line is more important
         scanner.run()
     return scanner.lines
 
 
 def repeated(text: str) -> list[tuple[Path, int, int]]:
-    """Keys and tables that a TOML text gives twice: the path, the line of the first and that of the second."""
+    """Keys and tables that a TOML text defines twice: the path, the line of the first and that of the second."""
     scanner = _Scanner(text)
     with suppress(Exception):
         scanner.run()
@@ -73,7 +73,7 @@ class _Scanner:
         self._counts: dict[Path, int] = {}
 
     def run(self) -> None:
-        """Headers and keys, one after the other; what is neither is passed over."""
+        """Headers and keys in order; anything else is skipped."""
         table: Path = ()
         while self.at < len(self.text):
             self._skip(_BLANK)
@@ -185,7 +185,7 @@ class _Scanner:
         self.lines.setdefault(path, bisect_right(self._starts, at))
 
     def _give(self, path: Path, at: int) -> None:
-        """Remember where a key gets its value, or a table its header, and whether it had one before."""
+        """Store the line of a key or a table, and whether it had one before."""
         line = bisect_right(self._starts, at)
         if path in self._given:
             self.repeated.append((path, self._given[path], line))

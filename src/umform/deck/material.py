@@ -57,11 +57,11 @@ class FromLibrary(Part):
     library: Annotated[str, Field(min_length=1)]
     """Its name."""
     rolling: RollingPart | None = None
-    """Rolling direction, which an anisotropic one needs: a way, an angle to the bend line, or a file."""
+    """Rolling direction, required by an anisotropic metal: a direction, an angle to the bend line, or a file."""
 
     @model_validator(mode="after")
     def _knows_its_directions(self) -> FromLibrary:
-        with suppress(UmformError):  # an unknown name is refused where the law is made
+        with suppress(UmformError):  # an unknown name is refused when the law is built
             if self.rolling is None and getattr(sheet_metals.get(self.library).law, "directional", False):
                 raise PydanticCustomError("rolling", 'a metal with directions needs rolling: rolling = "x"')
         return self

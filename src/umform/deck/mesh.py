@@ -39,9 +39,9 @@ class Strip(Part):
     layers: Annotated[int, Field(ge=1, le=100)] = 1
     """Elements through the thickness."""
     grading: Pair = (1.0, 1.0)
-    """Size of the last element over that of the first one, along x and y."""
+    """Ratio of the last to the first element size, along x and y."""
     rolled: Positive | None = None
-    """Radius of the mid-surface of a strip that is rolled up about an axis along y, at z = -rolled; x is the arc."""
+    """Radius of the mid-surface of a strip rolled about an axis along y at z = -rolled; x is the arc length."""
 
     @model_validator(mode="after")
     def _is_possible(self) -> Strip:
@@ -104,7 +104,7 @@ Portion = Literal["whole", "half", "quarter"]
 
 
 class Blank(Part):
-    """What discs and rings have in common: they lie about the z-axis, with the mid-surface at z = 0."""
+    """Common keys of discs and rings: they lie about the z-axis, with the mid-surface at z = 0."""
 
     thickness: Positive
     """Along z."""
@@ -115,7 +115,7 @@ class Blank(Part):
     layers: Annotated[int, Field(ge=1, le=100)] = 1
     """Elements through the thickness."""
     grading: Positive = 1.0
-    """Size of the last element over that of the first one, towards the rim."""
+    """Ratio of the last to the first element size, towards the rim."""
 
 
 class Disc(Blank):
@@ -182,7 +182,7 @@ class File(Part):
     nodes of the lower face. Without it the first nodes of each cell are those of its lower face."""
 
     def build(self, cell: str, folder: Path) -> Mesh:
-        """The mesh; whether it fits the element is up to the model."""
+        """The mesh; the model checks whether it suits the element."""
         del cell
         try:
             return mesh.read(folder / self.file, self.through)
@@ -191,7 +191,7 @@ class File(Part):
             raise
 
     def _remedy(self, error: MeshError) -> str:
-        """The remedy by keys of the deck."""
+        """The remedy in terms of deck keys."""
         if self.through is None and isinstance(error, WrongNodeOrder | InvertedElement):
             return "through = 'thinnest', or the axis through the thickness: then the cells are turned"
         return re.sub(
@@ -200,8 +200,8 @@ class File(Part):
 
 
 class Shell(Part):
-    """Quadrilaterals of a file, thickened along their normals; the set NAME has the nodes of both faces, NAME_lower and
-    NAME_upper those of one.
+    """Quadrilaterals of a file, thickened along their normals; the set NAME contains the nodes of both faces,
+    NAME_lower and NAME_upper those of one face.
     """
 
     file: Annotated[str, Field(min_length=1)]
@@ -209,12 +209,12 @@ class Shell(Part):
     thickness: Positive
     """Thickness."""
     surface: Literal["middle", "lower", "upper"] = "middle"
-    """What the file has: the mid-surface, the lower or the upper face."""
+    """The given surface: mid-surface, lower or upper face."""
     kink: Annotated[float, Field(gt=0, lt=180)] = 100.0
     """Largest angle in degrees between the quadrilaterals at a node."""
 
     def build(self, cell: str, folder: Path) -> Mesh:
-        """The mesh; whether it fits the element is up to the model."""
+        """The mesh; the model checks whether it suits the element."""
         del cell
         return mesh.read_shell(folder / self.file, self.thickness, surface=self.surface, kink=self.kink)
 
@@ -224,7 +224,7 @@ def _refuse_too_many(cells: int) -> None:
         raise PydanticCustomError("cells", "{cells} cells are more than {most}", {"cells": cells, "most": _MOST_CELLS})
 
 
-#: Keys that tell a surface to be thickened from hexahedra.
+#: Keys that distinguish a surface to be thickened from hexahedra.
 _OF_SHELLS = {"thickness", "surface", "kink"}
 
 

@@ -1,4 +1,4 @@
-"""What pydantic finds wrong, said in the way of umform: place, value, cause and remedy."""
+"""Errors of pydantic in the form of umform: place, value, cause and remedy."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ _REMEDIES = dict.fromkeys(_BEYOND, "write a number within the bound") | {
 
 
 def messages(error: ValidationError, source: Source) -> Iterator[DeckKey]:
-    """One error of umform for each of pydantic.
+    """One error of umform for each one of pydantic.
 
     Parameters
     ----------
     error : ValidationError
         Of `Contents`.
     source : Source
-        The deck that it is about.
+        The deck.
     """
     for found in error.errors(include_url=False):
         yield _message(found, source)
@@ -103,7 +103,7 @@ def _missing(source: Source, path: Path, key: str, meaning: str, cause: str = "i
 
 
 def _wrong_kind(source: Source, path: Path, given: Any, context: Mapping[str, Any]) -> DeckKey:
-    """A table whose kind is missing, or not known."""
+    """A table whose kind is missing or unknown."""
     key = str(context.get("key") or context.get("discriminator", "")).strip("'")
     known = _quoted(str(context.get("expected_tags", "")))
     if not isinstance(given, dict):
@@ -145,7 +145,7 @@ def _quoted(text: str) -> list[str]:
 
 
 def path_in(data: Any, loc: tuple[str | int, ...]) -> Path:
-    """Path in the data of a place that pydantic names; what it adds to tell kinds apart is left out."""
+    """Path in the data for a location of pydantic, without its tags of unions."""
     path: Path = ()
     kind: Any = Contents
     for part in loc:
@@ -160,11 +160,11 @@ def path_in(data: Any, loc: tuple[str | int, ...]) -> Path:
     return path
 
 
-# What is known at a place ------------------------------------------------------------------------------------
+# Known keys ---------------------------------------------------------------------------------------------------
 
 
 def fields_at(loc: tuple[str | int, ...]) -> dict[str, FieldInfo]:
-    """Keys that are known at a place that pydantic names."""
+    """Known keys at a location of pydantic."""
     kind: Any = Contents
     for part in loc:
         kind = _inside(kind, part)
@@ -173,7 +173,7 @@ def fields_at(loc: tuple[str | int, ...]) -> dict[str, FieldInfo]:
 
 
 def _inside(kind: Any, part: str | int) -> Any:
-    """Type of what stands at a key, at a number of an array, or of the member of a union that a tag names."""
+    """Type at a key, at an index of an array, or of the member of a union with a tag."""
     kind = _bare(kind)
     if isinstance(kind, type) and issubclass(kind, BaseModel):
         field = kind.model_fields.get(str(part))
@@ -199,7 +199,7 @@ def _bare(kind: Any) -> Any:
 
 
 def _tags(member: Any) -> set[object]:
-    """Words by which a member of a union differs from the others."""
+    """Words that distinguish a member of a union from the others."""
     tags: set[object] = {note.tag for note in get_args(member)[1:] if isinstance(note, Tag)}
     bare = _bare(member)
     if not tags and isinstance(bare, type) and issubclass(bare, BaseModel):

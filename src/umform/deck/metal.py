@@ -1,4 +1,4 @@
-"""The metals of a deck: J2, and those that are put together from parts."""
+"""The metals of a deck: J2, and composed ones."""
 
 from __future__ import annotations
 
@@ -40,24 +40,24 @@ class Mises(Part):
 
 
 class Hill48(Part):
-    """Hill (1948) from three r-values, four yield stresses over that of the hardening curve, or its own constants."""
+    """Hill (1948) from three r-values, four yield stresses relative to the hardening curve, or Hill's constants."""
 
     function: Literal["Hill48"]
     """The word Hill48."""
     r0: Positive | None = None
-    """Strain over the width by strain over the thickness, tension along the rolling direction."""
+    """Ratio of width to thickness strain in tension along the rolling direction."""
     r45: Positive | None = None
     """At 45 degrees to it."""
     r90: Positive | None = None
     """Across it."""
     s0: Positive | None = None
-    """Yield stress along the rolling direction, over that of the curve."""
+    """Yield stress along the rolling direction, relative to that of the curve."""
     s45: Positive | None = None
     """At 45 degrees to it."""
     s90: Positive | None = None
     """Across it."""
     biaxial: Positive | None = None
-    """Of equal tension in both directions."""
+    """In equibiaxial tension."""
     F: float | None = None
     """Constant of (s22 - s33)^2."""
     G: float | None = None
@@ -95,7 +95,7 @@ Exponent = Annotated[float, Field(ge=2, le=20)]
 
 
 class Hosford(Part):
-    """Hosford (1972): isotropic, with flatter sides than von Mises."""
+    """Hosford (1972): isotropic, with less curved sides than von Mises."""
 
     function: Literal["Hosford"]
     """The word Hosford."""
@@ -179,9 +179,9 @@ class BackStress(Part):
     parts: Annotated[list[Pair], Field(min_length=1, max_length=4)]
     """Modulus and recall of each: [C, gamma]."""
     first: Positive = 1.0
-    """Share of the moduli at the start."""
+    """Initial factor of the moduli."""
     rate: NotNegative = 0.0
-    """How fast the moduli change with the plastic strain."""
+    """Rate of the change of the moduli with the plastic strain."""
 
     def build(self) -> materials.Chaboche:
         """The back stresses."""
@@ -192,17 +192,17 @@ class TwoSurfaces(Part):
     """Yoshida and Uemori (2002); the hardening curve is Perfect."""
 
     C: Positive
-    """How fast the yield surface moves within the bounding surface."""
+    """Rate of the translation of the yield surface relative to the bounding surface."""
     B: Positive
-    """First size of the bounding surface."""
+    """Initial size of the bounding surface, above the yield stress."""
     growth: NotNegative
-    """R_sat: by how much it grows."""
+    """R_sat: saturation value of the isotropic hardening of the bounding surface."""
     b: Positive
-    """How far it moves."""
+    """Saturation value of the back stress of the bounding surface."""
     m: Positive
-    """How fast it grows and moves."""
+    """Rate of both."""
     h: Annotated[float, Field(ge=0, le=1)]
-    """How fast the surface of stagnation grows with it."""
+    """Ratio of isotropic to kinematic hardening of the stagnation surface."""
 
     def build(self) -> materials.YoshidaUemori:
         """The back stress."""
@@ -213,9 +213,9 @@ class Modulus(Part):
     """Young's modulus that falls with the plastic strain."""
 
     saturated: Positive
-    """What it falls to."""
+    """Limit of the modulus."""
     rate: Positive
-    """How fast."""
+    """Rate of the decrease."""
 
 
 class CowperSymonds(Part):
@@ -249,7 +249,7 @@ class JohnsonCook(Part):
 
 
 class Metal(Elastic):
-    """Plasticity with a yield function, back stresses, a modulus that falls and a rate."""
+    """Plasticity with a yield function, back stresses, a falling modulus and a rate factor."""
 
     law: Literal["Metal"]
     """The word Metal."""
@@ -260,15 +260,15 @@ class Metal(Elastic):
     ]
     """Shape of the yield surface."""
     rolling: RollingPart | None = None
-    """Rolling direction: a way, an angle to the bend line, or a file."""
+    """Rolling direction: a direction, an angle to the bend line, or a file."""
     back_stress: BackStress | None = None
     """Motion of the yield surface."""
     two_surfaces: TwoSurfaces | None = None
     """The same by Yoshida and Uemori."""
     modulus: Modulus | None = None
-    """Fall of Young's modulus."""
+    """Decrease of Young's modulus."""
     rate: Annotated[CowperSymonds | JohnsonCook, Field(discriminator="factor")] | None = None
-    """Factor of the yield stress over the rate of the plastic strain, in the time of the steps."""
+    """Factor of the yield stress as a function of the plastic strain rate; time is that of the steps."""
 
     @model_validator(mode="after")
     def _knows_its_directions(self) -> Metal:

@@ -1,4 +1,4 @@
-"""What all parts of a deck have in common: strict types, no unknown keys, and numbers, vectors and directions."""
+"""Common base of all parts of a deck: strict types, no unknown keys, and numbers, vectors and directions."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Strict, Tag
 
 
 class Part(BaseModel):
-    """A table of a deck. Numbers are finite, words are not taken for numbers, and unknown keys are errors."""
+    """A table of a deck. Numbers are finite, words are not converted to numbers, and unknown keys are errors."""
 
     model_config = ConfigDict(
         extra="forbid", strict=True, allow_inf_nan=False, frozen=True, use_attribute_docstrings=True
@@ -23,28 +23,28 @@ Count = Annotated[int, Field(ge=1)]
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=60)]
 Axis = Literal["x", "y", "z"]
 
-# TOML has arrays where Python has tuples; what is in them stays strict.
+# TOML has arrays where Python has tuples; their entries stay strict.
 Pair = Annotated[tuple[float, float], Strict(False)]
 Vector = Annotated[tuple[float, float, float], Strict(False)]
 
 
 def word_or_array(value: Any) -> str | None:
-    """Which of two ways to write a value was taken, lest the errors of both be reported."""
+    """Discriminator between two notations of a value, so that only the errors of one are reported."""
     return "word" if isinstance(value, str) else "array" if isinstance(value, list | tuple) else None
 
 
 def number_or_array(value: Any) -> str | None:
-    """Which of two ways to write a value was taken."""
+    """Discriminator between two notations of a value."""
     return "array" if isinstance(value, list | tuple) else "number"
 
 
 def number_or_table(value: Any) -> str | None:
-    """Which of two ways to write a value was taken."""
+    """Discriminator between two notations of a value."""
     return "table" if isinstance(value, dict) else "number"
 
 
 def tagged_by(key: str, other: str) -> Callable[[Any], str | None]:
-    """What tells kinds of a table apart: the word of a key; or the name of another key that stands in its place."""
+    """Discriminator between kinds of a table: the word of a key, or the name of another key that implies it."""
 
     def kind(value: Any) -> str | None:
         if isinstance(value, dict):

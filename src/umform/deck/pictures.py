@@ -1,4 +1,4 @@
-"""The two pictures of a run: force over displacement, and the last shape."""
+"""The pictures of a run: force over displacement, and the final shape."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from umform.steps import Release
 
 
 def draw_curve(problem: Problem, result: Result, path: Path) -> None:
-    """Force over displacement of the control that the first step moves; of a load, over what it moves most."""
+    """Force over displacement of the control that the first step moves; for a load, over the largest displacement."""
     control = main_control(problem)
     if isinstance(control, Load | Pressure):
         _draw_load(control, result, path)
@@ -28,7 +28,7 @@ def draw_curve(problem: Problem, result: Result, path: Path) -> None:
 
 
 def draw_shape(result: Result, path: Path) -> None:
-    """The whole part in its last state, with the mirror images of what is modelled."""
+    """The whole part in its final state, with the mirror images of the modelled part."""
     plot_shape(whole(Shape.of(result), mirrors(result.model)), path=path)
 
 
@@ -39,7 +39,7 @@ def main_control(problem: Problem) -> Control:
 
 
 def _draw_load(control: Control, result: Result, path: Path) -> None:
-    """A load over the displacement of the node that has moved most in the end, frame by frame."""
+    """A load over the displacement of the node with the largest final displacement, frame by frame."""
     displacements = np.array([frame.points["displacement"] for frame in result.frames])
     farthest = int(np.argmax(np.linalg.norm(displacements[-1], axis=1)))
     values = result[control.name][[frame.number for frame in result.frames]]

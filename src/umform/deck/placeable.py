@@ -1,4 +1,4 @@
-"""What all tools of a deck have: a place, an offset, the radii that a sheet may be bent around."""
+"""Common keys of all tools of a deck: pose, offset, and the radii over which a sheet may bend."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ ORIGIN = (0.0, 0.0, 0.0)
 
 
 class Placeable(Part):
-    """A tool, which may be turned about the origin and then shifted."""
+    """A tool, which may be rotated about the origin and then shifted."""
 
     rotation: Vector = ORIGIN
-    """Rotation vector in degrees: [0, 90, 0] turns by 90 degrees about y."""
+    """Rotation vector in degrees: [0, 90, 0] rotates by 90 degrees about y."""
     translation: Vector = ORIGIN
     """Shift after the rotation."""
 
     offset: float = 0.0
-    """Distance by which the tool is grown on all sides; a sheet of this thickness lies between it and the drawn one."""
+    """Outward offset of the tool; a sheet of this thickness fits between it and the drawn one."""
     other_side: bool = False
-    """The tool is what lies beyond this distance: the punch of a die."""
+    """The tool is the region beyond this distance: the punch for a die."""
 
     def build(self, folder: File = File()) -> Tool:
-        """The tool in its place.
+        """The tool in its pose.
 
         Parameters
         ----------
         folder : Path
-            Where files are looked for.
+            Folder of its files.
         """
         tool = self._tool(folder)
         if self.other_side:
@@ -51,7 +51,7 @@ class Placeable(Part):
         return made
 
     def convex_radii(self, own: Tool) -> Iterator[float]:
-        """Radii that a sheet may be bent around, 0 at an edge, of the tool as it is without offset and place."""
+        """Radii over which a sheet may bend, 0 at an edge, without offset and pose."""
         yield from ()
 
 

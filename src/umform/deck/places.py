@@ -1,4 +1,4 @@
-"""A block of code that builds a part of a deck: its error is kept, with the place of the part."""
+"""Context for building a part of a deck: it collects errors with the place of the part."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from umform.errors import UmformError
 
 @dataclass(frozen=True)
 class Place:
-    """A block that may fail: its error is kept, with its place in the deck."""
+    """A block that may fail: its error is collected, with its place in the deck."""
 
     path: Path
     source: Source
@@ -39,7 +39,7 @@ class Place:
         return True
 
     def _place(self, error: UmformError) -> None:
-        """Say where in the deck; if the error names a key of the table, or its value, where that key is."""
+        """Set the place in the deck; if the error names a key of the table, or its value, the place of that key."""
         source, path = self.source, self.path
         error.cause, error.remedy = error.cause or ANY_CAUSE, error.remedy or ANY_REMEDY
         table = _value(source.data, path)

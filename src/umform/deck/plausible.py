@@ -1,4 +1,4 @@
-"""What is checked of a model wherever it comes from: mesh, gaps and units; no deck is needed, nor what reads one."""
+"""Plausibility checks of any model: mesh, gaps and units; they need no deck."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from umform.mesh.quality import jacobians
 from umform.model import Model
 from umform.model.contact.encounter import sheet_thickness
 
-#: An overlap of more than this part of the thickness at the start sends a jolt through the sheet; of more than the
-#: second, the tool is not where it was meant to be.
+#: Overlaps relative to the thickness at the start: beyond the first one the sheet gets a jolt; beyond the second one,
+#: the tool is misplaced.
 _OVERLAP, _DEEP = 0.02, 0.2
-#: Smallest Jacobian of a cell over its largest one.
+#: Smallest ratio of the Jacobians of a cell.
 _DISTORTED = 0.2
 
 
 def of_model(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
-    """Mesh, gaps and units of a model, wherever it comes from.
+    """Mesh, gaps and units of any model.
 
     Parameters
     ----------
     model : Model
-        The model; it is left as it was.
+        The model, which is unchanged.
     millimetres : bool
         Units are known to be mm, N and MPa.
     """

@@ -1,35 +1,17 @@
-"""From a deck to a problem that can be solved: the model, its controls and contacts, the steps."""
+"""A problem that can be solved: the model, its controls and contacts, the steps, and the options of the solution."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
 from os import PathLike
-from typing import Any, Protocol
+from typing import Any
 
-import numpy as np
-
-from umform.deck.contents import Contents
-from umform.deck.drawn_tools import Profiled
-from umform.deck.errors import DeckError
-from umform.deck.foreign import Foreign
-from umform.deck.metal import J2, Metal
-from umform.deck.places import Place
-from umform.deck.profiles import profile_of
-from umform.deck.rolling import direction
-from umform.deck.source import Source
-from umform.deck.steps import Free, Named
-from umform.deck.supports import Rigid
-from umform.elements import Rolling
-from umform.elements.technology import Element
-from umform.errors import UmformError
-from umform.materials import Material
 from umform.model import Model
 from umform.model.contact import Contact
 from umform.model.control import Control
-from umform.model.support import Support
 from umform.run import Result, resume, solve
-from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 from umform.steps import Step
 from umform.surfaces import Tool
@@ -37,12 +19,13 @@ from umform.surfaces import Tool
 
 @dataclass(frozen=True, kw_only=True)
 class Solving:
-    """How a problem is solved; on one rank of many that is all, and the share of the model comes from the first one.
+    """Settings of a solution; on a rank other than the first these suffice, and the rank receives its share of the
+    model.
 
     Attributes
     ----------
     options : NewtonOptions
-        How hard to iterate.
+        Options of Newton's method.
     solver : str
         Sparse solver.
     frames : int
@@ -59,7 +42,7 @@ class Solving:
         return solve(model, steps, **self._settings(solver), **options)
 
     def resume(self, path: str | PathLike[str], *, solver: str | None = None, **options: Any) -> Result:
-        """Take up a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
+        """Resume a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
         model, steps = self._given()
         return resume(path, model, steps, **self._settings(solver), **options)
 
@@ -72,7 +55,7 @@ class Solving:
 
 @dataclass(frozen=True, kw_only=True)
 class Problem(Solving):
-    """A model and what happens to it.
+    """A model and its steps.
 
     Attributes
     ----------
@@ -83,11 +66,11 @@ class Problem(Solving):
     controls : dict of str to Control
         Its controls by name.
     steps : list of Step
-        What happens, in a row.
+        Steps, in order.
     tools : dict of str to Tool
         Surfaces of its tools by name.
     notes : sequence of str
-        What was cut off, in words for the results.
+        Notes on cuts, for the results.
     """
 
     model: Model
@@ -99,262 +82,27 @@ class Problem(Solving):
 
     def solve(self, *, solver: str | None = None, **options: Any) -> Result:
         """Solve the problem; ``progress``, ``checkpoint``, ``every`` and ``note`` as for :func:`umform.solve`."""
-        return self._noted(super().solve(solver=solver, **options))
+        return self._noted(partial(super().solve, solver=solver, **options))
 
     def resume(self, path: str | PathLike[str], *, solver: str | None = None, **options: Any) -> Result:
-        """Take up a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
-        return self._noted(super().resume(path, solver=solver, **options))
+        """Resume a run of the problem; ``progress`` and ``every`` as for :func:`umform.resume`."""
+        return self._noted(partial(super().resume, path, solver=solver, **options))
 
-    def _noted(self, result: Result) -> Result:
+    def _noted(self, run: Callable[[], Result]) -> Result:
+        """Run, and leave the notes with the result, or with what was reached of it."""
+        try:
+            result = run()
+        except BaseException as error:
+            self._note(getattr(error, "result", None))
+            raise
+        self._note(result)
+        return result
+
+    def _note(self, result: Result | None) -> None:
+        if result is None:
+            return
         for note in self.notes:
             result.note(note)
-        return result
 
     def _given(self) -> tuple[Model | None, list[Step]]:
         return self.model, self.steps
-
-
-class Earlier(Protocol):
-    """A deck whose run comes before."""
-
-    def sheet(self) -> Model:
-        """Its model without tools and supports."""
-
-
-def build(contents: Contents, source: Source, solver: str | None = None, before: Earlier | None = None) -> Problem:
-    """Build the problem of a deck.
-
-    Parameters
-    ----------
-    contents : Contents
-        What stands in it.
-    source : Source
-        Where it stands.
-    solver : str, optional
-        Another sparse solver than that of the deck.
-    before : Earlier, optional
-        The deck of the operation before.
-
-    Raises
-    ------
-    DeckError
-        With all that does not fit.
-    """
-    with np.errstate(all="ignore"):
-        return _Builder(contents, source, solver or contents.solution.solver, before).problem()
-
-
-def sheet(contents: Contents, source: Source, before: Earlier | None) -> Model:
-    """Only the model, without tools and supports; see :func:`build`."""
-    with np.errstate(all="ignore"):
-        builder = _Builder(contents, source, contents.solution.solver, before)
-        model = builder.sheet()
-    if model is None:
-        raise DeckError(builder.errors)
-    return model
-
-
-@dataclass
-class _Builder:
-    """Builds part after part, and goes on after one that fails as far as others do not need it."""
-
-    contents: Contents
-    source: Source
-    solver: str
-    before: Earlier | None = None
-    errors: list[UmformError] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
-
-    def problem(self) -> Problem:
-        tools = self._tools()
-        model = self.sheet()
-        if model is None:
-            raise DeckError(self.errors)
-        contacts = self._contacts(model, tools)
-        supports = self._supports(model, rigid=False)
-        controls = self._controls(model, contacts)
-        supports |= self._supports(model, rigid=True)
-        controls |= self._missing_forces(model, supports)
-        self._rest(model)
-        options = self._options(model)
-        self._raise()
-        steps = self._steps(Named(controls, supports, contacts))
-        self._raise()
-        return Problem(
-            model=model,
-            contacts=contacts,
-            controls=controls,
-            steps=steps,
-            tools=tools,
-            options=options,
-            solver=self.solver,
-            frames=self.contents.output.frames,
-            notes=self.notes,
-        )
-
-    def _tools(self) -> dict[str, Tool]:
-        tools: dict[str, Tool] = {}
-        for name, part in self.contents.tools.items():
-            before = len(self.errors)
-            if isinstance(part, Profiled):
-                with self._at("tools", name, "profile"):
-                    profile_of(part.profile, self.source.folder)
-            if len(self.errors) > before:
-                continue
-            with self._at("tools", name):
-                tool = part.build(self.source.folder)
-                tool.kernel()
-                tools[name] = tool
-        return tools
-
-    def sheet(self) -> Model | None:
-        """The model without tools and supports, in the state that it begins in."""
-        if self.before is None:
-            return self._model()
-        part, folder = self.contents.before, self.source.folder
-        assert part is not None
-        with self._at("before"):
-            model = self.before.sheet()
-            part.restore(model, folder, self.source.data)
-            for number, cut in enumerate(self.contents.trim):
-                with self._at("trim", number):
-                    left = cut.build(folder).of(model)
-                    self.notes.append(f"trim {number + 1}: {left}")
-                    model = left.model
-            return model
-        return None
-
-    def _missing_forces(self, model: Model, supports: dict[str, Support]) -> dict[str, Control]:
-        """What tools, supports and metal exerted that are not there any more; supports that wait hold at once."""
-        part = self.contents.before
-        if part is None or self.errors:
-            return {}
-        named = {step.on for step in self.contents.steps if isinstance(step, Free)}
-        with self._at("before"):
-            for name, support in supports.items():
-                if support.waits and name not in named:
-                    model.put_back(support)
-            return {part.control: model.unbalanced(part.control)}
-        return {}
-
-    def _model(self) -> Model | None:
-        part = self.contents.element
-        element, mesh, material, rolling = self._element(), None, self._material(), self._rolling()
-        with self._at("mesh"):
-            mesh = self.contents.mesh.build(element.cell if element else "hex8", self.source.folder)
-        if element is None or mesh is None or material is None or any("rolling" in e.where for e in self.errors):
-            return None
-        with self._at("element"):
-            return Model(
-                mesh,
-                element,
-                material=material,
-                thickness_points=part.thickness_points,
-                thickness_rule=part.thickness_rule,
-                rolling=rolling,
-            )
-        return None
-
-    def _rolling(self) -> Rolling | None:
-        """The rolling direction of a metal that has one."""
-        rolling = getattr(self.contents.material, "rolling", None)
-        if rolling is None:
-            return None
-        with self._at("material", "rolling"):
-            return direction(rolling, self.source.folder)
-        return None
-
-    def _element(self) -> Element | None:
-        with self._at("element"):
-            return self.contents.element.build()
-        return None
-
-    def _material(self) -> Material | None:
-        part, before = self.contents.material, len(self.errors)
-        if isinstance(part, J2 | Metal):
-            with self._at("material", "hardening"):
-                part.hardening.build()
-        if len(self.errors) > before:
-            return None
-        with self._at("material"):
-            return part.build(self.source.folder) if isinstance(part, Foreign) else part.build()
-        return None
-
-    def _contacts(self, model: Model, tools: dict[str, Tool]) -> dict[str, Contact]:
-        contacts = {}
-        for name, part in self.contents.contacts.items():
-            if part.tool not in tools:
-                continue  # it has failed, and said why
-            with self._at("contacts", name):
-                contacts[name] = part.add_to(model, tools[part.tool], name)
-        for name, bead in self.contents.beads.items():
-            if bead.contact in contacts:
-                with self._at("beads", name):
-                    bead.add_to(model, contacts[bead.contact], name)
-        return contacts
-
-    def _supports(self, model: Model, *, rigid: bool) -> dict[str, Support]:
-        """The supports by name, those that hold what is free beside all others or these others."""
-        supports: dict[str, Support] = {}
-        for number, part in enumerate(self.contents.supports):
-            if isinstance(part, Rigid) != rigid:
-                continue
-            with self._at("supports", number):
-                support = part.add_to(model, here=self.before is not None)
-                supports[support.name] = support
-        return supports
-
-    def _controls(self, model: Model, contacts: dict[str, Contact]) -> dict[str, Control]:
-        controls: dict[str, Control] = {}
-        for name, part in self.contents.controls.items():
-            touched = [getattr(part, "contact", None), *getattr(part, "followers", [])]
-            touched.append(getattr(getattr(part, "gap", None), "to", None))
-            if any(contact not in (None, *contacts) for contact in touched):
-                continue  # the same
-            with self._at("controls", name):
-                controls[name] = part.add_to(model, name, contacts)
-        return controls
-
-    def _rest(self, model: Model) -> None:
-        """Springs under a loose sheet: where a run needs them, never, or as the deck has them."""
-        rest = self.contents.solution.rest
-        model.carries_loose_sheet = rest == "auto"
-        if isinstance(rest, float) and not self.errors:
-            with self._at("solution"):
-                model.rest(rest)
-
-    def _options(self, model: Model) -> NewtonOptions:
-        options = NewtonOptions()
-        with self._at("solution"):
-            options = self.contents.solution.build()
-        if self.solver == "petsc":  # each rank will have the pattern of its share
-            from umform.parallel.petsc import petsc
-
-            with self._at("solution", "solver"):
-                petsc()
-            return options
-        if not self.errors and any(body.rolling is not None for body in model.bodies):
-            with self._at("material", "rolling"):
-                _ = [body.block for body in model.bodies]  # its elements know where it stands on the sheet
-        if not self.errors:
-            with self._at("supports"):
-                _ = model.pattern
-        if not self.errors:
-            with self._at("solution", "solver"):
-                _ = Newton(model, options, self.solver).solver
-        return options
-
-    def _steps(self, named: Named) -> list[Step]:
-        steps: list[Step] = []
-        for number, part in enumerate(self.contents.steps):
-            with self._at("steps", number):
-                steps.append(part.build(named))
-        return steps
-
-    def _at(self, *path: str | int) -> Place:
-        """Where what is built inside of the block stands in the deck."""
-        return Place(path, self.source, self.errors)
-
-    def _raise(self) -> None:
-        if self.errors:
-            raise DeckError(self.errors)

@@ -53,10 +53,10 @@ Radii = Annotated[
 
 
 class ByCorners(Part):
-    """Lines between corners that are rounded; the solid is on the left of who walks along them."""
+    """Lines between rounded corners; the solid is on the left of the direction of travel."""
 
     corners: Annotated[list[Pair], Field(min_length=2, max_length=1000)]
-    """Corners in the order of the walk."""
+    """Corners in order."""
     radii: Radii = 0.0
     """Radius at all corners, or at each of them."""
     closed: bool = True
@@ -69,12 +69,12 @@ class ByCorners(Part):
 
 
 class BySegments(Part):
-    """Lines and arcs, one after the other; the solid is on the left of who walks along them."""
+    """Lines and arcs, one after the other; the solid is on the left of the direction of travel."""
 
     segments: Annotated[list[Segment], Field(min_length=1, max_length=1000)]
-    """In the order of the walk, each starting where the one before has ended."""
+    """In order, each starting where the previous one ends."""
     closed: bool = True
-    """The last one ends where the first one starts."""
+    """The end of the last one is the start of the first one."""
 
     def build(self, folder: File = File()) -> Profile:
         """The profile."""
@@ -93,11 +93,11 @@ class FromDxf(Part):
     """Where the solid is: inside or outside of a closed section, by default inside; below, above, left or right of an
     open one, by default below."""
     origin: Pair = (0.0, 0.0)
-    """Place of the drawing that is the origin of the section."""
+    """Point of the drawing that becomes the origin of the section."""
     unit: Literal["mm", "cm", "m", "um", "in", "ft"] = "mm"
     """Unit of the model."""
     tolerance: Positive = 1e-3
-    """Ends nearer than this are one point; arcs are no farther from ellipses and splines."""
+    """Ends nearer than this are one point; arcs deviate by at most this from ellipses and splines."""
 
     def build(self, folder: File = File()) -> Profile:
         """The profile."""
@@ -136,5 +136,5 @@ ProfilePart = Annotated[
 
 
 def profile_of(part: ProfilePart, folder: File) -> Profile:
-    """The profile; a name alone is that of a drawing which is the section as a whole."""
+    """The profile; a name alone means a drawing that contains only the section."""
     return (FromDxf(file=part) if isinstance(part, str) else part).build(folder)

@@ -1,4 +1,4 @@
-"""Names in a deck that stand for something else in it: tools, contacts, controls and supports."""
+"""References within a deck: names of tools, contacts, controls and supports."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from umform.deck.source import Source
 
 
 def unknown_names(source: Source) -> Iterator[DeckKey]:
-    """All names that stand for nothing; of tables that are malformed in another way nothing is said.
+    """All names without a target; malformed tables are ignored.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def unknown_names(source: Source) -> Iterator[DeckKey]:
 
 
 def references(data: dict[str, Any]) -> Iterator[tuple[str, str, Path]]:
-    """Each reference: the table that it goes to, the name, and where it stands."""
+    """Each reference: its target table, the name, and its place."""
     for name, contact in _table(data, "contacts").items():
         if isinstance(contact, dict) and isinstance(contact.get("tool"), str):
             yield "tools", contact["tool"], ("contacts", name, "tool")
@@ -67,7 +67,7 @@ def _listed(part: dict[str, Any], key: str, kind: str, path: Path) -> Iterator[t
 
 
 def _names(data: dict[str, Any], kind: str) -> list[str]:
-    """The names of the things of a kind; supports stand in a list, and some of them have a name."""
+    """The names of the objects of a kind; supports are a list, and some of them have a name."""
     if kind != "supports":
         more = [name] if kind == "controls" and isinstance(name := _table(data, "before").get("control"), str) else []
         return [*_table(data, kind), *more]

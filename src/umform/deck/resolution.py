@@ -1,10 +1,10 @@
-"""Whether mesh, element, hardening curve, contact points and increments are fine enough for what the tools ask for.
+"""Check that mesh, element, hardening curve, contact points and increments resolve the tools.
 
 A sheet of thickness h on a radius R strains by h / (2 R + h) at its surfaces. Rules of thumb: an element should span
 some 10 degrees of the smallest radius, twice as much if it is curved itself, and the false moment of sharp-bend locking
 should stay below a few per cent of the plastic one (docs/theory, section 2.8). An increment of more than half a
-thickness may jump over contact; a facet with fewer contact points than its order asks for lets the force climb in
-stairs (docs/theory, section 4.5).
+thickness may jump over contact; a facet with too few contact points for its order makes the force rise in steps
+(docs/theory, section 4.5).
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ from umform.model import Model
 from umform.model.contact import Contact
 from umform.model.contact.encounter import sheet_thickness
 
-#: Degrees of a tool radius that one element may span: with 4 nodes a face, and with 9, which follow an arc.
+#: Degrees of a tool radius per element: with 4 nodes a face, and with 9, which follow an arc.
 _ARC = {4: 12.0, 9: 24.0}
-#: False moment over the plastic one that is borne.
+#: Tolerated ratio of the false moment to the plastic one.
 _LOCKING = 0.05
-#: Order of the thickness strain above which the straight director sets the limit, and the elements for bends.
+#: Order of the thickness strain above which the straight director is the limit, and the elements for bends.
 _HIGHEST, _FOR_BENDS = 4, {"hex8": "BEND8", "hex18": "BEND18"}
 #: Points through the thickness that plastic bending needs, and sharp bends (strain above 0.1).
 _POINTS, _SHARP_POINTS, _SHARP = 5, 7, 0.1
-#: Way in an increment, in thicknesses.
+#: Travel in an increment, in thicknesses.
 _WAY = 0.5
 #: Contact points, and cells, per direction of a facet with 4 and with 9 nodes.
 _LEAST, _LEAST_CELLS = {4: 2, 9: 3}, {4: 3, 9: 5}
@@ -65,7 +65,7 @@ def bends(deck: Deck, problem: Problem) -> Iterator[Finding]:
 
 
 def element_size(contact: Contact, model: Model, tool: ToolPart, radius: float) -> Finding:
-    """Angle of the smallest radius of a tool that an element spans where the tool is nearest."""
+    """Angle of the smallest radius of a tool per element where the tool is nearest."""
     about = f"contact {contact.name}"
     size = _size_near(contact, model, along(tool))
     if radius == 0.0:
@@ -116,7 +116,7 @@ def through_thickness(model: Model, material: Plastic, h: float, radius: float, 
 
 
 def against_locking(element: Element, strain: float, stiffness: float, layers: int) -> str:
-    """What helps: a higher order of the thickness strain if one can follow, else layers."""
+    """Remedy: a higher order of the thickness strain if possible, else layers."""
     for order in range(max(element.thickness_order, 1) + 1, _HIGHEST + 1):
         if locking_moment(order, strain, stiffness, layers) <= _LOCKING:
             if element.thickness_order == 0:
@@ -128,7 +128,7 @@ def against_locking(element: Element, strain: float, stiffness: float, layers: i
 
 
 def layers_of(model: Model, h: float) -> int:
-    """Cells that lie on each other in a sheet of a thickness."""
+    """Number of stacked cells in a sheet of a thickness."""
     lower, upper = np.split(model.mesh.points[model.mesh.connectivity], 2, axis=1)
     return max(1, round(h / float(np.median(np.linalg.norm(upper - lower, axis=-1)))))
 
@@ -145,7 +145,7 @@ def locking_moment(order: int, strain: float, stiffness: float, layers: int = 1)
     stiffness : float
         Bulk modulus over yield stress.
     layers : int
-        Elements on each other: each bends about its own middle, so that x_s of (2.27) is that of a layer.
+        Stacked elements: each bends about its own middle, so that x_s of (2.27) is that of a layer.
     """
     m = order + 1
     beta = (m + 1) / 2 * 2.0**m * math.factorial(m) ** 2 / math.factorial(2 * m)
@@ -169,14 +169,14 @@ def contact_points(problem: Problem) -> Iterator[Finding]:
 
 
 def ways(deck: Deck, problem: Problem) -> Iterator[Finding]:
-    """How far the controls that are lengths go, in all and in one increment."""
+    """Travel of the controls that are lengths, in total and per increment."""
     mesh = problem.model.mesh
     thickness, span = sheet_thickness(mesh), float(np.ptp(mesh.points, axis=0).max())
     controls = deck.contents.controls
     stands = dict.fromkeys(controls, 0.0)
     for number, step in enumerate(deck.contents.steps):
         about = f"step {number + 1}"
-        if not isinstance(step, Move):  # where it ends is not known
+        if not isinstance(step, Move):  # its end is unknown
             moved = [] if step.kind == "free" else step.to if step.kind == "arc" else [step.control]
             for name in moved:
                 stands[name] = np.nan

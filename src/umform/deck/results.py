@@ -1,4 +1,4 @@
-"""The files of a run of a deck: writing them, and what is kept of the run where that fails."""
+"""Write the files of a run of a deck, and keep the run if writing fails."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from umform.io.staging import Staging
 from umform.processes.decks import toml
 from umform.run import Result
 
-#: The deck as it was run, beside what came of it.
+#: The deck of the run, beside its results.
 COPY = "as-run.toml"
-#: Where the state of a run is kept unless another file is asked for; taken away when the run has ended by itself.
+#: Default file of the checkpoint; removed when the run has ended normally.
 CHECKPOINT = "checkpoint.h5"
-#: State at the end, which the deck of the next operation begins with.
+#: Final state, with which the deck of the next operation begins.
 STATE = "state.h5"
 FILES = ("history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", STATE, COPY)
-#: What marks a folder as that of a run.
+#: Files that mark a folder as that of a run.
 RESULTS = (*FILES, CHECKPOINT)
 
 
 def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole: bool) -> list[Path]:
-    """Write the files that the deck asks for; numbers get their names before pictures are drawn.
+    """Write the files that the deck asks for; data files are complete before pictures are drawn.
 
-    Without ``whole`` a run has ended early: its state is none that another operation begins with.
+    With ``whole`` False the run ended early: its state is not written, since no operation may begin with it.
     """
     wanted, waiting, text = deck.contents.output, stage.waiting, as_run(deck)
     (waiting / COPY).write_text(text, encoding="utf-8")
@@ -44,7 +44,7 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole
         write_state(problem.model, waiting / STATE, deck.source.data)
     files = stage.commit([COPY, "history.csv", "fields.vtkhdf", STATE])
     if wanted.pictures:
-        from umform.deck.pictures import draw_curve, draw_shape  # matplotlib takes time to load
+        from umform.deck.pictures import draw_curve, draw_shape  # matplotlib loads slowly
 
         draw_curve(problem, result, waiting / "curve.png")
         draw_shape(result, waiting / "shape.png")
@@ -64,14 +64,14 @@ def _add_forming(result: Result, points: list[tuple[float, float]] | None) -> No
 
 
 def as_run(deck: Deck) -> str:
-    """Text of a deck, after lines that say which keys had other values."""
+    """Text of a deck, after comment lines with the changed keys."""
     changes = (f"# run with --set {key}={toml(value)}\n" for key, value in deck.source.changes.items())
     return "".join([*changes, deck.source.text])
 
 
 @contextmanager
 def says_what_is_kept(stage: Staging, checkpoint: Path, before: float) -> Iterator[None]:
-    """Add to whatever keeps files from being written what there is, and how the run goes on."""
+    """Add to an error of writing the available files, and how to continue the run."""
     try:
         try:
             yield
@@ -90,7 +90,7 @@ def says_what_is_kept(stage: Staging, checkpoint: Path, before: float) -> Iterat
 
 
 def written_at(file: Path) -> float:
-    """When a file was written last; 0 if there is none."""
+    """Time of the last change of a file; 0 if there is none."""
     try:
         return file.stat().st_mtime
     except OSError:

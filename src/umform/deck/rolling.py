@@ -54,12 +54,12 @@ RollingPart = Annotated[
 
 
 def direction(part: str | Vector | AtAngle | EachCell, folder: Path) -> Rolling:
-    """The rolling direction as a model takes it.
+    """The rolling direction in the form of a model.
 
     Raises
     ------
     FileProblem
-        If the file cannot be read, or has other rows than three numbers.
+        If the file cannot be read, or has rows other than three numbers.
     """
     if isinstance(part, AtAngle):
         return rolling_at(part.angle, unit_vector(part.line, "line"), unit_vector(part.normal, "normal"))

@@ -1,4 +1,4 @@
-"""Run a deck, or resume its run, and write the results; those so far are written whatever ends the run."""
+"""Run a deck, or resume its run, and write the results, also after an early end."""
 
 from __future__ import annotations
 
@@ -27,18 +27,18 @@ log = logging.getLogger("umform")
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a run.
+    """Outcome of a run.
 
     Attributes
     ----------
     result : Result
-        All that was reached.
+        The results so far.
     files : list of Path
-        What was written.
+        The files.
     ended_by : BaseException or None
-        What ended the run early.
+        Cause of an early end; None otherwise.
     checkpoint : Path or None
-        File that the run can be taken up from; None if there is none.
+        File to resume the run from; None if there is none.
     """
 
     result: Result
@@ -48,22 +48,22 @@ class Outcome:
 
 
 def folder_of(deck: Deck) -> Path:
-    """Where the files of a deck go unless another folder is asked for."""
+    """Default folder of the files of a deck."""
     folder = deck.contents.output.folder
     return Path(folder) if folder else Path("results") / Path(deck.source.name).stem
 
 
 def prepared(deck: Deck, solver: str, check: Callable[[Problem], None] = lambda problem: None) -> Solving:
-    """Build what a deck describes; on many ranks the first one does so, and the others get their shares from it.
+    """Build a deck; with several ranks the first one does so, and the others receive their shares.
 
     Parameters
     ----------
     deck : Deck
         The deck.
     solver : str
-        The sparse solver that will be used.
+        The sparse solver.
     check : callable
-        May refuse what was built, :func:`refuse_implausible` for one; called in one process only.
+        May refuse the problem, for instance :func:`refuse_implausible`; called in one process only.
 
     Returns
     -------
@@ -73,7 +73,7 @@ def prepared(deck: Deck, solver: str, check: Callable[[Problem], None] = lambda 
     Raises
     ------
     UmformError
-        On all ranks, with all that does not fit.
+        On all ranks, with all mistakes.
     """
 
     def built() -> Problem:
@@ -88,7 +88,7 @@ def prepared(deck: Deck, solver: str, check: Callable[[Problem], None] = lambda 
 
 
 def _on_first(solver: str, work: Callable[[], _Answer]) -> _Answer | None:
-    """Do something in this process, or on the first of many ranks; None on the others."""
+    """Call a function in this process, or on the first of several ranks; None on the others."""
     if solver != "petsc":
         return work()
     from umform.parallel.mpi_ranks import world
@@ -97,21 +97,21 @@ def _on_first(solver: str, work: Callable[[], _Answer]) -> _Answer | None:
 
 
 def refuse_implausible(deck: Deck, problem: Problem, *, force: bool = False) -> None:
-    """Refuse numbers that cannot be meant, and log warnings of what is unusual, before time is spent on a run.
+    """Refuse numbers that are certainly wrong, and log warnings of unusual ones, before the run.
 
     Parameters
     ----------
     deck : Deck
         The deck.
     problem : Problem
-        What was built from it; its model is left as it was.
+        The problem of the deck; its model is unchanged.
     force : bool
         Warn only.
 
     Raises
     ------
     DeckError
-        With all that a check calls an error.
+        With all errors of the check.
     """
     for message in accept(before_run(deck, problem), force=force):
         log.warning(message)
@@ -128,37 +128,37 @@ def run(
     every: float = 60.0,
     overwrite: bool = False,
 ) -> Outcome:
-    """Solve the problem of a deck and write its files, each of them whole or not at all.
+    """Solve the problem of a deck and write its files, each of them atomically.
 
     Parameters
     ----------
     deck : Deck
         The deck.
     problem : Solving
-        What was :func:`prepared` from it.
+        Result of :func:`prepared`.
     out : str or Path, optional
-        Folder; default that of the deck, with a number if that one holds the results of another run.
+        Folder; default that of the deck, with a number if it contains the results of another run.
     solver : str, optional
         Another sparse solver than that of the deck.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
     checkpoint : str or Path, optional
-        File that the state of the run is kept in, with the deck; default checkpoint.h5 in the folder, which is taken
-        away when the run has ended by itself.
+        File for the state of the run, with the deck; default checkpoint.h5 in the folder, which is removed when the run
+        has ended normally.
     every : float
-        Seconds between two checkpoints, at least; 0 writes one after each increment.
+        Least seconds between two checkpoints; 0 writes one after each increment.
     overwrite : bool
         Whether results of another run, and its checkpoint, may be overwritten.
 
     Returns
     -------
     Outcome
-        Also if the run was ended by Ctrl-C, or did not converge: then with what was reached.
+        Also after Ctrl-C or without convergence, then with the results so far.
 
     Raises
     ------
     UmformError
-        If the model cannot be solved as it stands, or the folder cannot be written, or holds other results.
+        If the model cannot be solved, or the folder cannot be written, or contains other results.
     """
     default = folder_of(deck)
     choose = partial(folder_for, out, default, RESULTS, overwrite=overwrite, say=log.warning)
@@ -184,14 +184,14 @@ def resume(
     every: float = 60.0,
     overwrite: bool = False,
 ) -> Outcome:
-    """Take up the run of a deck from its checkpoint, and write its files as if it had never been stopped.
+    """Resume the run of a deck from its checkpoint, and write its files as after an uninterrupted run.
 
     Parameters
     ----------
     checkpoint : str or Path
-        The file, which the run goes on to write.
+        The file, which the run continues to write.
     kept : Kept
-        What it keeps of the deck.
+        Its note.
     out : str or Path, optional
         Folder; default that of the run.
     progress, every, overwrite
@@ -205,9 +205,9 @@ def resume(
     Raises
     ------
     FileProblem
-        If the file cannot be read, has no deck, or does not fit what the deck builds now.
+        If the file cannot be read, has no deck, or does not belong to the problem that the deck builds now.
     UmformError
-        If nothing can be built from the deck any more, a mesh file that is gone for one.
+        If the deck can no longer be built, for instance because a mesh file is missing.
     """
     path = Path(checkpoint)
     problem = prepared(kept.deck, kept.chosen_solver)
@@ -224,7 +224,7 @@ def resume(
 def _finish(
     kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: Callable[[], Result], solver: str
 ) -> Outcome:
-    """Solve, and write what came of it; on many ranks the first one writes for all."""
+    """Solve and write the results; with several ranks the first one writes for all."""
     if solver != "petsc":
         return _written(kept, problem, out, checkpoint, solve)
     from umform.parallel.mpi_ranks import world
@@ -239,8 +239,8 @@ def _finish(
 
 
 def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: Callable[[], Result]) -> Outcome:
-    """Solve, write what came of it, and take the checkpoint away if nobody has asked for it or needs it."""
-    assert isinstance(problem, Problem)  # one process, or the first of many
+    """Solve, write the results, and remove the checkpoint unless the user asked for it or it is needed."""
+    assert isinstance(problem, Problem)  # one process, or the first of several
     before = written_at(checkpoint)
     with staging(out, FILES) as stage:
         remove_left_behind(checkpoint)
@@ -256,7 +256,7 @@ def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: C
 
 
 def _solved(solve: Callable[[], Result]) -> tuple[Result, BaseException | None]:
-    """What was reached, and what ended it early."""
+    """The results so far, and the cause of an early end."""
     try:
         return solve(), None
     except BaseException as error:

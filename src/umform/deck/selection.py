@@ -1,4 +1,4 @@
-"""Which nodes or faces: a set of the mesh, a box, the nearest one, ids, or what several of these have in common."""
+"""Selections of nodes or faces: a set of the mesh, a box, the nearest one, ids, or an intersection."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from umform.deck.parts import Part, Vector
 from umform.errors import EmptySet
 from umform.mesh import FACES, Ids, Mesh
 
-#: Planes of a box are that much thicker than none, as a fraction of the size of the mesh.
+#: Thickness added to planes of a box, as a fraction of the size of the mesh.
 _HAIR = 1e-7
 
 Bound = Annotated[float, Field(allow_inf_nan=True)]
@@ -110,7 +110,7 @@ class ById(Part):
 
 
 class Intersection(Part):
-    """What several selections have in common."""
+    """Intersection of several selections."""
 
     intersection: Annotated[list[Selection], Field(min_length=1)]
     """The selections."""
@@ -133,7 +133,7 @@ _KEYS = {"min": "box", "max": "box", "nearest": "nearest", "ids": "ids", "inters
 
 
 def _kind(value: Any) -> str | None:
-    """Which selection this is, from the keys that it has."""
+    """Discriminator: the keys of a selection."""
     if isinstance(value, str):
         return "set"
     if isinstance(value, dict):

@@ -1,4 +1,4 @@
-"""How a deck is solved, and what is written."""
+"""Settings of the solution, and the output."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from umform.solution.options import NewtonOptions
 
 
 def _order(value: object) -> object:
-    """Order of an extrapolation that is wanted or not: true is 1, false 0."""
+    """Order of the extrapolation: true is 1, false 0."""
     return int(value) if isinstance(value, bool) else value
 
 
@@ -26,15 +26,15 @@ class Solution(Part):
     increment: Positive = 1e-6
     """Tolerance of the increment, relative to the largest displacement."""
     max_iterations: Annotated[int, Field(ge=1, le=1000)] = 25
-    """Iterations before an increment is cut."""
+    """Largest number of iterations before an increment is cut."""
     line_search: bool | None = None
-    """Shorten increments that go too far; default: where a law has a history."""
+    """Shorten increments that are too long; default: if a law has a history."""
     extrapolate: Annotated[Literal[0, 1, 2], BeforeValidator(_order)] = 1
     """Start an increment from the tangent (0), or from a line (1) or a parabola (2) through the last states."""
     mixed: bool | None = None
-    """Geometric stiffness of the stress that the last increment foresaw; default: elastic sheets."""
+    """Geometric stiffness of the stress predicted by the last increment; default: for elastic sheets."""
     rest: Literal["auto", "off"] | Positive = "auto"
-    """Springs under a sheet that is loose at first: auto where needed, off, or their stiffness in all."""
+    """Springs under an initially loose sheet: auto where needed, off, or their total stiffness."""
 
     def build(self) -> NewtonOptions:
         """Options of Newton's method."""
@@ -42,12 +42,12 @@ class Solution(Part):
 
 
 class Output(Part):
-    """What is written, and where."""
+    """Output files and folder."""
 
     folder: Annotated[str, Field(min_length=1)] | None = None
-    """Folder, from where the command is run; by default results/ and the name of the deck."""
+    """Folder, relative to the working directory; by default results/ and the name of the deck."""
     frames: Annotated[int, Field(ge=1, le=100_000)] = 60
-    """About how many states each step keeps for pictures and fields."""
+    """Approximate number of states that each step keeps for pictures and fields."""
     csv: bool = True
     """History as history.csv."""
     vtkhdf: bool = True
@@ -55,13 +55,13 @@ class Output(Part):
     report: bool = True
     """A page, report.html."""
     pictures: bool = True
-    """Force over displacement as curve.png, the last shape as shape.png."""
+    """Force over displacement as curve.png, the final shape as shape.png."""
     state: bool = False
-    """State at the end of a run as state.h5, which a deck with a table before begins with."""
+    """Final state as state.h5, the start of a deck with a table before."""
     forming: bool = False
     """Strains of both skins and of the middle, thinning and wrinkling among the fields."""
     forming_limit: list[Pair] | None = None
-    """Forming limit: logarithmic minor and major strains, the minor ones ascending; its margin is a field then."""
+    """Forming limit: logarithmic minor and major strains, the minor ones ascending; adds the margin as a field."""
 
     @model_validator(mode="after")
     def _ascending(self) -> Output:

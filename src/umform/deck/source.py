@@ -1,4 +1,4 @@
-"""The text of a deck: read, parsed, changed; and where in it a key stands."""
+"""The text of a deck: read, parse, change; and the place of each key."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from umform.errors import FileProblem
 
 @dataclass(frozen=True)
 class Source:
-    """A deck as it was read.
+    """The source of a deck.
 
     Attributes
     ----------
     name : str
         Of the file, for messages.
     folder : pathlib.Path
-        Where other files are looked for.
+        Folder of other files.
     text : str
         The text.
     data : dict
-        What tomllib makes of it, with the changes.
+        Parsed data, with the changes.
     lines : dict of path to int
         Line of each key.
     changes : dict of str to object
-        Keys that have other values than in the text.
+        Keys whose values differ from the text.
     """
 
     name: str
@@ -83,14 +83,14 @@ def parse(text: str, name: str, folder: File, changes: Mapping[str, Any] | None 
     name : str
         Of the file, for messages.
     folder : pathlib.Path
-        Where other files are looked for.
+        Folder of other files.
     changes : mapping of str to object, optional
         Other values of some keys: ``{"steps.0.increments": 3}``.
 
     Raises
     ------
     DeckError
-        If the text is no TOML, or a changed key is nowhere.
+        If the text is not valid TOML, or a changed key does not exist.
     """
     try:
         data = tomllib.loads(text)

@@ -18,7 +18,7 @@ from umform.model.support import Support
 
 @dataclass(frozen=True)
 class Named:
-    """What steps name.
+    """Objects that steps refer to.
 
     Attributes
     ----------
@@ -34,31 +34,31 @@ class Named:
 Targets = Annotated[dict[Name, float], Field(min_length=1)]
 Cuts = Annotated[int, Field(ge=0, le=40)]
 Grow = Annotated[float, Field(ge=1)]
-#: A part of a step.
+#: A fraction of a step.
 Share = Annotated[float, Field(gt=0, le=1)]
-#: Increments of a step at a pace, roughly.
+#: Approximate number of increments of a step at a pace.
 _AT_A_PACE = 40
-#: Increments of a release until its force is zero, roughly: it grows from a thousandth to a twentieth of the way.
+#: Approximate number of increments of a release: they grow from a thousandth to a twentieth of the way.
 _OF_A_RELEASE = 30
-#: Increments of closing a tool, roughly.
+#: Approximate number of increments of closing a tool.
 _OF_CLOSING = 10
 
 
 class Pace(Part):
-    """Limits of what may happen in one increment."""
+    """Limits of the changes in one increment."""
 
     first: Share = steps.Pace.first
-    """First increment, as a part of the step."""
+    """First increment, as a fraction of the step."""
     largest: Share = steps.Pace.largest
-    """Largest increment, as a part of the step."""
+    """Largest increment, as a fraction of the step."""
     turn: Positive = steps.Pace.turn
-    """Degrees that a fibre through the thickness turns."""
+    """Rotation of a fibre through the thickness, in degrees."""
     strain: Positive = steps.Pace.strain
-    """Growth of the plastic strain at a point."""
+    """Increase of the plastic strain at a point."""
     contact: Positive = steps.Pace.contact
-    """Share of the contact points that come and go."""
+    """Fraction of the contact points that open or close."""
     iterations: Count = steps.Pace.iterations
-    """Iterations of Newton's method that the size is adapted to."""
+    """Newton iterations to which the size is adapted."""
 
     def build(self) -> steps.Pace:
         """The limits."""
@@ -73,17 +73,17 @@ class Move(Part):
     to: Targets
     """End value of each control."""
     increments: Annotated[int, Field(ge=1, le=1_000_000)] | None = None
-    """Number of equal increments; by default their size follows what happens in them, see pace."""
+    """Number of equal increments; by default their size adapts, see pace."""
     pace: Pace | None = None
-    """Limits of what may happen in one increment, where their number is not given."""
+    """Limits of the changes in one increment, if their number is not given."""
     cuts: Cuts = 10
     """How often an increment may be halved."""
     grow: Grow = 1.0
-    """Largest increment over the nominal one, where their number is given."""
+    """Largest increment relative to the nominal one, if their number is given."""
     follow: dict[Name, Annotated[list[Pair], Field(min_length=1)]] = {}
-    """More controls as tables over the first one: pairs of its value and theirs, straight lines between them."""
+    """Other controls as piecewise linear tables of the first one: pairs of its value and theirs."""
     time: Positive = 1.0
-    """What the step takes: for metals with a rate, and for motions over time."""
+    """Duration of the step: for rate-dependent metals, and for motions in time."""
 
     @model_validator(mode="after")
     def _one_of_both(self) -> Move:
@@ -107,12 +107,12 @@ class Move(Part):
 
     @property
     def expected(self) -> int:
-        """About how many increments it takes."""
+        """Approximate number of increments."""
         return self.increments if self.increments is not None else _AT_A_PACE
 
 
 class Release(Part):
-    """Take a control back until its force is zero or contact has lifted off."""
+    """Move a control back until its force is zero or contact is lost."""
 
     kind: Literal["release"]
     """The word release."""
@@ -123,7 +123,7 @@ class Release(Part):
     tolerance: Positive = 1e-6
     """Force that counts as zero, relative to that at the beginning."""
     time: Positive = 1.0
-    """What it would take to go back to zero: for metals with a rate, and for motions over time."""
+    """Time for the full way back to zero: for rate-dependent metals, and for motions in time."""
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
@@ -131,12 +131,12 @@ class Release(Part):
 
     @property
     def expected(self) -> int:
-        """About how many increments it takes."""
+        """Approximate number of increments."""
         return _OF_A_RELEASE
 
 
 class Arc(Part):
-    """Follow the path of equilibria through limit points while controls go along straight lines."""
+    """Follow the equilibrium path through limit points while controls move along straight lines."""
 
     kind: Literal["arc"]
     """The word arc."""
@@ -147,15 +147,15 @@ class Arc(Part):
     length: Literal["cylindrical", "spherical"] = "cylindrical"
     """Length of an increment: of displacements, or of displacements and load parameter."""
     iterations: Count = 6
-    """Iterations that the arc length is adapted to."""
+    """Iterations to which the arc length is adapted."""
     grow: Grow = 4.0
-    """Largest arc length over the first."""
+    """Ratio of the largest arc length to the first."""
     cuts: Cuts = 10
     """How often the first arc length may be halved."""
     most: Annotated[int, Field(ge=1, le=1_000_000)] = 200
     """Number of increments at which the step ends with a warning."""
     time: Positive = 1.0
-    """What the way to the end takes at the pace of the first increment: for metals with a rate."""
+    """Time for the path to the end at the rate of the first increment: for rate-dependent metals."""
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
@@ -173,12 +173,12 @@ class Arc(Part):
 
     @property
     def expected(self) -> int:
-        """At most so many increments."""
+        """The largest number of increments."""
         return self.most
 
 
 class Free(Part):
-    """Take a support away, or tools, gradually: their forces become loads that go to zero."""
+    """Remove a support, or open tools, gradually: their forces become loads that decrease to zero."""
 
     kind: Literal["free"]
     """The word free."""
@@ -193,9 +193,9 @@ class Free(Part):
     cuts: Cuts = 10
     """How often an increment may be halved."""
     grow: Grow = 1.0
-    """Largest increment over the nominal one."""
+    """Largest increment relative to the nominal one."""
     time: Positive = 1.0
-    """What the step takes: for metals with a rate, and for motions over time."""
+    """Duration of the step: for rate-dependent metals, and for motions in time."""
 
     @model_validator(mode="after")
     def _something(self) -> Free:
@@ -213,23 +213,23 @@ class Free(Part):
 
     @property
     def expected(self) -> int:
-        """About how many increments it takes."""
+        """Approximate number of increments."""
         return self.increments
 
 
 class Close(Part):
-    """Take a pressed tool to the sheet by its way until a force is reached, and hold it by the force."""
+    """Close a pressed tool under displacement control until a force is reached, then hold the force."""
 
     kind: Literal["close"]
     """The word close."""
     control: Name
     """Control of the kind press, spring or moment."""
     force: float
-    """Force (or moment) that it is closed with."""
+    """Closing force (or moment)."""
     way: Positive | None = None
-    """Largest way that it may go; by default its distance from the sheet and the largest extent of the sheet."""
+    """Largest displacement; by default its distance from the sheet and the largest extent of the sheet."""
     time: Positive = 1.0
-    """What the step takes: for metals with a rate, and for motions over time."""
+    """Duration of the step: for rate-dependent metals, and for motions in time."""
 
     def build(self, named: Named) -> steps.Step:
         """The step."""
@@ -238,7 +238,7 @@ class Close(Part):
 
     @property
     def expected(self) -> int:
-        """About how many increments it takes."""
+        """Approximate number of increments."""
         return _OF_CLOSING
 
 

@@ -29,7 +29,7 @@ class Around(Part):
 
 
 class _Supporting(Part):
-    """What supports in axes of their own have in common."""
+    """Common keys of supports with local axes."""
 
     nodes: Selection
     """Which nodes; for a mid-line or a director the lower and upper nodes of the edge."""
@@ -38,7 +38,7 @@ class _Supporting(Part):
     axes: Around | None = None
     """Cylindrical axes instead of x, y, z."""
     name: Name | None = None
-    """Name, by which a step may free it."""
+    """Name, for a step that frees it."""
 
     def _hold(self, method: Callable[..., Held], model: Model, here: bool) -> Held:
         axes = None if self.axes is None else self.axes.build()
@@ -47,7 +47,7 @@ class _Supporting(Part):
 
 
 class Fix(_Supporting):
-    """Nodes that are held."""
+    """Held nodes."""
 
     kind: Literal["fix"]
     """The word fix."""
@@ -73,7 +73,7 @@ class Symmetry(Part):
 
 
 class Hinge(_Supporting):
-    """Mid-line of an edge that is held; the edge may turn about it."""
+    """Held mid-line of an edge; the section may rotate about it."""
 
     kind: Literal["hinge"]
     """The word hinge."""
@@ -95,19 +95,19 @@ class Director(_Supporting):
 
 
 class Rigid(Part):
-    """As few degrees of freedom as hold the sheet as a rigid body beside all else; a step puts it in place."""
+    """A statically determinate support for the motions that others leave free; a step activates it."""
 
     kind: Literal["rigid"]
     """The word rigid."""
     name: Name
-    """Name, by which a step puts it in place."""
+    """Name, for the step that activates it."""
     nodes: Selection = "all"
-    """Nodes that may be held: three that are not on a line, or all."""
+    """Nodes that may be held: three that are not on a line, or more."""
     instead_of: list[Name] = []
-    """Names of supports that the same step frees: it may hold their nodes."""
+    """Names of supports that the same step frees, whose nodes may be held."""
 
     def add_to(self, model: Model, *, here: bool = False) -> Held:
-        """Let the support wait."""
+        """Add the support, inactive until the step."""
         nodes = "all" if self.nodes == "all" else nodes_of(model.mesh, self.nodes)
         there = {support.name: support for support in model.supports}
         unknown = [name for name in self.instead_of if name not in there]

@@ -1,4 +1,4 @@
-"""Text that is no TOML: what is meant, from the line that the parser stops at."""
+"""Invalid TOML: the probable intention, from the line at which the parser stops."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import unicodedata
 from umform.deck.errors import DeckSyntax, shortened, written
 from umform.deck.lines import repeated
 
-#: Numbers written with a decimal comma, as values: of a key, or within an inline table.
+#: Numbers written with a decimal comma, as values of a key, or within an inline table.
 _COMMA = re.compile(r"([A-Za-z0-9_-]+)\s*=\s*([-+]?\d[\d.]*),(\d+(?:[eE][-+]?\d+)?)\s*(?=$|#|\}|,)")
 #: Numbers without digits on one side of the point.
 _BARE_POINT = re.compile(r"=\s*([-+]?)(?:\.(\d+)|(\d+)\.)(?=\s*(?:$|#|\}|,))")
-#: What stands before the equals sign or within the brackets of a header, without quotes.
+#: Unquoted text before the equals sign or within the brackets of a header.
 _KEY = re.compile(r"""\s*\[{0,2}([^="'#\]]*)""")
 _LETTERS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss", "ø": "oe"})
 
@@ -29,7 +29,7 @@ def no_toml(text: str, name: str, error: Exception) -> DeckSyntax:
     name : str
         Of the file.
     error : Exception
-        What the parser says.
+        The error of the parser.
     """
     said = str(error).splitlines()[0] if str(error) else type(error).__name__
     place = re.search(r"\(at line (\d+), column (\d+)\)", said)
@@ -49,7 +49,7 @@ def no_toml(text: str, name: str, error: Exception) -> DeckSyntax:
 
 
 def _meant(text: str, number: int, line: str, said: str) -> tuple[str, str] | None:
-    """Cause and remedy of a usual slip, or None."""
+    """Cause and remedy of a common mistake, or None."""
     if re.search(r"overwrite|twice|[Dd]uplicate", said):
         return _twice(text, number)
     if comma := _COMMA.search(line):
@@ -67,7 +67,7 @@ def _meant(text: str, number: int, line: str, said: str) -> tuple[str, str] | No
 
 
 def _twice(text: str, number: int) -> tuple[str, str] | None:
-    """Cause and remedy of a key or a table that is given twice; the parser names the end of the second one."""
+    """Cause and remedy of a key or a table that is defined twice; the parser reports the end of the second one."""
     found = [(path, first) for path, first, second in repeated(text) if second <= number]
     if not found:
         return None
@@ -77,6 +77,6 @@ def _twice(text: str, number: int) -> tuple[str, str] | None:
 
 
 def _ascii(word: str) -> str:
-    """A word in letters without accents."""
+    """A word without accents."""
     plain = unicodedata.normalize("NFKD", unicodedata.normalize("NFC", word).translate(_LETTERS))
     return plain.encode("ascii", "ignore").decode()

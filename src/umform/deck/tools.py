@@ -1,4 +1,4 @@
-"""The tools of a deck: all those of umform.surfaces, each of which may be turned and shifted."""
+"""The tools of a deck: all those of umform.surfaces, each with a pose."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Plane(Placeable):
 
 
 class Cylinder(Placeable):
-    """Round bar of endless length, or the space around a bore."""
+    """Infinitely long round bar, or the space around a bore."""
 
     shape: Literal["Cylinder"]
     """The word Cylinder."""
@@ -41,7 +41,7 @@ class Cylinder(Placeable):
     radius: Positive
     """Radius."""
     inside: bool = False
-    """The sheet lies inside of the bore."""
+    """The sheet lies inside the bore."""
 
     def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radius of the bar."""
@@ -59,7 +59,7 @@ class Sphere(Placeable):
     radius: Positive
     """Radius."""
     inside: bool = False
-    """The sheet lies inside of the bowl."""
+    """The sheet lies inside the bowl."""
 
     def convex_radii(self, own: Tool) -> Iterator[float]:
         """Radius of the ball."""
@@ -108,7 +108,7 @@ class Box(Placeable):
 
 
 class Section(Placeable):
-    """Tool of one section all along."""
+    """Prismatic tool."""
 
     origin: Vector = ORIGIN
     """Where the origin of the section lies."""
@@ -124,7 +124,7 @@ class VDie(Section):
     shape: Literal["VDie"]
     """The word VDie."""
     opening: Positive
-    """Distance of the lines in which flanks and top meet."""
+    """Distance of the lines in which the extended flanks and the top meet."""
     angle: Angle
     """Angle between the flanks in degrees."""
     shoulder_radius: NotNegative
@@ -207,9 +207,9 @@ ToolPart = Annotated[
 
 
 def smallest_radius(tool: ToolPart, built: Tool) -> float | None:
-    """The smallest radius that a sheet may be bent around: 0 at an edge, None of a tool without any.
+    """Smallest radius over which a sheet may bend: 0 at an edge, None for a tool without any.
 
-    That of a tool on the other side of another one is not known.
+    That of the counterpart of a tool is unknown.
     """
     if tool.other_side:
         return None
@@ -222,7 +222,7 @@ def smallest_radius(tool: ToolPart, built: Tool) -> float | None:
 
 
 def along(tool: ToolPart) -> np.ndarray[Any, np.dtype[np.float64]] | None:
-    """Direction that a tool of one section goes along, None of any other."""
+    """Direction of extrusion of a prismatic tool, None for any other."""
     if isinstance(tool, Cylinder):
         axis = np.array(surfaces.unit_vector(tool.axis, "axis"))
     elif isinstance(tool, Section | Extruded):

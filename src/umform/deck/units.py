@@ -1,8 +1,8 @@
-"""Whether stresses, strains and lengths are in units that go together.
+"""Check that stresses and lengths are in consistent units.
 
-umform knows no units, so all bounds are on ratios: first yield as a strain, the width over the thickness. Only a
-sheet metal of the library, and ``umform bend``, fix them to mm and MPa. What no metal sheet comes near to is an error,
-what is unusual a warning.
+umform is independent of units, so all bounds are on ratios: first yield as a strain, the width over the thickness. Only
+a sheet metal of the library, and ``umform bend``, fix them to mm and MPa. Values impossible for a metal sheet are
+errors, unusual ones warnings.
 """
 
 from __future__ import annotations
@@ -16,27 +16,27 @@ from umform.materials import SVK, Elastic, Plastic, Table
 from umform.model import Model
 from umform.model.contact.encounter import sheet_thickness
 
-#: Strain at first yield: metals have 3e-4 to 1e-2; beyond the outer pair stresses are in two units.
+#: Strain at first yield: metals have 3e-4 to 1e-2; beyond the outer pair, stresses are in different units.
 _USUAL_YIELD, _POSSIBLE_YIELD = (1e-4, 3e-2), (1e-5, 0.2)
 #: Plastic strain at the end of a table: curves are extrapolated to 1 or 2; a curve in per cent ends at 15 and more.
 _USUAL_END, _POSSIBLE_END = 2.0, 5.0
-#: Extent of the sheet in its plane over its thickness.
+#: In-plane extent of the sheet over its thickness.
 _USUAL_EXTENT, _POSSIBLE_EXTENT = 0.1, 0.01
-#: Young's modulus in MPa and thickness in mm, of solids that are formed as sheets.
+#: Young's modulus in MPa and thickness in mm, for solids that are formed as sheets.
 _POSSIBLE_E, _POSSIBLE_THICKNESS = (1e3, 1e6), (1e-2, 1e2)
 #: Young's moduli of metals in GPa, from lead to tungsten.
 _METALS_IN_GPA = (10.0, 420.0)
-#: A penalty stiffer than the sheet across its thickness by more than this spoils the condition of the tangent.
+#: Ratio of the penalty to the stiffness of the sheet across its thickness above which the tangent is ill-conditioned.
 _STIFF = 100.0
 
 
 def units(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
-    """Whether stiffness, lengths, yield stress, hardening and penalties are in the same units.
+    """Check that stiffness, lengths, yield stress, hardening and penalties are in the same units.
 
     Parameters
     ----------
     model : Model
-        The model; it is left as it was.
+        The model, which is unchanged.
     millimetres : bool
         Units are known to be mm, N and MPa.
     """
@@ -69,7 +69,7 @@ def extent(model: Model) -> Finding:
 
 
 def elastic_constants(model: Model, material: Elastic, *, millimetres: bool) -> Finding:
-    """Young's modulus against the size of the sheet, as far as metals tell."""
+    """Young's modulus against the size of the sheet, within the range of metals."""
     length, thickness = float(np.ptp(model.mesh.points, axis=0).max()), sheet_thickness(model.mesh)
     E = material.E
     text = f"E = {E:.4g}, thickness {thickness:.4g}, length {length:.4g}"

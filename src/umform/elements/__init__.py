@@ -1,4 +1,4 @@
-"""Elements as data: tying rules, enhanced modes, and the catalogue by the names of the literature."""
+"""Elements as data: tying rules, enhanced modes, and the catalogue with the names of the literature."""
 
 from umform.elements.catalogue import (
     ANS_SHEAR,

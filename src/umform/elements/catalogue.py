@@ -1,8 +1,8 @@
-"""THE list of elements, by the names of the literature: which strains are tied where, which are enhanced by what.
+"""The catalogue of elements, with the names of the literature: tying rules and enhanced modes.
 
 An element is data. A tying rule is a list of :class:`Tying` rows (docs/theory, eq. (2.2)), an enhancement a list of
-modes, each a sum of :class:`Term` (eq. (2.10)); the kernels know nothing else of it. A new element is a few rows here,
-or in the user's own script: ``Element("MINE", "hex8", tying=(...), modes=(...))``.
+modes, each a sum of :class:`Term` (eq. (2.10)); the kernels need nothing else. A new element is a few rows here, or in
+the user's own script: ``Element("MINE", "hex8", tying=(...), modes=(...))``.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ MITC9_SHEAR = (
     Tying("23", (-_B, 0.0, _B), (-_A, _A), at_layer=True),
 )
 
-#: Betsch & Stein (1995): thickness strain tied at the corners, and its biquadratic sister at the nine nodes.
+#: Betsch & Stein (1995): thickness strain tied at the corners, and its biquadratic extension at the nine nodes.
 ANS_THICKNESS = {
     "hex8": (Tying("33", (-1.0, 1.0), (-1.0, 1.0)),),
     "hex18": (Tying("33", (-1.0, 0.0, 1.0), (-1.0, 0.0, 1.0)),),
@@ -45,7 +45,9 @@ ANS_THICKNESS = {
 
 
 def _nodal(component: str, order: int) -> dict[tuple[int, int], Mode]:
-    """Products of P_order(t) with the nine Lagrange polynomials of the 3 x 3 Gauss points, each by its point."""
+    """Products of P_order(t) with the nine Lagrange polynomials of the 3 x 3 Gauss points, in the order of the
+    points.
+    """
     half, square = 0.5 / _B, 0.5 / _B**2
     of_point = (((1, -half), (2, square)), ((0, 1.0), (2, -2.0 * square)), ((1, half), (2, square)))
     return {
@@ -58,8 +60,8 @@ def _nodal(component: str, order: int) -> dict[tuple[int, int], Mode]:
 def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode, ...]:
     """Modes of E_33: t times 1, 4 or 9 polynomials in the surface, then P_2(t) ... P_order(t) times as many again.
 
-    Nine span all biquadratic polynomials. They are those of Lagrange at the Gauss points: each mode is zero at all
-    points of the surface but one, and the parameters of a point are eliminated apart from those of the others.
+    Nine span all biquadratic polynomials. They are the Lagrange polynomials of the Gauss points: each mode is zero at
+    all points of the surface but one, so that the parameters of different points are eliminated separately.
 
     Parameters
     ----------
@@ -69,8 +71,8 @@ def thickness_modes(count: int, order: int, order_count: int = 1) -> tuple[Mode,
     order : int
         Highest Legendre polynomial in t, 1 to 19.
     order_count : {1, 4, 9}
-        Number of polynomials in the surface that go with P_2 ... P_order. One is enough for 8 nodes, where more change
-        nothing that was measured; 18 nodes need nine in a sharp bend (docs/theory, 2.8).
+        Number of polynomials in the surface for each of P_2 ... P_order. One is enough for 8 nodes, where more have no
+        measurable effect; 18 nodes need nine in a sharp bend (docs/theory, 2.8).
     """
     if order_count not in (1, 4, 9):
         raise InvalidValue("the number of modes of higher order must be 1, 4 or 9", value=order_count)
@@ -124,7 +126,7 @@ def _build(
     order: int = 1,
     tied: bool = False,
 ) -> Callable[..., Element]:
-    """Element factory whose keyword arguments are the options that the literature leaves open."""
+    """Element factory; its keyword arguments are the options that the literature leaves open."""
 
     def make(
         thickness_modes_count: int = thickness,
@@ -169,7 +171,7 @@ def _build(
 
 
 def _check_thickness(name: str, cell: str, thickness: int, count: int, order: int, order_count: int) -> None:
-    """Reject thickness modes that an element with ``thickness`` modes of its own cannot have."""
+    """Reject thickness modes for an element whose modes already include thickness strains."""
     if thickness == 0 and (count != 0 or order != 1):
         raise InvalidValue(
             f"{name} has no enhanced thickness strain",
@@ -191,9 +193,9 @@ def _check_thickness(name: str, cell: str, thickness: int, count: int, order: in
 
 _MITC9 = MITC9_MEMBRANE + MITC9_IN_PLANE_SHEAR + MITC9_SHEAR
 
-#: Points that find the permanent set of a mild bend (docs/theory, 2.10).
+#: Points that resolve the permanent set of a mild bend (docs/theory, 2.10).
 _SPRINGBACK = (12, "graded")
-#: What sharp bends need, of an elastic law too.
+#: Thickness order for sharp bends, also with an elastic law.
 _BENDS: _Bends = {"order": 4, "tied": True}
 
 #: The catalogue: name -> factory.
@@ -221,30 +223,30 @@ def element(
     tie_E33: bool | None = None,
     compatible_E12: bool | None = None,
 ) -> Element:
-    """Take an element out of the catalogue.
+    """An element of the catalogue.
 
     Parameters
     ----------
     name : str or Element
-        A name of :data:`CATALOGUE`, or an element of your own (then without options).
+        A name of :data:`CATALOGUE`, or your own element (then without options).
     thickness_modes : {1, 4, 9}, optional
         Number of enhanced modes of E_33 linear in t; default 4 (8 nodes) or 9 (18 nodes, there only).
     thickness_order : int, optional
-        Order of the thickness strain in t, 1 to 19; 1 is the literature. Default: with a plastic law the complete
-        order, the number of thickness points less one; else 1, but 4 with BEND8 and BEND18.
+        Order of the thickness strain in t, 1 to 19; the literature has 1. Default: with a plastic law the complete
+        order, the number of thickness points minus one; else 1, but 4 with BEND8 and BEND18.
     order_modes : {1, 4, 9}, optional
-        Number of polynomials in the surface that go with each order above 1; default 1 (8 nodes) or 9 (18 nodes).
+        Number of polynomials in the surface for each order above 1; default 1 (8 nodes) or 9 (18 nodes).
     membrane_modes : {4, 5, 7}, optional
         Number of enhanced in-plane modes of EAS3DEAS; default 7.
     tie_E33 : bool, optional
         Tie E_33 at the corners (18 nodes: at the nodes) against curvature-thickness locking; BEND8 and BEND18 do.
     compatible_E12 : bool, optional
-        Leave the tying of E_12 out of MI9K3DEAS or BEND18.
+        Omit the tying of E_12 in MI9K3DEAS or BEND18.
 
     Raises
     ------
     InvalidValue
-        If the name is unknown or an option does not belong to the element.
+        If the name is unknown or the element has no such option.
     """
     options = {
         "thickness_modes_count": thickness_modes,
@@ -269,7 +271,7 @@ def element(
 
 
 def at_order(made: Element, order: int) -> Element:
-    """An element of the catalogue at another thickness order; one with modes of its own stays as it is."""
+    """An element of the catalogue with another thickness order; an element with its own modes is unchanged."""
     known: dict[str, Any] = dict(made.options)
     if made.name not in CATALOGUE or element(made.name, **known).modes != made.modes:
         return made

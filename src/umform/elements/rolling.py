@@ -1,4 +1,4 @@
-"""The rolling direction of a sheet, which the local axes of the Gauss points may follow."""
+"""The rolling direction of a sheet, with which the local axes of the Gauss points may be aligned."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from umform.errors import InvalidValue
 
 Floats = NDArray[np.float64]
 Vector = tuple[float, float, float]
-#: One vector, one for each cell, or a function of the centres of the cells that gives these.
+#: One vector, one for each cell, or a function of the cell centres that returns these.
 Rolling = ArrayLike | Callable[[Floats, Floats, Floats], ArrayLike]
 
 
@@ -21,8 +21,8 @@ def rolling_at(angle: float, line: ArrayLike = (0.0, 1.0, 0.0), normal: ArrayLik
     Parameters
     ----------
     angle : float
-        Degrees from the bend line to the rolling direction, counterclockwise seen against the normal: 0 along the
-        line, 90 across it.
+        Degrees from the bend line to the rolling direction, counter-clockwise about the normal: 0 along the line, 90
+        across it.
     line, normal : array_like, shape (3,)
         Bend line, and normal of the flat sheet.
 
@@ -67,14 +67,14 @@ def rolling_directions(rolling: Rolling | None, centres: Floats) -> Floats | Non
     ----------
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional
         Rolling direction in global components, of any length; or a function of the coordinates x, y, z of the centres
-        of the cells, arrays (cells,), that gives the vectors (cells, 3).
+        of the cells, arrays (cells,), that returns the vectors (cells, 3).
     centres : ndarray, shape (cells, 3)
         Centres of the cells.
 
     Raises
     ------
     InvalidValue
-        If a vector is zero or not finite, or their number is neither one nor that of the cells.
+        If a vector is zero or not finite, or their number is wrong.
     """
     if rolling is None:
         return None

@@ -1,4 +1,4 @@
-"""Element technology as data: tying rows, enhanced modes, and the element that they make."""
+"""Element technology as data: tying rows, enhanced modes, and elements."""
 
 from __future__ import annotations
 
@@ -84,11 +84,11 @@ class Element:
     thickness_order : int
         Highest order in t of the enhanced thickness strain (0: none); it needs order + 1 thickness points.
     citation : str
-        Where it comes from (a key of references.bib).
+        Reference (a key of references.bib).
     plastic_points : tuple (int, str), optional
-        Points through the thickness and their rule that a model takes with a plastic law if nothing is said.
+        Default points through the thickness and their rule with a plastic law.
     complete : bool
-        Whether a plastic law raises the thickness order to the number of points less one, see :func:`at_order`.
+        Whether a plastic law raises the thickness order to the number of points minus one, see :func:`at_order`.
 
     Examples
     --------
@@ -147,7 +147,7 @@ class Element:
         Raises
         ------
         InvalidValue
-            If the parameters of the modes could not be told apart.
+            If the parameters of the modes are not unique.
         """
         x = _core.gauss(self.surface_points)[0]
         r, s, layers = (grid.ravel() for grid in np.meshgrid(x, x, t, indexing="ij"))
@@ -165,7 +165,7 @@ class Element:
             )
 
     def technology(self) -> _core.Technology:
-        """The element as the kernels take it."""
+        """The element in the form of the kernels."""
         index = COMPONENTS.index
         return _core.Technology(
             [_core.Tying(index(row.component), list(row.r), list(row.s), row.at_layer) for row in self.tying],

@@ -1,4 +1,4 @@
-"""Points through the thickness: where they lie, and what they weigh."""
+"""Quadrature rules through the thickness."""
 
 from __future__ import annotations
 
@@ -29,9 +29,8 @@ def thickness_rule(points: int, rule: str = "gauss") -> tuple[NDArray[np.float64
     points : int
         2 to 20.
     rule : {"gauss", "lobatto", "split", "graded"}
-        ``split`` puts points/2 Gauss points into each half, exact for the kink of the stress at the mid-surface;
-        ``graded`` puts as many nearer to the faces, where a mild bend begins to flow: 8, 10, 12, 16 or 20
-        points.
+        ``split`` puts points/2 Gauss points into each half, which is exact for a stress with a kink at the mid-surface;
+        ``graded`` moves them towards the faces, where a mild bend first yields: 8, 10, 12, 16 or 20 points.
     """
     if points not in range(2, MOST_POINTS + 1):
         raise InvalidValue("the number of thickness points must be a whole number from 2 to 20", value=points)
@@ -47,10 +46,10 @@ def thickness_rule(points: int, rule: str = "gauss") -> tuple[NDArray[np.float64
 
 
 def _graded(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Abscissae of the table, and the weights that are exact to the degree points/2 - 1 on each half. eq. (2.47)"""
+    """Abscissae of the table, and weights that are exact to the degree points/2 - 1 on each half. eq. (2.47)"""
     if points not in _GRADED:
         raise InvalidValue("the graded rule has 8, 10, 12, 16 or 20 points", value=points, remedy="take 12")
     half = np.array(_GRADED[points])
     values = np.stack([legendre(order, 2.0 * half - 1.0) for order in range(len(half))])
-    weights = np.linalg.solve(values, np.eye(len(half))[0])  # all polynomials but the constant have no mean
+    weights = np.linalg.solve(values, np.eye(len(half))[0])  # all polynomials but the constant have zero mean
     return np.concatenate([-half[::-1], half]), np.concatenate([weights[::-1], weights])

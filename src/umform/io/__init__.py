@@ -1,4 +1,4 @@
-"""Files in and out: meshes, results over time, tables. Every file is written whole or not at all."""
+"""Input and output: meshes, results over time, tables. All files are written atomically."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _HOME = {
 
 
 def __getattr__(name: str) -> object:
-    """Import a name when it is first used: a table needs neither meshio nor h5py, which take longer than numpy."""
+    """Import a name when it is first used: a table needs neither meshio nor h5py, whose imports are slow."""
     if name not in _HOME:
         raise AttributeError(f"module 'umform.io' has no attribute {name!r}")
     value = getattr(importlib.import_module(f"umform.io.{_HOME[name]}"), name)

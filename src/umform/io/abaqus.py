@@ -1,4 +1,4 @@
-"""What an Abaqus input file may say without being misread by meshio."""
+"""Refuse Abaqus input that meshio would misread."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def _keyword(text: str) -> tuple[str, dict[str, str]]:
 
 
 def _doubtful(path: Path, number: int, text: str, cause: str) -> FileProblem:
-    """Say which line of the file cannot be read without doubt."""
+    """The error for a line that cannot be read unambiguously."""
     return FileProblem(
         "this Abaqus file cannot be read without doubt about its meaning",
         where=f"{path}, line {number}",

@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all."""
+"""Files that are written atomically: complete or not at all."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from umform.io.owner import is_left_behind, mark
 
 
 class PendingFile:
-    r"""A file that takes its name only once it is complete.
+    r"""rA file that gets its name only once it is complete.
 
     As a context manager it gives the path of an empty temporary file in the directory of the target. At the
     regular end of the block the temporary file is flushed to the disk and renamed to the target in one step;
@@ -93,7 +93,7 @@ class PendingFile:
 
 
 def remove_left_behind(path: str | os.PathLike[str]) -> None:
-    """Remove the temporary files of a target that processes of this machine have left which were killed.
+    """Remove the temporary files of a target that killed processes of this machine have left.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def remove_left_behind(path: str | os.PathLike[str]) -> None:
     """
     target = Path(path).resolve()
     before, after = _before(target), target.suffix
-    with suppress(OSError):  # no folder, or none to look into
+    with suppress(OSError):  # no folder, or it cannot be read
         for file in target.parent.iterdir():
             if not (file.name.startswith(before) and file.name.endswith(after)):
                 continue
@@ -112,11 +112,11 @@ def remove_left_behind(path: str | os.PathLike[str]) -> None:
 
 
 def _before(target: Path) -> str:
-    """How the names of the temporary files of a target begin."""
+    """Prefix of the names of the temporary files of a target."""
     return f".{target.stem}."
 
 
-#: What an operating system says that is no matter of the path alone: cause and remedy.
+#: Errors of the operating system that do not depend on the path alone: cause and remedy.
 _SYSTEM = {
     errno.ENOSPC: ("the disk is full", "free some space, or choose another disk"),
     errno.EDQUOT: ("your share of the disk is used up", "free some space, or choose another disk"),
@@ -133,7 +133,7 @@ def write_problem(path: Path, error: OSError, what: str = "the file cannot be wr
     path : pathlib.Path
         The target.
     error : OSError
-        What the operating system said.
+        Error of the operating system.
     what : str, optional
         What is wrong, in one sentence.
 
@@ -170,21 +170,21 @@ def write_problem(path: Path, error: OSError, what: str = "the file cannot be wr
 
 
 def _nearest(path: Path) -> Path:
-    """The nearest of the directories above a path that is there."""
+    """The nearest existing parent directory of a path."""
     for place in path.parents:
         try:
             if place.exists():
                 return place
-        except OSError:  # it must not be looked into
+        except OSError:  # it cannot be read
             continue
     return path.parent
 
 
 class UntilDiskFull(io.FileIO):
-    """A file that drops everything after the first write that fails.
+    """A file that drops all data after the first failed write.
 
-    HDF5 cannot forget a step that did not fit on the disk: on closing it writes what it still has, and
-    damages the file. Dropped instead, the file stays as of the last flush, with all the steps before.
+    HDF5 cannot forget a step that did not fit on the disk: on closing it writes the remaining data, and damages the
+    file. With the data dropped, the file stays as of the last flush, with all previous steps.
     """
 
     full = False

@@ -34,12 +34,12 @@ from umform.errors import InvalidValue, WrongCellType
 from umform.io.checks import FloatArray, IntArray, check_ids, check_points
 
 MIDDLE_TOLERANCE = 1e-3
-"""How far a middle node may lie from the mean of its two, as a fraction of their distance."""
+"""Tolerated distance of a middle node from the mean of its two outer nodes, relative to their distance."""
 
 
 @dataclass(frozen=True)
 class CellType:
-    """A cell type and its twins in VTK and meshio.
+    """A cell type and its counterparts in VTK and meshio.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def cell_type(name: str, *, lagrange: bool = False) -> CellType:
     name : str
         ``"hex8"`` or ``"hex18"``.
     lagrange : bool, optional
-        Whether VTK is to have its Lagrange cell, where there is one for this type.
+        Whether to use the Lagrange cell of VTK, if this type has one.
 
     Returns
     -------
@@ -125,7 +125,7 @@ def cell_type(name: str, *, lagrange: bool = False) -> CellType:
 
 @dataclass(frozen=True)
 class VtkGrid:
-    """Points and cells as VTK wants them.
+    """Points and cells in the form of VTK.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ class VtkGrid:
     pairs: IntArray
 
     def complete(self, values: FloatArray) -> FloatArray:
-        """Carry values at the points of the mesh on to the points of the middle layers.
+        """Extend values at the points of the mesh to the points of the middle layers.
 
         Parameters
         ----------
@@ -202,7 +202,7 @@ def to_vtk(kind: CellType, points: ArrayLike, connectivity: ArrayLike) -> VtkGri
 
 
 def from_vtk(kind: CellType, points: FloatArray, connectivity: IntArray) -> IntArray:
-    """Bring cells from the node order of VTK into that of umform, without the middle layer.
+    """Convert cells from the node order of VTK to that of umform, without the middle layer.
 
     Parameters
     ----------
@@ -238,7 +238,7 @@ def _with_means(values: FloatArray, pairs: IntArray) -> FloatArray:
 
 
 def _check_middle(X: FloatArray, cells: IntArray, middle: IntArray) -> None:
-    """Reject a middle layer that cannot be left out."""
+    """Reject a middle layer that cannot be removed."""
     lower, upper = (X[half] for half in np.hsplit(cells, 2))
     away = np.linalg.norm(X[middle] - 0.5 * (lower + upper), axis=2)
     curved = np.flatnonzero((away > MIDDLE_TOLERANCE * np.linalg.norm(upper - lower, axis=2)).any(axis=1))

@@ -1,4 +1,4 @@
-"""Which folder a run writes to: never over the results of another one unless that is asked for."""
+"""Select the folder of a run; results of another run are not overwritten without permission."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from umform.io.staging import check_name, is_taken
 def folder_for(
     out: str | Path | None, default: Path, names: Sequence[str], *, overwrite: bool, say: Callable[[str], object]
 ) -> Path:
-    """The folder that a run writes to.
+    """The folder of a run.
 
     Parameters
     ----------
     out : str, Path or None
-        What somebody has named.
+        The folder given by the user.
     default : Path
-        What is taken if nobody has.
+        The folder used otherwise.
     names : sequence of str
         Files that will be written there.
     overwrite : bool
-        Whether they may take the place of others.
+        Whether they may replace others.
     say : callable
-        Is called with a sentence if it is neither of the two.
+        Called with a sentence if neither of the two is used.
 
     Raises
     ------
     FileProblem
-        The folder that was named holds results, and they may not be overwritten.
+        The given folder contains results that may not be overwritten.
     """
     if out is not None:
         return chosen_folder(out, names, overwrite=overwrite)
@@ -43,7 +43,7 @@ def folder_for(
 
 
 def chosen_folder(out: str | Path, names: Sequence[str], *, overwrite: bool) -> Path:
-    """The folder that somebody has named.
+    """The folder given by the user.
 
     Parameters
     ----------
@@ -52,14 +52,14 @@ def chosen_folder(out: str | Path, names: Sequence[str], *, overwrite: bool) -> 
     names : sequence of str
         Files that will be written there.
     overwrite : bool
-        Whether they may take the place of others.
+        Whether they may replace others.
 
     Raises
     ------
     InvalidValue
         Its name is empty.
     FileProblem
-        It holds results, and they may not be overwritten.
+        It contains results that may not be overwritten.
     """
     check_name(out)
     folder = Path(out)
@@ -76,23 +76,23 @@ def chosen_folder(out: str | Path, names: Sequence[str], *, overwrite: bool) -> 
 
 
 def free_folder(default: Path, names: Sequence[str], *, overwrite: bool) -> tuple[Path, str]:
-    """The folder of a run for which nobody has named one, and what is to be said of it.
+    """The default folder of a run, and a message about it.
 
     Parameters
     ----------
     default : Path
-        The folder; if it holds results or another run is writing to it, one with a number is taken.
+        The folder; if it contains results or another run is writing to it, a numbered one is used.
     names : sequence of str
         Files that will be written there.
     overwrite : bool
-        Whether they may take the place of others.
+        Whether they may replace others.
 
     Returns
     -------
     folder : Path
         The folder.
     message : str
-        Why it is another one; empty if it is not.
+        Why another folder is used; empty otherwise.
     """
     if overwrite:
         return default, ""
@@ -113,19 +113,19 @@ def _numbered(folder: Path) -> Iterator[Path]:
 
 
 def _results(folder: Path, names: Sequence[str]) -> list[Path]:
-    """Files that a run has left in a folder."""
+    """Files of a run in a folder."""
     try:
         return [folder / name for name in names if (folder / name).is_file()]
-    except OSError:  # it must not be looked into: whoever writes there will say so
+    except OSError:  # it cannot be read: whoever writes there reports it
         return []
 
 
 def _going_on(files: Sequence[Path]) -> str:
-    """How a run goes on that has left a checkpoint."""
+    """How to continue a run that has left a checkpoint."""
     return "".join(f"; umform resume {file} goes on with that run" for file in files if file.suffix == ".h5")
 
 
 def _listed(files: Sequence[Path]) -> str:
-    """Names of files, and when the last of them was written."""
+    """Names of files, and the time of the last change."""
     last = time.strftime("%Y-%m-%d %H:%M", time.localtime(max(file.stat().st_mtime for file in files)))
     return f"{', '.join(file.name for file in files)} of {last}"

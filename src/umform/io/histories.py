@@ -1,4 +1,4 @@
-"""Histories of runs, read back from their CSV files."""
+"""Read histories of runs from their CSV files."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def _number(cell: str, where: str) -> float:
 
 
 def read_histories(paths: Sequence[str | os.PathLike[str]]) -> dict[str, History]:
-    """Read histories of several runs, named as briefly as they can be told apart.
+    """Read histories of several runs, with the shortest names that distinguish them.
 
     Parameters
     ----------

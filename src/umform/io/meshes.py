@@ -1,4 +1,4 @@
-"""Meshes from the files of other programs and back."""
+"""Read and write meshes in the formats of other programs."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _log = logging.getLogger(__name__)
 
 
 class MeshArrays(NamedTuple):
-    """What a mesh file holds, in the words of umform.
+    """Content of a mesh file, in the terms of umform.
 
     Attributes
     ----------
@@ -56,14 +56,13 @@ def read_mesh_arrays(path: str | os.PathLike[str]) -> MeshArrays:
     VTKHDF files are read as `umform.io.VtkHdfSeries` writes them; all other formats (``.msh`` of Gmsh,
     ``.inp`` of Abaqus, ``.bdf`` of Nastran, ``.vtu``, ``.vtk``, ...) are read through meshio.
 
-    Hexahedra with 8 nodes become ``hex8`` as they are. Hexahedra with 27 nodes become ``hex18``, if their
-    edges from the lower face (nodes 1-4) to the upper one are straight, so that nothing is lost with the
-    middle layer. Points that no hexahedron uses, such as centres of arcs, are left out; the others are
-    renumbered in their order.
+    Hexahedra with 8 nodes become ``hex8`` as they are. Hexahedra with 27 nodes become ``hex18``, if their edges from
+    the lower face (nodes 1-4) to the upper one are straight, so that removing the middle layer loses nothing. Points
+    that no hexahedron uses, such as centres of arcs, are removed; the others are renumbered in their order.
 
-    Sets of points (``NSET``) and of hexahedra (``ELSET``, physical volumes of Gmsh) keep their names. Sets of
-    cells of lower dimension (physical surfaces, curves and points of Gmsh) become sets of their points. A set
-    of which nothing is left has no entry.
+    Sets of points (``NSET``) and of hexahedra (``ELSET``, physical volumes of Gmsh) keep their names. Sets of cells of
+    lower dimension (physical surfaces, curves and points of Gmsh) become sets of their points. A set that becomes empty
+    has no entry.
 
     Parameters
     ----------
@@ -82,12 +81,12 @@ def read_mesh_arrays(path: str | os.PathLike[str]) -> MeshArrays:
     NotFinite
         A coordinate is NaN or infinite.
     FileProblem
-        The file cannot be read, or not without doubt about its meaning.
+        The file cannot be read, or not unambiguously.
 
     Notes
     -----
-    While meshio reads, standard output and standard error of the process are held back; what it says goes to
-    the logger ``umform.io.meshes``.
+    While meshio reads, standard output and standard error of the process are captured; its messages go to the logger
+    ``umform.io.meshes``.
     """
     place = Path(path)
     point_sets: dict[str, IntArray] = {}
@@ -179,19 +178,19 @@ def write_mesh_arrays(
 
 
 def read_by_meshio(path: Path) -> Any:
-    """Read a file through meshio, quietly; all that meshio makes of it, as a ``meshio.Mesh``.
+    """Read a file through meshio without console output; the result is a ``meshio.Mesh``.
 
     Raises
     ------
     FileProblem
-        The file cannot be read, or not without doubt about its meaning.
+        The file cannot be read, or not unambiguously.
     """
     if path.suffix.lower() == ".inp":
         check_abaqus(path)
     with _quiet() as said:
         try:
             mesh = meshio.read(path)
-        except (Exception, SystemExit) as error:  # meshio raises whatever a malformed file leads to
+        except (Exception, SystemExit) as error:  # meshio raises arbitrary exceptions for a malformed file
             raise FileProblem(
                 "the mesh file cannot be read",
                 where=str(path),
@@ -210,7 +209,7 @@ def read_by_meshio(path: Path) -> Any:
 
 @contextlib.contextmanager
 def _quiet() -> Iterator[io.StringIO]:
-    """Keep meshio off the console: what it says is collected and logged."""
+    """Keep meshio off the console: its output is collected and logged."""
     said = io.StringIO()
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -1,4 +1,4 @@
-"""A folder whose files get their names together, and that one run at a time writes to."""
+"""A folder whose files appear together, and to which one run at a time writes."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from umform.errors import FileProblem, InvalidValue
 from umform.io.atomic import write_problem
 from umform.io.owner import is_left_behind, mark, pid_of
 
-#: The hidden folder where files wait for their names. While it is there, the folder belongs to the run that made it.
+#: Hidden folder for unfinished files. While it exists, the folder belongs to the run that made it.
 WAITING = ".umform-run"
 _OWNER = "owner"
-#: Folders that this process writes to, each with the place where its files wait.
+#: Folders to which this process writes, each with its hidden folder.
 _held: dict[Path, Path] = {}
 
 
 class Staging:
-    """A hidden folder where files wait for their names.
+    """A hidden folder for unfinished files.
 
     Attributes
     ----------
     folder : Path
-        Where the files are to be.
+        Final folder of the files.
     waiting : Path
-        Where they are written.
+        Hidden folder.
     named : list of Path
-        The files that have got their names.
+        The finished files.
     """
 
     def __init__(self, folder: Path, waiting: Path) -> None:
@@ -39,12 +39,12 @@ class Staging:
         self.named: list[Path] = []
 
     def commit(self, names: Sequence[str]) -> list[Path]:
-        """Give files their names; one that was not written is taken away, lest an old one pass for it.
+        """Move finished files to their final names; remove an old file whose new version was not written.
 
         Returns
         -------
         list of Path
-            The files that are there.
+            The existing files.
         """
         targets = []
         for name in names:
@@ -61,7 +61,7 @@ class Staging:
         return targets
 
     def make_again(self) -> bool:
-        """Make the folders again if somebody has taken them away; return whether it was so.
+        """Make the folders again if they were removed; return whether they were.
 
         Raises
         ------
@@ -79,9 +79,9 @@ class Staging:
 
 @contextmanager
 def staging(out: str | Path, names: Sequence[str]) -> Iterator[Staging]:
-    """Make a folder for results and keep other runs out of it; take away what was made for nothing.
+    """Make a folder for results and exclude other runs; remove it if it stays empty.
 
-    In a folder that this process holds already, files wait in a place of their own.
+    In a folder that this process already holds, files have a separate hidden folder.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def staging(out: str | Path, names: Sequence[str]) -> Iterator[Staging]:
     InvalidValue
         The name of the folder is empty.
     FileProblem
-        The folder cannot be made, nothing can be written there, or another run is writing there.
+        The folder cannot be made or written, or another run is writing there.
     """
     check_name(out)
     folder = Path(out)
@@ -113,12 +113,12 @@ def staging(out: str | Path, names: Sequence[str]) -> Iterator[Staging]:
             _held.pop(waiting.parent, None)
             shutil.rmtree(waiting, ignore_errors=True)
         for place in missing:
-            with suppress(OSError):  # it holds files, or was never made
+            with suppress(OSError):  # it contains files, or was never made
                 place.rmdir()
 
 
 def check_name(out: str | Path) -> None:
-    """Reject the name of a folder that is none.
+    """Reject an invalid folder name.
 
     Raises
     ------
@@ -142,19 +142,19 @@ def is_taken(folder: Path) -> bool:
 
 def _is_left_behind(waiting: Path) -> bool:
     """Whether a run was killed here."""
-    owner = _owner(waiting)  # one with the number of this process, which does not hold the folder, was another
+    owner = _owner(waiting)  # this process does not hold the folder: its own number means another one
     return owner == mark() or is_left_behind(waiting, owner)
 
 
 def _is_there(place: Path) -> bool:
     try:
         return place.exists()
-    except OSError:  # a name that is too long, a folder that must not be looked into
+    except OSError:  # a name that is too long, a folder that cannot be read
         return False
 
 
 def _prepare(folder: Path, names: Sequence[str], first: Path) -> Path:
-    """Make the folder, from its first missing part on, and try it before time is spent on its files."""
+    """Make the folder, including missing parents, and test that it is writable before the run."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -181,7 +181,7 @@ def _prepare(folder: Path, names: Sequence[str], first: Path) -> Path:
 
 
 def _remove_left_behind(folder: Path) -> None:
-    """Remove what a run has left that was killed; of two that come at a time, one gets hold of it."""
+    """Remove the remains of a killed run; of two concurrent runs only one succeeds."""
     waiting = folder / WAITING
     if waiting.is_dir() and _is_left_behind(waiting):
         with suppress(OSError):
@@ -190,7 +190,7 @@ def _remove_left_behind(folder: Path) -> None:
 
 
 def _owner(waiting: Path) -> str:
-    """Mark of the process that writes to a folder; empty if it is not known."""
+    """Mark of the process that writes to a folder; empty if unknown."""
     try:
         return (waiting / _OWNER).read_text(encoding="utf-8", errors="replace").strip()
     except OSError:

@@ -1,4 +1,4 @@
-"""Tables as CSV and records as JSON, written whole or not at all."""
+"""Tables as CSV and records as JSON, written atomically."""
 
 from __future__ import annotations
 
@@ -20,8 +20,7 @@ Scalar = bool | int | float | str | None
 def write_csv(path: str | os.PathLike[str], columns: Mapping[str, Iterable[Any]]) -> None:
     """Write named columns as a CSV table with one header row.
 
-    Floats are written with all the digits that they need to be read back bit by bit; NaN is written as
-    ``nan`` and None as an empty field.
+    Floats are written with enough digits to be read back exactly; NaN is written as ``nan`` and None as an empty field.
 
     Parameters
     ----------
@@ -78,7 +77,7 @@ def write_json(path: str | os.PathLike[str], record: Any) -> None:
 
 
 def _plain(value: Any, where: str) -> Any:
-    """Turn a record into what JSON can hold; `where` is the place in the record, such as ``$.a[3]``."""
+    """Convert a record to JSON types; `where` is the place in the record, such as ``$.a[3]``."""
     if isinstance(value, Mapping):
         for key in value:
             if not isinstance(key, str):
@@ -98,7 +97,7 @@ def _plain(value: Any, where: str) -> Any:
 
 
 def _scalar(value: Any, where: str) -> Scalar:
-    """Turn a NumPy scalar into the Python scalar of the same value and let only scalars pass."""
+    """Convert a NumPy scalar to the Python scalar of the same value; refuse anything but scalars."""
     if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
         value = value.item()
     if value is None or isinstance(value, bool | int | float | str):

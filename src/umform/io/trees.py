@@ -1,7 +1,7 @@
-"""Nested dictionaries and lists of numbers, texts and arrays in one HDF5 file, written whole or not at all.
+"""Nested dictionaries and lists of numbers, texts and arrays in one HDF5 file, written atomically.
 
 A dictionary is a group, an array a data set; a list of numbers or texts is a data set too, any other list a group with
-a member for each item. Numbers come back to the last bit. A checksum over everything tells a damaged file.
+a member for each item. Numbers are restored to the last bit. A checksum over all data detects a damaged file.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from umform.io.atomic import PendingFile
 if TYPE_CHECKING:
     import h5py
 
-#: Attribute of what is more than a dictionary, an array, a number or a text, and what it says.
+#: Attribute that marks anything but a dictionary, an array, a number or a text, and its values.
 _IS, _LIST, _NONES, _ROWS, _SCALAR_ARRAY = "is", "list", "list of None", "rows of equal length", "array without axes"
-#: Types of which a list is stored as one data set.
+#: Types whose lists are stored as one data set.
 _PLAIN = (bool, int, float, str)
 
 
 def write_tree(path: str | os.PathLike[str], tree: dict[str, Any], kind: str) -> None:
-    """Write a tree; a file of this name stays as it was until the new one is complete.
+    """Write a tree; an existing file is kept until the new one is complete.
 
     Parameters
     ----------
@@ -38,16 +38,16 @@ def write_tree(path: str | os.PathLike[str], tree: dict[str, Any], kind: str) ->
     tree : dict
         Dictionaries with text as keys, lists, tuples (which come back as lists), None, bool, int, float, str, arrays.
     kind : str
-        What the file holds; `read_tree` asks for it.
+        Type of the content; `read_tree` checks it.
 
     Raises
     ------
     FileProblem
         The file cannot be written.
     """
-    import h5py  # slow to import, and most runs keep no checkpoints
+    import h5py  # imported late: slow, and most runs keep no checkpoints
 
-    image = io.BytesIO()  # HDF5 cannot forget a write that failed: it writes to memory, and the image in one go
+    image = io.BytesIO()  # HDF5 cannot forget a failed write: it writes to memory, and the image is written at once
     with h5py.File(image, "w", track_order=True) as file:
         file.attrs["kind"] = kind
         file.attrs["checksum"] = _checksum(tree)
@@ -64,14 +64,14 @@ def read_tree(path: str | os.PathLike[str], kind: str, *, part: str | None = Non
     path : str or os.PathLike
         The file.
     kind : str
-        What it must hold.
+        Required type of the content.
     part : str, optional
-        Key of the one dictionary of the tree that is wanted; then the checksum is not looked at.
+        Key of a single dictionary of the tree to read; the checksum is then not checked.
 
     Raises
     ------
     FileProblem
-        There is no such file, it is damaged, or it holds something else.
+        There is no such file, it is damaged, or it has other content.
     """
     import h5py
 
@@ -137,17 +137,17 @@ def _write_list(group: h5py.Group, name: str, items: list[Any] | tuple[Any, ...]
 
 
 def _name(key: str) -> str:
-    """Name of a member of a group: it may be neither empty nor a dot, and have no slash."""
+    """Name of a member of a group, which may be neither empty nor a dot, and has no slash."""
     return {"": "%", ".": "%2E"}.get(key, key.replace("%", "%25").replace("/", "%2F"))
 
 
 def _key(name: str) -> str:
-    """The key that a name was made of."""
+    """The key for a name."""
     return "" if name == "%" else unquote(name)
 
 
 def _read(node: h5py.Group | h5py.Dataset) -> Any:
-    """The value that a group or a data set stands for."""
+    """The value of a group or a data set."""
     import h5py
 
     what = node.attrs.get(_IS)
@@ -176,7 +176,7 @@ def _checksum(tree: Any) -> int:
 
 
 def _bytes_of(value: Any) -> Iterator[Any]:
-    """All that a tree holds, in its order."""
+    """All values of a tree, in order."""
     if isinstance(value, dict):
         for key, item in value.items():
             yield str(key).encode()

@@ -28,7 +28,7 @@ VERSION = (2, 0)
 VERSION_OF_ATTRIBUTES = (2, 6)
 DEGREES = "HigherOrderDegrees"
 SMALL_CHUNK = 256
-#: Bytes of steps at a time that make the cost of a write small beside that of compressing them.
+#: Bytes of steps per write for which its cost is small relative to that of compression.
 BUFFER = 4_000_000
 COMPRESSION = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
 MESH_OFFSETS = ("PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets")
@@ -43,8 +43,8 @@ class VtkHdfSeries:
     as it was. The temporary file is flushed after each write: should the process be killed, it can still be
     read. Should the disk be full, the series ends with the last write that fitted.
 
-    A write has a cost however small it is, since each field and its offsets are data sets of their own. With
-    `buffer` steps wait until that many bytes have come together: right for steps that are all in memory anyway.
+    Each write has a fixed cost, since each field and its offsets are separate data sets. With `buffer` steps are
+    collected up to that number of bytes: suitable for steps that are all in memory anyway.
 
     Points are in the reference position. A point field ``displacement`` of shape (n, 3) is what ParaView's
     *Warp By Vector* and PyVista's ``warp_by_vector`` take. A symmetric tensor is a field with six components
@@ -69,8 +69,8 @@ class VtkHdfSeries:
         Whether to store ``hex18`` as ``VTK_LAGRANGE_HEXAHEDRON`` of the degrees (2, 2, 1), for VTK 9.7 and
         later; cells ``hex8`` are the same either way.
     buffer : int, optional
-        Bytes of steps that are written at a time; by default each step is written when it is appended. Arrays that
-        wait are not copied: leave them as they are until the end of the block.
+        Bytes of steps that are written at a time; by default each step is written when it is appended. Arrays that are
+        buffered are not copied: do not change them until the end of the block.
 
     Raises
     ------
@@ -109,7 +109,7 @@ class VtkHdfSeries:
         self._file: Any = None
         self._times: list[float] = []
         self._written = 0  # steps in the file
-        self._waiting: list[dict[str, FloatArray]] = []  # fields of the steps after them
+        self._waiting: list[dict[str, FloatArray]] = []  # their fields, buffered
         self._buffer = buffer
         self._shapes: dict[str, tuple[int, ...]] = {}
         self._mesh_offsets: tuple[str, ...] = MESH_OFFSETS
@@ -117,7 +117,7 @@ class VtkHdfSeries:
     def __enter__(self) -> Self:
         self._raw = UntilDiskFull(self._target.__enter__(), "wb+")
         try:
-            self._file = h5py.File(self._raw, "w", rdcc_nbytes=0)  # no cache: a failing write is seen at once
+            self._file = h5py.File(self._raw, "w", rdcc_nbytes=0)  # no cache: a failed write is detected immediately
             self._write_mesh()
         except OSError as error:
             self._close()
@@ -175,7 +175,7 @@ class VtkHdfSeries:
             The time does not increase, a field has a wrong shape or name, the fields differ from those of the
             first step, or the series is not open. In the cells the name ``HigherOrderDegrees`` is VTK's own.
         FileProblem
-            The step cannot be written, or one that waited for it.
+            The step cannot be written, or a buffered one.
         """
         if self._file is None:
             raise InvalidValue(
@@ -255,7 +255,7 @@ class VtkHdfSeries:
             self._mesh_offsets = (*MESH_OFFSETS, f"CellDataOffsets/{DEGREES}")
 
     def _write_waiting(self) -> None:
-        """Write the steps that wait; they are lost if they cannot be written."""
+        """Write the buffered steps; they are lost if the write fails."""
         steps, self._waiting = self._waiting, []
         if not steps:
             return

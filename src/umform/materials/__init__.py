@@ -1,4 +1,4 @@
-"""Material laws and hardening curves: frozen descriptions that make the laws of the kernels."""
+"""Material laws and hardening curves: immutable descriptions from which the kernels build their laws."""
 
 from umform.materials.back_stress import Chaboche, YoshidaUemori
 from umform.materials.compiled import CompiledLaw

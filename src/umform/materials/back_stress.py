@@ -1,4 +1,4 @@
-"""Back stresses: the motion of the yield surface, which makes the Bauschinger effect (docs/theory, 3.12 and 3.13)."""
+"""Back stresses: translation of the yield surface, the Bauschinger effect (docs/theory, 3.12 and 3.13)."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ _MOST = 4  # back stresses of the kernels
 
 @dataclass(frozen=True)
 class Chaboche:
-    """Back stresses, each d alpha = C f xi/phi dp - gamma alpha dp (docs/theory, 3.12).
+    """Sum of back stresses with d alpha = C f xi/phi dp - gamma alpha dp each (docs/theory, 3.12).
 
     Parameters
     ----------
     parts : tuple of pairs of float
-        One to four pairs (C, gamma): modulus and recall. Without recall the back stress grows for ever (Prager), with
-        it up to C / gamma.
+        One to four pairs (C, gamma): modulus (stress) and recall (dimensionless). A part with gamma = 0 is linear
+        (Prager); a part with gamma > 0 saturates at C / gamma.
     first, rate : float
-        All moduli change with the plastic strain by f = 1 + (first - 1) exp(-rate p), from the share ``first`` of C
-        to C; with 1 and 0 they stay.
+        Factor f = 1 + (first - 1) exp(-rate p) of all moduli, p the accumulated plastic strain: from ``first`` at p = 0
+        to 1. With ``first`` = 1 and ``rate`` = 0 the moduli are constant.
 
     Examples
     --------
@@ -68,24 +68,25 @@ class Chaboche:
 
 @dataclass(frozen=True)
 class YoshidaUemori:
-    """Yoshida and Uemori (2002): a yield surface of constant size in one that moves, grows and stagnates.
+    """Yoshida and Uemori (2002): two-surface model with a bounding surface and a stagnation surface (docs/theory,
+    3.13).
 
     The yield stress Y is that of the hardening curve, which must be constant: ``Perfect(Y)``.
 
     Parameters
     ----------
     C : float
-        How fast the yield surface moves within the bounding surface.
+        Rate of the translation of the yield surface relative to the bounding surface, dimensionless.
     B : float
-        First size of the bounding surface, above Y.
+        Initial size of the bounding surface, above Y; a stress.
     growth : float
-        R_sat: by how much it grows.
+        R_sat: saturation value of its isotropic hardening; a stress.
     b : float
-        How far it moves.
+        Saturation value of its back stress; a stress.
     m : float
-        How fast it grows and moves.
+        Rate of both, dimensionless.
     h : float
-        How fast the surface of stagnation grows with it, 0 to 1.
+        Ratio of isotropic to kinematic hardening of the stagnation surface, 0 to 1.
 
     Examples
     --------

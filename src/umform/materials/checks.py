@@ -13,7 +13,7 @@ def check_finite(where: str, **values: float) -> None:
     Raises
     ------
     NotFinite
-        With the name of the first one.
+        With the name of the first such number.
     """
     for name, value in values.items():
         if not math.isfinite(value):

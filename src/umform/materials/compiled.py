@@ -18,16 +18,16 @@ from umform.materials.user_law import Floats, named_parts
 
 @dataclass(frozen=True)
 class CompiledLaw:
-    """A law that is a C function, called without Python's lock for the points of one cell at a time.
+    """A law that is a C function, called for all points of one cell at a time without Python's global lock.
 
     ::
 
         int law(int points, const double* strain, const double* state, const double* properties, const double* axes,
                 double length, double step, double* stress, double* tangent, double* new_state)
 
-    Arrays are those of the points one after the other: strain (6), state (size), axes (3, 3), stress (6), tangent
-    (6, 6) by rows, new state (size); Voigt order 11 22 33 12 23 13, engineering shears, in the axes of the sheet. The
-    old state must not be changed. It returns 0; with any other number there is no answer, and the increment is cut.
+    The values of a point are contiguous: strain (6), state (size), axes (3, 3), stress (6), tangent (6, 6) by rows, new
+    state (size); Voigt order 11 22 33 12 23 13, engineering shears, in the axes of the sheet. The function must not
+    change the old state. It returns 0; any other value reports failure and cuts the increment.
 
     Parameters
     ----------
@@ -42,20 +42,20 @@ class CompiledLaw:
         Constants of the law, passed on unchanged.
     energy : str, int or object, optional
         A function ``int energy(int points, const double* strain, const double* state, const double* properties, double*
-        energies)`` that fills elastic energy and plastic work (2) of each point, with the state that belongs to the
-        strain. Without it the energies of a run are not known, and are NaN.
+        energies)`` that fills elastic energy and plastic work (2) of each point, for a strain and the converged state
+        at it. Without it the energies of a run are NaN.
     strain : {"logarithmic", "green-lagrange"}
         Strain that it gets: logarithmic, which makes a small-strain law one of finite strain, or Green-Lagrange.
     symmetric : bool
-        Whether the tangent is symmetric at any strain; one that is not is then refused.
+        Whether the tangent is symmetric at any strain; an asymmetric one then raises an error.
     parallel : bool
-        Whether several threads may call it at once: it keeps nothing between calls.
+        Whether several threads may call it at the same time: it has no static variables.
     sees_points : bool
         Whether it uses axes and length of the cell; else they are null and 0.
     directional : bool
         Whether it is anisotropic, so that a model needs the rolling direction.
     name : str
-        For messages and fingerprints of runs: another name for another function without a library.
+        For messages and fingerprints of runs; without a library, give each function its own name.
 
     Examples
     --------
@@ -98,7 +98,7 @@ class CompiledLaw:
             self._address(function)
 
     def shown(self, history: Mapping[str, Floats]) -> dict[str, Floats]:
-        """What fields show of the history: the state variables by their names."""
+        """State variables that fields show, by name."""
         assert isinstance(self.state, Mapping)
         return named_parts(history, self.state)
 
@@ -130,7 +130,7 @@ class CompiledLaw:
             return address(self.library, [function], self.name)
         found = getattr(function, "address", function)  # numba has it
         if callable(found):
-            with suppress(ctypes.ArgumentError):  # a function of ctypes has an address, one of Python has none
+            with suppress(ctypes.ArgumentError):  # A function of ctypes has an address, a Python function has none.
                 found = ctypes.cast(found, ctypes.c_void_p).value
         if not isinstance(found, int) or isinstance(found, bool) or found <= 0:
             raise InvalidValue(
@@ -144,7 +144,7 @@ class CompiledLaw:
 
 
 def initial_state(where: str, state: int | Mapping[str, int], initial: Sequence[float]) -> tuple[float, ...]:
-    """State of the virgin material: what is given, or zeros.
+    """State of the virgin material: the given values, or zeros.
 
     Raises
     ------

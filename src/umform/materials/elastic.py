@@ -1,4 +1,4 @@
-"""Elastic constants and the elastic laws: frozen descriptions that make the kernels' laws.
+"""Elastic constants and the elastic laws: immutable descriptions from which the kernels build their laws.
 
 Elastic constants are given as E and nu, or as kappa and mu. Stresses in any unit, as long as it is that of the model.
 """
@@ -26,7 +26,7 @@ class Elastic:
     Raises
     ------
     InvalidValue
-        If not exactly one pair is given, or the pair is not that of a stable solid.
+        If not exactly one pair is given, or if the constants violate stability (E > 0, -1 < nu < 1/2).
     """
 
     kappa: float

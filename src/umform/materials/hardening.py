@@ -149,7 +149,7 @@ class Swift:
 
 @dataclass(frozen=True)
 class Table:
-    """Straight lines between the points (eqps, stress) of a table, constant behind its end.
+    """Piecewise linear table of points (eqps, stress), constant beyond its end.
 
     Parameters
     ----------

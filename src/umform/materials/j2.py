@@ -1,4 +1,4 @@
-"""Metals that flow: elastic constants with a hardening curve, and finite-strain J2 plasticity."""
+"""Plasticity: elastic constants with a hardening curve, and finite-strain J2 plasticity."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from umform.materials.hardening import Hardening
 
 @dataclass(frozen=True, init=False)
 class Plastic(Elastic):
-    """Elastic constants and a hardening curve: what all metals have.
+    """Elastic constants and a hardening curve, which all metals have.
 
     Parameters
     ----------

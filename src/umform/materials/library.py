@@ -1,4 +1,4 @@
-"""Functions of shared libraries, found by their names."""
+"""Functions of shared libraries, found by name."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from umform.errors import FileProblem, InvalidValue
 
 
 def address(library: str | PathLike[str], symbols: Sequence[str], where: str) -> int:
-    """Address of the first of some functions that a library has.
+    """Address of the first function of a list that a library exports.
 
     Parameters
     ----------
     library : str or path-like
         The file.
     symbols : sequence of str
-        Names, one of which is there.
+        Names to look for, in this order.
     where : str
         For messages.
 
     Raises
     ------
     FileProblem
-        If the file is missing, is no shared library, or has none of the functions.
+        If the file is missing, is no shared library, or exports none of the functions.
     """
     loaded = _load(str(_file(library, where).resolve()), where)
     for symbol in symbols:
@@ -47,7 +47,7 @@ def address(library: str | PathLike[str], symbols: Sequence[str], where: str) ->
 
 
 def content(library: str | PathLike[str], where: str) -> str:
-    """Digest of the file, which distinguishes runs with other code."""
+    """Digest of the file, which distinguishes runs with different code."""
     return hashlib.sha256(_file(library, where).read_bytes()).hexdigest()[:32]
 
 
@@ -80,12 +80,12 @@ def _load(path: str, where: str) -> ctypes.CDLL:
 
 
 def named_state(where: str, state: int | Mapping[str, int]) -> dict[str, int]:
-    """Parts of a history by name and size: those that are given, or one of so many numbers.
+    """Parts of a history by name and size: the given ones, or a single part of that size.
 
     Raises
     ------
     InvalidValue
-        If a size is no whole number.
+        If a size is not a whole number.
     """
     names = dict(state) if isinstance(state, Mapping) else {"state": state}
     least = 1 if isinstance(state, Mapping) else 0
@@ -106,7 +106,7 @@ def numbers(where: str, name: str, values: Sequence[float]) -> tuple[float, ...]
     Raises
     ------
     InvalidValue
-        If they are no numbers.
+        If they are not numbers.
     """
     try:
         return tuple(float(value) for value in values)

@@ -1,4 +1,4 @@
-"""What a model asks of a material."""
+"""Interface between a model and its material."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from umform import _core
 
 @runtime_checkable
 class Material(Protocol):
-    """What a model asks of a material: the law of the kernels, and how many thickness points suit it."""
+    """Interface of a material: the law of the kernels and the default number of thickness points."""
 
     @property
     def thickness_points(self) -> int:

@@ -1,4 +1,4 @@
-"""Metals put together from parts: yield function, hardening curve, back stresses, and a modulus that falls."""
+"""Metals composed of a yield function, a hardening curve, back stresses, a falling modulus and a rate factor."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ class FallingModulus:
     Parameters
     ----------
     saturated : float
-        What E falls to.
+        Limit of E, a stress.
     rate : float
-        How fast.
+        Rate of the decrease, dimensionless.
 
     Examples
     --------
@@ -70,10 +70,10 @@ class Metal(Plastic):
     back_stress : Chaboche or YoshidaUemori, optional
         Motion of the yield surface.
     modulus : FallingModulus, optional
-        Young's modulus over the plastic strain.
+        Young's modulus as a function of the plastic strain.
     rate : CowperSymonds or JohnsonCook, optional
-        Factor of the yield stress over the rate of the plastic strain, in the time of the steps. In no time nothing
-        flows: a model that is evaluated without a step, at the time where it stands, answers elastically.
+        Factor of the yield stress as a function of the plastic strain rate; time is that of the steps. A model that is
+        evaluated without a time increment responds elastically.
 
     Examples
     --------
@@ -148,7 +148,7 @@ class Metal(Plastic):
         return self._card().law()
 
     def residuals(self, strain: ArrayLike, state: ArrayLike | None = None, time: float = 0.0) -> Floats:
-        """Residuals of the return map at a logarithmic strain: how its Newton method converges.
+        """Residuals of the return map at a logarithmic strain: the convergence of its Newton method.
 
         Parameters
         ----------
@@ -157,13 +157,13 @@ class Metal(Plastic):
         state : array_like, optional
             State before the increment; default: the virgin one.
         time : float
-            What the increment takes, for a metal with a rate.
+            Time increment, for a metal with a rate factor.
 
         Returns
         -------
         ndarray
-            From the first state to the solution, over the stresses; empty where nothing flows. Where the yield surface
-            shrinks in stages, each stage begins again.
+            One residual per iteration, relative to the yield stress; empty for an elastic increment. With sub-stepping
+            of the yield surface the residuals of all stages follow each other.
         """
         card = self._card()
         before = card.law().initial() if state is None else np.asarray(state, dtype=float)
@@ -186,7 +186,7 @@ class Metal(Plastic):
         )
 
     def shown(self, history: Mapping[str, Floats]) -> dict[str, Floats]:
-        """What fields show of the history: the sum of the back stresses, the surface of stagnation, the modulus.
+        """Fields of the history: sum of the back stresses, stagnation surface, modulus.
 
         Parameters
         ----------
@@ -207,7 +207,7 @@ class Metal(Plastic):
 
 
 def _check_rate(rate: object, back_stress: object) -> None:
-    """Reject what is no rate factor, and one with two surfaces."""
+    """Reject an invalid rate factor, and a rate factor with two-surface hardening."""
     if rate is None:
         return
     if not callable(getattr(rate, "factor", None)) or isinstance(rate, type):
@@ -229,7 +229,7 @@ def _check_rate(rate: object, back_stress: object) -> None:
 
 
 def _check_first_yield(metal: Plastic) -> None:
-    """Reject a metal that yields at a strain no metal knows."""
+    """Reject a yield stress that is too large for the elastic modulus."""
     first, _ = metal.hardening.curve()(0.0)
     if first > _LARGEST_YIELD * metal.E:
         raise InvalidValue(
@@ -242,7 +242,7 @@ def _check_first_yield(metal: Plastic) -> None:
 
 
 def _check_surfaces(surfaces: YoshidaUemori, hardening: Hardening) -> None:
-    """Reject a yield surface that grows, or that does not fit into the bounding surface."""
+    """Reject a yield surface that grows, or that exceeds the bounding surface."""
     first, slope = hardening.curve()(0.0)
     if slope != 0.0 or hardening.curve()(1.0)[0] != first:
         raise InvalidValue(
@@ -264,13 +264,13 @@ def _check_surfaces(surfaces: YoshidaUemori, hardening: Hardening) -> None:
 
 @dataclass(frozen=True)
 class LogarithmicSpace:
-    """A small-strain law as one of finite strain: it gets logarithmic strains, and its stress is their conjugate.
+    """A small-strain law at finite strain: it receives logarithmic strains, and its stress is work-conjugate to them.
 
     Parameters
     ----------
     small : Material
-        Any law, one of your own for instance: in place of the Green-Lagrange strain it is asked with ln(C)/2,
-        engineering shears, in the axes of the sheet. SVK becomes Hencky's law.
+        Any law, including your own: it receives ln(C)/2 in place of the Green-Lagrange strain, engineering shears, in
+        the axes of the sheet. SVK becomes Hencky's law.
 
     Examples
     --------
@@ -292,5 +292,5 @@ class LogarithmicSpace:
         return _core.logarithmic_space(self.small.law())
 
     def shown(self, history: Mapping[str, Floats]) -> Mapping[str, Floats]:
-        """What fields show of the history: what the small-strain law does."""
+        """Fields of the history: those of the small-strain law."""
         return getattr(self.small, "shown", lambda history: {})(history)

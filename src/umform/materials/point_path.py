@@ -1,4 +1,4 @@
-"""A material point that is led along strains and stresses: tension at an angle, cyclic shear, paths that turn."""
+"""A material point under prescribed strains and stresses: tension at an angle, cyclic shear, changes of strain path."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from umform.materials.user_law import Floats
 
 
 class SmallStrainLaw(Protocol):
-    """What has a law of small strains."""
+    """Interface of a material with a small-strain law."""
 
     def small_strain_law(self) -> _core.Material:
         """The law of logarithmic strains."""
@@ -23,7 +23,7 @@ class SmallStrainLaw(Protocol):
 
 @dataclass(frozen=True)
 class PointPath:
-    """States of a point along its path, one row for each of the points that were asked for.
+    """States of a point along its path, one row for each prescribed row.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ def point_path(
     *,
     time: ArrayLike | None = None,
 ) -> PointPath:
-    """Lead a point along a path: each component has its strain prescribed, or its stress.
+    """Integrate a law along a path; for each component either the strain or the stress is prescribed.
 
     Parameters
     ----------
@@ -64,12 +64,12 @@ def point_path(
     Returns
     -------
     PointPath
-        The states behind each row; the first row is reached from the virgin state at rest.
+        The state at each row. The first row is reached from the virgin state.
 
     Raises
     ------
     NoConvergence
-        If a stress cannot be reached.
+        If a prescribed stress cannot be reached.
     """
     wanted, given = np.array(strain, dtype=float), np.array(stress, dtype=float)
     if wanted.ndim != 2 or wanted.shape[1] != 6 or wanted.shape != given.shape:
@@ -103,7 +103,7 @@ def tension(
     component: int = 0,
     time: ArrayLike | None = None,
 ) -> tuple[Floats, Floats, Floats]:
-    """Strain, stress and plastic strains (n, 6) of a bar that is pulled and pushed along the logarithmic strains given.
+    """Strain, stress and plastic strain, shape (n, 6) each, of a bar under prescribed logarithmic strains.
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ def _durations(material: SmallStrainLaw, time: ArrayLike | None, rows: int) -> F
 
 
 def _turned(angle: float) -> Floats:
-    """Strain in the axes of the sheet from that in axes that are turned about its normal, engineering shears."""
+    """Strain in the axes of the sheet from that in axes rotated about its normal, engineering shears."""
     c, s = math.cos(angle), math.sin(angle)
     turn = np.eye(6)
     turn[np.ix_([0, 1, 3], [0, 1, 3])] = [

@@ -1,4 +1,4 @@
-"""Factors of the yield stress over the rate of the plastic strain (docs/theory, 3.14)."""
+"""Factors of the yield stress as functions of the plastic strain rate (docs/theory, 3.14)."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class CowperSymonds:
     reference : float
         Plastic strain rate at which the yield stress is twice the static one, 1 / time.
     exponent : float
-        1 to 20.
+        Between 1 and 20.
 
     Examples
     --------
@@ -63,7 +63,7 @@ class JohnsonCook:
     reference : float
         Plastic strain rate of the hardening curve, 1 / time.
     strength : float
-        C, 0.001 to 1.
+        C, between 0.001 and 1.
 
     Examples
     --------

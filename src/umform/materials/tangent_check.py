@@ -1,4 +1,4 @@
-"""Compare the tangent of a law with differences of its stress."""
+"""Compare the tangent of a law with finite differences of its stress."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from umform.materials.user_law import Floats, UserLaw
 
 
 class TangentCheck(float):
-    """Largest deviation of a tangent from differences, relative to its largest entry, which is its value as a number.
+    """Largest deviation of a tangent from finite differences, relative to its largest entry; itself a float.
 
     Attributes
     ----------
     asymmetry : float
-        Largest entry of CC - CC^T relative to that of CC. What is not round-off needs ``UserLaw(symmetric=False)``.
+        Largest entry of CC - CC^T relative to that of CC. Beyond round-off the law needs ``UserLaw(symmetric=False)``.
     """
 
     asymmetry: float
 
     def __new__(cls, deviation: float, asymmetry: float) -> TangentCheck:
-        """Make the number and its companion."""
+        """Make the number and its attribute."""
         check = super().__new__(cls, deviation)
         check.asymmetry = asymmetry
         return check
@@ -40,9 +40,9 @@ def check_law(material: Material, E: ArrayLike, state: ArrayLike | None = None, 
     Parameters
     ----------
     material : Material
-        Any law. The axes of its points are those of the global frame, size and step of the points are 1.
+        Any law. The axes of its points are the global ones; size and time increment are 1.
     E : array_like, shape (n, 6)
-        Strains where to look, away from kinks such as first yield.
+        Strains at which to compare, away from kinks such as first yield.
     state : array_like, shape (n, size), optional
         Converged history; default that of the virgin material.
     step : float
@@ -51,7 +51,7 @@ def check_law(material: Material, E: ArrayLike, state: ArrayLike | None = None, 
     Returns
     -------
     TangentCheck
-        The largest deviation from the differences relative to the largest entry, as a number; and ``asymmetry``.
+        The largest deviation from finite differences relative to the largest entry, as a float; and ``asymmetry``.
 
     Examples
     --------
@@ -61,7 +61,7 @@ def check_law(material: Material, E: ArrayLike, state: ArrayLike | None = None, 
     (True, True)
     """
     if isinstance(material, UserLaw):
-        material = replace(material, symmetric=False)  # to measure what an evaluation would refuse
+        material = replace(material, symmetric=False)  # allow an asymmetric tangent, to measure its asymmetry
     law = material.law()
     E = np.ascontiguousarray(E, dtype=float)
     history = np.tile(law.initial(), (len(E), 1)) if state is None else np.ascontiguousarray(state, dtype=float)

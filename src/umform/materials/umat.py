@@ -19,10 +19,10 @@ _SYMBOLS = ("umat_", "umat", "UMAT", "umat__")
 class Umat:
     """A UMAT for three-dimensional small strains, in logarithmic space and the axes of the sheet (theory, 3.15).
 
-    STRAN and DSTRAN are logarithmic strains, STRESS is their conjugate. It does not get F and the coordinates of the
-    point: DFGRD0, DFGRD1 and DROT are the identity, COORDS and TEMP are zero. NDI = NSHR = 3. TIME counts from 0 over
-    the whole run, KSTEP is 1, KINC is 1 in the first increment and 2 later, NOEL is the number of the cell plus one,
-    CELENT its length. PNEWDT below 1 cuts the increment in half.
+    STRAN and DSTRAN are logarithmic strains, STRESS is work-conjugate to them. The subroutine does not get F or
+    coordinates: DFGRD0, DFGRD1 and DROT are the identity, COORDS and TEMP are zero. NDI = NSHR = 3. TIME counts from 0
+    over the whole run, KSTEP is 1, KINC is 1 in the first increment and 2 later, NOEL is the number of the cell plus
+    one, CELENT its length. PNEWDT below 1 cuts the increment in half.
 
     Parameters
     ----------
@@ -34,15 +34,15 @@ class Umat:
     properties : sequence of float
         PROPS.
     symmetric : bool
-        Whether DDSDDE is symmetric at any strain; one that is not is then refused.
+        Whether DDSDDE is symmetric at any strain; an asymmetric one then raises an error.
     energies : bool
-        Whether it fills SSE, SPD and SCD, which go into the balance; else the energies of a run are NaN.
+        Whether it fills SSE, SPD and SCD, which enter the energy balance; otherwise the energies of a run are NaN.
     parallel : bool
-        Whether several threads may call it at once: no SAVE, no COMMON, no files. Ranks call it at once in any case.
+        Whether several threads may call it at the same time: no SAVE, no COMMON, no files. MPI ranks always do.
     directional : bool
         Whether it is anisotropic, so that a model needs the rolling direction; False for an isotropic one.
     symbol : str, optional
-        Name of the function; default what compilers make of UMAT.
+        Name of the function; default: the usual names that compilers give to UMAT.
     name : str
         CMNAME, and for messages.
 
@@ -74,7 +74,7 @@ class Umat:
         self._address()
 
     def shown(self, history: Mapping[str, Floats]) -> dict[str, Floats]:
-        """What fields show of the history: the state variables by their names."""
+        """State variables that fields show, by name."""
         assert isinstance(self.state, Mapping)
         return named_parts(history, self.state)
 

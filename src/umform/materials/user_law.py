@@ -1,4 +1,4 @@
-"""A material law from a function of your own."""
+"""A material law from a Python function."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ Floats = NDArray[np.float64]
 #: stress S (n, 6), tangent CC (n, 6, 6), new history (n, size).
 LawFunction = Callable[..., tuple[ArrayLike, ArrayLike, ArrayLike]]
 
-#: Strain E (n, 6) and the history (n, size) that belongs to it -> elastic energy (n,), plastic work (n,).
+#: Strain E (n, 6) and the converged history (n, size) at that strain -> elastic energy (n,), plastic work (n,).
 EnergyFunction = Callable[[Floats, Floats], tuple[ArrayLike, ArrayLike]]
 
-#: Asymmetry of a tangent, relative to its largest entry, that round-off may leave.
+#: Asymmetry of a tangent, relative to its largest entry, that counts as round-off.
 SYMMETRY = 1e-9
 
 
 @dataclass(frozen=True)
 class Points:
-    """What a law may know of the points of a cell at which it is asked.
+    """Geometry of the points of a cell, for laws that depend on it.
 
     Attributes
     ----------
@@ -47,13 +47,13 @@ class Points:
 
 
 def named_parts(history: Mapping[str, Floats], state: Mapping[str, int]) -> dict[str, Floats]:
-    """Parts of a history that fields show by their names; the plastic strain has fields of its own."""
+    """Parts of a history that fields show, by name; the plastic strain has its own fields."""
     return {name: history[name] for name in state if name != "eqps"}
 
 
 @dataclass(frozen=True)
 class UserLaw:
-    """A material law from a Python function: slow (one call for each element), but ten lines to a first result.
+    """A material law from a Python function: slow (one call for each element), but quick to write.
 
     Parameters
     ----------
@@ -64,19 +64,19 @@ class UserLaw:
         differences. A function of three arguments gets the :class:`Points` too: axes, size, step.
     initial : tuple of float
         History of the virgin material; its length is the size of the history.
-    thickness_points : int
+    Default number of points through the thickness.
         Default number of points through the thickness.
     name : str
         For messages.
     energy : callable, optional
-        Takes strain and history like ``function``, but the history that a converged step has left behind, and returns
-        energies per reference volume: what can be had back from the strain (n,), and what has been spent so far (n,).
-        Without it the energies of a run are not known, and are NaN.
+        Takes strain and history like ``function``, but with the history of the converged step at that strain; returns
+        energies per reference volume: the recoverable energy (n,) and the dissipated work so far (n,). Without it the
+        energies of a run are NaN.
     symmetric : bool
-        Whether the tangent is symmetric at any strain; one that is not is then refused. With False the whole matrix is
-        formed and solved for.
+        Whether the tangent is symmetric at any strain; an asymmetric one then raises an error. With False the solver
+        stores and factorises the full matrix.
     state : mapping of str to int, optional
-        Parts of the history by name and size, in their order: ``{"alpha": 6, "eqps": 1}``. Fields go by these names;
+        Parts of the history by name and size, in their order: ``{"alpha": 6, "eqps": 1}``. They name the fields;
         ``eqps`` is the accumulated plastic strain. Without ``initial`` the history of the virgin material is zero;
         without names the whole history is called ``history``.
 
@@ -162,7 +162,7 @@ class UserLaw:
         """Whether the function takes a third argument."""
         try:
             parameters = inspect.signature(self.function).parameters.values()
-        except (TypeError, ValueError):  # a function of C that does not say
+        except (TypeError, ValueError):  # the signature of a function of C is unknown
             return False
         positional = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
         return sum(one.kind in positional and one.default is one.empty for one in parameters) == 3
@@ -194,11 +194,11 @@ class UserLaw:
 
     @contextmanager
     def _naming(self, cell: int) -> Iterator[None]:
-        """Say in which cell an error has come up; it stays the same object."""
+        """Add the cell to an error and return the same object."""
         try:
             yield
         except UmformError as error:
-            if cell >= 0 and ", cell " not in error.where:  # a function may raise the same object again
+            if cell >= 0 and ", cell " not in error.where:  # the same object may be raised again
                 error.where = f"{error.where or self.name}, cell {cell}"
             raise
         except Exception as error:
@@ -238,7 +238,7 @@ class UserLaw:
         return array
 
     def shown(self, history: Mapping[str, Floats]) -> dict[str, Floats]:
-        """What fields show of the history: its named parts."""
+        """Named parts of the history that fields show."""
         return named_parts(history, self.state)
 
     def law(self) -> _core.Material:

@@ -1,4 +1,4 @@
-"""Yield functions: the equivalent stress, of degree one in the stress in the axes of the sheet (docs/theory, 3.11)."""
+"""Yield functions: equivalent stress, homogeneous of degree one, in the axes of the sheet (docs/theory, 3.11)."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Mises:
 
 @dataclass(frozen=True, init=False)
 class Hill48:
-    """Hill (1948) from r-values; stresses are those of the rolling direction. ``from_stresses`` takes yield stresses.
+    """Hill (1948) from r-values; the hardening curve is that of the rolling direction. See ``from_stresses``.
 
     Parameters
     ----------
@@ -90,19 +90,19 @@ class Hill48:
 
     @classmethod
     def from_stresses(cls, s0: float, s45: float, s90: float, biaxial: float) -> Self:
-        """The function through four yield stresses, over that of the hardening curve.
+        """The function from four yield stresses, relative to that of the hardening curve.
 
         Parameters
         ----------
         s0, s45, s90 : float
-            Yield stress in tension at 0, 45 and 90 degrees to the rolling direction, over that of the curve.
+            Yield stress in tension at 0, 45 and 90 degrees to the rolling direction, relative to that of the curve.
         biaxial : float
-            That of equal tension in both directions.
+            Yield stress in equibiaxial tension, relative to that of the curve.
 
         Raises
         ------
         InvalidValue
-            If a stress is not positive, or no convex function of Hill goes through them.
+            If a stress is not positive, or no convex function of Hill has these yield stresses.
         """
         given = {"s0": s0, "s45": s45, "s90": s90, "biaxial": biaxial}
         check_finite("Hill48", **given)
@@ -132,7 +132,7 @@ class Hill48:
 
     @classmethod
     def from_constants(cls, F: float, G: float, H: float, N: float, L: float = 1.5, M: float = 1.5) -> Self:
-        """The function of Hill's own constants; 0.5 and 1.5 are those of von Mises.
+        """The function from Hill's constants; 0.5 (F, G, H) and 1.5 (N) give von Mises.
 
         Raises
         ------
@@ -164,10 +164,10 @@ class Hill48:
 
 @dataclass(frozen=True)
 class Transformation:
-    """Linear map of the stress deviator whose plane of symmetry is the sheet: 11 is the rolling direction.
+    """Linear map of the stress deviator, orthotropic about the axes of the sheet: 11 is the rolling direction.
 
     S_11 = -c12 s_22 - c13 s_33, S_22 = -c21 s_11 - c23 s_33, S_33 = -c31 s_11 - c32 s_22, and a factor for each shear.
-    Printed tables have the shears as c44, c55, c66, which are 23, 13, 12: here they are called by their axes.
+    Tables in the literature call the shears c44, c55, c66, which are 23, 13, 12; here they are named by their axes.
 
     Examples
     --------
@@ -191,7 +191,7 @@ class Transformation:
 
     @property
     def coefficients(self) -> list[float]:
-        """All nine, in the order of the kernels."""
+        """All nine coefficients, in the order of the kernels."""
         return [getattr(self, part.name) for part in fields(self)]
 
 
@@ -199,14 +199,14 @@ class Transformation:
 class Yld2004:
     """Yld2004-18p of Barlat et al. (2005): ``sum_ij |S'_i - S''_j|^a = 4 phi^a``.
 
-    S' and S'' stand for the principal values of two mapped stresses.
+    S' and S'' are the principal values of two transformed stresses.
 
     Parameters
     ----------
     first, second : Transformation
         S' and S''.
     exponent : float
-        From 2 to 20: 6 for bcc metals, 8 for fcc metals. Even ones need no principal values and are faster.
+        From 2 to 20: 6 for bcc metals, 8 for fcc metals. Even exponents need no principal values and are faster.
 
     Examples
     --------
@@ -256,7 +256,7 @@ def Hosford(exponent: float = 8) -> Yld2004:
 def Yld91(
     a: float, b: float, c: float, f: float = 1.0, g: float = 1.0, h: float = 1.0, *, exponent: float = 8
 ) -> Yld2004:
-    """Barlat's Yld91: Hosford's function of one transformed stress.
+    """Barlat's Yld91: Hosford's function of a transformed stress.
 
     Parameters
     ----------

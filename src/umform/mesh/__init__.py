@@ -1,4 +1,4 @@
-"""Meshes of solid-shells: the mesh itself, structured generators, files, and meshes of other programs."""
+"""Meshes of solid-shells: the mesh, structured generators, files, and conversion of hexahedra."""
 
 from umform.mesh.bending_sizes import Bent, Sizes, bending_sizes
 from umform.mesh.blanks import disc, ring

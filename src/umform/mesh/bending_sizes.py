@@ -1,4 +1,4 @@
-"""Sizes of elements where tools will bend the sheet: none turns more than an angle over a radius."""
+"""Element sizes for bending over tool radii: each element turns by at most a given angle."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ class Bent:
     Attributes
     ----------
     start, end : float
-        Where it lies along the sheet.
+        Range along the sheet.
     radius : float
-        Of the middle of the sheet on the tool: that of the tool and half of the thickness.
+        Radius of the mid-surface on the tool: that of the tool plus half of the thickness.
     name : str
-        Of the radius, for what is printed.
+        Name of the radius, for printed output.
     """
 
     start: float
@@ -43,7 +43,7 @@ class Sizes:
     ends : ndarray, shape (n + 1,)
         Ascending.
     bent : tuple of Bent
-        The radii that they follow.
+        The radii that determine them.
     """
 
     ends: Floats
@@ -62,14 +62,14 @@ class Sizes:
 def bending_sizes(
     start: float, end: float, bent: Sequence[Bent], *, turn: float, largest: float, growth: float = 1.5
 ) -> Sizes:
-    """Ends of elements between two places; none turns more than an angle over a radius that it goes over. eq. (5.69)
+    """Ends of elements along a line that turn by at most an angle over the radii of tools. eq. (5.69)
 
     Parameters
     ----------
     start, end : float
         Ends of the line.
     bent : sequence of Bent
-        Parts of it that go over radii.
+        Parts of the line that bend over radii.
     turn : float
         Largest angle in degrees.
     largest : float

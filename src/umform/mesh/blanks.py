@@ -13,7 +13,7 @@ from umform.mesh.generators import graded
 from umform.mesh.mesh import FACE_NODES, Floats, Mesh
 from umform.mesh.neighbours import Whole, outer_faces
 
-#: Half the side of the core of a disc, and how far its sides bulge from straight lines towards a circle.
+#: Half-width of the core of a disc, and how far its sides bulge from straight lines towards a circle.
 _CORE, _BULGE = 0.5, 0.6
 _PARTS = ("whole", "half", "quarter")
 
@@ -37,17 +37,17 @@ def disc(
     radius, thickness : float
         Dimensions.
     cells : tuple of int
-        Elements along an edge of the core of a quarter, which are half of those on a quarter of the rim; and from the
-        core to the rim.
+        Elements along an edge of the core of a quarter (half of those on a quarter of the rim), and from the core to
+        the rim.
     part : {"whole", "half", "quarter"}
         A half has x >= 0, a quarter y >= 0 as well.
     cell : {"hex8", "hex18"}
         Cell type.
     layers : int
         Elements stacked through the thickness.
-    grading : float
+    Ratio of the last to the first element size, from the core to the rim.
         Size of the last element over that of the first one, from the core to the rim.
-    core : float
+    Half-width of the core, relative to the radius.
         Half of the side of the core, over the radius.
     radii : sequence of float, optional
         Radii of the rings in place of the second number of cells and the grading: from ``core * radius`` to ``radius``.
@@ -131,7 +131,7 @@ def ring(
 
 
 def _along(length: float, cells: int, grading: float, order: int) -> Floats:
-    """Nodes on a graded line from 0 on; middle nodes of 18-node cells lie half-way."""
+    """Nodes on a graded line that starts at 0; middle nodes of 18-node cells lie half-way."""
     ends = graded(length, cells, grading)
     return ends if order == 1 else np.sort(np.concatenate([ends, 0.5 * (ends[1:] + ends[:-1])]))
 
@@ -155,7 +155,7 @@ def _parts_of(radii: Sequence[float], first: float, last: float, order: int) -> 
 def _joined(patches: Sequence[Floats], part: str, order: int, tolerance: float) -> tuple[Floats, Whole]:
     """Points (n, 2) and quadrilaterals of patches (i, j, 2) of a quarter, mirrored for a half or the whole."""
     mirrored = list(patches)
-    if part != "quarter":  # exchanging the directions of a patch turns its mirror image the right way round
+    if part != "quarter":  # exchanging the directions of a patch restores the orientation of its mirror image
         mirrored += [np.swapaxes(patch * (1.0, -1.0), 0, 1) for patch in mirrored]
     if part == "whole":
         mirrored += [np.swapaxes(patch * (-1.0, 1.0), 0, 1) for patch in mirrored]
@@ -197,7 +197,7 @@ def stacked(
 
 
 def order_of(cell: str) -> int:
-    """Order of the sides of a cell type."""
+    """Order of the element sides of a cell type."""
     if cell not in ("hex8", "hex18"):
         raise WrongCellType("unknown cell type", value=cell, remedy="hex8 or hex18")
     return 1 if cell == "hex8" else 2

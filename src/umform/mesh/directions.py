@@ -1,9 +1,9 @@
-"""Which direction of each hexahedron runs through the thickness of the sheet.
+"""Find the direction of each hexahedron that runs through the thickness of the sheet.
 
-The faces that two neighbours share carry each of the three directions of one cell on to a direction of the other, with
-its sign. The signed directions that can be reached from each other in this way are a *family*. In a sheet, however its
-surface is meshed, the thickness is a family that has one direction of every cell; the directions in the surface are so
-too in a structured mesh, but run together where three or five cells meet around an edge.
+Across a shared face, each of the three directions of one cell continues as a direction of its neighbour, with a sign.
+The signed directions that are connected in this way form a *family*. In a sheet, however its surface is meshed, the
+thickness is a family with one direction of every cell. The in-plane directions are so too in a structured mesh, but
+merge where three or five cells meet around an edge.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ CORNERS = np.concatenate([np.column_stack([FACE_NODES[:4], np.full(4, t)]) for t
 #: Corners of the faces, around each of them; face 2 k + 1 looks along direction k, face 2 k against it.
 FACE_CORNERS = np.array([[0, 3, 7, 4], [1, 2, 6, 5], [0, 1, 5, 4], [3, 2, 6, 7], [0, 1, 2, 3], [4, 5, 6, 7]])
 
-#: The second thinnest direction must be so many times thicker than the thinnest one.
+#: Smallest ratio of the second smallest thickness to the smallest one.
 CLEARLY_THICKER = 1.5
 
 
 class Family(NamedTuple):
-    """Directions, one for each cell of a body, that belong together.
+    """One connected direction of each cell of a body.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ def through_the_sheet(X: Floats, cells: Whole, wanted: Floats | NDArray[np.bool_
         Positions.
     cells : ndarray of int, shape (m, 8)
         Corners of the hexahedra.
-    wanted : ndarray or None
+    A unit vector to the upper side, shape (3,); a mask of the nodes of the lower face, shape (n,); or None
         A unit vector to the upper side, shape (3,); a mask over the nodes that has the lower face, shape (n,); or None
         for the thinnest direction.
 
@@ -73,9 +73,9 @@ def through_the_sheet(X: Floats, cells: Whole, wanted: Floats | NDArray[np.bool_
 
 
 def _links(X: Floats, cells: Whole, faces: Whole, pairs: Whole) -> Whole:
-    """Signed directions of neighbours that are the same; signed direction d of cell k has the number 6 k + d."""
+    """Signed directions that neighbours share; signed direction d of cell k has the number 6 k + d."""
     (one, other), (face, opposite) = (pairs // 6).T, (pairs % 6).T
-    # out of the one cell is into the other
+    # outward for one cell is inward for the other
     links = [np.stack([6 * one + (face ^ flip), 6 * other + (opposite ^ 1 ^ flip)], axis=1) for flip in (0, 1)]
     start = faces[pairs[:, 0], 0]
     for k in (1, 3):  # the two edges of the face that begin in its first corner
@@ -103,7 +103,7 @@ def _along(cells: Whole, start: Whole, end: Whole) -> Whole:
 
 
 def _families(X: Floats, cells: Whole, pairs: Whole, family: Whole, members: Whole) -> list[Family]:
-    """Families of a body that have one direction of every cell and end at outer faces, the thinnest first."""
+    """Families with one direction of every cell that end at outer faces, the thinnest first."""
     mine = family.reshape(-1, 6)[members]
     found = []
     twisted = False
@@ -128,7 +128,7 @@ def _families(X: Floats, cells: Whole, pairs: Whole, family: Whole, members: Who
 
 
 def _length(X: Floats, cells: Whole, pairs: Whole, members: Whole, signed: Whole) -> float:
-    """Mean length of the columns of cells along a family, infinite if one closes on itself."""
+    """Mean length of the columns of cells along a family; infinite if a column is closed."""
     axis = np.full(len(cells), -1)
     axis[members] = signed // 2
     links = pairs[(pairs[:, 0] % 6) // 2 == axis[pairs[:, 0] // 6]] // 6
@@ -149,7 +149,7 @@ def _rise(X: Floats, cells: Whole, signed: Whole) -> Floats:
 
 
 def _chosen(X: Floats, cells: Whole, found: list[Family], wanted: Floats | NDArray[np.bool_] | None) -> Whole:
-    """The family that is wanted, or the thinnest one, with its sense."""
+    """The requested family, or the thinnest one, with its sign."""
     if wanted is None:
         if len(found) > 1 and found[1].length < CLEARLY_THICKER * found[0].length:
             raise MeshError(
@@ -178,7 +178,7 @@ def _chosen(X: Floats, cells: Whole, found: list[Family], wanted: Floats | NDArr
 
 
 def _upwards(X: Floats, cells: Whole, signed: Whole) -> Whole:
-    """Sense in which the mean thickness vector points up; in a closed shell, the outside is up."""
+    """Sign for which the mean thickness vector points up; in a closed shell, outside is up."""
     rise = _rise(X, cells, signed)
     mean = rise.mean(axis=0)
     if np.linalg.norm(mean) > 0.01 * np.linalg.norm(rise, axis=1).mean():
@@ -192,7 +192,7 @@ def _upwards(X: Floats, cells: Whole, signed: Whole) -> Whole:
 
 
 def _from_below(X: Floats, cells: Whole, found: list[Family], lower: NDArray[np.bool_]) -> Whole:
-    """The family whose columns all begin in the faces whose nodes are named."""
+    """The family whose columns all begin in the faces of the named nodes."""
     faces = np.sort(cells[:, FACE_CORNERS].reshape(-1, 4), axis=1)
     _, number, counts = np.unique(faces, axis=0, return_inverse=True, return_counts=True)
     outer = (counts[number.ravel()] == 1).reshape(-1, 6)

@@ -1,4 +1,4 @@
-"""Meshes from files."""
+"""Read meshes from files."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from umform.mesh.thicken import thicken
 
 
 def read(path: str | Path, through: str | ArrayLike | None = None) -> Mesh:
-    """Read a mesh of hexahedra from any file that meshio knows, or from a VTKHDF file written by umform.
+    """Read a mesh of hexahedra from any file that meshio reads, or from a VTKHDF file written by umform.
 
     Named groups of nodes and of cells become node sets. The outer lower and upper faces become the sets ``lower`` and
     ``upper``; choose others by a predicate, for instance ``lambda x, y, z: x < 1e-9``.
@@ -61,7 +61,7 @@ def read_shell(
     surface: str = "middle",
     kink: float = 100.0,
 ) -> Mesh:
-    """Read a surface of quadrilaterals from any file that meshio knows, and thicken it along its normals.
+    """Read a surface of quadrilaterals from any file that meshio reads, and thicken it along its normals.
 
     Named groups of nodes, of quadrilaterals and of lines become node sets of both faces.
 
@@ -84,7 +84,7 @@ def read_shell(
 
 
 def _cells(raw: Any, path: str | Path, known: tuple[str, ...], dimension: int, wanted: str) -> Whole:
-    """All cells of the highest dimension of a file, which must be of one known type."""
+    """All cells of the highest dimension of a file, which must be of one supported type."""
     found = {block.type: 0 for block in raw.cells if block.dim >= dimension}
     for block in raw.cells:
         if block.type in found:

@@ -16,11 +16,11 @@ def graded(length: float, cells: int, ratio: float = 1.0) -> Floats:
     Parameters
     ----------
     length : float
-        Where the last line lies.
+        Position of the last line.
     cells : int
         Number of intervals.
     ratio : float
-        Size of the last interval over that of the first one; they grow geometrically.
+        Ratio of the last to the first interval; they grow geometrically.
 
     Returns
     -------
@@ -123,7 +123,7 @@ def strip(
     layers : int
         Elements stacked through the thickness.
     grading : tuple of float
-        Size of the last element over that of the first one, along x and y.
+        Ratio of the last to the first element size, along x and y.
     """
     if not isinstance(cells, tuple | list) or len(cells) != 2:
         raise InvalidValue("cells are two numbers, along x and y", value=cells, remedy="cells=(24, 1)")

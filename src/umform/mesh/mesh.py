@@ -28,12 +28,12 @@ FACE_NODES = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 
 _LOOK = "look at the coordinates: comparisons of reals need a tolerance"
 _OUTWARD_LOWER = {"hex8": [0, 3, 2, 1], "hex18": [0, 3, 2, 1, 7, 6, 5, 4, 8]}
 
-#: What selects nodes or faces: a name, a predicate of the coordinates x, y, z, or ids.
+#: Selection of nodes or faces: a name, a predicate of the coordinates x, y, z, or ids.
 Selector = str | Callable[[Floats, Floats, Floats], ArrayLike] | ArrayLike
 
 
 def nodes_of_faces(cell: str) -> list[list[int]]:
-    """Local nodes of the six faces (in no special order but for lower and upper)."""
+    """Local nodes of the six faces (unordered, except lower and upper)."""
     half = 4 if cell == "hex8" else 9
     plane = FACE_NODES[:half]
     sides = [np.flatnonzero(plane[:, axis] == value) for axis in (0, 1) for value in (-1.0, 1.0)]
@@ -59,9 +59,9 @@ class Mesh:
     Raises
     ------
     NotFinite, WrongCellType, InvalidValue
-        If the arrays make no mesh.
+        If the arrays are no valid mesh.
     InvertedElement, FoldedElement, WrongNodeOrder
-        If a cell has no positive volume everywhere.
+        If the volume of a cell is not positive everywhere.
 
     Examples
     --------
@@ -155,7 +155,7 @@ class Mesh:
         Raises
         ------
         UnknownSet, EmptySet
-            If there is no such set, or nothing is in it.
+            If there is no such set, or it is empty.
         """
         if isinstance(selector, str):
             if selector in self.sets:
@@ -196,7 +196,7 @@ class Mesh:
         Raises
         ------
         UnknownSet, EmptySet, InvalidValue
-            If there is no such set, nothing is in it, or a row names no face.
+            If there is no such set, it is empty, or a row names no face.
         """
         if isinstance(selector, str):
             if selector not in self.faces:
@@ -241,7 +241,7 @@ class Mesh:
         return self.facets_of(self.face_set(selector))
 
     def facets_of(self, rows: Ids) -> Ids:
-        """The same of rows (cell, face), which may be none."""
+        """The same for rows (cell, face); may be empty."""
         if (rows[:, 1] > 1).any():
             raise InvalidValue(
                 "contact and pressure act on lower and upper faces only",

@@ -1,4 +1,4 @@
-"""Which sides of cells are one and the same, and which belong to one cell only."""
+"""Find shared sides of cells, and sides that belong to one cell only."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def place(X: Floats) -> str:
 
 
 def shared_sides(points: Floats, sides: Whole, kind: str) -> Whole:
-    """Pairs of sides that have the same nodes.
+    """Pairs of sides with the same nodes.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ def shared_sides(points: Floats, sides: Whole, kind: str) -> Whole:
     sides : ndarray of int, shape (k, nodes)
         Node ids of each side of each cell, in any order.
     kind : str
-        What a side is, for the message: edge or face.
+        Word for a side in messages: edge or face.
 
     Returns
     -------
@@ -55,11 +55,11 @@ def shared_sides(points: Floats, sides: Whole, kind: str) -> Whole:
 
 
 def connected(count: int, links: Whole) -> NDArray[np.int64]:
-    """Number of the connected part in which each of `count` things lies; links have shape (p, 2).
+    """Connected component of each of `count` things; links have shape (p, 2).
 
-    Each thing points to the lowest one that is known to be connected with it. Where a link joins two of these, the
-    higher points to the lower, and all pointers are followed to their ends; until no link joins two. No SciPy, which is
-    slow to import.
+    Union-find: each thing points to the lowest known one of its component. A link between two components makes the
+    higher one point to the lower, and all pointers are shortened, until no link joins two components. SciPy is avoided
+    because its import is slow.
     """
     lowest = np.arange(count)
     while len(links):
@@ -85,7 +85,7 @@ def outer_faces(cells: Whole) -> dict[str, Ids]:
 
 
 def used_only(points: Floats, cells: Whole, sets: dict[str, Whole]) -> tuple[Floats, Whole, dict[str, Whole]]:
-    """Leave out the points that no cell uses, and sets of which nothing is left."""
+    """Remove points that no cell uses, and sets that become empty."""
     used = np.unique(cells)
     number = np.full(len(points), -1)
     number[used] = np.arange(len(used))
@@ -94,11 +94,11 @@ def used_only(points: Floats, cells: Whole, sets: dict[str, Whole]) -> tuple[Flo
 
 
 def with_centres(points: Floats, faces: Whole, sets: dict[str, Whole]) -> tuple[Floats, Whole, dict[str, Whole]]:
-    """Give faces of 8 nodes their ninth: the point of their surface in the middle.
+    """Add the ninth node to faces with 8 nodes: the centre of their surface.
 
-    The surface of 8 nodes is, in natural coordinates, a part of the biquadratic one of 9 nodes, which is therefore the
-    same surface when its centre lies at half the sum of the mid-sides minus a quarter of that of the corners. Faces
-    with the same nodes get the same centre. A set that has all 8 nodes of a face gets its centre.
+    The serendipity surface of 8 nodes is a special biquadratic surface of 9 nodes; both agree when the centre lies at
+    half the sum of the mid-sides minus a quarter of the sum of the corners. Faces with the same nodes share their
+    centre. A set with all 8 nodes of a face also gets its centre.
 
     Returns
     -------

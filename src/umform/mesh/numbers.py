@@ -1,4 +1,4 @@
-"""Sets of numbers: as those of numpy, which bring its masked arrays with them, a tenth of the time of a short run."""
+"""Set operations on integers without numpy's, which import masked arrays: a tenth of the time of a short run."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 
 def unique(numbers: ArrayLike) -> NDArray[Any]:
-    """The different numbers of an array, in order."""
+    """The sorted unique numbers of an array."""
     ordered = np.sort(np.asarray(numbers), axis=None)
     first = np.ones(ordered.size, dtype=bool)
     np.not_equal(ordered[1:], ordered[:-1], out=first[1:])
@@ -18,14 +18,14 @@ def unique(numbers: ArrayLike) -> NDArray[Any]:
 
 
 def common(some: ArrayLike, others: ArrayLike) -> NDArray[Any]:
-    """The different numbers that two arrays have in common, in order."""
+    """The sorted numbers that two arrays have in common."""
     both = np.sort(np.concatenate([unique(some), unique(others)]))
     twice: NDArray[Any] = both[1:][both[1:] == both[:-1]]
     return twice
 
 
 def median(numbers: ArrayLike) -> float:
-    """The number in the middle, or the mean of the two there; NaN of none."""
+    """Median; NaN for an empty array."""
     ordered = np.sort(np.asarray(numbers, dtype=np.float64), axis=None)
     if ordered.size == 0:
         return math.nan

@@ -1,4 +1,4 @@
-"""Hexahedra from outside, turned so that t runs through the thickness of the sheet."""
+"""Orient imported hexahedra so that t runs through the thickness of the sheet."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from umform.mesh.mesh import FACE_NODES, Floats, Mesh
 from umform.mesh.neighbours import Whole, outer_faces, place, used_only, with_centres
 from umform.mesh.surface import TURNED
 
-#: How far a node of the middle layer may lie from the mean of its two, as a fraction of their distance.
+#: Tolerated distance of a middle node from the mean of its two outer nodes, relative to their distance.
 MIDDLE_TOLERANCE = 1e-3
 
 #: Natural coordinates of 27 nodes in the order of VTK: corners, edges below, above, between, faces, centre. The first 8
@@ -36,21 +36,21 @@ def orient(
     *,
     through: str | ArrayLike = "thinnest",
 ) -> Mesh:
-    """Turn hexahedra so that t runs through the thickness, from the lower face of the sheet to the upper one.
+    """Orient hexahedra so that t runs through the thickness, from the lower face of the sheet to the upper one.
 
-    A direction is followed from cell to cell over their common faces. One that comes back to each cell as itself may be
-    the thickness; of these the one along which the body is thinnest from one outer face to the other is taken, or the
-    one that is named. Without a name, upper is the side to which the mean of all thickness vectors points, along its
-    largest component; where they cancel each other, as in a closed shell, lower is the smaller of the outer faces.
+    A direction is followed from cell to cell over their common faces. If it contains one direction of each cell, it may
+    be the thickness; of these, the one along which the body is thinnest between outer faces is used, or the named one.
+    Without a name, upper is the side to which the mean of all thickness vectors points, along its largest component;
+    where this mean vanishes, as in a closed shell, lower is the smaller of the outer faces.
 
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        Positions. Those that no cell uses are left out.
+        Positions. Unused ones are removed.
     cells : array_like of int, shape (m, 8), (m, 20) or (m, 27)
         Hexahedra in the node order of VTK and meshio. Those with 8 nodes become ``hex8``. Those with 20 and 27 nodes
-        become ``hex18`` if their edges through the thickness are straight with the node in the middle, so that nothing
-        is lost with the middle layer; faces of 8 nodes get their centre on the surface that these span.
+        become ``hex18`` if their edges through the thickness are straight with the node in the middle, so that removing
+        the middle layer loses nothing; faces of 8 nodes get the centre of their serendipity surface.
     sets : mapping of str to array_like of int, optional
         Named sets of nodes.
     through : str or array_like, shape (3,)
@@ -65,7 +65,7 @@ def orient(
     Raises
     ------
     WrongCellType
-        If the cells are no such hexahedra.
+        If the cells are of another type.
     MeshError
         If there is no such direction, two are about as thin, or the body branches or is one-sided.
     """
@@ -90,7 +90,7 @@ def orient(
 
 
 def _wanted(through: str | ArrayLike, sets: dict[str, Whole], count: int) -> Floats | NDArray[np.bool_] | None:
-    """What is asked for: nothing, a vector, or a mask over the nodes of the lower face."""
+    """The request: none, a vector, or a mask over the nodes of the lower face."""
     if isinstance(through, str):
         if through == "thinnest":
             return None
@@ -114,7 +114,7 @@ def _wanted(through: str | ArrayLike, sets: dict[str, Whole], count: int) -> Flo
 
 
 def _turned(X: Floats, cells: Whole, signed: Whole) -> tuple[Whole, Whole, Whole]:
-    """Lower, upper and middle nodes of the cells whose thickness runs along a signed direction of theirs."""
+    """Lower, upper and middle nodes of cells with a given signed thickness direction."""
     nodes = {8: 4, 20: 8, 27: 9}[cells.shape[1]]
     layers = [np.empty((len(cells), count), dtype=np.int64) for count in (nodes, nodes, {4: 0, 8: 4, 9: 9}[nodes])]
     for axis, sign in product(range(3), (-1, 1)):
@@ -136,7 +136,7 @@ def _turned(X: Floats, cells: Whole, signed: Whole) -> tuple[Whole, Whole, Whole
 
 
 def _check_middle(X: Floats, lower: Whole, upper: Whole, middle: Whole) -> None:
-    """Reject a middle layer that cannot be left out."""
+    """Reject a middle layer that cannot be removed."""
     low, high = X[lower[:, : middle.shape[1]]], X[upper[:, : middle.shape[1]]]
     away = np.linalg.norm(X[middle] - 0.5 * (low + high), axis=2) / np.linalg.norm(high - low, axis=2)
     curved = np.flatnonzero((away > MIDDLE_TOLERANCE).any(axis=1))

@@ -1,4 +1,4 @@
-"""Flat blanks of any outline of lines and arcs, with holes: quadrilaterals by gmsh (the extra ``mesh``)."""
+"""Flat blanks with any outline of lines and arcs, and holes: quadrilaterals by gmsh (the extra ``mesh``)."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Closed(Protocol):
 
     @property
     def closed(self) -> bool:
-        """Whether the last one ends where the first one starts."""
+        """Whether the end of the last one is the start of the first one."""
 
 
 def blank(
@@ -68,7 +68,7 @@ def blank(
     Raises
     ------
     InvalidValue
-        If a curve is not closed, a number is out of range, or gmsh is not there.
+        If a curve is open, a number is out of range, or gmsh is not installed.
     MeshError
         If gmsh finds no mesh of quadrilaterals.
     """
@@ -94,7 +94,7 @@ def blank(
 
 @contextmanager
 def _gmsh() -> Iterator[Any]:
-    """The library with an empty model; one thread, so that the mesh is the same each time."""
+    """Gmsh with an empty model; a single thread makes the mesh reproducible."""
     try:
         import gmsh
     except (ImportError, OSError) as error:
@@ -109,9 +109,9 @@ def _gmsh() -> Iterator[Any]:
         for name, value in {
             "General.Terminal": 0,
             "General.NumThreads": 1,
-            "Mesh.Algorithm": 8,  # triangles that pair well
+            "Mesh.Algorithm": 8,  # triangles that combine well to quadrilaterals
             "Mesh.RecombineAll": 1,
-            "Mesh.RecombinationAlgorithm": 3,  # nothing but quadrilaterals
+            "Mesh.RecombinationAlgorithm": 3,  # subdivide to quadrilaterals only
             "Mesh.MeshSizeExtendFromBoundary": 0,
             "Mesh.SecondOrderIncomplete": 0,
         }.items():
@@ -123,7 +123,9 @@ def _gmsh() -> Iterator[Any]:
 
 
 def _loop(gmsh: Any, curve: Closed) -> tuple[int, list[list[int]]]:
-    """A closed curve, and the lines of gmsh of each of its segments; arcs go in parts of less than half a turn."""
+    """A closed curve, and the gmsh lines of each of its segments; arcs are divided into parts of less than half a
+    turn.
+    """
     geo, corners, tags = gmsh.model.geo, dict[tuple[float, float], int](), list[list[int]]()
 
     def corner(p: Floats | _Point) -> int:
@@ -185,7 +187,7 @@ def _meshed(gmsh: Any, size: float | Callable[[float, float], float], order: int
 
 
 def _nodes_on(gmsh: Any, tags: Sequence[int], ids: Whole) -> NDArray[np.bool_]:
-    """Which nodes lie on some lines of gmsh, their ends among them."""
+    """Mask of the nodes on some gmsh lines, including their ends."""
     on = np.zeros(int(ids.max()) + 1, dtype=bool)
     for tag in tags:
         nodes = np.asarray(gmsh.model.mesh.getNodes(1, tag, includeBoundary=True)[0], dtype=np.int64)

@@ -1,4 +1,4 @@
-"""Some of the cells of a mesh as a mesh of their own."""
+"""A part of a mesh as a new mesh."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ class MeshPart:
     Attributes
     ----------
     mesh : Mesh
-        The cells with their nodes and with what is left of all sets, which may be nothing. Its sets of nodes and faces
-        ``cut`` are lateral faces that a removed cell shared.
+        The kept cells with their nodes and the remaining sets, which may be empty. Its sets of nodes and faces ``cut``
+        are lateral faces that a removed cell shared.
     cells : ndarray of int
-        Numbers that its cells have in the whole mesh, increasing.
+        Indices of its cells in the whole mesh, increasing.
     nodes : ndarray of int
-        Numbers that its nodes have in the whole mesh, increasing.
+        Indices of its nodes in the whole mesh, increasing.
     pieces : int
         Number of parts that share no node.
     """
@@ -38,14 +38,14 @@ class MeshPart:
 
 
 def part_of_mesh(mesh: Mesh, kept: NDArray[np.bool_]) -> MeshPart:
-    """The part of a mesh with some of its cells; nodes and cells keep their order.
+    """A part of a mesh; nodes and cells keep their order.
 
     Parameters
     ----------
     mesh : Mesh
         The whole.
     kept : ndarray of bool, shape (cells,)
-        Which cells stay; one at least.
+        Mask of the cells to keep; at least one.
     """
     cells = np.flatnonzero(kept)
     nodes = unique(mesh.connectivity[cells])
@@ -64,8 +64,19 @@ def part_of_mesh(mesh: Mesh, kept: NDArray[np.bool_]) -> MeshPart:
     return MeshPart(made, cells, nodes.astype(np.int64), pieces)
 
 
+def joined_by_faces(mesh: Mesh, cells: Numbers) -> Numbers:
+    """Number of the part in which each of some cells lies; parts share edges or single nodes at most; (cells,)."""
+    sides = [np.sort(mesh.connectivity[cells][:, nodes], axis=1) for nodes in nodes_of_faces(mesh.cell)]
+    links, before = [], len(cells)
+    for kind in (sides[:2], sides[2:]):  # upper and lower faces may have more nodes than the lateral ones
+        number = np.unique(np.concatenate(kind), axis=0, return_inverse=True)[1].ravel()
+        links.append(np.stack([np.tile(np.arange(len(cells)), len(kind)), before + number], axis=1))
+        before += int(number.max()) + 1
+    return connected(before, np.concatenate(links))[: len(cells)]
+
+
 def stacks(mesh: Mesh) -> Numbers:
-    """Number of the stack that each cell lies in: cells on each other through the thickness, shape (cells,)."""
+    """Stack of each cell: cells above each other through the thickness, shape (cells,)."""
     half, count = mesh.connectivity.shape[1] // 2, len(mesh.connectivity)
     faces = np.sort(np.concatenate([mesh.connectivity[:, :half], mesh.connectivity[:, half:]]), axis=1)
     number = np.unique(faces, axis=0, return_inverse=True)[1].ravel()
@@ -74,13 +85,13 @@ def stacks(mesh: Mesh) -> Numbers:
 
 
 def _renumbered(rows: NDArray[np.integer], cell: Ids) -> Ids:
-    """Faces with the numbers that their cells have in the part."""
+    """Faces with cell indices of the whole mesh."""
     left = rows[cell[rows[:, 0]] >= 0]
     return np.stack([cell[left[:, 0]], left[:, 1]], axis=1).astype(np.int32)
 
 
 def _cut_faces(mesh: Mesh, kept: NDArray[np.bool_]) -> Ids:
-    """Lateral faces of cells that stay which cells that go have too."""
+    """Lateral faces between kept and removed cells."""
     local = nodes_of_faces(mesh.cell)[2:]
     sides = np.sort(np.stack([mesh.connectivity[:, nodes] for nodes in local], axis=1), axis=2)
     count = sides.shape[0] * sides.shape[1]

@@ -1,4 +1,4 @@
-"""Reject cells without a positive volume, and say what is probably wrong with them."""
+"""Reject cells without a positive volume, and name the probable cause."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from umform.errors import FoldedElement, InvertedElement, WrongNodeOrder
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int32]
 
-#: Cells that are looked at in one go: their base vectors take twenty times the memory of the mesh.
+#: Cells per batch: their base vectors take twenty times the memory of the mesh.
 _AT_ONCE = 1 << 14
 
 
@@ -36,7 +36,7 @@ def _determinants(dN: Floats, X: Floats) -> Floats:
 
 
 def _other_orders(nodes: int) -> dict[str, Ids]:
-    """Node orders that are met in the wild, as permutations into ours."""
+    """Common node orders of other programs, as permutations to the order used here."""
     half = nodes // 2
     lower, upper = np.arange(half), np.arange(half, nodes)
     orders = {
@@ -55,7 +55,7 @@ def check_cells(points: Floats, cells: Ids) -> None:
     Raises
     ------
     WrongNodeOrder
-        If all cells are bad and become good with another order of their nodes.
+        If all cells are invalid but valid in another node order.
     InvertedElement
         If a cell has a negative volume.
     FoldedElement

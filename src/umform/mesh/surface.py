@@ -1,4 +1,4 @@
-"""Surfaces of quadrilaterals: one way round for all of them, and their normals at the nodes."""
+"""Surfaces of quadrilaterals: consistent orientation, and normals at the nodes."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from umform.errors import InvalidValue, MeshError
 from umform.mesh.mesh import FACE_NODES, Floats
 from umform.mesh.neighbours import Whole, connected, place, shared_sides
 
-#: Nodes of a quadrilateral of 4, 8 or 9 nodes that is turned over.
+#: Nodes of a reversed quadrilateral of 4, 8 or 9 nodes.
 TURNED = {4: [0, 3, 2, 1], 8: [0, 3, 2, 1, 7, 6, 5, 4], 9: [0, 3, 2, 1, 7, 6, 5, 4, 8]}
 
 
 def alike(points: Floats, quads: Whole) -> Whole:
-    """Turn quadrilaterals so that neighbours have the same side up.
+    """Orient quadrilaterals so that neighbours have the same side up.
 
-    Each connected part keeps the way round that most of its quadrilaterals have.
+    Each connected part keeps the orientation of most of its quadrilaterals.
 
     Parameters
     ----------
@@ -28,16 +28,16 @@ def alike(points: Floats, quads: Whole) -> Whole:
     Returns
     -------
     ndarray of int
-        The same quadrilaterals, some of them turned over.
+        The same quadrilaterals, some of them reversed.
 
     Raises
     ------
     MeshError
-        If an edge has more than two quadrilaterals, or the surface has one side only, as the band of Moebius.
+        If an edge has more than two quadrilaterals, or the surface is one-sided, as a Möbius strip.
     """
     edges = np.stack([quads[:, :4], np.roll(quads[:, :4], -1, axis=1)], axis=2).reshape(-1, 2)
     pairs = shared_sides(points, edges, "edge")
-    same_way = edges[pairs[:, 0], 0] == edges[pairs[:, 1], 0]  # alike neighbours run against each other
+    same_way = edges[pairs[:, 0], 0] == edges[pairs[:, 1], 0]  # consistent neighbours run in opposite directions
     sign = _signs(len(quads), pairs // 4, np.where(same_way, -1, 1))
     wrong = np.flatnonzero(sign[pairs[:, 0] // 4] * sign[pairs[:, 1] // 4] != np.where(same_way, -1, 1))
     if wrong.size:
@@ -52,7 +52,7 @@ def alike(points: Floats, quads: Whole) -> Whole:
 
 
 def _signs(count: int, links: Whole, relation: Whole) -> Whole:
-    """Walk over the neighbours: 1 as given, -1 turned over, so that in each part more are left than turned."""
+    """Breadth-first search over the neighbours: 1 as given, -1 reversed; in each part most are kept."""
     from scipy.sparse import coo_array  # slow to import
     from scipy.sparse.csgraph import breadth_first_order
 
@@ -73,18 +73,18 @@ def _signs(count: int, links: Whole, relation: Whole) -> Whole:
 
 
 def directors(points: Floats, quads: Whole, kink: float) -> Floats:
-    """Vectors at the nodes along which a surface is thickened by one.
+    """Vectors at the nodes along which a surface of unit thickness is thickened.
 
-    The normals of the quadrilaterals that meet in a node are averaged, weighted by the angle that each spans there. The
-    mean normal is then stretched so that the distance along the normals of the quadrilaterals is one in the mean: at a
-    kink between two of them it is one on both sides (a mitre).
+    The normals of the quadrilaterals at a node are averaged, weighted by their angles at the node. The mean normal is
+    scaled so that the mean distance along the normals of the quadrilaterals is one: at a kink between two of them it is
+    one on both sides (a mitre).
 
     Parameters
     ----------
     points : ndarray, shape (n, 3)
         Positions; every one belongs to a quadrilateral.
     quads : ndarray of int, shape (m, 4) or (m, 9)
-        Turned alike.
+        Consistently oriented.
     kink : float
         Largest angle in degrees between two quadrilaterals that meet in a node, measured as twice the angle from the
         mean normal.
@@ -98,7 +98,7 @@ def directors(points: Floats, quads: Whole, kink: float) -> Floats:
     InvalidValue
         If a kink is sharper.
     MeshError
-        If a quadrilateral has no normal in one of its nodes.
+        If a quadrilateral has no normal at one of its nodes.
     """
     count = quads.shape[1]
     natural = np.column_stack([FACE_NODES[:count], np.full(count, -1.0)])
@@ -117,7 +117,7 @@ def directors(points: Floats, quads: Whole, kink: float) -> Floats:
         )
     normal /= area[..., None]
     angle = np.arctan2(area, np.einsum("eqk,eqk->eq", tangents[:, :, 0], tangents[:, :, 1]))
-    # the angle between r and s: where only one of them turns with the corner, it is that beside the corner
+    # the angle between r and s; if only one of them reverses at the corner, its supplement
     weight = np.where(FACE_NODES[:count].prod(axis=1) < 0, np.pi - angle, angle)
     weight[:, 4:8] = np.pi
     mean = np.zeros_like(points)

@@ -13,7 +13,7 @@ from umform.mesh.neighbours import Whole, outer_faces, place, used_only, with_ce
 from umform.mesh.quality import jacobians
 from umform.mesh.surface import alike, directors
 
-#: Where the given surface lies: shares of the thickness to the lower and to the upper face.
+#: Position of the given surface: parts of the thickness to the lower and to the upper face.
 _SURFACES = {"middle": (-0.5, 0.5), "lower": (0.0, 1.0), "upper": (-1.0, 0.0)}
 
 
@@ -29,25 +29,25 @@ def thicken(
     """Give a surface of quadrilaterals its thickness, along its normals.
 
     Quadrilaterals with 4 nodes become ``hex8``, with 9 nodes ``hex18``; those with 8 nodes get a centre on the surface
-    that their 8 nodes span and become ``hex18``. Neighbours are turned so that they have the same side up: that of most
+    of these 8 nodes and become ``hex18``. Neighbours are oriented so that they have the same side up: that of most
     quadrilaterals of each connected part. ``upper`` is the side of their normal.
 
-    At a node the normals of its quadrilaterals are averaged, weighted by their angles. At a kink the nodes lie further
-    apart, so that the thickness along the normals of the faces is kept on both sides of it (a mitre).
+    At a node the normals of its quadrilaterals are averaged, weighted by their angles. At a kink the nodes lie farther
+    apart, so that the thickness along the normals of the faces is the same on both sides of it (a mitre).
 
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        Positions. Those that no quadrilateral uses are left out.
+        Positions. Unused ones are removed.
     quads : array_like of int, shape (m, 4), (m, 8) or (m, 9)
         Node ids: corners, mid-sides, centre.
     thickness : float or array_like, shape (n,)
-        The same for all nodes, or one for each.
+        The same for all nodes, or one value for each.
     sets : mapping of str to array_like of int, optional
-        Named sets of nodes. Each is carried over to the nodes of both faces; ``name_lower`` and ``name_upper`` have
-        those of one.
+        Named sets of nodes. Each one becomes a set of the nodes of both faces; ``name_lower`` and ``name_upper`` are
+        its nodes on one face.
     surface : {"middle", "lower", "upper"}
-        What is given: the mid-surface, the lower or the upper face.
+        The given surface: the mid-surface, the lower or the upper face.
     kink : float
         Largest angle in degrees between the quadrilaterals at a node, measured as twice that from the mean normal.
 
@@ -59,11 +59,11 @@ def thicken(
     Raises
     ------
     WrongCellType, InvalidValue
-        If the arrays are no such surface, the thickness is not positive, or a kink is too sharp.
+        If the arrays are no valid surface, the thickness is not positive, or a kink is too sharp.
     MeshError
-        If the surface branches or has one side only.
+        If the surface branches or is one-sided.
     FoldedElement
-        If the thickness goes beyond the centre of curvature.
+        If the thickness reaches beyond the centre of curvature.
     """
     X, corners, t, named = _checked(points, quads, thickness, sets or {})
     if surface not in _SURFACES:

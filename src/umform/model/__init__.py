@@ -1,4 +1,4 @@
-"""What is solved: mesh, bodies, supports, loads and tools; residual and tangent at a displacement."""
+"""The discrete model: mesh, bodies, supports, loads and tools; residual and tangent at a displacement."""
 
 from umform._core import Connectivity
 from umform.model.body import Body

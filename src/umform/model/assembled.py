@@ -1,4 +1,4 @@
-"""Terms of a model, its unknowns at nodes and beside them, and their pattern."""
+"""Terms of a model, its unknowns at nodes and scalar unknowns, and their sparsity pattern."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Floats = NDArray[np.float64]
 
 
 class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
-    """Supports, loads, tools and bodies together: terms and unknowns.
+    """Terms and unknowns of supports, loads, tools and bodies.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
         Points and cells.
     """
 
-    #: Who shares the model.
+    #: Ranks that share the model.
     ranks: Ranks = ONE
 
     def __init__(self, mesh: Mesh) -> None:
@@ -44,10 +44,10 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
         self.u: Floats = np.zeros(3 * len(mesh.points))
         #: Terms of other kinds, see :meth:`add`.
         self.others: list[Term] = []
-        #: Where the time goes; :func:`umform.solve` puts a new one here.
+        #: Timing; :func:`umform.solve` sets a new one.
         self.timing = Timing()
 
-    # What there is -------------------------------------------------------------------------------------------
+    # Terms ---------------------------------------------------------------------------------------------------
 
     @property
     def time(self) -> float:
@@ -60,7 +60,7 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
 
     @property
     def terms(self) -> list[Term]:
-        """All that adds to the residual: bodies, contacts, pressures and loads, what was added, tools."""
+        """All terms of the residual: bodies, contacts, pressures and loads, added terms, tools."""
         controls = [control for control in self.controls if isinstance(control, Term)]
         pressures = [control for control in controls if control.couples()]
         loads = [control for control in controls if not control.couples()]
@@ -68,12 +68,12 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
         return [*self.bodies, *self.contacts, *pressures, *loads, *self.others, *pressed]
 
     def add(self, term: Term) -> Term:
-        """Let a term of another kind add to the residual: a foundation, a spring, one of your own.
+        """Add a term of another kind to the residual: a foundation, a spring, your own term.
 
         Raises
         ------
         InvalidValue
-            If its name or its columns of the history are taken, or it couples a node that is not there.
+            If its name or its history columns are taken, or it couples a node that does not exist.
         """
         self._refuse_taken(term.column_names(), term.name)
         check_term(term, self.terms, len(self.mesh.points))
@@ -83,7 +83,7 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
 
     @contextmanager
     def with_term(self, term: Term) -> Iterator[None]:
-        """Let a term that couples no nodes, an equation of scalar unknowns, add to the residual for a while."""
+        """Add a term that couples no nodes, an equation of scalar unknowns, within this block."""
         self.others.append(term)
         try:
             yield
@@ -91,7 +91,7 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
             self.others.remove(term)
 
     def _named(self) -> Iterable[Any]:
-        """All that has columns in the history."""
+        """All objects with columns in the history."""
         return [*self.controls, *self.tools, *self.contacts, *self.others]
 
     @property
@@ -101,7 +101,7 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
 
     @property
     def x(self) -> Floats:
-        """Displacement, and the scalar unknowns behind it."""
+        """Displacement followed by the scalar unknowns."""
         unknowns = self.unknowns
         return self.u if not unknowns else np.concatenate([self.u, [unknown.value for unknown in unknowns]])
 
@@ -114,10 +114,10 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
 
     @property
     def effort(self) -> float:
-        """What an evaluation costs for each equation; 1 for 8-node elements with 20 points.
+        """Cost of an evaluation per equation; 1 for 8-node elements with 20 points.
 
         Each point adds to all entries of an element's matrix; in a regular mesh of one layer an element of 8 nodes has
-        one fibre of its own, one of 18 nodes has four.
+        one fibre per element, one of 18 nodes has four.
         """
         nodes = self.mesh.connectivity.shape[1]
         fibres = 1 if nodes == 8 else 4
@@ -143,11 +143,11 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
         return self._assembly().unknowns.free
 
     def restrict(self, r: Floats) -> Floats:
-        """Unknowns' share of forces at all degrees of freedom; on the first rank scalar ones follow. eq. (5.18)"""
+        """Reduce forces at all degrees of freedom to the unknowns; on the first rank scalar ones follow. eq. (5.18)"""
         return self._with_scalars(self._restrict_nodes(r[: self.u.size]), r[self.u.size :])
 
     def coefficients(self, u: Floats) -> Floats:
-        """Unknowns in a displacement of all degrees of freedom and scalar unknowns. eq. (5.18)"""
+        """Reduce a displacement of all degrees of freedom and scalar unknowns to the unknowns. eq. (5.18)"""
         return self._with_scalars(self._coefficients_nodes(u[: self.u.size]), u[self.u.size :])
 
     def _with_scalars(self, at_nodes: Floats, scalars: Floats) -> Floats:
@@ -179,7 +179,7 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
         return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))  # no copy of the matrix
 
     def extend(self, x: Floats) -> Floats:
-        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eqs. (5.17), (5.46)"""
+        """Displacement of all degrees of freedom and scalar unknowns from the unknowns. eqs. (5.17), (5.46)"""
         unknowns = self.unknowns
         if not unknowns:
             return self._extend_nodes(x)
@@ -190,7 +190,7 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
             u += value * self.displacement_of_supports(unknown.rates)
         return np.concatenate([u, z])
 
-    # Inside --------------------------------------------------------------------------------------------------
+    # Internal ------------------------------------------------------------------------------------------------
 
     @cached_property
     def _positions(self) -> Floats:

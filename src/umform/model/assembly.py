@@ -1,4 +1,4 @@
-"""Unknowns, pattern and scatter maps of a model, made once for a set of supports and terms."""
+"""Unknowns, pattern and scatter maps of a model, built once for a set of supports and terms."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Assembly:
     Parameters
     ----------
     terms : sequence of Term
-        What adds to the tangent.
+        Terms of the tangent.
     constrained : ndarray of bool, shape (3 n,)
         Degrees of freedom that are held or prescribed.
     pairs : ndarray of int, shape (k, 2)
@@ -33,7 +33,7 @@ class Assembly:
     groups : Groups
         Constraints in local axes.
     ranks : Ranks
-        Who shares the model.
+        Ranks that share the model.
     """
 
     def __init__(
@@ -59,5 +59,5 @@ class Assembly:
             self.pattern, self._reduction = self.unknowns.reduction(detailed.rows, detailed.indices, detailed.symmetric)
 
     def reduce(self, values: Floats) -> Floats:
-        """Entries over the unknowns from those over the equations of the elements. eq. (5.19)"""
+        """Map entries from the equations of the elements to the unknowns. eq. (5.19)"""
         return values if self._reduction is None else self._reduction(values)

@@ -1,4 +1,4 @@
-"""Local axes that supports may be given in: a turned Cartesian frame, or cylindrical coordinates.
+"""Local axes for supports: a rotated Cartesian frame, or cylindrical coordinates.
 
 The directions are those of the undeformed mesh, one frame for each node. docs/theory, 5.10
 """
@@ -16,12 +16,12 @@ from umform.surfaces import Direction, unit_vector
 
 Floats = NDArray[np.float64]
 
-#: A point nearer to the axis than this share of the largest distance has no radial direction.
+#: A point nearer to the axis than this part of the largest distance has no radial direction.
 _ON_AXIS = 1e-9
 
 
 class Axes(Protocol):
-    """Three unit vectors at each point, each with a letter."""
+    """Three named unit vectors at each point."""
 
     @property
     def letters(self) -> str:
@@ -71,7 +71,7 @@ class Cylindrical:
 
 @dataclass(frozen=True)
 class Turned:
-    """Cartesian axes x, y, z that are turned.
+    """Rotated Cartesian axes x, y, z.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def cylindrical(origin: ArrayLike, axis: Direction) -> Cylindrical:
 
 
 def turned(x: Direction, y: Direction) -> Turned:
-    """Cartesian axes that are turned: x along the first vector, y in the plane of both, z normal to it.
+    """Rotated Cartesian axes: x along the first vector, y in the plane of both, z normal to it.
 
     Parameters
     ----------
@@ -164,7 +164,7 @@ def turned(x: Direction, y: Direction) -> Turned:
 
 
 def directions_at(axes: Axes, letters: str, points: Floats) -> list[tuple[str, Floats]]:
-    """The unit vectors (n, 3) at points for each letter; another letter is refused."""
+    """The unit vectors (n, 3) at points for each letter; unknown letters are refused."""
     for letter in letters:
         if letter not in axes.letters:
             raise InvalidValue(
@@ -184,7 +184,7 @@ def unit_normals(normals: ArrayLike, count: int) -> Floats:
     Raises
     ------
     InvalidValue
-        If there are not so many, or one has no length.
+        If their number is wrong, or one has no length.
     """
     given = np.asarray(normals, dtype=float)
     if given.shape not in ((3,), (count, 3)):

@@ -22,11 +22,11 @@ class Beaded(Touched):
     others: list[Term]
 
     def add(self, term: Term) -> Term:
-        """Let a term of another kind add to the residual."""
+        """Add a term of another kind to the residual."""
         raise NotImplementedError
 
     def pairs_of_tools(self) -> list[Contact]:
-        """All that touches tools: contacts, and beads."""
+        """All terms that involve tools: contacts, and beads."""
         return [*self.contacts, *(term for term in self.others if isinstance(term, Bead))]
 
     def bead(
@@ -43,7 +43,7 @@ class Beaded(Touched):
         points: int | None = None,
         name: str = "",
     ) -> Bead:
-        """Let a line on a tool hold the sheet back, in place of a draw bead of real geometry.
+        """Add an equivalent draw bead: a line on a tool that restrains the sheet, in place of a modelled bead.
 
         The tool must touch the sheet by a :meth:`contact` as well: a bead acts in full up to a gap of a quarter of
         the thickness, and not at all from half of it on.
@@ -55,33 +55,33 @@ class Beaded(Touched):
         tool : Tool or Contact
             The tool that the line lies on, or a pair that touches it.
         curve : array_like, shape (k, 3)
-            Corners of the line, on the tool where it stood when the model was made.
+            Corners of the line on the tool, in its initial position.
         restraint : float
-            Force per length that a sheet which is drawn across the line must overcome. `umform bead` finds it from
-            the section of a bead.
+            Force per length of the line to draw the sheet across it. `umform bead` computes it from the section of a
+            bead.
         uplift : float
-            Force per length that pushes the sheet off the tool, as a bead does while it bends the sheet.
+            Force per length of the line that lifts the sheet off the tool, as a bead does while it bends the sheet.
         width : float
-            Width of the band that the forces are spread over, by a smooth hat.
+            Width of the band over which a smooth hat function spreads the forces.
         closed : bool
             Join the last point to the first.
         slip : float, optional
             Allowed elastic slip; default 1/200 of the thickness.
         points : int, optional
-            Gauss points per direction and facet, 1 to 10; default as many as the band asks for. eq. (4.105)
+            Gauss points per direction and facet, 1 to 10; default: as many as the band needs. eq. (4.105)
         name : str, optional
             For the history: the columns ``<name>_restraint`` and ``_lift`` are the sums of these forces, ``_work`` is
             the work of the restraint; ``_active`` and ``_slipping`` count points in the band.
 
         Returns
         -------
-        Bead
+        The bead; its forces are part of those of the tool.
             The bead; its forces are among those of the tool.
 
         Raises
         ------
         InvalidBead
-            If a number is out of range, or the line is none or lies beside its tool.
+            If a number is out of range, or the line is invalid or not on its tool.
         InvalidValue
             If the name is taken.
         """

@@ -1,4 +1,4 @@
-"""The bodies of a model; a model of one body gives its element, its law and its elements by their own names."""
+"""The bodies of a model; a model with one body exposes the body's element and law directly."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Embodied:
     bodies: list[Body]
 
     def _embody(self, bodies: Sequence[Body]) -> None:
-        """Stand bodies on the mesh.
+        """Attach bodies to the mesh.
 
         Raises
         ------

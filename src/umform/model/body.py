@@ -1,4 +1,4 @@
-"""A body: cells of the mesh, their element, their law, and the direction of rolling; a model has one or more."""
+"""A body: cells of the mesh, their element, their law, and the rolling direction; a model has one or more."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Numbers = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class BodyFound(Found):
-    """What came out of the evaluation of a body.
+    """Result of the evaluation of a body.
 
     Attributes
     ----------
@@ -52,18 +52,18 @@ class Body(Term):
     Parameters
     ----------
     element : str or Element
-        Name in the catalogue (:data:`umform.elements.CATALOGUE`) or an element of your own.
+        Name in the catalogue (:data:`umform.elements.CATALOGUE`), or your own element.
     material : Material
-        SVK, NeoHooke, NeoHookePower, J2 or a law of your own.
+        SVK, NeoHooke, NeoHookePower, J2, Metal, or your own law.
     cells : array_like or callable, optional
-        Numbers of the cells, a mask, or a predicate of the coordinates x, y, z of their centres; default all cells.
+        Indices of the cells, a mask, or a predicate of the coordinates x, y, z of their centres; default all cells.
     name : str
         For messages and fields.
     thickness_points : int, optional
         Points through the thickness, 2 to 20, at least thickness_order + 1. Default: 2 with an elastic law, 12 with a
         plastic one; the elements without an enhanced thickness strain have 5.
     thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
-        Where they lie; default gauss, but graded where the 12 points are the default.
+        Quadrature rule; default gauss, but graded if the default of 12 points applies.
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional
         Rolling direction of the sheet, or that of each cell, or a function of the coordinates x, y, z of the centres of
         the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of the local axes is its projection onto
@@ -76,7 +76,7 @@ class Body(Term):
     Raises
     ------
     InvalidValue
-        If an option does not fit.
+        If an option is invalid.
 
     Examples
     --------
@@ -137,12 +137,12 @@ class Body(Term):
         self.before = np.empty(0)
 
     def on(self, mesh: Mesh) -> Self:
-        """Stand on the cells of a mesh.
+        """Attach the body to the cells of a mesh.
 
         Raises
         ------
         WrongCellType
-            If the element does not stand on the cells of the mesh.
+            If the element needs another cell type.
         EmptySet
             If no cell is selected.
         """
@@ -152,9 +152,9 @@ class Body(Term):
                 remedy=f"make the mesh with cell={self.element.cell!r}, or take an element for {mesh.cell}",
             )
         self.mesh = mesh
-        #: Numbers of its cells in the mesh.
+        #: Indices of its cells in the mesh.
         self.cells: Numbers = cell_numbers(mesh, self._selection, self.name)
-        #: Rolling direction, or that of each of its cells.
+        #: Rolling direction, or one for each cell.
         self.rolling = rolling_directions(self._given_rolling, self._centres())
         self._numbers = self.cells
         return self
@@ -176,14 +176,14 @@ class Body(Term):
 
     @cached_property
     def block(self) -> _core.ShellBlock:
-        """Its elements with their history: large, so made when first asked for.
+        """Its elements with their history; large, therefore built on demand.
 
         Raises
         ------
         ModelError
-            If the model was solved on many ranks: they have its history.
+            If the model was solved on many ranks, which hold its history.
         InvalidValue
-            If the rolling direction stands on the sheet somewhere.
+            If the rolling direction is normal to the sheet somewhere.
         """
         if self.elsewhere:
             raise not_here("the history of the elements")
@@ -204,12 +204,12 @@ class Body(Term):
 
     @property
     def symmetric(self) -> bool:  # type: ignore[override]
-        """Whether the tangent of its law is."""
+        """Whether the tangent of its law is symmetric."""
         return self.block.symmetric
 
     @property
     def begun(self) -> bool:
-        """Whether its elements have been made, and may have a history."""
+        """Whether its elements have been built, and may have a history."""
         return "block" in vars(self)
 
     # Term ----------------------------------------------------------------------------------------------------
@@ -228,7 +228,7 @@ class Body(Term):
         return BodyFound(scale, failed=failed, failure=failure, flows=self.block.flowing)
 
     def _at_point(self, cell: int, u: Floats) -> str:
-        """Where in a cell its law has no answer, in words; nothing if it has failed for another reason."""
+        """Point of a cell at which its law failed, as text; empty if it failed for another reason."""
         point, E = self.block.failing_point(cell, u)
         if point < 0:
             return ""
@@ -244,24 +244,24 @@ class Body(Term):
         self.block.recover(du, mixed)
 
     def follow(self) -> None:
-        """Recover next from the forces that were evaluated last, with the tangent of before."""
+        """Recover next from the last evaluated forces, with the previous tangent."""
         self.block.follow()
 
     def shorten(self, part: float) -> None:
-        """Shorten the last change of the enhanced parameters. eq. (5.12)"""
+        """Scale the last change of the enhanced parameters. eq. (5.12)"""
         self.block.shorten(part)
 
     def commit(self, found: Found) -> None:
-        """Make the trial history the converged one."""
+        """Accept the trial history as converged."""
         self.before = self.block.state
         self.block.commit()
 
     def go_back(self, before: Floats) -> None:
-        """Take the history that the evaluation of the converged state had read."""
+        """Restore the history that the evaluation of the converged state used as input."""
         self.block.restore(before, self.block.alpha)
 
     def revert(self) -> None:
-        """Go back to the converged history."""
+        """Return to the converged history."""
         self.block.revert()
 
     def state(self) -> Tree:
@@ -269,7 +269,7 @@ class Body(Term):
         return {"history": self.block.state, "alpha": self.block.alpha}
 
     def restore(self, tree: Tree) -> None:
-        """Put a history back."""
+        """Restore a history."""
         self.block.restore(tree["history"], tree["alpha"])
 
     def energies(self, found: Found, u: Floats) -> Energies:
@@ -279,13 +279,13 @@ class Body(Term):
     # Ranks ---------------------------------------------------------------------------------------------------
 
     def strip(self, bare: Self, twins: Twins) -> None:
-        """Without cells and history, and without what chose them."""
+        """Remove cells and history, and their selection."""
         for made in ("block", "mesh", "cells", "rolling", "_numbers", "_selection", "_given_rolling"):
             bare.__dict__.pop(made, None)
         bare.before = np.empty(0)
 
     def piece(self, cut: Cut) -> dict[str, Any]:
-        """Cells of the rank: their numbers there, as rows of this body and in the whole model; their history."""
+        """Cells of the rank: their indices on the rank, as rows of this body and in the whole model; their history."""
         here, rows = cut.cells_of(self.cells)
         history = {name: values[rows] for name, values in self.state().items()} if self.begun else None
         each = self.rolling is not None and self.rolling.ndim == 2
@@ -293,7 +293,7 @@ class Body(Term):
         return {"cells": here, "rows": rows, "numbers": self.cells[rows], "rolling": rolling, "history": history}
 
     def fill(self, piece: dict[str, Any], mesh: Mesh) -> None:
-        """Take cells, rolling directions and history."""
+        """Set cells, rolling directions and history."""
         self.mesh, self.cells, self.rows = mesh, piece["cells"], piece["rows"]
         self._numbers, self.rolling, history = piece["numbers"], piece["rolling"], piece["history"]
         if history is not None:

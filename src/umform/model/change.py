@@ -1,4 +1,4 @@
-"""How much a body has changed from one converged state to the next: turning of its fibres, plastic strain."""
+"""Change of a body between converged states: rotation of its fibres, plastic strain."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ Floats = NDArray[np.float64]
 
 
 def turned(body: Body, before: Floats, after: Floats) -> float:
-    """Largest angle in degrees that a fibre through the thickness has turned between two displacements, (3 n,)."""
+    """Largest angle in degrees by which a fibre through the thickness rotates between two displacements, (3 n,)."""
     X, cells = body.mesh.points, body.connectivity
     half = cells.shape[1] // 2
-    lower, upper = cells[:, :half].ravel(), cells[:, half:].ravel()  # to find those that cells share takes longer
+    lower, upper = cells[:, :half].ravel(), cells[:, half:].ravel()  # finding duplicates takes longer
     fibres = [_fibres(X + u.reshape(-1, 3), lower, upper) for u in (before, after)]
     chord = np.linalg.norm(fibres[1] - fibres[0], axis=1).max()
     return float(np.degrees(2.0 * np.arcsin(min(0.5 * chord, 1.0))))
@@ -27,7 +27,7 @@ def _fibres(x: Floats, lower: NDArray[np.int32], upper: NDArray[np.int32]) -> Fl
 
 
 def strained(body: Body) -> float:
-    """Largest growth of the accumulated plastic strain in the last increment; zero for laws that name none ``eqps``."""
+    """Largest increase of the accumulated plastic strain in the last increment; zero for laws without ``eqps``."""
     names = body.block.state_names
     if "eqps" not in names or not body.before.size:
         return 0.0

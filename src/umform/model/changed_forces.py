@@ -1,4 +1,4 @@
-"""What a change of contact forces changes in the residual: at the nodes, and in the balance of pressed tools."""
+"""Change of the residual due to a change of contact forces: at the nodes, and in the balance of pressed tools."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ Floats = NDArray[np.float64]
 
 
 def changed_residual(model: Assembled, evaluation: Evaluation, parts: Mapping[Contact, Floats]) -> Floats:
-    """Change of the residual with nodal forces of contacts. eqs. (4.35), (4.39), (4.61)
+    """Change of the residual due to nodal forces of contacts. eqs. (4.35), (4.39), (4.61)
 
     Parameters
     ----------
     model : Assembled
         The model.
     evaluation : Evaluation
-        Where it stands.
+        Evaluation at the current state.
     parts : mapping of Contact to ndarray, shape (3 n,)
         Change of the nodal forces of each contact.
 

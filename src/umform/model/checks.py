@@ -1,4 +1,4 @@
-"""Reject models that cannot be solved as they stand, before time is spent on them."""
+"""Reject models that cannot be solved, before the run starts."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ Floats = NDArray[np.float64]
 
 
 def check_model(model: Evaluated) -> None:
-    """Look at nodes, supports and tools.
+    """Check nodes, supports and tools.
 
     Raises
     ------
     RigidBodyMotion
-        If supports and tools in touch leave a rigid-body motion free, or a node belongs to no cell.
+        If supports and touching tools leave a rigid-body motion free, or a node belongs to no cell.
     ToolSwallowsSheet
         If a tool overlaps the sheet by more than half of its thickness.
     """
@@ -55,7 +55,7 @@ def middle(model: Evaluated, points: Floats | None = None) -> tuple[Floats, floa
 
 
 def check_held(model: Evaluated) -> None:
-    """Reject supports that leave a rigid-body motion free, and tools that swallow the sheet."""
+    """Reject supports that leave a rigid-body motion free, and tools that overlap the sheet too much."""
     problem = None
     try:
         touched = [*_touching(model), *_sprung(model)]
@@ -77,7 +77,7 @@ def check_held(model: Evaluated) -> None:
 
 
 def free_now(model: Evaluated) -> list[str]:
-    """Rigid-body motions that supports, tools in touch and springs leave free at the present state, in words.
+    """Rigid-body motions that supports, touching tools and springs leave free at the present state, as text.
 
     Raises
     ------
@@ -88,7 +88,7 @@ def free_now(model: Evaluated) -> list[str]:
 
 
 def free_in_touch(model: Evaluated) -> list[str]:
-    """Rigid-body motions that would be free if all contact points touched, in words."""
+    """Rigid-body motions that would be free if all contact points touched, as text."""
     pairs = [pair for pair in model.contacts if len(pair.facets) > 0 and not pair.tool.open]
     held = []
     for pair in pairs:
@@ -99,14 +99,14 @@ def free_in_touch(model: Evaluated) -> list[str]:
 
 
 def free_motions(model: Evaluated, touched: Sequence[tuple[Floats, Floats]] = ()) -> list[str]:
-    """Rigid-body motions that supports and tools leave free at the present displacement of the model, in words.
+    """Rigid-body motions that supports and tools leave free at the present displacement of the model, as text.
 
     Parameters
     ----------
     model : Model
         The model at ``model.u``.
     touched : sequence of (positions, normals)
-        Points that tools hold, and the directions in which they do.
+        Points held by tools, and the directions in which they are held.
     """
     points = model.mesh.points + model.u.reshape(-1, 3)
     centre, size = middle(model, points)
@@ -120,16 +120,16 @@ def left_free(model: Evaluated, modes: Floats, more: Sequence[Floats] = ()) -> F
     rows = [modes[:, np.flatnonzero(model.constrained())].T]
     rows += [modes[:, tie.dofs].mean(axis=-1).T for tie in model.ties]
     rows += [np.einsum("mkd,kd->km", modes[:, part.dofs], part.weights) for part in model.rows]
-    matrix = model.ranks.rows(np.concatenate([np.zeros((6, 6)), *rows, *more]))  # six rows: all six directions come out
+    matrix = model.ranks.rows(np.concatenate([np.zeros((6, 6)), *rows, *more]))  # six rows give all six directions
     _, singular, directions = np.linalg.svd(matrix, full_matrices=False)
     rank = int((singular > 1e-8 * max(singular.max(), 1e-300)).sum())
     return np.asarray(directions[rank:])
 
 
 def diagnosis(model: Evaluated) -> tuple[str, str] | None:
-    """Cause and remedy where a rigid-body motion of the model is free at its present state, or held by tools alone.
+    """Cause and remedy if a rigid-body motion of the model is free at its present state, or constrained by tools only.
 
-    Asked when an increment has failed; None where supports hold the sheet.
+    Used after a failed increment; None if supports hold the sheet.
     """
     without = free_motions(model, list(_sprung(model)))
     if not without:
@@ -148,7 +148,9 @@ def diagnosis(model: Evaluated) -> tuple[str, str] | None:
 
 
 def held_by_tools(model: Evaluated, evaluation: Evaluation) -> bool:
-    """Whether tools and supports hold the sheet as a rigid body: along normals, and all ways where friction sticks."""
+    """Whether tools and supports hold the sheet as a rigid body: along normals, and in all directions where friction
+    sticks.
+    """
     touched = []
     for contact in model.contacts:
         found = evaluation.found[contact]
@@ -195,7 +197,7 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
                 cause="the point lies on the axis or the centre of the tool",
                 remedy="move the tool so that it just touches the sheet",
             )
-        gap = contact.gap((mesh.points + model.u.reshape(-1, 3))[contact.nodes])  # the far face tells a wrong side
+        gap = contact.gap((mesh.points + model.u.reshape(-1, 3))[contact.nodes])  # the far face has the wrong sign
         deepest = int(np.argmin(gap))
         if gap[deepest] < -0.5 * thickness:
             raise ToolSwallowsSheet(
@@ -209,19 +211,19 @@ def _touching(model: Evaluated) -> Iterator[tuple[Floats, Floats]]:
 
 
 def _held_by(contact: Contact, at: ContactFound) -> Iterator[tuple[Floats, Floats]]:
-    """Positions of the points that a tool holds, and the directions in which it does."""
+    """Positions of the points that a tool holds, and the directions of the constraint."""
     yield from _directions(contact, at.x[at.active], at.normal[at.active])
 
 
 def _directions(contact: Contact, x: Floats, normals: Floats) -> list[tuple[Floats, Floats]]:
-    """Points of a tool with the directions in which it holds them: the normals, with friction all."""
+    """Points of a tool with the directions of the constraint: the normals, with friction all directions."""
     if contact.friction is None:
         return [(x, normals)]
     return [(x, np.broadcast_to(direction, x.shape)) for direction in np.eye(3)]
 
 
 def _motion_along(x: Floats, n: Floats, centre: Floats, size: float) -> Floats:
-    """Normal velocity of contact points in the six rigid modes: rows of the constraint matrix."""
+    """Normal velocity of contact points in the six rigid-body modes: rows of the constraint matrix."""
     arm = (x - centre) / size
     return np.concatenate([n, np.cross(arm, n)], axis=1)
 

@@ -1,7 +1,7 @@
-"""Linear constraints on a few degrees of freedom each: a row of weights, and what their weighted sum is.
+"""Linear constraints on a few degrees of freedom each: weights, and the value of the weighted sum.
 
-Rows that share a degree of freedom make a group. An orthonormal basis of its null space gives the columns of T, and the
-displacement of least norm that meets the rows gives c in u = T q + c. docs/theory, 5.10, eqs. (5.41)-(5.43)
+Rows that share a degree of freedom form a group. An orthonormal basis of its null space gives the columns of T, and the
+displacement of least norm that satisfies the rows gives c in u = T q + c. docs/theory, 5.10, eqs. (5.41)-(5.43)
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from umform.model.control import Control
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
-#: Singular values of a group below this belong to rows that follow from the others; weights are of size one.
+#: Singular values of a group below this belong to redundant rows; weights are of order one.
 _DEPENDENT = 1e-9
 
 
@@ -34,11 +34,11 @@ class Rows:
     weights : ndarray, shape (k, m)
         Their weights.
     control : Control or None
-        What the weighted sums are; zero without one.
+        Value of the weighted sums; zero without a control.
     by : str
-        Who asks for them.
+        Name of the support.
     offsets : ndarray, shape (k,), optional
-        What the sums are instead of zero, beside the control.
+        Constant values of the sums, in addition to the control.
     """
 
     dofs: Ids
@@ -49,12 +49,12 @@ class Rows:
 
 
 class Groups:
-    """Rows that share degrees of freedom, group by group.
+    """Rows that share degrees of freedom, by groups.
 
     Parameters
     ----------
     constrained : ndarray of bool, shape (3 n,)
-        Degrees of freedom that are held or prescribed by themselves: the rows have no say over them.
+        Degrees of freedom that are held or prescribed individually; the rows do not affect them.
     rows : sequence of Rows
         The constraints.
 
@@ -63,7 +63,7 @@ class Groups:
     dofs : ndarray of int, shape (m,)
         Degrees of freedom in groups.
     count : int
-        Unknowns that are left of them.
+        Number of their remaining unknowns.
     unknown, place, weight : ndarray
         The entries of T over them: weight of an unknown (0 ... count - 1) in the degree of freedom dofs[place].
     """
@@ -123,25 +123,25 @@ class Groups:
         self._inverse = _stacked(inverse)
 
     def restrict(self, r: Floats) -> Floats:
-        """Share of the unknowns in a vector at all degrees of freedom."""
+        """Reduce a vector at all degrees of freedom to the unknowns."""
         weights = self.weight * r[self.dofs[self.place]]
         return np.bincount(self.unknown, weights=weights, minlength=self.count)[: self.count].astype(np.float64)
 
     def extend(self, x: Floats, u: Floats) -> None:
-        """Displacement of the degrees of freedom in groups that the unknowns make, written to u."""
+        """Write the displacement of the degrees of freedom in groups for given unknowns to u."""
         u[self.dofs] = np.bincount(self.place, weights=self.weight * x[self.unknown], minlength=len(self.dofs))
 
     def prescribe(self, values: Mapping[Control, float], u: Floats, offsets: bool) -> None:
-        """Displacement of least norm that meets the rows, written to u.
+        """Write the displacement of least norm that satisfies the rows to u.
 
         Parameters
         ----------
         values : mapping of Control to float
-            Values of the controls, zero where there is none.
+            Values of the controls, zero for missing ones.
         u : ndarray, shape (3 n,)
-            Has the displacement of the degrees of freedom that are held or prescribed by themselves.
+            Contains the displacement of individually held or prescribed degrees of freedom.
         offsets : bool
-            Whether the offsets of the rows count.
+            Whether to apply the offsets of the rows.
         """
         if len(self.dofs) == 0:
             return
@@ -152,7 +152,7 @@ class Groups:
         u[self.dofs] = np.bincount(place, weights=factor * wanted[row], minlength=len(self.dofs))
 
     def missed(self, values: Mapping[Control, float], u: Floats, offsets: bool) -> tuple[Rows, int] | None:
-        """A constraint that a displacement from :meth:`prescribe` does not meet, as it contradicts another one."""
+        """Find a constraint that a displacement from :meth:`prescribe` violates because it contradicts another one."""
         wanted = self._wanted(values, offsets)
         row, dof, weight, count = self._all
         off = np.abs(np.bincount(row, weights=weight * u[dof], minlength=count) - wanted)

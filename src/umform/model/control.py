@@ -1,4 +1,4 @@
-"""What a step can move: something with one value and a force that is conjugate to it."""
+"""Controls: quantities that a step can prescribe, each with a value and a conjugate force."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _T = TypeVar("_T")
 
 
 class Seen(Protocol):
-    """What a control reads of an evaluation to say its force."""
+    """Results of an evaluation that a control needs for its force."""
 
     @property
     def residual(self) -> Floats:
@@ -27,7 +27,7 @@ class Seen(Protocol):
 
     @property
     def found(self) -> Mapping[Any, Any]:
-        """What each term found."""
+        """Results of each term."""
 
     @property
     def controls(self) -> Mapping[Control, float]:
@@ -40,7 +40,7 @@ class Seen(Protocol):
 
 @dataclass(eq=False)
 class Control:
-    """Something with one value that a step can move: a prescribed displacement, a load factor, a tool.
+    """A quantity with one value that a step can prescribe: a displacement, a load factor, a tool.
 
     Attributes
     ----------
@@ -57,19 +57,19 @@ class Control:
         return f"{type(self).__name__}({self.name!r}, value={self.value:g})"
 
     def force(self, evaluation: Seen, ranks: Ranks) -> float:
-        """Force that belongs to it: a sum of reactions, the force on a tool along its way, or the load itself."""
+        """Its conjugate force: a sum of reactions, the force on a tool along its direction, or the load itself."""
         return self.value
 
     def displace(self, u: Floats, value: float) -> None:
-        """Write the displacement that it prescribes with this value into u, shape (3 n,); most prescribe none."""
+        """Write the displacement that it prescribes into u, shape (3 n,); most controls prescribe none."""
 
     # Ranks ---------------------------------------------------------------------------------------------------
 
     def strip(self, bare: Any, twins: Twins) -> None:
-        """Take out of a copy what grows with the mesh, and replace what it refers to by its twins."""
+        """Remove from a copy what grows with the mesh, and replace references by twins."""
 
     def piece(self, cut: Cut) -> Any:
-        """What a rank gets of what :meth:`strip` has taken out, in numbers of its own."""
+        """The piece of a rank, removed by :meth:`strip`, in the numbering of the rank."""
         return None
 
     def fill(self, piece: Any, mesh: Any) -> None:
@@ -85,7 +85,7 @@ class OnDofs(Control):
     dofs : ndarray of int
         The degrees of freedom.
     along : ndarray, shape (3 n,), optional
-        Displacement that the value 1 makes, where supports in local axes let more than these move with it.
+        Displacement for the value 1, where supports in local axes couple more degrees of freedom to these.
     """
 
     dofs: Ids = field(default_factory=lambda: np.empty(0, dtype=np.int32))
@@ -106,12 +106,12 @@ class OnDofs(Control):
         bare.dofs = np.empty(0, dtype=np.int32)
 
     def piece(self, cut: Cut) -> Ids:
-        """The degrees of freedom that are on the rank."""
+        """The degrees of freedom on the rank."""
         dofs = cut.dofs(self.dofs)
         return dofs[dofs >= 0]
 
     def fill(self, piece: Any, mesh: Any) -> None:
-        """Take the degrees of freedom."""
+        """Set the degrees of freedom."""
         self.dofs = piece
 
 
@@ -121,14 +121,14 @@ class Prescribed(OnDofs):
 
 
 class Twins:
-    """Copies of controls and terms without what grows with the mesh; they refer to each other as the originals do."""
+    """Copies of controls and terms without data that grow with the mesh, with the references of the originals."""
 
     def __init__(self) -> None:
         self._twin: dict[int, Any] = {}
-        self._kept: list[Any] = []  # an id is that of one thing only while the thing lives
+        self._kept: list[Any] = []  # an id is unique only while the object lives
 
     def of(self, thing: _T) -> _T:
-        """The twin of a control or a term; the same one each time."""
+        """The twin of a control or a term; always the same object."""
         if id(thing) not in self._twin:
             bare = copy.copy(thing)
             self._twin[id(thing)] = bare

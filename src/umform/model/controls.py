@@ -1,4 +1,4 @@
-"""The list of controls of a model, which its supports, its loads and its tools add to, and the register of names."""
+"""The controls of a model, from its supports, loads and tools, and the register of column names."""
 
 from __future__ import annotations
 
@@ -33,34 +33,34 @@ def columns_of(thing: Any) -> list[str]:
 
 
 class Controlled:
-    """Something with controls, and with one register of the names of all columns of its history."""
+    """Something with controls, and with a register of the names of all history columns."""
 
     def __init__(self) -> None:
         self.controls: list[Control] = []
-        self._assembled: Any = None  # made again when supports, ties, pressures or contacts change
+        self._assembled: Any = None  # rebuilt when supports, ties, pressures or contacts change
 
     def of_kind(self, kind: type[_T]) -> list[_T]:
-        """Controls of a kind, in the order in which they were made."""
+        """Controls of a class, in the order of their creation."""
         return [control for control in self.controls if isinstance(control, kind)]
 
     def _named(self) -> Iterable[Any]:
-        """Controls and terms: all that has columns in the history."""
+        """Controls and terms: all objects with columns in the history."""
         return self.controls
 
     def _columns(self) -> dict[str, str]:
-        """Each column of the history, and whose it is."""
+        """Each column of the history, and its owner."""
         taken = dict.fromkeys(COLUMNS, "the history itself")
         for thing in self._named():
             taken |= {column: f"{type(thing).__name__} {thing.name!r}" for column in columns_of(thing)}
         return taken
 
     def _refuse_taken(self, columns: Iterable[str], name: str) -> None:
-        """Reject a name whose columns another thing writes.
+        """Reject a name whose columns another object writes.
 
         Raises
         ------
         InvalidValue
-            If a column is taken.
+            If a column exists already.
         """
         taken = self._columns()
         for column in columns:
@@ -74,11 +74,11 @@ class Controlled:
                 )
 
     def forget_assembly(self) -> None:
-        """Build pattern and maps again at the next evaluation."""
+        """Rebuild pattern and maps at the next evaluation."""
         self._assembled = None
 
     def free_name(self, base: str) -> str:
-        """A name that no control has: the given one, or with a number."""
+        """An unused name for a control: the given one, possibly with a number."""
         return self._name(base)
 
     def _add(self, control: _C) -> _C:
@@ -88,7 +88,7 @@ class Controlled:
         return control
 
     def _name(self, base: str) -> str:
-        """A name that no control has, and whose columns are free."""
+        """An unused name for a control whose columns are also unused."""
         taken = self._columns()
         free = chain([base], (f"{base}{k}" for k in count(2)))
         return next(name for name in free if name not in taken and f"{name}_force" not in taken)

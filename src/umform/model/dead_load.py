@@ -25,11 +25,11 @@ class Load(Control, Term):
     timed_as = "contact"
 
     def moves_with(self, rates: Mapping[Control, float]) -> bool:
-        """Whether it has a rate itself."""
+        """Whether the load has a rate."""
         return rates.get(self, 0.0) != 0.0
 
     def evaluate(self, at: At, into: Into) -> Found:
-        """Take the load from the internal forces, and its rate from the predictor."""
+        """Subtract the load from the internal forces, and its rate from the predictor."""
         rate, value = at.rates.get(self, 0.0), at.values[self]
         if self in at.rates:
             np.subtract(into.predictor, rate * self.vector, out=into.predictor)
@@ -47,11 +47,11 @@ class Load(Control, Term):
         bare.vector = np.empty(0)
 
     def piece(self, cut: Cut) -> Floats:
-        """Forces at the nodes of the rank; those on a node that several ranks have count for its owner."""
+        """Forces at the nodes of the rank; those on a shared node count on its owner."""
         vector = np.zeros((len(cut.nodes), 3))
         vector[cut.owned] = self.vector.reshape(-1, 3)[cut.nodes[cut.owned]]
         return vector.ravel()
 
     def fill(self, piece: Any, mesh: Any) -> None:
-        """Take the forces."""
+        """Set the forces."""
         self.vector = piece

@@ -1,4 +1,4 @@
-"""What is said where the ranks of a run have what is asked for."""
+"""Error for data that only the ranks of a run hold."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from umform.errors import ModelError
 
 
 def not_here(what: str) -> ModelError:
-    """The error for what each rank had of its own elements, after a run on ranks."""
+    """The error for data of elements that only the ranks hold after a run on ranks."""
     return ModelError(
         f"{what} is not here",
         cause="the model was solved with the solver petsc, and each rank had what belongs to its own elements",

@@ -40,23 +40,23 @@ class Evaluated(Assembled):
         *,
         tangent: bool = True,
     ) -> Evaluation:
-        """Residual and tangent at ``x``, at the present values of controls and time; changes no converged history.
+        """Residual and tangent at ``x``, for the present values of controls and time; changes no converged history.
 
         Parameters
         ----------
         x : ndarray, shape (3 n + k,)
-            Displacement, and the scalar unknowns behind it.
+            Displacement, followed by the scalar unknowns.
         du : ndarray, shape (3 n + k,), optional
             Increment of the prescribed degrees of freedom, for the predictor. eq. (5.6)
         rates : mapping of Control to float, optional
-            Rates of the controls instead of ``du``: the predictor is the rate of the residual while the unknowns are
-            held. eq. (5.21)
+            Rates of the controls instead of ``du``: the predictor is the rate of the residual at fixed unknowns. eq.
+            (5.21)
         until : float, optional
-            With ``rates``, that are then changes: the time at which tools that move by a function of time arrive, whose
-            way counts too. eq. (4.37)
+            With ``rates``, which are then increments: the end time of tools whose motion is a function of time; their
+            displacement counts too. eq. (4.37)
         tangent : bool
-            Whether to evaluate the tangent; else forces only. The last tangent is then still that which
-            enhanced parameters are recovered with.
+            Whether to evaluate the tangent; else forces only. The previous tangent then remains valid for the recovery
+            of enhanced parameters.
         """
         assembly, unknowns, dofs = self._assembly(), self.unknowns, self.u.size
         u, rates = x[:dofs], rates or {}
@@ -82,7 +82,7 @@ class Evaluated(Assembled):
                 into.found[term] = term.evaluate(at, into)
 
     def _evaluate_with_scalars(self, at: At, into: Into) -> None:
-        """Terms with scalar unknowns come last: they sum over the ranks, which none may have left with an error."""
+        """Terms with scalar unknowns come last: they sum over the ranks, all of which must take part."""
         local = [term for term in self.terms if not term.unknowns]
         problem, moving = None, (at, into)
         try:
@@ -95,7 +95,7 @@ class Evaluated(Assembled):
         self._evaluate_terms([term for term in self.terms if term.unknowns], *moving)
 
     def _evaluation(self, x: Floats, at: At, into: Into, values: Floats | None) -> Evaluation:
-        """What the terms have added and found, together."""
+        """Sums of the contributions and results of the terms."""
         self._evaluations += 1
         self.timing.attempts.evaluations += 1
         k, found = len(into.border.unknowns), into.found
@@ -125,17 +125,17 @@ class Evaluated(Assembled):
         )
 
     def _values(self, scalars: Mapping[Global, float]) -> dict[Control, float]:
-        """Values of all controls, with those that scalar unknowns move where these have them."""
+        """Values of all controls, including those that scalar unknowns move."""
         values = {control: control.value for control in self.controls}
         for unknown, value in scalars.items():
             unknown.move(values, value)
         return values
 
     def _move(self, at: At, into: Into) -> tuple[At, Into]:
-        """Rates of the residual with each scalar unknown while the unknowns at nodes are held. eq. (5.47)
+        """Rates of the residual with each scalar unknown at fixed nodal unknowns. eq. (5.47)
 
-        For one unknown, if no predictor is asked for and no tool wants the rate of each pair, the terms add the rates
-        with their forces when they are evaluated at what is returned.
+        For a single unknown, without a predictor and without tools that need the rate of each pair, the terms add the
+        rates together with their forces at the returned point.
         """
         border = into.border
         if len(border.unknowns) == 1 and at.du is None and not any(tool.unknowns for tool in self.tools):
@@ -168,24 +168,24 @@ class Evaluated(Assembled):
     def recover(self, du: Floats, mixed: bool = False) -> None:
         """Update the enhanced parameters after ``u += du``. eq. (2.19)
 
-        With ``mixed`` the tangent of the evaluation that follows has the geometric stiffness of the stress that
-        ``du`` foresaw instead of the present one. eq. (5.39)
+        With ``mixed`` the tangent of the next evaluation has the geometric stiffness of the stress that ``du`` predicts
+        instead of the present one. eq. (5.39)
         """
         with self.timing.recovery:
             for term in self.terms:
                 term.recover(du[: self.u.size], mixed)
 
     def prepare(self) -> None:
-        """Let enhanced parameters be recovered from the converged state, after an attempt that failed."""
+        """Recover enhanced parameters from the converged state after a failed attempt."""
         if self.ranks.any(not all(body.block.keeps_blocks for body in self.bodies if len(body.cells))):
             self.evaluate(self.x)
 
     def follow(self) -> None:
-        """After forces alone were evaluated: let :meth:`recover` take them next, with the tangent of before."""
+        """After an evaluation of forces only: let :meth:`recover` use them, with the previous tangent."""
         for term in self.terms:
             term.follow()
 
     def shorten(self, part: float) -> None:
-        """Shorten the change of the last :meth:`recover` to a part of it. eq. (5.12)"""
+        """Scale the change of the last :meth:`recover`. eq. (5.12)"""
         for term in self.terms:
             term.shorten(part)

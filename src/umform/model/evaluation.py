@@ -1,4 +1,4 @@
-"""What an evaluation of a model gives; it owns what was found, so nothing depends on which evaluation was the last."""
+"""Result of an evaluation of a model; it owns its data, so it stays valid after later evaluations."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Evaluation:
-    """Residual and tangent at a displacement, and what each term found there.
+    """Residual and tangent at a displacement, and the results of each term.
 
     Attributes
     ----------
     x : ndarray, shape (3 n + k,)
-        Displacement, and the scalar unknowns behind it.
+        Displacement, followed by the scalar unknowns.
     time : float
         Time.
     controls : mapping of Control to float
@@ -36,22 +36,22 @@ class Evaluation:
     values : ndarray
         Entries of the tangent over the unknowns, in the order of :attr:`Model.pattern`; empty of forces alone.
     predictor : ndarray, shape (3 n + k,)
-        Tangent times the increment of the prescribed degrees of freedom, or rate of the residual at held unknowns; zero
-        where neither was asked for.
+        Tangent times the increment of the prescribed degrees of freedom, or rate of the residual at fixed unknowns;
+        zero if neither was requested.
     force_scale : float
         Root of the sum of squares of all element forces, the scale of a residual. eq. (5.8)
     failed : int
-        First cell without an answer, or -1.
+        First cell whose evaluation failed, or -1.
     failure : str
-        Why it has none.
+        Cause of that failure.
     round_off : float
-        What a relative error of all positions makes of the residual of contact, over that error. eq. (5.36)
+        Change of the residual of contact per relative error of all positions. eq. (5.36)
     found : dict of Term to Found
-        What each term found: gaps, tractions, points that flow.
+        Results of each term: gaps, tractions, plastic points.
     border : Border
         Rows and columns of the scalar unknowns.
     number : int
-        Counts the evaluations of the model.
+        Counter of the evaluations of the model.
     """
 
     x: Floats
@@ -75,13 +75,13 @@ class Evaluation:
 
     @cached_property
     def status(self) -> NDArray[np.uint8]:
-        """0 for each contact point that is open, 1 if a tool holds it, 2 if it slips as well; over all contacts."""
+        """0 for each open contact point, 1 if a tool holds it, 2 if it also slips; over all contacts."""
         joined: NDArray[np.uint8] = _joined([found.status for found in self.found.values()], np.dtype(np.uint8))
         return joined
 
     @cached_property
     def active(self) -> NDArray[np.bool_]:
-        """Which contact points tools hold, over all contacts."""
+        """Mask of the held contact points, over all contacts."""
         return self.status > 0
 
     @cached_property
@@ -91,18 +91,18 @@ class Evaluation:
         return joined
 
     def without_tangent(self) -> Self:
-        """The same without the entries of the tangent, whose memory the next one may take."""
+        """The same without the entries of the tangent, whose memory the next evaluation may reuse."""
         bare = copy(self)
         object.__setattr__(bare, "values", np.empty(0))
         return bare
 
     def at_points(self, chosen: NDArray[np.bool_]) -> str:
-        """Where some of the contact points are, in words for a message: ": 3 points of die, one near (12, 0, 0.5)".
+        """Positions of some contact points as text for a message: ": 3 points of die, one near (12, 0, 0.5)".
 
         Parameters
         ----------
         chosen : ndarray of bool
-            As long as :attr:`active`.
+            Mask of the length of :attr:`active`.
         """
         places, start = [], 0
         for term, found in self.found.items():
@@ -115,12 +115,12 @@ class Evaluation:
         return ": " + "; ".join(places) if places else ""
 
     def touching(self, ranks: Ranks) -> bool:
-        """Whether a tool holds the sheet anywhere."""
+        """Whether a tool touches the sheet anywhere."""
         return ranks.any(bool(self.active.any()))
 
 
 def _joined(parts: list[Any], kind: np.dtype[Any]) -> Any:
-    """Arrays behind each other; that of the only one that is not empty as it is."""
+    """Concatenate arrays; a single non-empty array is returned as it is."""
     full = [part for part in parts if part.size]
     if len(full) == 1:
         return full[0]
@@ -128,6 +128,6 @@ def _joined(parts: list[Any], kind: np.dtype[Any]) -> Any:
 
 
 def first_failure(found: Mapping[Term, Found]) -> tuple[int, str]:
-    """First cell without an answer and why, or -1."""
+    """First cell that failed and why, or -1."""
     failed = [(one.failed, one.failure) for one in found.values() if one.failed >= 0]
     return min(failed) if failed else (-1, "")

@@ -28,7 +28,7 @@ def vector3(values: ArrayLike, where: str) -> Floats:
 
 
 def _natural_grid(fixed: dict[int, float], nodes: int) -> tuple[Floats, Floats]:
-    """Gauss points of a cell, face or edge: natural coordinates and weights; `fixed` pins some of r, s, t."""
+    """Gauss points of a cell, face or edge: natural coordinates and weights; `fixed` prescribes some of r, s, t."""
     x, w = _core.gauss(2 if nodes == 8 else 3)
     one = np.ones(1)
     axes = [(np.array([fixed[i]]), one) if i in fixed else (x, w) for i in range(3)]
@@ -108,7 +108,7 @@ def nodal_forces(mesh: Mesh, nodes: Selector, force: ArrayLike) -> Floats:
 def rigid_body_modes(points: Floats, centre: Floats | None = None, size: float | None = None) -> Floats:
     """Three translations and three rotations about a centre, 1 at the distance ``size`` from it; shape (6, 3 n).
 
-    The centre is that of the points, and the size its largest distance, unless they are given.
+    The centre and size default to the mean of the points and the largest distance from it.
     """
     centred = points - (points.mean(axis=0) if centre is None else centre)
     size = max(float(np.abs(centred).max()), 1e-300) if size is None else size

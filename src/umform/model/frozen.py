@@ -1,4 +1,4 @@
-"""What is fixed when a thing is made: a later change would have no effect, so it is refused."""
+"""Attributes that are fixed at construction: a later change would have no effect and is refused."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""A support that holds the sheet as a rigid body and no more: six degrees of freedom, or those that others leave free.
+"""A statically determinate support: it holds the rigid-body modes that other supports leave free.
 
-Where external forces balance, its reactions are zero: a part that is held by it is free of them. docs/theory, 4.18
+If external forces balance, its reactions are zero: it does not load the part. docs/theory, 4.18
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from umform.model.support import Support
 
 
 def gauge_dofs(model: Evaluated, nodes: Ids, gone: Sequence[Support] = ()) -> Ids:
-    """Degrees of freedom of nodes that hold what the supports leave free, as far apart as can be.
+    """Degrees of freedom of nodes that hold the free rigid-body modes, as far apart as possible.
 
     Parameters
     ----------
@@ -28,12 +28,12 @@ def gauge_dofs(model: Evaluated, nodes: Ids, gone: Sequence[Support] = ()) -> Id
     nodes : ndarray of int
         Nodes that may be held.
     gone : sequence of Support
-        Supports that will not act any more.
+        Supports that will be removed.
 
     Raises
     ------
     InvalidValue
-        If the supports leave nothing free, these nodes cannot hold it, or one that is to go does not act.
+        If the supports leave no mode free, these nodes cannot hold it, or a support to remove is inactive.
     """
     with _without(model, gone):
         return _dofs(model, nodes)
@@ -41,7 +41,7 @@ def gauge_dofs(model: Evaluated, nodes: Ids, gone: Sequence[Support] = ()) -> Id
 
 @contextmanager
 def _without(model: Evaluated, gone: Sequence[Support]) -> Iterator[None]:
-    """The model while some of its supports do not act."""
+    """The model with some of its supports inactive."""
     for support in gone:
         if support not in model.supports:
             raise InvalidValue(

@@ -1,4 +1,4 @@
-"""What all supports of a model together hold, and the displacement that they prescribe; they may not contradict."""
+"""The combined supports of a model, and the displacement that they prescribe; contradictions are refused."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ HELD = "fix or symmetry"
 
 
 class Held(Controlled):
-    """The supports of a model, as they were asked for and as they act together.
+    """The supports of a model, individually and combined.
 
     Parameters
     ----------
@@ -47,32 +47,32 @@ class Held(Controlled):
 
     @property
     def supports(self) -> list[Support]:
-        """Supports that act, in the order in which they were put in place; those of controls are not among them."""
+        """Active supports in the order of activation, without those of controls."""
         return [support for support in self.all_supports if not support.removed]
 
     @property
     def all_supports(self) -> list[Support]:
-        """The supports, also those that have been removed and may be put back."""
+        """The supports, including removed ones."""
         return [holder for holder in self._holders if holder.control is None]
 
     @property
     def holders(self) -> list[Support]:
-        """All that holds nodes: supports and what belongs to controls, also those that have been removed."""
+        """All objects that hold nodes: supports and controls, including removed ones."""
         return self._holders
 
     def hold_again(self) -> None:
-        """Let the supports act as they stand, after one of them has been removed, put back or moved."""
+        """Apply the supports again after one of them has been removed, restored or moved."""
         self._support(self._holders)
 
     def wait(self, nodes: Ids, dofs: Ids, name: str) -> Support:
-        """A support of degrees of freedom that does not act before it is put in place."""
+        """A support of degrees of freedom that is inactive until it is restored."""
         support = self._new(HELD, "all", nodes, False, name)
         support.held, support.removed, support.waits = dofs, True, True
         self._holders = [*self._holders, support]
         return support
 
     def constrained(self) -> NDArray[np.bool_]:
-        """Which degrees of freedom are held or prescribed; tied ones and those in local axes are not."""
+        """Mask of degrees of freedom that are held or prescribed, without tied ones and those in local axes."""
         return _constrained(self._fixed, self.of_kind(Prescribed))
 
     @property
@@ -87,12 +87,12 @@ class Held(Controlled):
 
     @property
     def unknown_count(self) -> int:
-        """Number of unknowns: degrees of freedom that are not held; two that are tied make one."""
+        """Number of unknowns: degrees of freedom that are not held; a tied pair counts once."""
         groups = self.groups
         return int((~self.constrained()).sum()) - len(self.pairs) - len(groups.dofs) + groups.count
 
     def displacement_of_supports(self, values: Mapping[Control, float]) -> Floats:
-        """Displacement that supports prescribe if their controls have these values (others zero); zero elsewhere.
+        """Displacement that supports prescribe for given values of the controls (others zero); zero elsewhere.
 
         Parameters
         ----------
@@ -117,7 +117,7 @@ class Held(Controlled):
         groups: Groups,
         holders: Sequence[Support] = (),
     ) -> Floats:
-        """Displacement that controls prescribe; with holders, also where these hold the nodes."""
+        """Displacement that controls prescribe; with holders, also that of the supports at the nodes."""
         u = np.zeros(self._fixed.size)
         for control in controls:
             control.displace(u, values.get(control, 0.0))
@@ -129,7 +129,7 @@ class Held(Controlled):
         groups.prescribe(values, u, offsets=bool(holders))
         return u
 
-    # Inside --------------------------------------------------------------------------------------------------
+    # Internal ------------------------------------------------------------------------------------------------
 
     def _parts(self) -> tuple[Ids, Groups]:
         if self._split is None:
@@ -137,7 +137,7 @@ class Held(Controlled):
         return self._split
 
     def _new(self, kind: str, directions: str | None, nodes: Ids, base: bool, name: str) -> Support:
-        """A support that does not act yet; a name that is taken is refused."""
+        """A support that is not active yet; used names are refused."""
         taken = {support.name for support in self._holders} | {control.name for control in self.controls}
         if name in taken:
             raise InvalidValue("the name of a support is taken", value=name, remedy="give it another name")
@@ -145,24 +145,24 @@ class Held(Controlled):
         return Support(name or free, kind, directions or "all", nodes, base=self.u.copy() if base else None)
 
     def _hold(self, support: Support) -> Support:
-        """Let a support act beside the others."""
+        """Activate a support."""
         self.refuse_taken(support)
         self._support([*self._holders, support])
         return support
 
     def refuse_taken(self, support: Support) -> None:
-        """Reject a support that does not act yet, if another one holds its degrees of freedom."""
+        """Reject an inactive support if another one holds its degrees of freedom."""
         fixed = self._fixed.copy()
         fixed[support.held] = True
         taken = self._taken([tie.without_held(fixed) for tie in self.ties])
-        if support.kind == HELD:  # to hold a node twice does no harm
+        if support.kind == HELD:  # holding a node twice is harmless
             del taken[HELD]
         for dofs in [support.held, *(tie.without_held(fixed).dofs.ravel() for tie in support.ties)]:
             for number, letter in enumerate("xyz"):
                 refuse_twice(dofs[dofs % 3 == number], letter, taken, support.kind)
 
     def _drive(self, control: _C, holder: Support | None) -> _C:
-        """Add a control and what it prescribes; neither if one of them is refused."""
+        """Add a control and its prescribed displacement, or neither if one of them is refused."""
         before = self._holders
         self._support(before if holder is None else [*before, holder], [control])
         try:
@@ -172,7 +172,7 @@ class Held(Controlled):
             raise
 
     def _support(self, holders: list[Support], controls: Sequence[Control] = ()) -> None:
-        """Let these supports and those of new controls act, if they do not contradict each other."""
+        """Activate these supports and those of new controls, unless they contradict each other."""
         acting, fixed = _acting(holders), np.zeros_like(self._fixed)
         for holder in acting:
             fixed[holder.held] = True
@@ -184,11 +184,11 @@ class Held(Controlled):
         self._fixed, self.ties, self.rows, self._split, self._holders = fixed, ties, rows, split, holders
         self._assembled = None
         for control in every:
-            if isinstance(control, OnDofs):  # what moves with the control may be more than its own degrees of freedom
+            if isinstance(control, OnDofs):  # a control may move more than its degrees of freedom
                 control.along = self._displacement({control: 1.0}, every, split[1]) if rows else None
 
     def _refuse_contradictions(self, groups: Groups, controls: Sequence[Control], holders: list[Support]) -> None:
-        """Each control in turn moves alone, then none does: what the constraints ask for must be met each time."""
+        """Move each control alone, then none: the constraints must be satisfied each time."""
         if not groups.rows:
             return
         moved = [control for control in controls if isinstance(control, OnDofs)]
@@ -202,7 +202,7 @@ class Held(Controlled):
                 raise _twice(int(part.dofs[number, 0]) // 3, "of local axes", other, part.by)
 
     def _taken(self, ties: Sequence[Tie]) -> dict[str, Ids]:
-        """Degrees of freedom that are held or prescribed already, and by whom."""
+        """Degrees of freedom that are already held or prescribed, and by which support."""
         taken = {HELD: np.flatnonzero(self._fixed).astype(np.int32)}
         taken |= {control.name: control.dofs for control in self.of_kind(Prescribed)}
         for tie in ties:
@@ -212,7 +212,7 @@ class Held(Controlled):
 
 
 def refuse_twice(dofs: Ids, direction: str, taken: Mapping[str, Ids], by: str) -> None:
-    """Reject degrees of freedom that another support holds already."""
+    """Reject degrees of freedom that another support already holds."""
     for other, theirs in taken.items():
         shared = common(dofs, theirs)
         if len(shared):

@@ -1,4 +1,4 @@
-"""Where terms are evaluated, and what they add to: residual, tangent, and the border of the scalar unknowns."""
+"""Input and output of the evaluation of terms: state, residual, tangent, and the border of the scalar unknowns."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ Ids = NDArray[np.int32]
 
 @dataclass(eq=False)
 class Global:
-    """A scalar unknown without a node: the way of a tool that a force presses, a load parameter.
+    """A scalar unknown without a node: the travel of a force-driven tool, a load parameter.
 
     Attributes
     ----------
     name : str
         Column of the history.
     rates : dict of Control to float
-        Controls that move with it, and how fast: their values are what they were plus the rate times the unknown.
+        Controls that depend on it: their values change by the rate times the unknown.
     value : float
         Converged value.
     what : str
-        What it is, for messages.
+        Description for messages.
     """
 
     name: str
@@ -39,18 +39,18 @@ class Global:
     what: str = "a scalar unknown"
 
     def move(self, values: dict[Control, float], value: float) -> None:
-        """Write what the controls that move with it are at a value of it into those of all controls."""
+        """Write the values of the dependent controls for a value of the unknown."""
         for control, rate in self.rates.items():
             values[control] += rate * (value - self.value)
 
     def strip(self, bare: Global, twins: Twins) -> None:
-        """With the twins of the controls that it moves."""
+        """The same for the twins of its controls."""
         bare.rates = twins.rates(self.rates)
 
 
 @dataclass(frozen=True)
 class At:
-    """Where terms are evaluated.
+    """State at which terms are evaluated.
 
     Attributes
     ----------
@@ -59,15 +59,15 @@ class At:
     time : float
         Time.
     values : mapping of Control to float
-        Values of all controls, those that scalar unknowns move included.
+        Values of all controls, including those that scalar unknowns move.
     step : float
         Time since the converged state.
     du : ndarray, shape (3 n,), optional
-        Increment of the prescribed degrees of freedom, if the predictor is asked for.
+        Increment of the prescribed degrees of freedom, if the predictor is requested.
     rates : mapping of Control to float
         Rates of the controls, for the predictor.
     until : float, optional
-        Time at which tools that move by a function of time arrive, for the predictor. eq. (4.37)
+        End time of tools whose motion is a function of time, for the predictor. eq. (4.37)
     scalars : mapping of Global to float
         Values of the scalar unknowns.
     """
@@ -84,7 +84,8 @@ class At:
 
 @dataclass(frozen=True)
 class Border:
-    """What scalar unknowns add to the tangent: [[K, columns], [rows, corner]], and the residuals of their equations.
+    """Border of the tangent due to scalar unknowns: [[K, columns], [rows, corner]], and the residuals of their
+    equations.
 
     Attributes
     ----------
@@ -93,13 +94,13 @@ class Border:
     residual : ndarray, shape (k,)
         Residuals of their equations.
     columns : ndarray, shape (k, 3 n)
-        Rates of the residual with each of them.
+        Derivatives of the residual with respect to each of them.
     rows : ndarray, shape (k, 3 n)
-        Derivatives of their equations with the displacement.
+        Derivatives of their equations with respect to the displacement.
     corner : ndarray, shape (k, k)
-        Derivatives of their equations with them.
+        Derivatives of their equations with respect to each of them.
     predictor : ndarray, shape (k,)
-        What increments of supports and rates of controls change in their equations.
+        Change of their equations due to increments of supports and rates of controls.
     """
 
     unknowns: tuple[Global, ...]
@@ -111,39 +112,40 @@ class Border:
 
     @classmethod
     def of(cls, unknowns: tuple[Global, ...], dofs: int) -> Border:
-        """Nothing yet."""
+        """An empty border."""
         k = len(unknowns)
         return cls(unknowns, np.zeros(k), np.zeros((k, dofs)), np.zeros((k, dofs)), np.zeros((k, k)), np.zeros(k))
 
     def number(self, unknown: Global) -> int:
-        """Place of a scalar unknown."""
+        """Index of a scalar unknown."""
         return self.unknowns.index(unknown)
 
 
 @dataclass(frozen=True)
 class Into:
-    """What terms add to; arrays over all degrees of freedom, 3 * node + direction.
+    """Output of terms; arrays over all degrees of freedom, 3 * node + direction.
 
     Attributes
     ----------
     residual : ndarray, shape (3 n,)
         Internal forces minus external ones.
     values : ndarray or None
-        Entries of the tangent; None where forces alone are asked for.
+        Entries of the tangent; None if only forces are requested.
     predictor : ndarray, shape (3 n,)
         Tangent times the increment of the prescribed degrees of freedom, or rate of the residual.
     scatters : mapping of Term to sequence of Scatter
-        Where the matrices of each connectivity of a term go.
+        Scatter maps of the matrices of each connectivity of a term.
     positions : ndarray, shape (3 n,)
         Nodes of the undeformed mesh.
     ranks : Ranks
-        Who shares the model.
+        Ranks that share the model.
     border : Border
         Equations of the scalar unknowns.
     found : dict of Term to Found
-        What the terms before have found.
+        Results of the previous terms.
     moved : dict of (Term, Global) to ndarray, shape (3 n,)
-        Rate of the forces of a term with a scalar unknown that moves it; with None, with the rates of the controls.
+        Rate of the forces of a term with a scalar unknown that moves it; with None as key, with the rates of the
+        controls.
     """
 
     residual: Floats
@@ -157,7 +159,7 @@ class Into:
     moved: dict[tuple[Any, Global | None], Floats] = field(default_factory=dict)
 
     def add(self, term: Any, connectivity: Ids, forces: Floats, tangents: Floats | None, at: At, kind: int = 0) -> None:
-        """Add the forces and tangents of the parts of a term that is written in Python.
+        """Add the forces and tangents of the parts of a term written in Python.
 
         Parameters
         ----------
@@ -168,11 +170,11 @@ class Into:
         forces : ndarray, shape (parts, nodes, 3)
             Internal forces.
         tangents : ndarray, shape (parts, nodes, 3, nodes, 3), optional
-            Their derivatives; symmetric if the term is.
+            Their derivatives; symmetric if the term is symmetric.
         at : At
-            Where the term is evaluated; with ``at.du`` the predictor gets its share.
+            State of the evaluation; with ``at.du`` the predictor gets its contribution.
         kind : int
-            Which of the connectivities of :meth:`Term.couples` these parts are.
+            Index of the connectivity of these parts in :meth:`Term.couples`.
         """
         np.add.at(self.residual.reshape(-1, 3), connectivity, forces)
         if tangents is None:

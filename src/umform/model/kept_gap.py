@@ -1,4 +1,4 @@
-"""The gap that a pressed tool keeps to another one: the way at which a rigid stop has to stand. eq. (4.142)"""
+"""Rigid stop that keeps a gap between a pressed tool and another one. eq. (4.142)"""
 
 from __future__ import annotations
 
@@ -15,28 +15,28 @@ from umform.model.tool_controls import ToolMotion
 
 Floats = NDArray[np.float64]
 
-#: Cosine from which on two tools face each other, and the way leads straight from one to the other.
+#: Smallest cosine between normals and travel for which two tools face each other.
 _FACING = 0.999
 
 
 def stop_at_gap(model: Evaluated, press: Press, to: Tool, gap: float) -> tuple[float, bool]:
-    """Way at which a pressed tool stands at a gap to another one, and whether the way must not fall below it.
+    """Travel at which a pressed tool reaches a gap to another one, and whether it is a lower bound.
 
     Parameters
     ----------
     model : Model
-        The model, with the tools where they stand now.
+        The model, with the tools in their present poses.
     press : Press
-        What presses the tool along a direction.
+        The press of the moving tool along a direction.
     to : Tool
         The other tool.
     gap : float
-        Least distance between both surfaces, over the sheet.
+        Smallest distance between both surfaces, over the sheet.
 
     Raises
     ------
     InvalidValue
-        If no part of the sheet lies between them, they are nearer already, or one moves without the other.
+        If no part of the sheet lies between them, they are already nearer, or one moves without the other.
     """
     where = _where(press, to)
     _check(press, to, gap, where)
@@ -62,12 +62,12 @@ def stop_at_gap(model: Evaluated, press: Press, to: Tool, gap: float) -> tuple[f
 
 
 def check_kept_gaps(model: Evaluated) -> None:
-    """Refuse tools that keep a gap to one which has been given a way since that they do not follow.
+    """Refuse tools that keep a gap to another tool whose later motion they do not follow.
 
     Raises
     ------
     InvalidValue
-        If there are such tools: the stop that keeps the gap would stay behind.
+        If there are such tools: the stop would not move with the other tool.
     """
     for press in (press for tool in model.tools for press in tool.presses):
         for to in press.gaps:
@@ -100,7 +100,9 @@ def _check_together(press: Press, to: Tool, where: str) -> None:
 
 
 def _facing(model: Evaluated, press: Press, to: Tool) -> Iterator[Floats]:
-    """Distance (k,) between both tools at points of the sheet between them, and the sense of the way that closes it."""
+    """Distance (k,) between both tools at points of the sheet between them, and the sign of the travel that closes
+    it.
+    """
     own = press.way.tool
     direction = np.asarray(press.way.direction)  # type: ignore[attr-defined]
     for pair in [*own.pairs, *to.pairs]:
@@ -113,7 +115,7 @@ def _facing(model: Evaluated, press: Press, to: Tool) -> Iterator[Floats]:
 
 
 def _seen_from(tool: Tool, x: Floats) -> tuple[Floats, Floats]:
-    """Distance of places from a tool where it stands, and the normals there."""
+    """Distance of points from a tool in its present pose, and the normals there."""
     rotation, shift = tool.pose_now
     gap, normal, _ = tool.kernel.gap(np.ascontiguousarray((x - shift) @ rotation))
     return gap, normal @ rotation.T

@@ -96,7 +96,7 @@ class Loaded(Controlled):
         return self._load(forces.body_forces(self.mesh, force), name or self._name("body_force"))
 
     def pressure(self, faces: Selector, name: str = "") -> Pressure:
-        """Follower pressure on lower or upper faces, against their outward normal; the tangent becomes unsymmetric.
+        """Follower pressure on lower or upper faces, against their outward normal; it makes the tangent unsymmetric.
 
         Parameters
         ----------
@@ -113,7 +113,7 @@ class Loaded(Controlled):
         return self._add(Pressure.on(name or self._name("pressure"), self.mesh, self.mesh.face_set(faces)))
 
     def add_load(self, load: Load) -> Load:
-        """Add a load that has been made elsewhere."""
+        """Add an existing load."""
         return self._add(load)
 
     def _load(self, vector: Floats, name: str) -> Load:

@@ -1,4 +1,4 @@
-"""What a tangent does not resist, in words: which nodes move, and where to."""
+"""Describe a displacement that the tangent does not resist: which nodes move, and in which direction."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from umform.model.evaluated import Evaluated
 
 Floats = NDArray[np.float64]
 
-#: A node moves that goes farther than this part of the way of the one that goes farthest.
+#: A node counts as moving beyond this part of the largest displacement.
 _MOVES = 1e-3
 
 
 def loose_part(model: Evaluated, motion: Floats) -> str:
-    """Say what moves in a displacement of the unknowns at nodes: "27 of 66 nodes can move, most of all node 12 ...".
+    """Describe a displacement of the nodal unknowns: "27 of 66 nodes can move, most of all node 12 ...".
 
     Parameters
     ----------
     model : Model
         The model.
     motion : ndarray, shape (n,)
-        Displacement of the unknowns, of any size.
+        Displacement of the unknowns, of any magnitude.
     """
     everything = np.concatenate([motion, np.zeros(len(model.unknowns))])
     ways = model.extend(everything)[: model.u.size].reshape(-1, 3)

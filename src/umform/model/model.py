@@ -36,16 +36,16 @@ class Model(Standing):
     mesh : Mesh
         Points and cells.
     element : str or Element
-        Name in the catalogue (:data:`umform.elements.CATALOGUE`) or an element of your own.
+        Name in the catalogue (:data:`umform.elements.CATALOGUE`), or your own element.
     material : Material
-        SVK, NeoHooke, NeoHookePower or J2.
+        SVK, NeoHooke, NeoHookePower, J2, Metal, or your own law.
     bodies : sequence of Body, optional
-        Several bodies instead of element and material: each cell belongs to one.
+        Several bodies instead of element and material; each cell belongs to one.
     thickness_points : int, optional
         Points through the thickness, 2 to 20, at least thickness_order + 1. Default: 2 with an elastic law, 12 with a
         plastic one; the elements without an enhanced thickness strain have 5.
     thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
-        Where they lie; default gauss, but graded where the 12 points are the default.
+        Quadrature rule; default gauss, but graded if the default of 12 points applies.
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional
         Rolling direction of the sheet, or that of each cell, or a function of the coordinates x, y, z of the centres of
         the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of the local axes is its projection onto
@@ -58,14 +58,14 @@ class Model(Standing):
     Raises
     ------
     WrongCellType
-        If the element does not stand on the cells of the mesh.
+        If the element needs another cell type.
     InvalidValue
-        If an option does not fit.
+        If an option is invalid.
 
     Attributes
     ----------
     carries_loose_sheet : bool
-        Whether a run lets a sheet that nothing holds yet rest on springs until tools hold it, see :meth:`rest`.
+        Whether a run supports an initially loose sheet by weak springs until tools hold it, see :meth:`rest`.
 
     Examples
     --------
@@ -110,8 +110,8 @@ class Model(Standing):
         Parameters
         ----------
         thing : Support or Contact
-            What ``fix``, ``symmetry``, ``hinge``, ``hold_director`` or ``contact`` returned. With a contact its
-            controls go too.
+            Return value of ``fix``, ``symmetry``, ``hinge``, ``hold_director`` or ``contact``. With a contact its
+            controls are removed too.
 
         Returns
         -------
@@ -121,15 +121,15 @@ class Model(Standing):
         Raises
         ------
         InvalidValue
-            If the model does not have it, or it has been removed already.
+            If it does not belong to the model, or is already removed.
         """
         return removal.remove(self, thing)
 
     def unbalanced(self, name: str = "unbalanced") -> Load:
-        """A load of the forces that nothing balances at the present state, for a stage that begins there.
+        """A load of the unbalanced forces at the present state, for an operation that begins there.
 
-        Tools and supports of the stage before, and metal that was cut off, exerted them. Supports and tools of the
-        present stage must be there already. Move the load to zero to let the part spring back, see docs/operations.md.
+        Tools and supports of the previous operation, and metal that was cut off, exerted these forces. First add the
+        supports and tools of the present operation. Move the load to zero for springback, see docs/operations.md.
 
         Parameters
         ----------
@@ -144,7 +144,7 @@ class Model(Standing):
         Raises
         ------
         InvalidValue
-            If supports hold nodes elsewhere than they are, or the name is taken.
+            If supports hold nodes away from their present positions, or the name is taken.
         """
         return removal.balancing(self, name)
 
@@ -166,24 +166,24 @@ class Model(Standing):
     def hold_rigid(
         self, nodes: Selector = "all", name: str = "", *, instead_of: Support | Sequence[Support] = ()
     ) -> Support:
-        """Define a statically determinate support of the sheet; a step Free activates it.
+        """Define a statically determinate support of the sheet, which a step Free activates.
 
-        It holds six of them, at three nodes for one, or what the supports of the model leave free; until ``Free(...,
-        on=...)`` or :meth:`put_back` it does not act. Where no other forces act, its reactions are zero.
+        It holds the rigid-body modes that the supports of the model leave free, six at three nodes if there are none.
+        It is inactive until ``Free(..., on=...)`` or :meth:`put_back`. Without other forces its reactions are zero.
 
         Parameters
         ----------
         nodes : str, callable or array_like
-            Nodes that may be held: three that are not on a line, or all, of which those far apart are taken.
+            Nodes that may be held: three that are not on a line, or more, of which distant ones are chosen.
         name : str, optional
             Name of the support.
         instead_of : Support or sequence of Support, optional
-            Supports that the same step Free takes away: it may hold their nodes.
+            Supports that the same step Free removes; their nodes may be held.
 
         Raises
         ------
         InvalidValue
-            If the supports leave nothing free, the nodes cannot hold the sheet, or the name is taken.
+            If the supports leave no mode free, the nodes cannot hold the sheet, or the name is taken.
         """
         everything = isinstance(nodes, str) and nodes == "all"
         ids = np.arange(len(self.mesh.points), dtype=np.int32) if everything else self.mesh.nodes(nodes)
@@ -194,8 +194,8 @@ class Model(Standing):
     def rest(self, stiffness: float | None = None, name: str = "rest", *, motions: str = "") -> Rest:
         """Support a loose sheet by weak springs, removed for good once tools hold it.
 
-        A run does so by itself, with the default, where tools that its steps move will hold the sheet; set
-        :attr:`carries_loose_sheet` to False to have such a model refused instead.
+        A run does so automatically, with the default stiffness, if tools that its steps move will hold the sheet. Set
+        :attr:`carries_loose_sheet` to False to refuse such a model instead.
 
         Parameters
         ----------
@@ -205,7 +205,7 @@ class Model(Standing):
             Columns of the history: ``<name>_energy`` and ``<name>_acts``. A run warns if the springs still act at its
             end, or if their energy is more than 1e-6 of the work.
         motions : str
-            For the note of a run: the rigid-body motions that it has put the springs there for by itself.
+            For the note of a run: the rigid-body motions for which it added the springs.
         """
         if stiffness is None:
             stiffness = 1e-12 * self.largest_entry(self.evaluate(self.x).values)
@@ -215,24 +215,24 @@ class Model(Standing):
         return term
 
     def keep_gap(self, force: ToolForce, to: Contact | Tool, gap: float) -> None:
-        """Let a pressed tool keep a gap to another one: it lies on rigid distance blocks, and its force is the largest.
+        """Keep a gap between a pressed tool and another one: rigid distance blocks take the excess of its force.
 
         The force of the blocks is the column ``<name>_stop``: with the force of the sheet on the tool it balances the
-        press. Where the sheet pushes harder than the press, the tool lifts off the blocks under the force of the press.
+        press. If the sheet pushes harder than the press, the tool lifts off the blocks.
 
         Parameters
         ----------
         force : ToolForce
-            What :meth:`press` or :meth:`spring` returned for the tool.
+            Return value of :meth:`press` or :meth:`spring` for the tool.
         to : Tool or Contact
-            The other tool, or a pair that touches it; the tool that is pressed follows its ways, see :meth:`attach`.
+            The other tool, or a pair that touches it; the pressed tool must follow its motions, see :meth:`attach`.
         gap : float
-            Least distance of both, measured where they face each other across the sheet.
+            Smallest distance between both, measured where they face each other across the sheet.
 
         Raises
         ------
         InvalidValue
-            If the tools do not face each other, are nearer already, or move apart from each other.
+            If the tools do not face each other, are already nearer, or move apart from each other.
         """
         other = to if isinstance(to, Tool) else to.tool
         press = self.press_of(force)
@@ -241,6 +241,6 @@ class Model(Standing):
         press.gaps.append(other)
 
     def check(self) -> None:
-        """Reject what cannot be solved before time is spent on it, see :func:`umform.model.checks.check_model`."""
+        """Reject a model that cannot be solved, before the run starts, see :func:`umform.model.checks.check_model`."""
         check_model(self)
         check_kept_gaps(self)

@@ -1,7 +1,7 @@
 """A term of single nodes: forces between each node and the ground. Springs, foundations and dampers are such terms.
 
-What differs from one to the next is a function of the displacement of a node, :meth:`NodalTerm.respond`; assembly,
-history, checkpoints and ranks are here. docs/extending.md
+A derived class defines a function of the displacement of a node, :meth:`NodalTerm.respond`; assembly, history,
+checkpoints and ranks are implemented here. docs/extending.md
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ Ids = NDArray[np.int32]
 
 @dataclass(frozen=True)
 class NodalFound(Found):
-    """What came out of the evaluation of a nodal term.
+    """Result of the evaluation of a nodal term.
 
     Attributes
     ----------
     forces : ndarray, shape (n, 3)
-        Internal forces: the forces on the ground. Its nodes may be on other ranks too, but each counts on one.
+        Internal forces: the forces on the ground. A node shared by several ranks counts on one.
     history : ndarray, shape (n, k)
         Trial history.
     changed : ndarray of bool, shape (n,)
@@ -57,12 +57,12 @@ class NodalTerm(Term):
     nodes : array_like of int, shape (n,)
         Numbers of the nodes, ``mesh.nodes("z0")`` for instance.
     history : int
-        Numbers that each node remembers, zero at first.
+        Number of history variables per node, zero at first.
 
     Attributes
     ----------
     each_node : tuple of str
-        Names of attributes of a derived class with one row for each node; on ranks each gets those of its nodes.
+        Names of attributes of a derived class with one row for each node, which ranks divide.
     history : ndarray, shape (n, k)
         Converged history.
 
@@ -111,7 +111,7 @@ class NodalTerm(Term):
         raise NotImplementedError
 
     def energy(self, u: Floats, history: Floats) -> tuple[ArrayLike, ArrayLike]:
-        """Stored energy and spent work of each node at a converged state, shape (n,); not known by default."""
+        """Stored energy and dissipated work of each node at a converged state, shape (n,); unknown by default."""
         return np.nan, 0.0
 
     # Term ----------------------------------------------------------------------------------------------------
@@ -131,12 +131,12 @@ class NodalTerm(Term):
         return NodalFound(float((forces**2).sum()), forces=forces, history=history, changed=changed)
 
     def commit(self, found: Found) -> None:
-        """Make the trial history the converged one."""
+        """Accept the trial history as converged."""
         assert isinstance(found, NodalFound)
         self.before, self.history = self.history, found.history
 
     def go_back(self, before: Floats) -> None:
-        """Take the history that the evaluation of the converged state had read."""
+        """Restore the history that the evaluation of the converged state used as input."""
         self.history = before
 
     def state(self) -> Tree:
@@ -146,7 +146,7 @@ class NodalTerm(Term):
         return {"history": self.history} if self.history.shape[1] else {}
 
     def restore(self, tree: Tree) -> None:
-        """Put a history back."""
+        """Restore a history."""
         self.history = np.array(tree["history"], dtype=float)
 
     def energies(self, found: Found, u: Floats) -> Energies:
@@ -163,7 +163,7 @@ class NodalTerm(Term):
         return forces.ravel()
 
     def holds(self, at: At) -> tuple[Ids, Floats]:
-        """Rows of the tangents: directions in which the nodes are not free."""
+        """Rows of the tangents: directions in which the nodes are constrained."""
         tangents = self.respond(self._at_nodes(at.u), self.history, at)[1].reshape(-1, 3)
         length = np.linalg.norm(tangents, axis=1)
         stiff = length > 0.0
@@ -172,16 +172,16 @@ class NodalTerm(Term):
     # Ranks ---------------------------------------------------------------------------------------------------
 
     def strip(self, bare: Self, twins: Twins) -> None:
-        """Without nodes, and what there is for each of them."""
+        """Without nodes and nodal data."""
         for made in ("nodes", "history", "before", *self.each_node):
             bare.__dict__.pop(made, None)
 
     def piece(self, cut: Cut) -> dict[str, Any]:
-        """Nodes that the rank owns, in its numbers, which rows they are, and what there is for each of them."""
+        """Nodes that the rank owns, in its numbering, their rows, and their data."""
         nodes, rows = cut.nodes_of(self.nodes)
         each = {name: np.asarray(getattr(self, name))[rows] for name in ("history", *self.each_node)}
         return {"nodes": nodes, "rows": rows, "before": self.before[:0], **each}
 
     def fill(self, piece: dict[str, Any], mesh: Any) -> None:
-        """Take nodes, history and the rest."""
+        """Set nodes, history and nodal data."""
         vars(self).update(piece)

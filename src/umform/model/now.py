@@ -1,4 +1,4 @@
-"""The present time of a model, which its tools share."""
+"""The present time of a model, shared by its tools."""
 
 from __future__ import annotations
 
@@ -13,4 +13,4 @@ class Now:
     time: float = 0.0
 
     def strip(self, bare: Any, twins: Any) -> None:
-        """Nothing grows with the mesh."""
+        """No data grows with the mesh."""

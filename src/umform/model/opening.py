@@ -1,7 +1,7 @@
-"""Open tools: the forces that they exert become a dead load, which may fade while they no longer touch. eq. (4.65)
+"""Open tools: their forces become a dead load, which can decrease to zero without contact. eq. (4.65)
 
-An opened tool stays where it stands and keeps its columns of the history; it holds no point, its ways are given, and
-its points forget what friction had held them with. docs/theory, 4.18
+An opened tool keeps its position and its history columns. It holds no point, its travel is prescribed, and its points
+lose their friction history. docs/theory, 4.18
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from umform.model.tool import Tool
 
 
 def fading_tool(model: Evaluated, tool: Tool) -> Load:
-    """The control of the forces that take the place of a tool once it is open; zero until then."""
+    """The control of the forces that replace a tool once it is open; zero before."""
     if tool.load is None:
         name = model.free_name(f"{tool.name}_left")
         tool.load = model.add_load(Load(name, vector=np.zeros_like(model.u)))
@@ -24,12 +24,12 @@ def fading_tool(model: Evaluated, tool: Tool) -> Load:
 
 
 def open_tool(model: Evaluated, tool: Tool) -> Load:
-    """Take a tool away from the sheet; its forces stay as a load of factor 1.
+    """Open a tool; its forces remain as a load of factor 1.
 
     Raises
     ------
     InvalidValue
-        If the model does not have it, or it is open.
+        If the model does not have it, or it is already open.
     """
     if tool not in model.tools or tool.open:
         raise InvalidValue(
@@ -54,12 +54,12 @@ def open_tool(model: Evaluated, tool: Tool) -> Load:
 
 
 def put_tool_back(model: Evaluated, tool: Tool) -> None:
-    """Let a tool that was opened touch the sheet again, where it stands now; what friction remembered is gone.
+    """Close an opened tool again in its present pose; the friction history is lost.
 
     Raises
     ------
     InvalidValue
-        If it is not open, its forces have not faded, or the sheet stands where the tool is.
+        If it is not open, its forces are not zero, or the sheet overlaps the tool.
     """
     if tool not in model.tools or not tool.open:
         raise InvalidValue(

@@ -1,4 +1,4 @@
-"""What presses a tool along a way that is found: a force or moment, a spring, stops; its equation. docs/theory, 4.18"""
+"""Force-driven tools: force or moment, spring and stops along an unknown travel; its equation. docs/theory, 4.18"""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from umform.model.tool_controls import ToolForce, ToolWay
 
 @dataclass(frozen=True)
 class Stop:
-    """Something that a tool comes to lie on: distance blocks, the end of a spring.
+    """A stop of a tool: distance blocks, the end of a spring.
 
     Attributes
     ----------
     at : float
-        The way at which the tool meets it.
+        Travel at which the tool touches it.
     stiffness : float
-        Force per length beyond; infinite for a rigid stop, which the way cannot pass.
+        Force per length beyond; infinite for a rigid stop, which limits the travel.
     side : float
-        1 if it keeps the way from growing, -1 from falling.
+        1 for an upper limit of the travel, -1 for a lower one.
     """
 
     at: float
@@ -34,33 +34,33 @@ class Stop:
 
     @property
     def rigid(self) -> bool:
-        """Whether the way cannot pass it."""
+        """Whether it limits the travel rigidly."""
         return math.isinf(self.stiffness)
 
     def push(self, way: float) -> tuple[float, float]:
-        """Force on the tool along its way, and minus its derivative."""
+        """Force on the tool along its travel, and minus its derivative."""
         beyond = 0.0 if self.rigid else self.side * (way - self.at)
         return (-self.side * self.stiffness * beyond, self.stiffness) if beyond > 0.0 else (0.0, 0.0)
 
 
 @dataclass(eq=False)
 class Press:
-    """What presses a tool along a way: a force or a moment, a spring, stops.
+    """Force or moment, spring and stops of a tool with unknown travel.
 
     Attributes
     ----------
     unknown : Global
-        The way that is found.
+        The unknown travel.
     way : ToolMotion or ToolTurn
-        The control that it moves.
+        Its control.
     force : ToolForce
-        Control of the force on the tool along the way, or of the moment about its axis.
+        Control of the force on the tool along the travel, or of the moment about its axis.
     stiffness, free : float
-        Of a spring that holds the tool, and the way at which the spring has no force.
+        Stiffness of a spring that holds the tool, and the travel at which it is unloaded.
     stops : list of Stop
-        What keeps the way within bounds.
+        Limits of the travel.
     held : bool
-        Whether the way is given for now, and the force is what it takes.
+        Whether the travel is prescribed at present and the force is its reaction.
     gaps : list of Tool
         Tools to which one of the stops keeps a gap.
     """
@@ -75,14 +75,14 @@ class Press:
     gaps: list[Any] = field(default_factory=list)
 
     def takes(self, way: float, sheet: float) -> tuple[float, float]:
-        """Force that the press must have at a way for the tool to stand there, and its derivative. eqs. (4.41), (4.61)
+        """Force of the press for equilibrium of the tool at a travel, and its derivative. eqs. (4.41), (4.61)
 
         Parameters
         ----------
         way : float
-            Value of the way.
+            Value of the travel.
         sheet : float
-            Force of the sheet on the tool along it.
+            Force of the sheet on the tool along the travel.
         """
         pushes = [stop.push(way) for stop in self.stops]
         force = self.stiffness * (way - self.free) - sum(push for push, _ in pushes) - sheet
@@ -90,18 +90,18 @@ class Press:
 
     @property
     def rigid(self) -> bool:
-        """Whether one of its stops is."""
+        """Whether one of its stops is rigid."""
         return any(stop.rigid for stop in self.stops)
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """Least and largest way that rigid stops allow."""
+        """Range of the travel between rigid stops."""
         rigid = [stop for stop in self.stops if stop.rigid]
         least = max((stop.at for stop in rigid if stop.side < 0.0), default=-math.inf)
         return least, min((stop.at for stop in rigid if stop.side > 0.0), default=math.inf)
 
     def room(self, sense: float) -> float:
-        """Way to the rigid stop ahead, in the sense +1 or -1; infinite where there is none."""
+        """Travel to the rigid stop ahead, in the sense +1 or -1; infinite if there is none."""
         least, largest = self.bounds
         return largest - self.way.value if sense > 0.0 else self.way.value - least
 
@@ -111,11 +111,11 @@ class Press:
         Parameters
         ----------
         way : float
-            Value of the way.
+            Value of the travel.
         rest : float
-            What the other forces leave: the force that a stop would have to exert on the tool along the way.
+            Residual of the other forces: the force that a stop would have to exert on the tool along the travel.
         measure : float
-            A stiffness by which ways and forces are compared; equilibria do not depend on it.
+            A stiffness that scales travel against force; equilibria do not depend on it.
         """
         least, largest = self.bounds
         if measure * (way - least) <= rest:
@@ -130,7 +130,7 @@ class Press:
 
 
 def check_stiffness(stiffness: float, other: float, where: str, names: str) -> None:
-    """Reject a spring or a stop that is none.
+    """Reject an invalid spring or stop.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def check_stiffness(stiffness: float, other: float, where: str, names: str) -> N
     where : str
         For the message.
     names : str
-        What the other number is, and a remedy where there is no stiffness.
+        Meaning of the other number, and a remedy for a missing stiffness.
     """
     if not np.isfinite([stiffness, other]).all():
         raise NotFinite(

@@ -1,4 +1,4 @@
-"""A follower pressure: its direction and area turn and stretch with the sheet."""
+"""A follower pressure: its direction and area follow the deformation of the sheet."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Pressure(Control, Term):
         return (self.block.connectivity,)
 
     def moves_with(self, rates: Mapping[Control, float]) -> bool:
-        """Whether it has a rate itself."""
+        """Whether the pressure has a rate."""
         return rates.get(self, 0.0) != 0.0
 
     def evaluate(self, at: At, into: Into) -> Found:
@@ -65,7 +65,7 @@ class Pressure(Control, Term):
 
     @cached_property
     def _nowhere(self) -> _core.Scatter:
-        """A map into a pattern without a free degree of freedom: forces are asked for where no model has one."""
+        """An empty scatter map: forces are requested where no model has unknowns."""
         assert self.block is not None
         nothing = _core.Pattern(np.full(self.block.dofs, -1, dtype=np.int32), [self.block.connectivity], False)
         return nothing.scatter(self.block.connectivity)
@@ -80,5 +80,5 @@ class Pressure(Control, Term):
         return cut.faces_of(self.faces)[0]
 
     def fill(self, piece: Any, mesh: Mesh) -> None:
-        """Take the faces."""
+        """Set the faces."""
         self.faces, self.block = piece, _core.pressure_block(mesh.facets_of(piece), mesh.points)

@@ -1,7 +1,7 @@
-"""Take supports and tools away from a model; the forces that they exerted become a dead load, which may then fade.
+"""Remove supports and tools from a model; their forces become a dead load, which can then decrease to zero.
 
-The load is what equilibrium asks for over the new unknowns, T T^T r with the residual r of the model without what was
-removed: the columns of T are orthonormal, so the present state is in equilibrium at the factor 1. eq. (5.45)
+The load is the residual r of the model without the removed object over the new unknowns, T T^T r; the columns of T are
+orthonormal, so the present state is in equilibrium at the factor 1. eq. (5.45)
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ from umform.model.dead_load import Load
 from umform.model.evaluated import Evaluated
 from umform.model.support import Support
 
-#: Way that counts as none when a stage begins, over the extent of the sheet.
+#: Displacement that counts as zero when an operation begins, relative to the extent of the sheet.
 _AT_REST = 1e-9
 
 
 def remove(model: Evaluated, thing: Support | Contact) -> Load:
-    """Take a support or a contact away; its forces stay as a load of factor 1.
+    """Remove a support or a contact; its forces remain as a load of factor 1.
 
     Parameters
     ----------
     model : Model
         The model at a converged state.
     thing : Support or Contact
-        What goes.
+        The object to remove.
 
     Returns
     -------
@@ -67,12 +67,12 @@ def remove(model: Evaluated, thing: Support | Contact) -> Load:
 
 
 def put_back(model: Evaluated, support: Support, *, here: bool = True) -> None:
-    """Let a support that was removed act again, where its nodes are now or where they were in the undeformed mesh.
+    """Restore a removed support, with its nodes in their present or undeformed positions.
 
     Raises
     ------
     InvalidValue
-        If it acts already, or contradicts what has been put in place since.
+        If it is active, or contradicts a support that was added since.
     """
     if support not in model.all_supports or not support.removed:
         raise InvalidValue(
@@ -97,7 +97,7 @@ def put_back(model: Evaluated, support: Support, *, here: bool = True) -> None:
 
 
 def fading(model: Evaluated, support: Support) -> Load:
-    """The control of the forces that take the place of a support once it is removed; zero until then."""
+    """The control of the forces that replace a support after its removal; zero before."""
     if support.load is None:
         zero = np.zeros_like(model.u)
         support.load = model.add_load(Load(model.free_name(support.name), vector=zero))
@@ -105,7 +105,7 @@ def fading(model: Evaluated, support: Support) -> Load:
 
 
 def states_of_supports(model: Evaluated) -> dict[str, Any]:
-    """State of the supports that have been removed, or are to be: which act, where, and the forces of the others."""
+    """State of the supports that are or will be removed: whether active, base displacement, and replacing forces."""
     return {
         support.name: {
             "removed": support.removed,
@@ -118,7 +118,7 @@ def states_of_supports(model: Evaluated) -> dict[str, Any]:
 
 
 def put_supports(model: Evaluated, states: Mapping[str, Any]) -> None:
-    """Let the supports stand as they did in a state from :func:`states_of_supports`."""
+    """Restore the supports to a state from :func:`states_of_supports`."""
     changed = False
     for support in model.all_supports:
         if support.name not in states:
@@ -126,7 +126,7 @@ def put_supports(model: Evaluated, states: Mapping[str, Any]) -> None:
         state = states[support.name]
         base, removed = state["base"], bool(state["removed"])
         if support.load is not None:
-            vector = state["vector"]  # not known on other ranks than the first one
+            vector = state["vector"]  # known on the first rank only
             support.load.vector = np.full_like(model.u, np.nan) if vector is None else np.array(vector)
         if support.removed == removed and _same(support.base, base):
             continue
@@ -172,12 +172,12 @@ def _remove_contact(model: Evaluated, contact: Contact) -> Load:
 
 
 def balancing(model: Evaluated, name: str) -> Load:
-    """A load of factor 1 of the forces that nothing in a model balances at its present state. eq. (5.45)
+    """A load of factor 1 of the unbalanced forces of a model at its present state. eq. (5.45)
 
     Raises
     ------
     InvalidValue
-        If supports hold nodes elsewhere than they are, or the name is taken.
+        If supports hold nodes away from their present positions, or the name is taken.
     """
     prescribed = model.prescribed_displacement() - model.u
     away = prescribed - model.extend(model.coefficients(prescribed))
@@ -197,8 +197,8 @@ def balancing(model: Evaluated, name: str) -> Load:
 
 
 def unbalanced(model: Evaluated) -> NDArray[np.float64]:
-    """Forces on the unknowns that nothing in the model balances at its present state."""
+    """Unbalanced forces on the unknowns at the present state."""
     residual: NDArray[np.float64] = model.extend(model.restrict(model.evaluate(model.x).residual))
     forces = np.zeros((model.u.size // 3, 3))
-    forces[model.owned] = residual[: model.u.size].reshape(-1, 3)[model.owned]  # of a node on several ranks once
+    forces[model.owned] = residual[: model.u.size].reshape(-1, 3)[model.owned]  # a shared node counts once
     return forces.ravel()

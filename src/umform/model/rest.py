@@ -15,24 +15,24 @@ from umform.ranks import Ranks
 
 Floats = NDArray[np.float64]
 
-#: Forces of the springs over those of contact, below which they let go.
+#: Ratio of the forces of the springs to those of contact below which the springs are removed.
 _NEGLIGIBLE = 1e-3
 
 
 class Rest(NodalTerm):
-    """Springs between all nodes and the places where they lie; removed for good once tools hold the sheet.
+    """Springs between all nodes and their initial positions; removed permanently once tools hold the sheet.
 
     Parameters
     ----------
     name : str
-        Columns of the history: ``<name>_energy`` of the springs, in the end that with which they let go, and
-        ``<name>_acts``, 1 as long as they act.
+        Columns of the history: ``<name>_energy`` of the springs, after their removal that at removal, and
+        ``<name>_acts``, 1 while they act.
     u : ndarray, shape (3 n,)
         Displacement at which they have no force.
     stiffness : float
         Force per length of all springs together.
     motions : str
-        Rigid-body motions that made a run put the springs there by itself; empty if the user did.
+        Rigid-body motions for which a run added the springs; empty if the user did.
     """
 
     each_node = ("origin",)
@@ -40,16 +40,16 @@ class Rest(NodalTerm):
     def __init__(self, name: str, u: Floats, stiffness: float, motions: str = "") -> None:
         self.motions = motions
         self.origin = u.reshape(-1, 3).copy()
-        super().__init__(name, np.arange(len(self.origin), dtype=np.int32), history=2)  # let go, energy then
+        super().__init__(name, np.arange(len(self.origin), dtype=np.int32), history=2)  # removed, energy at removal
         self.each = stiffness / len(self.origin)
 
     def respond(self, u: Floats, history: Floats, at: At) -> tuple[Floats, Floats, Floats]:
-        """Linear springs, or nothing."""
+        """Linear springs, or zero."""
         stiffness = self.each * (1.0 - history[:, :1])
         return stiffness * (u - self.origin), stiffness[:, :, None] * np.eye(3), history
 
     def energy(self, u: Floats, history: Floats) -> tuple[Floats, Floats]:
-        """Of the springs, while they act."""
+        """Energy of the springs while they act."""
         stored = 0.5 * self.each * (1.0 - history[:, 0]) * ((u - self.origin) ** 2).sum(axis=1)
         return stored, np.zeros(len(u))
 
@@ -58,7 +58,7 @@ class Rest(NodalTerm):
         return ranks.any(bool((self.history[:, 0] == 0.0).any()))
 
     def settled(self, model: Any, evaluation: Any) -> None:
-        """Let go once tools hold the sheet, with forces beside which those of the springs are nothing."""
+        """Remove the springs once tools hold the sheet and the forces of the springs are negligible."""
         ranks, own = model.ranks, evaluation.found[self]
         if not self.acts(ranks):
             return
@@ -69,7 +69,7 @@ class Rest(NodalTerm):
             self.history = np.column_stack([np.ones(len(stored)), stored])
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
-        """Energy, and whether they act; of the state that was reached."""
+        """Energy, and whether the springs act, at the evaluated state."""
         assert isinstance(found, NodalFound)
         acts = self.acts(ranks)
         squares = (found.forces**2).sum() / (2.0 * self.each)
@@ -77,5 +77,5 @@ class Rest(NodalTerm):
         return {f"{self.name}_energy": energy, f"{self.name}_acts": float(acts)}
 
     def column_names(self) -> Iterable[str]:
-        """Energy, and whether they act."""
+        """Energy, and whether the springs act."""
         return [f"{self.name}_energy", f"{self.name}_acts"]

@@ -17,12 +17,12 @@ from umform.model.tool_controls import ToolWay
 
 @dataclass(frozen=True)
 class ToolFound(Found):
-    """What came out of the evaluation of a tool.
+    """Result of the evaluation of a tool.
 
     Attributes
     ----------
     borne : dict of str to float
-        Force of its rigid stop along its way, by the name of the control of its press.
+        Force of its rigid stop along the travel, by the name of the control of its press.
     """
 
     borne: Mapping[str, float] = field(default_factory=dict)
@@ -36,14 +36,14 @@ def bear(press: Press, at: At, into: Into) -> float | None:
     press : Press
         A press with rigid stops.
     at : At
-        Where it is evaluated.
+        State of the evaluation.
     into : Into
-        Has what the other forces leave as the residual of the press.
+        Its residual of the press is the sum of the other forces.
 
     Returns
     -------
     float or None
-        Force of the stop on the tool along its way.
+        Force of the stop on the tool along the travel.
     """
     border = into.border
     k, way = border.number(press.unknown), press.way
@@ -57,7 +57,7 @@ def bear(press: Press, at: At, into: Into) -> float | None:
 
 
 def _stiffness(way: ToolWay, tool: Any, at: At, found: Mapping[Any, Any]) -> float:
-    """Force per way of a tool against which all points of this rank press with their penalty."""
+    """Stiffness of a tool that all points of this rank resist with their penalty."""
     share = 0.0
     for pair in tool.pairs:
         velocity = way.velocity(found[pair].x, tool, at)

@@ -1,4 +1,4 @@
-"""Cells of a body: their numbers, a mask, or a predicate."""
+"""Select cells of a body by indices, a mask, or a predicate."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from umform.mesh import Mesh
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
-#: Cells: their numbers, a mask, or a predicate of the coordinates x, y, z of their centres.
+#: Cells: their indices, a mask, or a predicate of the coordinates x, y, z of their centres.
 Cells = ArrayLike | Callable[[Floats, Floats, Floats], Any]
 
 
 def cell_numbers(mesh: Mesh, cells: Cells | None, name: str) -> Numbers:
-    """Numbers of selected cells, increasing."""
+    """Sorted indices of selected cells."""
     count = len(mesh.connectivity)
     if cells is None:
         return np.arange(count)

@@ -1,4 +1,4 @@
-"""The state of a model: what converged becomes its state, and a state is put back."""
+"""Commit and restore the state of a model."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ Floats = NDArray[np.float64]
 
 
 class Standing(Evaluated):
-    """Something that stands in a converged state."""
+    """Something with a converged state."""
 
     def commit(self, evaluation: Evaluation) -> None:
-        """Make the state of an evaluation, which must be the last one, the converged state."""
+        """Commit the state of an evaluation, which must be the last one."""
         for control, value in evaluation.controls.items():
             control.value = value
         for unknown, value in zip(self.unknowns, evaluation.x[self.u.size :], strict=True):
@@ -31,18 +31,18 @@ class Standing(Evaluated):
             term.settled(self, evaluation)
 
     def stand(self, evaluation: Evaluation) -> None:
-        """Let contacts know what was found at the converged state, where there was no commit."""
+        """Store the results of contacts at the converged state, if there was no commit."""
         for contact in self.pairs_of_tools():
             contact.stand(evaluation.found[contact])
 
     def begin(self, evaluation: Evaluation) -> None:
-        """Stand at the evaluation that was just made: friction slides from there where it has no history yet."""
+        """Use the last evaluation as the present state: the reference for slip where there is no history yet."""
         self.stand(evaluation)
         for contact in self.pairs_of_tools():
             contact.begin()
 
     def repeat(self, before: Mapping[str, Floats]) -> Evaluation:
-        """Repeat the evaluation of the converged state, from the histories that it had read.
+        """Repeat the evaluation of the converged state from the histories that it used as input.
 
         Parameters
         ----------
@@ -52,18 +52,18 @@ class Standing(Evaluated):
         Returns
         -------
         Evaluation
-            To the last bit what the evaluation was, with the blocks that enhanced parameters are recovered with.
+            Identical to the evaluation to the last bit, with the blocks for the recovery of enhanced parameters.
         """
         for term in self.terms:
             if term.key in before:
                 term.go_back(before[term.key])
-        self._converged_time = self._began  # the time that the increment took, which laws with a rate see
+        self._converged_time = self._began  # the time increment, for rate-dependent laws
         evaluation = self.evaluate(self.x)
         self.commit(evaluation)
         return evaluation
 
     def revert(self) -> None:
-        """Forget everything since the last commit."""
+        """Discard all changes since the last commit."""
         for term in self.terms:
             term.revert()
 
@@ -81,7 +81,7 @@ class Standing(Evaluated):
         )
 
     def restore(self, snapshot: Snapshot) -> None:
-        """Go back to a snapshot."""
+        """Restore a snapshot."""
         removal.put_supports(self, snapshot.supports)
         self.u, self.time, self._converged_time = snapshot.u.copy(), snapshot.time, snapshot.time
         self._began = snapshot.began

@@ -1,4 +1,4 @@
-"""The state of a model: all that a converged increment is."""
+"""The converged state of a model."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Snapshot:
-    """A converged state that a model can be put back to.
+    """A converged state to which a model can be restored.
 
     Poses of tools follow from the controls, the scalar unknowns and the time.
 
@@ -23,7 +23,7 @@ class Snapshot:
     u : ndarray, shape (3 n,)
         Displacement.
     time, began : float
-        Time, and that at which its increment began.
+        Time at the end and at the beginning of its increment.
     controls : dict of str to float
         Value of each control, by its name.
     unknowns : dict of str to float
@@ -31,7 +31,7 @@ class Snapshot:
     terms : dict of str to Tree
         History of each term that has one, by its key.
     supports : dict of str to Tree
-        Of each support that has been removed, or is to be: whether it acts, where, and the forces in its place.
+        For each removed or removable support: whether it is active, its base displacement, and the replacing forces.
     """
 
     u: Floats

@@ -1,4 +1,4 @@
-"""A support as it was asked for: it can be removed from a model and put back. docs/theory, 5.10"""
+"""A support of a model, which can be removed and restored. docs/theory, 5.10"""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Support:
     Attributes
     ----------
     name : str
-        Name in messages, and of the column of the history while the support is being freed.
+        Name in messages, and of the history column while the support is released.
     kind : str
         "fix or symmetry", "hinge", "director", or the name of the control that prescribes a mid-line.
     directions : str
@@ -51,15 +51,15 @@ class Support:
     rows : list of Rows
         Constraints in local axes.
     base : ndarray, shape (3 n,), optional
-        Displacement of the model when the support was put in place, if it holds the nodes there.
+        Displacement of the model when the support was activated, if it holds the nodes in that position.
     control : Control, optional
-        What prescribes it; None for a support.
+        Control that prescribes the displacement; None for a support.
     load : Load, optional
-        The forces that take its place once it is removed.
+        The forces that replace it after removal.
     removed : bool
-        Whether it does not act.
+        Whether it is inactive.
     waits : bool
-        Whether it was made to be put in place later, where its nodes are then.
+        Whether it is activated later, with the positions of its nodes at that time.
     """
 
     name: str
@@ -76,7 +76,7 @@ class Support:
     waits: bool = False
 
     def hold_at(self, base: Floats | None) -> None:
-        """Hold the nodes at a displacement of the model, or where they are in the undeformed mesh."""
+        """Hold the nodes at a displacement of the model, or in their undeformed positions."""
         self.base = base
         self.ties = [replace(tie, offsets=None if base is None else base[tie.dofs].mean(axis=1)) for tie in self.ties]
         self.rows = [replace(part, offsets=_offsets(part.dofs, part.weights, base)) for part in self.rows]
@@ -84,13 +84,13 @@ class Support:
     # Ranks ---------------------------------------------------------------------------------------------------
 
     def strip(self, bare: Any, twins: Twins) -> None:
-        """Without nodes, and with the twins of its controls."""
+        """Without nodes, with the twins of its controls."""
         bare.nodes, bare.held, bare.base = _no_dofs(), _no_dofs(), None
         bare.ties = [Tie(_no_pairs(), _twin(tie.control, twins)) for tie in self.ties]
         bare.control, bare.load = _twin(self.control, twins), _twin(self.load, twins)
 
     def piece(self, cut: Cut) -> dict[str, Any]:
-        """Nodes, degrees of freedom and pairs of the rank, and the displacement that it holds them at."""
+        """Nodes, degrees of freedom and pairs of the rank, and their held displacement."""
         nodes, held = cut.node[self.nodes], cut.dofs(self.held)
         known = [(cut.node[tie.dofs // 3] >= 0).all(axis=1) for tie in self.ties]
         ties = [
@@ -101,7 +101,7 @@ class Support:
         return {"nodes": nodes[nodes >= 0], "held": held[held >= 0], "ties": ties, "base": base}
 
     def fill(self, piece: dict[str, Any], mesh: Any) -> None:
-        """Take them."""
+        """Set them."""
         self.nodes, self.held, self.base = piece["nodes"], piece["held"], piece["base"]
         own = zip(piece["ties"], self.ties, strict=True)
         self.ties = [Tie(dofs, tie.control, offsets) for (dofs, offsets), tie in own]

@@ -1,4 +1,4 @@
-"""Supports of a model: nodes, directors and mid-lines that are held or prescribed, along x, y, z or local axes."""
+"""Supports of a model: held or prescribed nodes, directors and mid-lines, along x, y, z or local axes."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Supported(Held):
         here: bool = False,
         name: str = "",
     ) -> Support:
-        """Hold nodes in one or more directions; both nodes of a hinge may be held, which then does nothing.
+        """Hold nodes in one or more directions; nodes of a hinge may also be held, which makes the hinge redundant.
 
         Parameters
         ----------
@@ -43,14 +43,14 @@ class Supported(Held):
             Hold the displacement along these vectors instead, one for all nodes or one for each in the order of their
             numbers.
         here : bool
-            Hold the nodes where they are now, not where they were in the undeformed mesh.
+            Hold the nodes in their present instead of their undeformed positions.
         name : str, optional
             Name of the support.
 
         Returns
         -------
         Support
-            What :meth:`umform.Model.remove` takes away again.
+            Handle for :meth:`umform.Model.remove`.
 
         Raises
         ------
@@ -89,10 +89,10 @@ class Supported(Held):
         here: bool = False,
         name: str = "",
     ) -> Support:
-        """Hold the mid-line of the sheet at an edge, about which its section may rotate.
+        """Hold the mid-line of the sheet at an edge; the section may rotate about it.
 
-        The mean of the displacements of the lower and the upper node of each pair is zero. eq. (5.16) Where both are
-        held already, by a plane of symmetry for one, that is so without a hinge.
+        The mean of the displacements of the lower and the upper node of each pair is zero. eq. (5.16) If both are
+        already held, by a plane of symmetry for instance, the hinge is redundant.
 
         Parameters
         ----------
@@ -106,7 +106,7 @@ class Supported(Held):
         Returns
         -------
         Support
-            What :meth:`umform.Model.remove` takes away again.
+            Handle for :meth:`umform.Model.remove`.
 
         Raises
         ------
@@ -141,10 +141,10 @@ class Supported(Held):
         here: bool = False,
         name: str = "",
     ) -> Support:
-        """Hold the director of the sheet at an edge: upper and lower node of each pair keep together.
+        """Hold the director of the sheet at an edge: the nodes of each pair move by the same displacement.
 
-        The difference of their displacements in the directions is zero, their mean is free: held along one direction,
-        the director stays in the plane normal to it, where it may tilt and stretch. eq. (5.44)
+        The difference of their displacements in the directions is zero, their mean is free. Held along one direction,
+        the director stays in the plane normal to it, in which it may tilt and stretch. eq. (5.44)
 
         Parameters
         ----------
@@ -158,7 +158,7 @@ class Supported(Held):
         Returns
         -------
         Support
-            What :meth:`umform.Model.remove` takes away again.
+            Handle for :meth:`umform.Model.remove`.
 
         Raises
         ------
@@ -199,7 +199,7 @@ class Supported(Held):
         Returns
         -------
         Prescribed
-            The control whose value (a length) steps move; its force is the sum of the reactions on the sheet.
+            The control of the displacement; its force is the sum of the reactions on the sheet.
 
         Raises
         ------
@@ -219,7 +219,7 @@ class Supported(Held):
     def prescribe_midline(
         self, nodes: Selector, direction: str, name: str = "", *, axes: Axes | None = None
     ) -> MidLine:
-        """Prescribe the displacement of the mid-line of the sheet at an edge, about which its section may rotate.
+        """Prescribe the displacement of the mid-line of the sheet at an edge; the section may rotate about it.
 
         Parameters
         ----------
@@ -235,8 +235,8 @@ class Supported(Held):
         Returns
         -------
         MidLine
-            The control whose value (a length) steps move: the mean of the displacements of the lower and the upper node
-            of each pair. Its force is the sum of the reactions on the sheet.
+            The control of the mean of the displacements of the lower and the upper node of each pair. Its force is the
+            sum of the reactions on the sheet.
 
         Raises
         ------

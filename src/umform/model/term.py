@@ -1,7 +1,7 @@
-"""What adds to residual and tangent: a term. Bodies, contacts, pressures, loads and tools are terms, or one of yours.
+"""Terms: contributions to residual and tangent. Bodies, contacts, pressures, loads, tools, or your own.
 
-`Model.evaluate` is a loop over terms. A term couples degrees of freedom, adds its forces and its tangent, gives back
-what it came across, and owns its history. docs/architecture.md
+`Model.evaluate` is a loop over terms. A term couples degrees of freedom, adds its forces and its tangent, returns its
+results, and owns its history. docs/architecture.md
 """
 
 from __future__ import annotations
@@ -31,18 +31,18 @@ Tree = dict[str, Any]
 
 @dataclass(frozen=True)
 class Found:
-    """What came out of the evaluation of a term, beside its forces and its tangent.
+    """Results of the evaluation of a term, besides its forces and its tangent.
 
     Attributes
     ----------
     force_scale_squared : float
         Sum of the squares of its element forces. eq. (5.8)
     round_off_squared : float
-        Square of what a relative error of all positions makes of its residual, over that of the error. eq. (5.36)
+        Square of the change of its residual per relative error of all positions. eq. (5.36)
     failed : int
-        First cell without an answer, or -1.
+        First cell whose evaluation failed, or -1.
     failure : str
-        Why that cell has none.
+        Cause of that failure.
     """
 
     force_scale_squared: float = 0.0
@@ -52,12 +52,12 @@ class Found:
 
     @property
     def status(self) -> NDArray[np.uint8]:
-        """For each contact point 0 if it is open, 1 if a tool holds it, 2 if it slips as well; empty for most terms."""
+        """For each contact point 0 if it is open, 1 if a tool holds it, 2 if it also slips; empty for most terms."""
         return np.zeros(0, dtype=np.uint8)
 
     @property
     def active(self) -> NDArray[np.bool_]:
-        """Which points are in contact; empty for most terms."""
+        """Mask of the points in contact; empty for most terms."""
         return self.status > 0
 
     @property
@@ -73,11 +73,11 @@ class Energies:
     Attributes
     ----------
     elastic : float
-        Stored in elastic strains, springs and foundations; NaN if a law does not know it.
+        Energy of elastic strains, springs and foundations; NaN if a law does not know it.
     plastic : float
-        Work of the yield stress on the plastic strains so far: heat, and what hardening keeps. NaN if not known.
+        Plastic work so far: heat, and energy stored by hardening. NaN if unknown.
     contact : float
-        Held by penalty and multipliers of all contacts; of cells the work of their pressure so far.
+        Energy of penalty and multipliers of all contacts; for cells the work of their pressure so far.
     friction : float
         Work of friction so far.
     """
@@ -94,7 +94,7 @@ class Energies:
 
 
 class Term(Frozen):
-    """Something that adds to the residual; a new kind of it says what differs from nothing.
+    """Something that adds to the residual; a derived class overrides what differs from zero.
 
     Attributes
     ----------
@@ -103,21 +103,21 @@ class Term(Frozen):
     symmetric : bool
         Whether its tangent is symmetric.
     timed_as : str
-        Part of the timing that its evaluation counts for.
+        Part of the timing to which its evaluation counts.
     within_bodies : bool
-        Whether it couples only what bodies couple already.
+        Whether it couples only degrees of freedom that bodies already couple.
     unknowns : tuple of Global
-        Scalar unknowns that it brings.
+        Scalar unknowns that it adds.
     elsewhere : bool
-        Whether the ranks of a run have its history.
+        Whether the ranks of a run hold its history.
     rows : ndarray of int, optional
-        On a rank: which rows of its state over the whole model are here; None if the state has no rows.
+        On a rank: the local rows of its state over the whole model; None if the state has no rows.
     nodal : tuple of str
         Entries of its state with three values for each node, of which each rank has those of the nodes that it owns.
     before : ndarray
-        History that the evaluation of the converged state had read; empty where there is none.
+        History that the evaluation of the converged state used as input; empty if there is none.
     memory : tuple of str
-        Names of the attributes that change in a run; all others say what the term is.
+        Names of the attributes that change in a run; all others are constant.
     """
 
     name: str = ""
@@ -133,11 +133,11 @@ class Term(Frozen):
 
     @property
     def key(self) -> str:
-        """Kind and name: under it the state of the term is kept."""
+        """Kind and name: the key of its state."""
         return f"{type(self).__name__.lower()} {self.name}"
 
     def moves_with(self, rates: Mapping[Control, float]) -> bool:
-        """Whether its forces change with controls that have these rates while the nodes are held."""
+        """Whether its forces change with controls of these rates at fixed nodes."""
         return False
 
     def couples(self) -> Sequence[_core.Connectivity]:
@@ -149,63 +149,63 @@ class Term(Frozen):
         raise NotImplementedError
 
     def recover(self, du: Floats, mixed: bool) -> None:
-        """Update parameters that were condensed, after ``u += du``."""
+        """Update condensed parameters after ``u += du``."""
 
     def follow(self) -> None:
-        """After forces alone were evaluated: recover from them next, with the tangent of before."""
+        """After an evaluation of forces only: recover from them next, with the previous tangent."""
 
     def shorten(self, part: float) -> None:
-        """Shorten the change of the last :meth:`recover` to a part of it."""
+        """Scale the change of the last :meth:`recover`."""
 
     def commit(self, found: Found) -> None:
-        """Make the trial history that belongs to ``found`` the converged one."""
+        """Accept the trial history of ``found`` as converged."""
 
     def settled(self, model: Any, evaluation: Any) -> None:
-        """Look at the model, which has just been committed at an evaluation, and change what later increments see."""
+        """Called after a commit of the model; may change what later increments use."""
 
     def revert(self) -> None:
-        """Go back to the converged history."""
+        """Return to the converged history."""
 
     def go_back(self, before: Floats) -> None:
-        """Take the history that the evaluation of the converged state had read, so that it can be repeated."""
+        """Restore the history that the evaluation of the converged state used as input, so that it can be repeated."""
 
     def state(self) -> Tree:
         """Converged history; empty where there is none."""
         return {}
 
     def restore(self, tree: Tree) -> None:
-        """Put a history back that :meth:`state` has given."""
+        """Restore a history from :meth:`state`."""
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
         """Its columns of the history."""
         return {}
 
     def column_names(self) -> Iterable[str]:
-        """Names of its columns, so that no two things of a model write the same one."""
+        """Names of its columns, which must be unique in a model."""
         return ()
 
     def energies(self, found: Found, u: Floats) -> Energies:
-        """Its share of the energies of a converged state (of this rank)."""
+        """Its part of the energies of a converged state (on this rank)."""
         return Energies()
 
     def external_forces(self, at: At) -> Floats | None:
-        """Forces from outside on the nodes, shape (3 n,), for the balance; None where it applies none.
+        """External forces on the nodes, shape (3 n,), for the balance; None if there are none.
 
         Their work is external work.
         """
         return None
 
     def support_forces(self, at: At) -> Floats | None:
-        """Forces on the nodes of what holds the sheet, an elastic foundation for instance; shape (3 n,).
+        """Forces of foundations on the nodes, an elastic foundation for instance; shape (3 n,).
 
-        They count in the sums of forces and moments; their work is in :meth:`energies`.
+        They count in the resultants; their work is part of :meth:`energies`.
         """
         return None
 
     def holds(self, at: At) -> tuple[Ids, Floats] | None:
-        """Nodes (k,) that it does not let move freely, and the direction (k, 3) of each; None where it holds none.
+        """Nodes (k,) that it constrains, and the direction (k, 3) of each; None if there are none.
 
-        Rigid-body motions that it resists are not refused then. A node may be there several times.
+        The check of supports uses them. A node may occur several times.
         """
         return None
 
@@ -213,15 +213,15 @@ class Term(Frozen):
 
     @property
     def shareable(self) -> bool:
-        """Whether it can be given to ranks: it says what each of them gets of it."""
+        """Whether it can be distributed: it defines the piece of each rank."""
         kind = type(self)
         return kind.strip is not Term.strip and kind.fill is not Term.fill
 
     def strip(self, bare: Self, twins: Twins) -> None:
-        """Take out of a copy what grows with the mesh, and replace what it refers to by its twins."""
+        """Remove from a copy what grows with the mesh, and replace references by twins."""
 
     def piece(self, cut: Cut) -> Any:
-        """What a rank gets of what :meth:`strip` has taken out, in numbers of its own."""
+        """The piece of a rank, removed by :meth:`strip`, in the numbering of the rank."""
         return None
 
     def fill(self, piece: Any, mesh: Any) -> None:

@@ -1,4 +1,4 @@
-"""Reject terms that would disturb others."""
+"""Reject terms that conflict with others."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from umform.model.term import Term
 
 
 def check_term(term: Term, others: Sequence[Term], nodes: int) -> None:
-    """Reject a term whose history would collide with that of another one, or that couples a node that is not there."""
+    """Reject a term whose history key is taken, or that couples a node that does not exist."""
     if any(other.key == term.key for other in others):
         raise InvalidValue(
             "the name of a term is taken",

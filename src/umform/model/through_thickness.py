@@ -1,4 +1,4 @@
-"""What an element gets through its thickness from a law: points and their rule, and the order of E_33."""
+"""Thickness quadrature and order of E_33 of an element for a law."""
 
 from __future__ import annotations
 

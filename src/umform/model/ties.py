@@ -1,7 +1,7 @@
 """Ties of a lower and an upper node: the mean of their displacements is held, their difference is free.
 
-A sheet of solid-shells has no node on its mid-surface. A hinge there holds the mean of the two nodes of a fibre, which
-may rotate about it. docs/theory, 5.10
+A sheet of solid-shells has no node on its mid-surface. A hinge holds the mean of the two nodes of a fibre, which may
+rotate about it. docs/theory, 5.10
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class MidLine(OnDofs):
 class Tie:
     """Pairs of degrees of freedom (lower, upper), shape (k, 2), whose mean is held or the value of a control.
 
-    Where there are offsets, shape (k,), the mean is held there instead of at zero.
+    With offsets, shape (k,), the mean has these values instead of zero.
     """
 
     dofs: Ids
@@ -37,7 +37,7 @@ class Tie:
     offsets: Floats | None = None
 
     def without_held(self, held: NDArray[np.bool_]) -> Tie:
-        """A hinge without the pairs whose nodes are both held: their mean is given as it is."""
+        """A hinge without the pairs whose nodes are both held: their mean is prescribed already."""
         if self.control is not None:
             return self
         left = ~held[self.dofs].all(axis=1)
@@ -45,7 +45,7 @@ class Tie:
 
 
 def split_ties(ties: Sequence[Tie], rows: Sequence[Rows], constrained: NDArray[np.bool_]) -> tuple[Ids, list[Rows]]:
-    """Pairs that stand alone, and the rows with those pairs that share a degree of freedom with one of them.
+    """Isolated pairs, and the rows together with those pairs that share a degree of freedom with one of them.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def split_ties(ties: Sequence[Tie], rows: Sequence[Rows], constrained: NDArray[n
     rows : sequence of Rows
         Constraints in local axes.
     constrained : ndarray of bool, shape (3 n,)
-        Degrees of freedom that are held or prescribed by themselves.
+        Degrees of freedom that are held or prescribed individually.
     """
     local = np.zeros(len(constrained), dtype=bool)
     for part in rows:
@@ -88,7 +88,7 @@ def node_pairs(mesh: Mesh, nodes: Selector) -> Ids:
     Raises
     ------
     InvalidValue
-        If the set does not hold both outermost nodes of a fibre that it holds a node of.
+        If the set contains a node of a fibre but not both of its outermost nodes.
     """
     half = mesh.connectivity.shape[1] // 2
     links = np.unique(
@@ -105,7 +105,7 @@ def node_pairs(mesh: Mesh, nodes: Selector) -> Ids:
     above[links[:, 0]] = links[:, 1]
     bottoms = np.setdiff1d(links[:, 0], links[:, 1])
     tops = above[bottoms]
-    fibre = np.full(len(mesh.points), -1)  # number of the fibre of each node
+    fibre = np.full(len(mesh.points), -1)  # index of the fibre of each node
     fibre[bottoms] = fibre[tops] = np.arange(len(bottoms))
     while not np.array_equal(above[tops], tops):  # one layer of the stack at a time
         tops = above[tops]

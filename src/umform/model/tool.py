@@ -1,6 +1,6 @@
-"""A rigid tool: its surface, its pose, and what moves it: ways, turns, a motion in time, forces that press it.
+"""A rigid tool: its surface, its pose, and its motion: travel, rotation, motion in time, forces.
 
-A tool is a thing of the model; several pairs of faces may touch the same one. docs/theory, 4.7
+A tool belongs to the model; several pairs of faces may touch it. docs/theory, 4.7
 """
 
 from __future__ import annotations
@@ -42,24 +42,24 @@ class Tool(Term):
     surface : Surface
         A tool of :mod:`umform.surfaces`.
     now : Now
-        The time of its model.
+        Time of its model.
 
     Attributes
     ----------
     pairs : list of Contact
         The pairs of faces that touch it.
     ways : list of ToolMotion or ToolTurn
-        Controls that move it.
+        Controls of its motion.
     presses : list of Press
-        What finds some of them.
+        Presses that determine some of them.
     motion : callable, optional
         Motion in time, in addition.
     reference_point : ndarray, shape (3,)
-        Point that the motion turns it about.
+        Point about which the motion rotates the tool.
     open : bool
-        Whether it has been taken away from the sheet: it holds no point, wherever it stands.
+        Whether it is open: it then holds no point, wherever it is.
     load : Load, optional
-        The forces on the sheet that take its place then.
+        Forces on the sheet that replace it while it is open.
     """
 
     timed_as = "contact"
@@ -85,12 +85,12 @@ class Tool(Term):
         self.open = False
         self.load: Load | None = None
 
-    # Where it is ---------------------------------------------------------------------------------------------
+    # Pose ----------------------------------------------------------------------------------------------------
 
     def pose(self, values: Mapping[Control, float], time: float) -> Pose:
-        """Rotation and shift: a point X of the tool's own frame lies at x = Q X + c. eq. (4.18)
+        """Rotation and shift: a point X of the tool frame has the position x = Q X + c. eq. (4.18)
 
-        The turns come first, in the order in which they were made, then ways and motion.
+        Rotations are applied first, in the order of their definition, then translations and the motion in time.
         """
         shift, rotation = np.zeros(3), np.eye(3)
         for control in self.ways:
@@ -111,22 +111,22 @@ class Tool(Term):
 
     @property
     def pose_now(self) -> Pose:
-        """Where it stands: its pose at the present values of its controls and the present time."""
+        """Its pose at the present values of its controls and the present time."""
         return self.pose({way: way.value for way in self.ways}, self.now.time)
 
     def axis_of(self, turn: ToolTurn, values: Mapping[Control, float], time: float) -> tuple[Floats, Floats]:
-        """Axis and point of a turn where the motions that come after it have taken them."""
+        """Axis and point of a rotation after the motions that follow it."""
         inner = [control for control in self.ways[: self.ways.index(turn) + 1] if isinstance(control, ToolTurn)]
         still = {control: 0.0 if control in inner else value for control, value in values.items()}
         rotation, shift = self.pose(still, time)
         return rotation @ np.asarray(turn.axis), rotation @ np.asarray(turn.about) + shift
 
     def moved_by(self, rates: Mapping[Control, float]) -> bool:
-        """Whether one of its ways has a rate."""
+        """Whether one of its controls has a rate."""
         return any(rates.get(control, 0.0) != 0.0 for control in self.ways)
 
     def carries(self, turn: ToolTurn, rates: Mapping[Control, float], at: At) -> tuple[Floats, Floats]:
-        """Velocity of the point of a turn, and spin of its axis, with the rates of the motions that come after it."""
+        """Velocity of the point of a rotation, and spin of its axis, from the rates of the motions that follow it."""
         _, point = self.axis_of(turn, at.values, at.time)
         inner = self.ways[: self.ways.index(turn) + 1]
         after = {control: rate for control, rate in rates.items() if control not in inner or _slides(control)}
@@ -141,7 +141,7 @@ class Tool(Term):
         return sum(rates.get(control, 0.0) * np.asarray(control.direction) for control in along)
 
     def spins(self, rates: Mapping[Control, float], at: At) -> list[tuple[Floats, Floats]]:
-        """Rotation vector per time and a point of its axis, for each turn that has a rate."""
+        """Angular velocity and a point of the axis, for each rotation with a rate."""
         found = []
         for control in self.ways:
             rate = rates.get(control, 0.0)
@@ -150,29 +150,31 @@ class Tool(Term):
                 found.append((rate * axis, point))
         return found
 
-    # What moves it -------------------------------------------------------------------------------------------
+    # Motion --------------------------------------------------------------------------------------------------
 
     def add_way(self, way: ToolWay) -> None:
-        """Let a control move it."""
+        """Add a control of its motion."""
         self.ways.append(way)
 
     def add_press(self, press: Press) -> None:
-        """Let forces and a spring find its way."""
+        """Let forces and a spring determine its travel."""
         self.presses.append(press)
 
     @property
     def unknowns(self) -> tuple[Global, ...]:  # type: ignore[override]
-        """Ways that forces and springs find."""
+        """Controls determined by forces and springs."""
         return tuple(press.unknown for press in self._finding())
 
     def _finding(self) -> list[Press]:
-        """Presses that find a way now."""
+        """Presses that determine a travel at present."""
         return [press for press in self.presses if not press.held]
 
     # Term ----------------------------------------------------------------------------------------------------
 
     def evaluate(self, at: At, into: Into) -> Found:
-        """Add the equations of its unknown ways: sheet, press, spring and stops balance. eqs. (4.42), (4.61)"""
+        """Add the equations of its unknown travels: equilibrium of sheet, press, spring and stops. eqs. (4.42),
+        (4.61)
+        """
         border, borne = into.border, dict[str, float]()
         seen = _Seen(into.residual, into.found, at.values, at.time)
         for press in self._finding():
@@ -206,12 +208,14 @@ class Tool(Term):
         return {name: float(value) for name, value in zip(self._of_resultant(), [*force, *moment], strict=True)}
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
-        """Forces of rigid stops on it, along its ways."""
+        """Forces of rigid stops on it, along its travel."""
         borne = found.borne if isinstance(found, ToolFound) else {}
         return {f"{press.force.name}_stop": borne.get(press.force.name, 0.0) for press in self.presses if press.rigid}
 
     def state(self) -> Tree:
-        """Ways that are found, those that are given for now; whether it is open, and the forces in its place."""
+        """Values of unknown travels, those that are prescribed at present; whether it is open, and its replacing
+        forces.
+        """
         ways = {press.unknown.name: [press.unknown.value, float(press.held)] for press in self.presses}
         tree: Tree = {"ways": ways}
         if self.load is not None:
@@ -219,7 +223,7 @@ class Tool(Term):
         return tree
 
     def restore(self, tree: Tree) -> None:
-        """Put them back."""
+        """Restore them."""
         for press in self.presses:
             value, held = tree["ways"][press.unknown.name]
             press.unknown.value, press.held = float(value), bool(held)
@@ -228,7 +232,7 @@ class Tool(Term):
             self._open(bool(tree["open"]))
 
     def stay_open(self, open_now: bool) -> None:
-        """Take it away from the sheet, or put it back; its ways are given while it is open."""
+        """Open it, or close it again; its travel is prescribed while it is open."""
         self._open(open_now)
         for press in self.presses:
             press.held = open_now
@@ -236,7 +240,7 @@ class Tool(Term):
     def _open(self, open_now: bool) -> None:
         self.open = open_now
         for pair in self.pairs:
-            if "block" in vars(pair):  # else it is made as the tool stands
+            if "block" in vars(pair):  # else it is created with the present pose
                 pair.block.open = open_now
 
     def column_names(self) -> Iterable[str]:
@@ -247,7 +251,7 @@ class Tool(Term):
         return [f"{self.name}_{kind}{axis}" for kind in "fm" for axis in "xyz"]
 
     def strip(self, bare: Self, twins: Twins) -> None:
-        """With the twins of what touches and moves it."""
+        """With the twins of its pairs and controls."""
         bare.now = twins.of(self.now)
         bare.pairs = [twins.of(pair) for pair in self.pairs]
         bare.ways = [twins.of(way) for way in self.ways]
@@ -256,13 +260,13 @@ class Tool(Term):
         bare.presses = [press.twin(twins) for press in self.presses]
 
     def fill(self, piece: Any, mesh: Any) -> None:
-        """Make its kernel."""
+        """Build its kernel."""
         self.kernel = self.surface.kernel()
 
 
 @dataclass(frozen=True)
 class _Seen:
-    """What a way reads to say the force on it."""
+    """Data for the force on the tool along a travel."""
 
     residual: Floats
     found: Mapping[Term, Any]
@@ -280,12 +284,12 @@ def _slides(control: Control) -> bool:
 
 
 def _turned(turn: ToolTurn, angle: float) -> Pose:
-    """Pose of a turn about its axis."""
+    """Pose of a rotation about its axis."""
     rotation, point = rotation_matrix(angle * np.asarray(turn.axis)), np.asarray(turn.about)
     return np.ascontiguousarray(rotation), point - rotation @ point
 
 
 def _after(outer: Pose, inner: Pose) -> Pose:
-    """The inner pose, then the outer one."""
+    """Composition: the inner pose, then the outer one."""
     (Q, c), (R, d) = outer, inner
     return np.ascontiguousarray(Q @ R), Q @ d + c

@@ -1,4 +1,4 @@
-"""Controls of a tool: ways along a direction, turns about an axis, and the forces that press it."""
+"""Controls of a tool: translation along a direction, rotation about an axis, and their conjugate forces."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class ToolWay(Control):
     Attributes
     ----------
     tool : Tool
-        The tool that it was made for.
+        The tool for which it was made.
     followers : list of Tool
         Tools that follow it.
     """
@@ -42,7 +42,7 @@ class ToolWay(Control):
         return [self.tool, *self.followers]
 
     def force(self, evaluation: Seen, ranks: Ranks) -> float:
-        """Force, or moment, of the sheet on its tools that is conjugate to it."""
+        """Conjugate force, or moment, of the sheet on its tools."""
         return sum(self._force_on(tool, evaluation, ranks) for tool in self.tools)
 
     def row(self, at: At) -> Floats:
@@ -53,18 +53,18 @@ class ToolWay(Control):
         return np.sum(rows, axis=0) if rows else np.zeros(at.u.size)
 
     def velocity(self, places: Floats, tool: Any, at: At) -> Floats:
-        """Velocity of places (n, 3) of one of its tools at the rate 1, shape (n, 3)."""
+        """Velocity of points (n, 3) of one of its tools at the rate 1, shape (n, 3)."""
         velocity, spin, centre = self._motion(tool, at)
         moving: Floats = velocity + np.cross(spin, places - centre)
         return moving
 
     @property
     def symmetric(self) -> bool:
-        """Whether the tangent of all that touches its tools is: then the row is the column."""
+        """Whether the tangents of all pairs of its tools are symmetric: then row and column are equal."""
         return all(pair.symmetric for tool in self.tools for pair in tool.pairs)
 
     def rate(self, rates: Mapping[Control, float], moved: Mapping[Any, Floats], at: At, into: Into) -> float:
-        """Rate of its force with controls while the nodes are held. eq. (4.63)
+        """Rate of its force with controls at fixed nodes. eq. (4.63)
 
         Parameters
         ----------
@@ -121,13 +121,15 @@ class ToolMotion(ToolWay):
 
 @dataclass(eq=False, repr=False)
 class ToolTurn(ToolWay):
-    """Turn of a tool about an axis through a point, in radians; its force is the moment of the sheet on the tool."""
+    """Rotation of a tool about an axis through a point, in radians; its force is the moment of the sheet on the
+    tool.
+    """
 
     axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
     about: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def _force_on(self, tool: Any, evaluation: Seen, ranks: Ranks) -> float:
-        """Moment of the sheet on the tool about the axis where it is now."""
+        """Moment of the sheet on the tool about the present axis."""
         axis, point = tool.axis_of(self, evaluation.controls, evaluation.time)
         force, moment = tool.resultant(evaluation.found, ranks)
         return float((moment - np.cross(point, force)) @ axis)
@@ -139,7 +141,7 @@ class ToolTurn(ToolWay):
     def _rate_on(
         self, tool: Any, pair: Any, rates: Mapping[Control, float], moved: Floats, at: At, into: Into
     ) -> float:
-        """Forces change, and ways and turns that come after this one take the axis along."""
+        """The forces change, and later motions move the axis."""
         axis, point = tool.axis_of(self, at.values, at.time)
         arms = (into.positions + at.u).reshape(-1, 3) - point
         rate = float(np.cross(arms, moved).sum(axis=0) @ axis)
@@ -150,7 +152,7 @@ class ToolTurn(ToolWay):
 
 @dataclass(eq=False, repr=False)
 class ToolForce(Control):
-    """A force (or moment) that presses a tool along one of its ways, which is an unknown then."""
+    """A force (or moment) on a tool along one of its travels, which is then unknown."""
 
     way: Any = None
 
@@ -160,27 +162,27 @@ class ToolForce(Control):
 
 
 def turn_of(name: str, tool: Any, axis: Direction, about: ArrayLike) -> ToolTurn:
-    """A turn of a tool, checked."""
+    """A checked rotation of a tool."""
     point = vector3(about, f"turn of tool {tool.name}")
     return ToolTurn(name, axis=unit_vector(axis, "turn"), about=tuple(point.tolist()), tool=tool)
 
 
 def refuse_given_and_found(others: Sequence[ToolWay], way: ToolWay, name: str) -> None:
-    """Refuse a way along which its tool would be driven and pressed at the same time.
+    """Refuse a travel along which a tool would have both a prescribed motion and a force.
 
     Parameters
     ----------
     others : sequence of ToolWay
-        Ways that the tool has.
+        Existing travels of the tool.
     way : ToolWay
-        The way that it is to get.
+        The new one.
     name : str
-        Name of the control that is made with it.
+        Name of its control.
 
     Raises
     ------
     InvalidValue
-        If one of the others leads along it.
+        If one of the others has the same direction.
     """
     for other in others:
         if other.tool is way.tool and _along(other, way):
@@ -194,7 +196,7 @@ def refuse_given_and_found(others: Sequence[ToolWay], way: ToolWay, name: str) -
 
 
 def _along(one: ToolWay, other: ToolWay) -> bool:
-    """Whether two ways of a tool have a part in common; a turn and a way never do."""
+    """Whether two travels of a tool have a common component; a rotation and a translation never do."""
     if isinstance(one, ToolMotion) and isinstance(other, ToolMotion):
         return abs(math.fsum(a * b for a, b in zip(one.direction, other.direction, strict=True))) > 1e-9
     return (

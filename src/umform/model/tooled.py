@@ -1,4 +1,6 @@
-"""What moves the tools of a model: ways, turns, forces, moments, springs, stops, other tools, motions in time."""
+"""Motion of the tools of a model: translations, rotations, forces, moments, springs, stops, followers, motions in
+time.
+"""
 
 from __future__ import annotations
 
@@ -166,7 +168,7 @@ class Tooled(Controlled):
         Parameters
         ----------
         force : ToolForce
-            What :meth:`press`, :meth:`press_turn` or :meth:`spring` returned.
+            Return value of :meth:`press`, :meth:`press_turn` or :meth:`spring`.
         at : float
             Displacement at which the tool meets the stop.
         stiffness : float, optional
@@ -177,7 +179,7 @@ class Tooled(Controlled):
         Raises
         ------
         InvalidValue
-            If a number makes no sense, or rigid stops leave no way between them.
+            If a number is invalid, or the range between rigid stops is empty.
         """
         press = self.press_of(force)
         check_stiffness(1.0 if stiffness is None else stiffness, at, f"stop of {force.name}", "way")
@@ -206,7 +208,7 @@ class Tooled(Controlled):
         tool : Tool or Contact
             The tool that follows, or a pair that touches it.
         way : ToolMotion or ToolTurn
-            What :meth:`drive` or :meth:`turn` of the other one returned.
+            Return value of :meth:`drive` or :meth:`turn` for the other tool.
 
         Raises
         ------
@@ -231,7 +233,7 @@ class Tooled(Controlled):
         Raises
         ------
         InvalidValue
-            If it presses no tool of the model.
+            If it acts on no tool of the model.
         """
         for press in (press for tool in self.tools for press in tool.presses):
             if press.force is force:
@@ -245,7 +247,7 @@ class Tooled(Controlled):
         )
 
     def _pressed(self, way: ToolWay, name: str) -> ToolForce:
-        """A force control with the way that it finds; all or nothing."""
+        """A force control with its unknown travel; both or none."""
         tool = way.tool
         refuse_given_and_found(tool.ways, way, name)
         force = ToolForce(name, way=way)
@@ -267,7 +269,7 @@ class Tooled(Controlled):
         motion : callable
             time -> translation (3,), or (translation (3,), rotation vector (3,)).
         about : array_like, shape (3,)
-            Point of the tool that the rotation is about.
+            Point of the tool about which it rotates.
         """
         tool = _tool_of(tool)
         point = forces.vector3(about, "about")

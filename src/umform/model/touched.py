@@ -1,4 +1,4 @@
-"""The tools of a model and the faces that touch them."""
+"""The tools of a model and the faces in contact with them."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Touched(Tooled):
         Raises
         ------
         InvalidValue
-            If the name is taken, or the surface is none.
+            If the name is taken, or the surface is invalid.
         """
         tool = Tool(name, surface, self.now)
         self._refuse_taken(tool.column_names(), name)
@@ -74,7 +74,8 @@ class Touched(Tooled):
         faces : Selector
             Lower or upper faces.
         tool : Surface or Tool
-            A tool of :mod:`umform.surfaces`, or UserSurface; or what :meth:`tool` returned, which several pairs share.
+            A tool of :mod:`umform.surfaces`, or UserSurface; or the return value of :meth:`tool`, which several pairs
+            share.
         penalty : float, optional
             Pressure per penetration. Default: from the allowed penetration, the strength of the sheet and the
             radius of the tool. eq. (4.29)
@@ -86,9 +87,8 @@ class Touched(Tooled):
             or the nodes with their tributary areas; default 2. Use at least 2 on 4-node and 3 on 9-node facets.
         cells : int or "auto", optional
             Instead of points: cells per direction and facet, 1 to 20, over which a linear gap is integrated up to the
-            moving edge of contact, so that the force has no stairs; "auto": as many as the allowed ripple requires,
-            eq. (4.122). Use at least 3 on 4-node and 5 on 9-node facets. The tangent is unsymmetric.
-            docs/cells.md
+            moving edge of contact, so that the force is smooth; "auto": as many as the allowed ripple requires, eq.
+            (4.122). Use at least 3 on 4-node and 5 on 9-node facets. The tangent is unsymmetric. docs/cells.md
         ripple : float, optional
             Allowed relative ripple of the force with cells="auto"; default 0.001.
         augmented : bool
@@ -106,7 +106,7 @@ class Touched(Tooled):
         Raises
         ------
         InvalidPenalty, InvalidFriction, InvalidValue
-            If a number is out of range, penalty and penetration say the same thing, or the name is taken.
+            If a number is out of range, both penalty and penetration are given, or the name is taken.
         """
         name = name or self._free_pair_name()
         if any(other.name == name for other in self.contacts):

@@ -1,7 +1,7 @@
-"""Trimming: a line parts the sheet, and the elements beyond it go.
+"""Trimming: remove the elements on one side of a line.
 
-What stays keeps its state. The forces that the metal beyond the line exerted become a dead load, which a stage then
-takes to zero. docs/operations.md
+The part keeps its state. The forces of the removed metal become a dead load, which the next operation reduces to zero.
+docs/operations.md
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import EmptySet, InvalidValue, MeshError
 from umform.mesh import Mesh
-from umform.mesh.part import part_of_mesh, stacks
+from umform.mesh.part import joined_by_faces, part_of_mesh, stacks
 from umform.model.model import Model
 from umform.model.part import ModelPart
 from umform.surfaces import Extruded, Profile
@@ -25,8 +25,10 @@ Floats = NDArray[np.float64]
 #: Coordinates of a view along an axis.
 _VIEWS = {"x": (1, 2), "y": (0, 2), "z": (0, 1)}
 _STEP = 1e-6
+#: Largest share of the cells that stay in pieces that hang by an edge or a node: they are the teeth of a slanting cut.
+_TEETH = 0.05
 
-#: A profile, corners of an open polyline, or a function that is negative where the part is.
+#: A profile, corners of an open polyline, or a function that is negative on the part.
 Line = Profile | Sequence[tuple[float, float]] | Callable[[Floats, Floats], ArrayLike]
 
 
@@ -35,31 +37,31 @@ class AtItsEnd(Protocol):
 
     @property
     def model(self) -> Model:
-        """Its model, where the run has ended."""
+        """Its model, at the end of the run."""
 
 
 @dataclass(frozen=True)
 class Trim:
     """A cut along a line: the elements whose centres lie beyond it are removed.
 
-    The cut follows edges of elements. Elements on each other through the thickness stay or go together.
+    The cut follows edges of elements. Elements stacked through the thickness are kept or removed together.
 
     Parameters
     ----------
     line : Profile, sequence of (x, y) or callable
-        Lines and arcs in the view; what lies on the left of who walks along them stays: the inside of a
+        Lines and arcs in the view; the part is on the left of the direction of travel: the inside of a
         counter-clockwise curve, the outside of a clockwise one, which cuts a hole. The first and the last line of an
-        open one go on for ever. Or corners of such an open one; or a function of two arrays of coordinates that is
-        negative where the part stays.
+        open one extend to infinity. Or corners of such an open one; or a function of two arrays of coordinates that is
+        negative on the part.
     view : {"z", "x", "y"}
         Direction of the view: the coordinates of the line are x, y; y, z; or x, z.
     formed : bool
-        Whether the line lies on the formed part, or on the flat blank that it was made of.
+        Whether the line is given on the formed part, or on the flat blank.
 
     Raises
     ------
     InvalidValue
-        If the line is none, or the view is no axis.
+        If the line is invalid, or the view is no axis.
 
     Examples
     --------
@@ -86,7 +88,7 @@ class Trim:
             self._tool().kernel()
 
     def of(self, before: Model | AtItsEnd) -> ModelPart:
-        """The part that is left of a sheet.
+        """The remaining part of a sheet.
 
         Parameters
         ----------
@@ -96,15 +98,23 @@ class Trim:
         Raises
         ------
         EmptySet
-            If the line misses the sheet, or nothing is left.
+            If the line does not cut the sheet, or nothing remains.
         MeshError
-            If what is left is in pieces.
+            If what is left is in pieces, or hangs together by edges or nodes. Cells that hang so are cut off too where
+            they are few.
         """
         model = before if isinstance(before, Model) else before.model
         mesh, sheet = model.mesh, self._in_view(model)
         kept = self._kept(mesh, sheet)
         self._refuse(kept, sheet)
         part = part_of_mesh(mesh, kept)
+        dropped = 0
+        if part.pieces == 1:
+            hanging = _hanging(mesh, kept)
+            dropped = len(hanging)
+            if dropped:
+                kept[hanging] = False
+                part = part_of_mesh(mesh, kept)
         if part.pieces > 1:
             raise MeshError(
                 "the line leaves the part in pieces that hang together nowhere",
@@ -114,7 +124,7 @@ class Trim:
                 remedy="trim along one line after the other, or along a closed curve around one piece",
             )
         edge = self._distance(sheet[part.nodes[part.mesh.nodes("cut")]])
-        return ModelPart.of(model, part, float(np.abs(edge).max()))
+        return ModelPart.of(model, part, float(np.abs(edge).max()), dropped)
 
     def _in_view(self, model: Model) -> Floats:
         points = model.mesh.points
@@ -123,7 +133,7 @@ class Trim:
         return np.ascontiguousarray(points[:, _VIEWS[self.view]])
 
     def _kept(self, mesh: Mesh, sheet: Floats) -> NDArray[np.bool_]:
-        """Cells whose stack has its centre on the side that stays."""
+        """Mask of the cells whose stack has its centre on the kept side."""
         stack = stacks(mesh)
         count = np.bincount(stack)
         centres = sheet[mesh.connectivity].mean(axis=1)
@@ -165,7 +175,7 @@ class Trim:
         return Extruded(line, x="x", y="y")
 
     def _values(self, xy: Floats) -> Floats:
-        """Negative on the side that stays; the signed distance of a line."""
+        """Negative on the kept side; the signed distance of a line."""
         if callable(self.line):
             values = np.asarray(self.line(xy[:, 0], xy[:, 1]), dtype=float)
             if values.shape != (len(xy),) or not np.isfinite(values).all():
@@ -179,7 +189,7 @@ class Trim:
         return self._tool().gap(np.column_stack([xy, np.zeros(len(xy))]))[0]
 
     def _distance(self, xy: Floats) -> Floats:
-        """Distance from the line; of a function its value over its slope, to first order."""
+        """Distance from the line; for a function its value over its slope, to first order."""
         values = self._values(xy)
         if not callable(self.line):
             return values
@@ -187,3 +197,26 @@ class Trim:
         shifts = step * np.eye(2)
         slope = np.stack([self._values(xy + s) - self._values(xy - s) for s in shifts], axis=1) / (2.0 * step)
         return np.asarray(values / np.maximum(np.linalg.norm(slope, axis=1), 1e-300))
+
+
+def _hanging(mesh: Mesh, kept: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Cells that stay and share edges or nodes at most with the largest piece.
+
+    Raises
+    ------
+    MeshError
+        If these are more than teeth of the cut.
+    """
+    cells = np.flatnonzero(kept)
+    piece = joined_by_faces(mesh, cells)
+    sizes = np.bincount(piece)
+    hanging: NDArray[np.int64] = cells[piece != np.argmax(sizes)]
+    if len(hanging) > _TEETH * len(cells):
+        raise MeshError(
+            "the line leaves pieces that hang together by an edge or a node",
+            where="Trim",
+            value=f"{len(sizes)} pieces, {len(hanging)} of {len(cells)} elements beside the largest one",
+            cause="a cut that nearly meets itself or the edge of the sheet",
+            remedy="a line that stays two elements away from others, or smaller elements there",
+        )
+    return hanging

@@ -1,4 +1,4 @@
-"""What the solver solves for: T in u = T q + c, forces and the tangent over the unknowns. docs/theory, 5.10"""
+"""Unknowns of the solver: T in u = T q + c, forces and the tangent over the unknowns. docs/theory, 5.10"""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ class Reduction:
     Attributes
     ----------
     target : ndarray of int
-        Entry of T^T K T that each share goes to; each of them occurs.
+        Entry of T^T K T to which each contribution is added; each entry occurs.
     factor : ndarray
-        What the entry of K is multiplied by.
+        Factor of the entry of K.
     source : ndarray of int, optional
-        Entry of K that each share comes from; without it there is one share of each entry, in their order.
+        Entry of K of each contribution; without it there is one contribution of each entry, in their order.
     """
 
     target: NDArray[np.intp]
@@ -40,7 +40,7 @@ class Reduction:
 
 
 class Unknowns:
-    """Free degrees of freedom, half the differences of tied ones, and what constraints leave free: u = T q + c.
+    """Free degrees of freedom, half the differences of tied ones, and the null space of constraints: u = T q + c.
 
     The columns of T are orthonormal: one entry 1, the entries -1/sqrt(2) and 1/sqrt(2) of a tie, or a vector of the
     null space of a group of constraints. eqs. (5.17), (5.42)
@@ -107,16 +107,16 @@ class Unknowns:
         source = None
         if np.all(shares == 1):
             one, other = first[rows], first[columns]
-        else:  # an entry of K goes to all pairs of the unknowns of its row and of its column
+        else:  # an entry of K contributes to all pairs of the unknowns of its row and of its column
             source = np.repeat(np.arange(len(rows)), shares[rows] * shares[columns])
             at = np.arange(len(source)) - np.repeat(*_starts(shares[rows] * shares[columns]))
             rows, columns = rows[source], columns[source]
             one, other = first[rows] + at // shares[columns], first[columns] + at % shares[columns]
         i, j, factor = unknown[one], unknown[other], weight[one] * weight[other]
         if symmetric:
-            factor = np.where((i == j) & (rows != columns), 2.0 * factor, factor)  # stands for two entries of K
+            factor = np.where((i == j) & (rows != columns), 2.0 * factor, factor)  # represents two entries of K
             if source is not None:
-                keep = (rows != columns) | (i <= j)  # an entry of the diagonal stands for itself only
+                keep = (rows != columns) | (i <= j)  # a diagonal entry represents itself only
                 source, i, j, factor = source[keep], i[keep], j[keep], factor[keep]
             i, j = np.minimum(i, j), np.maximum(i, j)
         n = len(self.free) + len(self.pairs) + self.groups.count

@@ -1,4 +1,4 @@
-"""What a model in one piece gives back as it is, and a share of one gathers from all ranks or hands out to them."""
+"""Access to whole-model data: trivial for a model on one process, gathered or distributed on ranks."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ Floats = NDArray[np.float64]
 
 
 class Whole:
-    """A model in one piece."""
+    """A model on one process."""
 
-    #: Whether the ranks of a run have the history of its elements and contacts.
+    #: Whether the ranks of a run hold the history of its elements and contacts.
     elsewhere = False
 
-    #: Nodes that count here where each is to be counted once.
+    #: Nodes that count on this rank where each must count once.
     owned: slice | NDArray[np.int64] = slice(None)
 
     @property
     def described(self) -> Any:
-        """The model as it was described, if it is there: this one."""
+        """The complete model, if available: this one."""
         return self
 
     def node_number(self, node: int) -> int:
@@ -32,7 +32,7 @@ class Whole:
         return int(node)
 
     def sum_at_nodes(self, shares: Floats) -> Floats:
-        """Values at the nodes, shape (n, k), from the shares that the elements of each rank give."""
+        """Sum of nodal values, shape (n, k), over the elements of all ranks."""
         return shares
 
     def whole_frame(self, frame: Frame) -> Frame | None:
@@ -40,9 +40,9 @@ class Whole:
         return frame
 
     def whole_state(self, tree: dict[str, Any]) -> dict[str, Any]:
-        """The state of a run, as checkpoints have it, over all nodes, cells and contact points, on the first rank."""
+        """The state of a run for checkpoints, over all nodes, cells and contact points, on the first rank."""
         return tree
 
     def own_state(self, read: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-        """The state of a run at the nodes, cells and contact points that are here; the first rank reads it."""
+        """The local part of the state of a run; the first rank reads the file."""
         return read()

@@ -1,6 +1,6 @@
-"""PETSc's assembly from coordinates: places once a pattern, values once a matrix, sums over the ranks included.
+"""PETSc's assembly from coordinates: positions once per pattern, values once per matrix, including sums over the ranks.
 
-petsc4py has it from release 3.19 on; before, the same two functions are called in PETSc's own library.
+petsc4py has it since release 3.19; before, the same two functions are called in PETSc's library.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 
 
 def preallocate(matrix: Any, rows: NDArray[Any], columns: NDArray[Any]) -> None:
-    """Tell a matrix where its values will go; a place may occur more than once, and on more than one rank.
+    """Set the positions of the values of a matrix; a position may occur several times, and on several ranks.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def preallocate(matrix: Any, rows: NDArray[Any], columns: NDArray[Any]) -> None:
 
 
 def set_values(matrix: Any, values: Floats) -> None:
-    """Give a matrix its values at the places of :func:`preallocate`; what it had is forgotten."""
+    """Set the values of a matrix at the positions of :func:`preallocate`; previous values are discarded."""
     petsc_mode = petsc().InsertMode.INSERT_VALUES
     if hasattr(matrix, "setValuesCOO"):
         matrix.setValuesCOO(values, petsc_mode)

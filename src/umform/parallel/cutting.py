@@ -1,4 +1,6 @@
-"""The first rank cuts its model into parcels, one for each rank: all that grows with the mesh, in own numbers."""
+"""The first rank divides its model into parcels, one for each rank: all data that grow with the mesh, in local
+numbering.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,7 @@ Numbers = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Parcel:
-    """What a rank gets of a model; its own numbers of nodes and cells, unless something else is said.
+    """The part of a rank of a model; local numbering of nodes and cells, unless stated otherwise.
 
     Attributes
     ----------
@@ -35,7 +37,7 @@ class Parcel:
     fixed : ndarray of bool, shape (3 * nodes,)
         Degrees of freedom that are held.
     pieces : list
-        What each body, control, tool, contact, other term and support gets, in this order.
+        Data of each body, control, tool, contact, other term and support, in this order.
     ties : list of ndarray, shape (k, 2)
         Pairs of each tie.
     numbers, node_numbers : ndarray of int
@@ -64,7 +66,7 @@ class Parcel:
 
 
 class Cutting:
-    """A whole model whose cells have been given to ranks.
+    """A whole model whose cells are assigned to ranks.
 
     Parameters
     ----------
@@ -80,12 +82,12 @@ class Cutting:
         self._whole = whole
         self._cells = by_rank(part, size)
         self._owners, self._pairs = Owners.of(whole, self._cells), tied_pairs(whole)
-        # Numbers on the rank whose parcel is cut, -1 elsewhere.
+        # Local numbers on the rank whose parcel is made, -1 elsewhere.
         self._node = np.full(len(whole.mesh.points), -1, dtype=np.int32)
         self._cell = np.full(len(part), -1, dtype=np.int32)
 
     def parcel(self, rank: int) -> Parcel:
-        """What a rank gets; the work grows with its part, and with the sets of the whole model."""
+        """Parcel of a rank; the work grows with its part, and with the sets of the whole model."""
         cells, tied, nodes = self._cells[rank], *self._known(rank)
         self._node[nodes], self._cell[cells] = np.arange(len(nodes)), np.arange(len(cells))
         whole, owners = self._whole, self._owners
@@ -131,6 +133,6 @@ class Cutting:
 
 
 def by_rank(rank: Ids, size: int) -> list[Numbers]:
-    """Numbers of the things that each rank has, in their order, from the rank of each thing."""
+    """Indices of the items of each rank, in order, from the rank of each item."""
     ends = np.cumsum(np.bincount(rank, minlength=size))
     return np.split(np.argsort(rank, kind="stable"), ends[:-1])

@@ -1,4 +1,4 @@
-"""Shares to sums and back: each rank owns some numbers and knows more of them."""
+"""Sums of partial values and distribution of results: each rank owns some numbers and uses more of them."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ Floats = NDArray[np.float64]
 
 
 class Exchange:
-    """What a rank knows of numbered items, each of which one rank owns.
+    """Numbered items on a rank; each item has one owner.
 
     Parameters
     ----------
     numbers : ndarray of int
-        Global numbers of the items that are known here; those that a rank owns are consecutive.
+        Global numbers of the local items; those that a rank owns are consecutive.
     own : int
-        How many items this rank owns.
+        Number of items that this rank owns.
     ranks : MpiRanks
         Those that share them.
     """
@@ -34,14 +34,14 @@ class Exchange:
         self._back = PETSc.ScatterMode.REVERSE
 
     def sum(self, shares: Floats) -> Floats:
-        """Sums over the ranks of their shares (known items,), for the items that are owned here."""
+        """Sums over the ranks of partial values (local items,), for the owned items."""
         self._known.array[:] = shares
         self._own.set(0.0)
         self._scatter.scatter(self._known, self._own, addv=self._add, mode=self._back)
         return np.array(self._own.array)
 
     def spread(self, own: Floats) -> Floats:
-        """Values of the known items from those that each rank owns."""
+        """Values of the local items from their owners."""
         self._own.array[:] = own
         self._scatter.scatter(self._own, self._known)
         return np.array(self._known.array)

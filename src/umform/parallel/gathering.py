@@ -1,4 +1,4 @@
-"""Frames and states of a run over the whole model from what the ranks have, and back."""
+"""Gather frames and states of a run over the whole model from the ranks, and distribute them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from umform.parallel.places import Places
 Floats = NDArray[np.float64]
 
 
-#: Stands in the outline of a tree for values at nodes.
+#: Placeholder for nodal values in the outline of a tree.
 _NODAL = "at nodes"
 
 
@@ -29,7 +29,7 @@ def _nodal(value: Any) -> bool:
 
 
 class Part(Protocol):
-    """What a share says of where it is in the whole model."""
+    """Position of a share in the whole model."""
 
     ranks: MpiRanks
     bodies: list[Body]
@@ -41,7 +41,7 @@ class Part(Protocol):
 
     @property
     def terms(self) -> list[Term]:
-        """All that adds to the residual."""
+        """All terms of the residual."""
 
 
 class Gathering:
@@ -59,9 +59,9 @@ class Gathering:
         self.known_nodes = Places(share.nodes, ranks)
         self.own_nodes = Places(share.nodes[share.owned], ranks)
         self.cells = Places(share.cells, ranks)
-        #: Rows of the state of each term that has some, by its key.
+        #: Local rows of the state of each term, by its key.
         self.rows = {term.key: Places(term.rows, ranks) for term in share.terms if term.rows is not None}
-        #: Entries of the states of terms that have values at nodes.
+        #: Entries of the states of terms with nodal values.
         self.nodal = {term.key: term.nodal for term in share.terms if term.nodal}
 
     # Whole arrays --------------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""The ranks of MPI: sums and largest values that are the same on all of them, to the last bit."""
+"""The ranks of MPI: sums and maxima that are equal on all of them, to the last bit."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ _Answer = TypeVar("_Answer")
 
 
 class MpiRanks:
-    """All processes that mpiexec has started, see :class:`umform.ranks.Ranks`.
+    """All processes started by mpiexec, see :class:`umform.ranks.Ranks`.
 
     Attributes
     ----------
     petsc_comm : communicator of petsc4py
         For vectors and matrices.
     comm : communicator of mpi4py
-        A copy for sums, parcels and files, so that nothing gets mixed up; what it sends as objects may be of any size.
+        A copy for sums, parcels and files, so that messages are not mixed up; objects may be of any size.
     """
 
     def __init__(self) -> None:
@@ -40,7 +40,7 @@ class MpiRanks:
         self.size: int = self.comm.size
 
     def sum(self, value: _Sum) -> _Sum:
-        """Sum in the order of the ranks: MPI does not promise that all ranks get the same bits from a reduction."""
+        """Sum in the order of the ranks: MPI does not guarantee that all ranks get the same bits from a reduction."""
         mine: Floats = np.array(value, dtype=float)
         parts = np.empty((self.size, *mine.shape))
         self.comm.Allgather(mine, parts)
@@ -54,7 +54,7 @@ class MpiRanks:
         return float(parts.max())
 
     def any(self, flag: bool) -> bool:
-        """Whether one of them says so."""
+        """Whether the condition holds on any rank."""
         return self.max(float(flag)) > 0.0
 
     def dot(self, a: Floats, b: Floats) -> float:
@@ -80,7 +80,7 @@ class MpiRanks:
             raise next(one for one in self.comm.allgather(error) if one is not None)
 
     def on_first(self, work: Callable[[], _Answer]) -> _Answer | None:
-        """Do something on the first rank alone; None on the others. Its error is raised on all of them."""
+        """Call a function on the first rank only; None on the others. Its error is raised on all of them."""
         answer, problem = None, None
         if self.rank == 0:
             try:
@@ -91,7 +91,7 @@ class MpiRanks:
         return answer
 
     def arrive(self, seconds: float) -> bool:
-        """Whether all ranks come here within a time: where one has failed alone, the others do not."""
+        """Whether all ranks arrive here within a time; they do not if one has failed alone."""
         request, start = self._trouble.Ibarrier(), clock.perf_counter()
         while not request.Test():
             if clock.perf_counter() - start > seconds:
@@ -106,5 +106,5 @@ class MpiRanks:
 
 @cache
 def world() -> MpiRanks:
-    """All processes that mpiexec has started."""
+    """All processes started by mpiexec."""
     return MpiRanks()

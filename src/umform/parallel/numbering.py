@@ -1,4 +1,4 @@
-"""Global numbers of nodes and unknowns, so that those of one rank are consecutive; the first rank works them out."""
+"""Global numbers of nodes and unknowns, consecutive on each rank; computed on the first rank."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Numbers = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class SharedPattern(Pattern):
-    """Where the share that a rank has in the tangent has entries.
+    """Pattern of the part of the tangent on a rank.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class SharedPattern(Pattern):
     ranks: Any
 
     def __post_init__(self) -> None:
-        """Nothing: the pattern of the share has been looked at."""
+        """Release the pattern after the analysis."""
 
     @property
     def rows(self) -> Ids:
@@ -52,7 +52,7 @@ class SharedPattern(Pattern):
 
 @dataclass(frozen=True)
 class Owners:
-    """Who owns which nodes and unknowns of a whole model.
+    """Owners of the nodes and unknowns of a whole model.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Owners:
     tie : ndarray of int, shape (tied pairs,)
         Global number of the unknown of a pair.
     own : ndarray of int, shape (ranks,)
-        How many unknowns each rank owns.
+        Number of unknowns that each rank owns.
     """
 
     node: Ids
@@ -73,7 +73,7 @@ class Owners:
 
     @classmethod
     def of(cls, model: Model, cells: Sequence[Numbers]) -> Owners:
-        """Number the unknowns of a model whose cells have been given to ranks.
+        """Number the unknowns of a model whose cells are assigned to ranks.
 
         Parameters
         ----------

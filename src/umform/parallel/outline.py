@@ -1,4 +1,4 @@
-"""A model without what grows with its mesh: bodies, tools, controls, terms and steps, which all ranks have."""
+"""A model without data that grow with its mesh: bodies, tools, controls, terms and steps, on all ranks."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from umform.steps import Free, Move, Step
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """What a rank has to know of a model beside its own nodes and cells: copies without a mesh.
+    """Data of a model that each rank needs besides its nodes and cells: copies without a mesh.
 
     Attributes
     ----------
@@ -32,9 +32,9 @@ class Outline:
     tied : list of MidLine or None
         The control of each tie.
     holders : list of Support
-        Supports and what controls hold, also those that do not act.
+        Supports and controls that hold nodes, including inactive ones.
     steps : list of Step
-        What happens to these controls.
+        Steps with these controls.
     """
 
     now: Now
@@ -49,7 +49,7 @@ class Outline:
 
     @classmethod
     def of(cls, model: Model, steps: Sequence[Step] = ()) -> Outline:
-        """Leave out of a model all that grows with its mesh."""
+        """Remove from a model all data that grow with its mesh."""
         twins = Twins()
         return cls(
             twins.of(model.now),
@@ -70,7 +70,7 @@ class Outline:
         Raises
         ------
         InvalidValue
-            If there is none, or something in it cannot be sent.
+            If there is none, or a part of it cannot be pickled.
         """
         text = ranks.comm.bcast(ranks.on_first(lambda: _pickled(outline)))
         if ranks.rank == 0:
@@ -80,12 +80,12 @@ class Outline:
         return received
 
     def pieces_for(self) -> list[Any]:
-        """All that gets a piece of the mesh, in the order of the pieces of a parcel."""
+        """All objects with a piece of the mesh, in the order of the pieces of a parcel."""
         return [*self.bodies, *self.controls, *self.tools, *self.contacts, *self.others, *self.holders]
 
 
 def _own(term: Term, twins: Twins) -> Term:
-    """The twin of a term, whose scalar unknowns are its own."""
+    """The twin of a term, with its scalar unknowns."""
     twin = twins.of(term)
     both = [unknown.name for unknown in term.unknowns if unknown in twin.unknowns]
     if both:

@@ -1,7 +1,7 @@
-"""Which rank gets which cells: the graph of the columns of cells, parted by a library that PETSc knows.
+"""Assign cells to ranks: the graph of the columns of cells, partitioned by a library of PETSc.
 
-All cells on top of each other go to one rank: contact, ties and thickness then need no neighbour through the sheet, and
-the graph is that of a surface.
+All stacked cells belong to one rank: contact, ties and thickness then need no neighbour through the sheet, and the
+graph is that of a surface.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from umform.parallel.petsc import PREFIX, petsc
 
 
 def partition(mesh: Mesh | None, ranks: MpiRanks) -> Ids | None:
-    """Rank of each cell, on the first rank, which has the mesh; each rank gets its rows of the graph to part.
+    """Rank of each cell, on the first rank, which has the mesh; each rank gets its rows of the graph.
 
-    PETSc takes PT-Scotch or ParMETIS, whichever it was built with; ``-umform_mat_partitioning_type`` names another one.
+    PETSc uses PT-Scotch or ParMETIS, depending on its build; ``-umform_mat_partitioning_type`` selects another one.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def partition(mesh: Mesh | None, ranks: MpiRanks) -> Ids | None:
     Raises
     ------
     InvalidValue
-        If a rank would get no cell.
+        If a rank would have no cell.
     """
     if mesh is None:
         ranks.comm.gather(_parts(ranks.comm.recv(source=0), ranks))
@@ -59,7 +59,7 @@ def partition(mesh: Mesh | None, ranks: MpiRanks) -> Ids | None:
 
 
 def _empty(part: Ids, size: int) -> InvalidValue | None:
-    """The error for a rank that no column is given to."""
+    """The error for a rank without a column."""
     empty = np.setdiff1d(np.arange(size), part)
     if len(empty) == 0:
         return None
@@ -73,7 +73,7 @@ def _empty(part: Ids, size: int) -> InvalidValue | None:
 
 
 def columns(mesh: Mesh) -> Ids:
-    """Number of the column that each cell belongs to: the cells that lie on each other; shape (cells,)."""
+    """Column of each cell: the cells above each other; shape (cells,)."""
     cells, half = mesh.connectivity, mesh.connectivity.shape[1] // 2
     count = len(cells)
     lower, upper = cells[:, :4], cells[:, half : half + 4]

@@ -1,4 +1,4 @@
-"""The one door to petsc4py and mpi4py, and the options of PETSc that belong to umform."""
+"""The only import of petsc4py and mpi4py, and the options of PETSc for umform."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from typing import Any
 
 from umform.errors import UmformError
 
-#: What every option of PETSc for umform begins with: -umform_ksp_type cg.
+#: Prefix of all options of PETSc for umform: -umform_ksp_type cg.
 PREFIX = "umform_"
 
 
 class NoPetsc(UmformError):
-    """PETSc for Python is not there, or does not start."""
+    """PETSc for Python is not installed, or does not start."""
 
     id = "petsc.missing"
 
 
 def petsc() -> Any:
-    """The module petsc4py.PETSc, started.
+    """The initialised module petsc4py.PETSc.
 
     Raises
     ------
@@ -39,6 +39,6 @@ def petsc() -> Any:
 
 
 def set_options(words: Sequence[str]) -> None:
-    """Hand options to PETSc, as ``["-umform_ksp_type", "cg"]``; they come after those of PETSC_OPTIONS."""
+    """Pass options to PETSc, as ``["-umform_ksp_type", "cg"]``; they override those of PETSC_OPTIONS."""
     if words:
         petsc().Options().insertString(" ".join(words))

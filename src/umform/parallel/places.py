@@ -1,4 +1,4 @@
-"""Arrays over all nodes, cells or facets of a model on the first rank, and the rows of them that each rank has."""
+"""Arrays over all nodes, cells or facets of a model on the first rank, and their rows on each rank."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ Floats = NDArray[np.float64]
 
 
 class Places:
-    """Which rows of an array over a whole model are here.
+    """Local rows of an array over a whole model.
 
     Parameters
     ----------
     rows : ndarray of int
-        Numbers of the rows that are here.
+        Indices of the local rows.
     ranks : MpiRanks
-        Those that share the model; the first rank remembers the rows of all.
+        Those that share the model; the first rank stores the rows of all.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Places:
         return whole
 
     def hand_out(self, whole: Floats | None) -> Floats:
-        """The rows that are here of a whole array, which the first rank has."""
+        """The local rows of a whole array, which the first rank has."""
         comm = self.ranks.comm
         if self._rows is None or whole is None:
             part = np.empty((self._here, *comm.bcast(None)))

@@ -1,4 +1,4 @@
-"""A run on all ranks: the model is shared, the steps are those of the share, and the result is that of the whole."""
+"""A run on all ranks: each has a share of the model and its steps; the result is that of the whole model."""
 
 from __future__ import annotations
 
@@ -41,9 +41,9 @@ def on_ranks(
     model : Model or None
         The whole model; None on all ranks but the first, or else all have built it alike.
     steps : callable
-        Gives what happens to the model of this rank, or refuses it.
+        Returns the steps for the model of this rank, or refuses it.
     work : callable
-        Runs steps on a model: here on the share of each rank, with its controls.
+        Runs steps on a model: on the share of each rank, with its controls.
 
     Returns
     -------
@@ -61,7 +61,7 @@ def on_ranks(
     try:
         with together(ranks):
             result = work(share, own)
-    except BaseException as error:  # all ranks have come here
+    except BaseException as error:  # all ranks have arrived
         _give_back(share, getattr(error, "result", None))
         raise
     _give_back(share, result)
@@ -71,7 +71,7 @@ def on_ranks(
 def _shared(model: Model | None, steps: Callable[[], Sequence[Step]], ranks: MpiRanks) -> tuple[Share, Sequence[Step]]:
     """The share of this rank, and the steps with its controls."""
     if ranks.rank > 0:
-        logging.getLogger("umform").setLevel(logging.CRITICAL + 1)  # the first rank talks
+        logging.getLogger("umform").setLevel(logging.CRITICAL + 1)  # the first rank prints
     outline = problem = None
     try:
         outline = None if model is None else _outline(model, steps(), ranks)
@@ -88,7 +88,7 @@ def _shared(model: Model | None, steps: Callable[[], Sequence[Step]], ranks: Mpi
 
 
 def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
-    """The outline of a model that can be shared."""
+    """The outline of a model that can be distributed."""
     for number, step in enumerate(steps, start=1):
         if isinstance(step, Arc):
             raise InvalidValue(
@@ -115,7 +115,7 @@ def _outline(model: Model, steps: Sequence[Step], ranks: MpiRanks) -> Outline:
 
 
 def _refuse_what_cannot_be_cut(model: Model) -> None:
-    """Reject terms of other kinds that do not say what each rank gets of them."""
+    """Reject terms that cannot be distributed."""
     for term in model.others:
         if not term.shareable:
             raise InvalidValue(
@@ -127,7 +127,7 @@ def _refuse_what_cannot_be_cut(model: Model) -> None:
 
 
 def _check_alike(model: Model, ranks: MpiRanks) -> None:
-    """Reject models that are not the same on all ranks."""
+    """Reject models that differ between the ranks."""
     mesh, loads = model.mesh, [load.vector for load in model.of_kind(Load)]
     facets = [contact.facets for contact in model.contacts]
     coupled = [part.ids for term in model.others for part in term.couples()]
@@ -156,7 +156,7 @@ def hand_out(outline: Outline, model: Model | None, ranks: MpiRanks) -> Share:
 
 
 def _give_back(share: Share, result: History | None) -> None:
-    """Leave the whole model at the last converged state: what nodes have on the first rank, NaN on the others."""
+    """Leave the whole model at the last converged state: nodal data on the first rank, NaN on the others."""
     gathering, whole = share.gathering, share.whole
     u, supports = gathering.displacement(share.u), gathering.supports(states_of_supports(share))
     loads = [None if tool.load is None else gathering.displacement(tool.load.vector) for tool in share.tools]
@@ -180,7 +180,7 @@ def _give_back(share: Share, result: History | None) -> None:
 
 
 def _give_back_tool(tool: Tool, own: Tool, vector: Floats | None) -> None:
-    """Let a tool of the whole model stand and be open as that of the share."""
+    """Set the pose of a tool of the whole model, and whether it is open, from the share."""
     tool.open = own.open
     if tool.load is not None and vector is not None:
         tool.load.vector = vector

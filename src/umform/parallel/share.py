@@ -1,8 +1,8 @@
-"""The share of a rank in a model: its own cells, supports, loads and contacts in numbers of its own.
+"""The share of a rank in a model: its cells, supports, loads and contacts in local numbering.
 
-It is put together from an outline, which all ranks have, and a parcel, which the first rank has cut for this one.
+It is made from an outline, which all ranks have, and a parcel, which the first rank has made for this one.
 
-A share is a model like any other. Only where sums over all ranks are wanted it asks PETSc or the ranks.
+A share is a model like any other. It uses PETSc or the ranks only for sums over all ranks.
 """
 
 from __future__ import annotations
@@ -41,13 +41,13 @@ class Share(Model):
     Parameters
     ----------
     outline : Outline
-        What all ranks have of the model; the share takes its controls and contacts over.
+        Common part of the model; the share uses its controls and contacts.
     parcel : Parcel
-        What this rank has of it.
+        Part of this rank.
     ranks : MpiRanks
         Those that share the model.
     whole : Model, optional
-        The model, where it is there.
+        The model, if available.
 
     Attributes
     ----------
@@ -81,7 +81,7 @@ class Share(Model):
         self.bodies = list(bodies)
 
     def _number(self, numbers: NDArray[np.int64], own: int, before: int, count: int) -> None:
-        """Take global numbers of the unknowns that are here, and make the ways to sum shares of them up."""
+        """Set global numbers of the local unknowns, and prepare the sums of partial values."""
         self._numbers, self._own, self._count = numbers, own, count
         self._unknowns = Exchange(numbers, own, self.ranks)
         number = numbers - before
@@ -90,14 +90,14 @@ class Share(Model):
         self._shared: SharedPattern | None = None
 
     def hold_again(self) -> None:
-        """Let the supports act as they stand, and number the unknowns of all ranks anew."""
+        """Apply the supports again, and renumber the unknowns of all ranks."""
         super().hold_again()
         constrained, pairs = self.constrained(), self.pairs
         constrained[pairs] = True
         owned = np.zeros((len(self.nodes), 3), dtype=bool)
         owned[self.owned] = True
         free = np.flatnonzero(~constrained)
-        places = np.concatenate([free, pairs[:, 0]])  # the unknown of a pair has the place of its lower node
+        places = np.concatenate([free, pairs[:, 0]])  # the unknown of a pair has the position of its lower node
         mine = places[owned.ravel()[places]]
         counts = self.ranks.sum(np.eye(self.ranks.size)[self.ranks.rank] * len(mine)).astype(np.int64)
         before = int(counts[: self.ranks.rank].sum())
@@ -106,20 +106,20 @@ class Share(Model):
         known = np.stack([self._at_nodes.spread(column) for column in number[self.owned].T], axis=1)
         self._number(known.ravel()[places].astype(np.int64), len(mine), before, int(counts.sum()))
 
-    # What all ranks have together ----------------------------------------------------------------------------
+    # Whole model ---------------------------------------------------------------------------------------------
 
     @property
     def described(self) -> Model | None:
-        """The whole model, where it is there."""
+        """The whole model, if available."""
         return self.whole
 
     @cached_property
     def gathering(self) -> Gathering:
-        """The way of its arrays to the first rank and back."""
+        """Gathers its arrays on the first rank and distributes them."""
         return Gathering(self)
 
     def check(self) -> None:
-        """Reject what cannot be solved; all ranks look at their own nodes and contact points."""
+        """Reject a model that cannot be solved; all ranks check their nodes and contact points."""
         check_held(self)
 
     def node_number(self, node: int) -> int:
@@ -140,10 +140,10 @@ class Share(Model):
         return self.gathering.state(tree)
 
     def own_state(self, read: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-        """What is here of the state of a run, which the first rank reads."""
+        """The local part of the state of a run, which the first rank reads."""
         return self.gathering.own_state(read)
 
-    # What Newton asks ----------------------------------------------------------------------------------------
+    # Newton's method -----------------------------------------------------------------------------------------
 
     @property
     def pattern(self) -> Pattern:
@@ -169,7 +169,7 @@ class Share(Model):
         return found
 
     def _extend_nodes(self, x: Floats) -> Floats:
-        """Displacement of the nodes that are here, from the unknowns that each rank owns. eq. (5.17)"""
+        """Displacement of the local nodes, from the unknowns that each rank owns. eq. (5.17)"""
         return super()._extend_nodes(self._unknowns.spread(x))
 
     def largest_entry(self, values: Floats) -> float:
@@ -187,7 +187,7 @@ class Share(Model):
         *,
         tangent: bool = True,
     ) -> Evaluation:
-        """Shares of residual and tangent; scale, round-off, failed cell and errors are those of all ranks."""
+        """Local parts of residual and tangent; scale, round-off, failed cell and errors are global."""
         problem, found = None, None
         try:
             found = super().evaluate(x, du, rates, until, tangent=tangent)

@@ -1,7 +1,7 @@
-"""PETSc as a sparse solver: MUMPS unless the options say otherwise, on the ranks that share a model.
+"""PETSc as a sparse solver: MUMPS by default, on the ranks that share a model.
 
-A matrix is assembled from the shares of all ranks. Symmetric ones are stored whole: MUMPS takes one triangle of them,
-and iterative solvers and multigrid need both. Options of PETSc with the prefix ``-umform_`` go before the defaults.
+A matrix is assembled from the parts of all ranks. Symmetric ones are stored in full: MUMPS uses one triangle, and
+iterative solvers and multigrid need both. Options of PETSc with the prefix ``-umform_`` override the defaults.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ _DEFAULTS = {
     "ksp_rtol": 1e-10,
     "ksp_max_it": 2000,
 }
-#: INFOG(1) of MUMPS: work space that was estimated too small; all else is given up.
+#: INFOG(1) of MUMPS: estimated work space too small; all other errors are final.
 _TOO_SMALL = (-8, -9, -14, -15, -17, -20)
 _NUMERICALLY_SINGULAR, _RETRIES = -10, 4
-#: A backward error above this is worth a step of iterative refinement.
+#: Backward error above which a step of iterative refinement is made.
 _POOR_RESIDUAL = 1e-14
 
 
@@ -40,7 +40,7 @@ class Petsc:
     name = "petsc"
 
     def analyse(self, pattern: Pattern) -> None:
-        """Make the matrix and the solver; PETSc orders and plans at the first factorisation.
+        """Create the matrix and the solver; PETSc orders and plans at the first factorisation.
 
         Raises
         ------
@@ -89,7 +89,7 @@ class Petsc:
         return ksp
 
     def _rigid_body_modes(self, pattern: SharedPattern) -> Any:
-        """The rigid-body modes at the unknowns as orthonormal vectors, which algebraic multigrid must represent."""
+        """The rigid-body modes at the unknowns as orthonormal vectors, for algebraic multigrid."""
         PETSc = petsc()
         modes, ranks = pattern.modes(), pattern.ranks
         values, directions = np.linalg.eigh(ranks.sum(modes @ modes.T))
@@ -115,7 +115,7 @@ class Petsc:
         return found
 
     def _mumps_found(self) -> Factorisation:
-        """What MUMPS tells; where its estimate of the work space was too small, it gets more of it."""
+        """Information from MUMPS; if its estimate of the work space was too small, it gets more."""
         for _ in range(_RETRIES):
             factors = self._ksp.pc.getFactorMatrix()
             status = factors.getMumpsInfog(1)
@@ -166,7 +166,7 @@ class Petsc:
         return np.array(x.array)
 
     def _refine(self, b: Any, x: Any) -> None:
-        """One step of iterative refinement where the residual is poor, and a look at what is left."""
+        """One step of iterative refinement if the residual is large, and a check of the rest."""
         residual = b.duplicate()
         if self._backward_error(b, x, residual) > _POOR_RESIDUAL:
             change = x.duplicate()
@@ -175,7 +175,7 @@ class Petsc:
             check_accuracy(self.name, self._backward_error(b, x, residual))
 
     def _backward_error(self, b: Any, x: Any, residual: Any) -> float:
-        """Residual b - K x, and its size as a part of |K| |x| + |b|."""
+        """Residual b - K x, and its norm relative to |K| |x| + |b|."""
         largest = petsc().NormType.NORM_INFINITY
         self._matrix.mult(x, residual)
         residual.aypx(-1.0, b)

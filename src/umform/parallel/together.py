@@ -1,4 +1,4 @@
-"""All ranks end together: an error that all have goes on, an error of one alone ends them all with its message."""
+"""All ranks end together: a common error propagates, an error of one rank ends all of them with its message."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from types import TracebackType
 
 from umform.parallel.mpi_ranks import MpiRanks
 
-#: Seconds that a rank which has failed waits for the others, and how much longer the next one waits, so that one of two
-#: that have failed speaks.
+#: Seconds that a failed rank waits for the others, and additional seconds for the next rank, so that only one of two
+#: failed ranks prints.
 _PATIENCE, _NEXT = 5.0, 0.5
 
 
 @contextmanager
 def together(ranks: MpiRanks) -> Iterator[None]:
-    """Let no rank wait for one that has failed.
+    """Prevent ranks from waiting for one that has failed.
 
-    An error that all ranks come out with (no convergence, a wrong value) goes on as it is, and the first rank alone
-    tells it. Where one fails alone, the others wait for it in a sum or a factorisation: it says so and ends them all.
+    A common error of all ranks (no convergence, an invalid value) propagates, and only the first rank prints it. If one
+    fails alone, the others wait for it in a sum or a factorisation: it prints its error and ends them all.
     """
     try:
         yield
@@ -34,14 +34,14 @@ def together(ranks: MpiRanks) -> Iterator[None]:
 
 
 def tell(error: BaseException, ranks: MpiRanks) -> None:
-    """Say which rank has failed, and of what."""
+    """Print which rank failed, and why."""
     text = str(error) if type(error).__module__.startswith("umform") else f"{type(error).__name__}: {error}"
     stream = sys.__stderr__ or sys.stderr
     print(f"umform: rank {ranks.rank} of {ranks.size} has failed, and ends all: {text}", file=stream, flush=True)
 
 
 def _leave_it_to_the_first(ranks: MpiRanks) -> None:
-    """Print no traceback of an error that ends a script on all ranks, but on the first one."""
+    """Print the traceback of an error that ends a script on all ranks on the first one only."""
     if ranks.rank == 0:
         return
     usual = sys.excepthook

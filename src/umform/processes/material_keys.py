@@ -25,19 +25,19 @@ from umform.materials import (
 
 
 def law_keys(law: J2 | Metal, rolling: object = None) -> dict[str, Any]:
-    """Keys of the table ``[material]`` of a law, to the last bit; what is not needed is left out.
+    """Keys of the table ``[material]`` for a law, exact to the last bit; defaults are left out.
 
     Parameters
     ----------
     law : J2 or Metal
         The law.
     rolling : optional
-        What the deck says of the rolling direction of a law that has directions: "x", or { angle = 45 } as a mapping.
+        Deck value of the rolling direction of an anisotropic law: "x", or { angle = 45 } as a mapping.
 
     Raises
     ------
     InvalidValue
-        If a deck has no words for its hardening or its yield function.
+        If a deck cannot express its hardening or its yield function.
     """
     keys: dict[str, Any] = {"law": type(law).__name__, **_elastic(law), "hardening": _hardening(law)}
     if not isinstance(law, Metal):
@@ -87,7 +87,7 @@ def _yield_function(function: YieldFunction) -> dict[str, Any]:
 
 
 def _hill48(function: Hill48) -> dict[str, float]:
-    """Its r-values if they give the same function to the last bit, else its own constants."""
+    """Its r-values if they give the same function to the last bit, else its constants."""
     r0, r45, r90 = function.r_values
     rounded = {"r0": float(f"{r0:.12g}"), "r45": float(f"{r45:.12g}"), "r90": float(f"{r90:.12g}")}
     return rounded if Hill48(**rounded) == function else asdict(function)

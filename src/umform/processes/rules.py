@@ -1,4 +1,4 @@
-"""Rules for the parameters of ready processes: what a value must be, and what is said if it is not."""
+"""Rules for the parameters of ready processes: valid values, and the error for others."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from umform.errors import InvalidValue, NotFinite
 
 @dataclass(frozen=True)
 class Rule:
-    """What a parameter must be.
+    """Condition on a parameter.
 
     Attributes
     ----------
     fits : callable
-        Says whether a value fits.
+        Whether a value is valid.
     what : str
-        What is wrong if it does not.
+        What is wrong otherwise.
     cause, remedy : str
-        Why it is likely so, and what to do about it.
+        Likely cause, and remedy.
     """
 
     fits: Callable[[Any], bool]
@@ -31,11 +31,11 @@ class Rule:
     remedy: str
 
     def optional(self) -> Rule:
-        """The same for a parameter that may be left out, as None."""
+        """The same for an optional parameter, which may be None."""
         return Rule(lambda value: value is None or self.fits(value), self.what, self.cause, self.remedy)
 
     def check(self, name: str, value: Any) -> None:
-        """Reject a value that does not fit.
+        """Reject an invalid value.
 
         Raises
         ------
@@ -50,7 +50,7 @@ class Rule:
 
 
 def check_rules(values: Mapping[str, Any], rules: Mapping[str, Rule]) -> None:
-    """Reject values by name that do not fit, each by itself."""
+    """Reject invalid values by name, one by one."""
     for name, rule in rules.items():
         rule.check(name, values[name])
 
@@ -76,8 +76,8 @@ def length(what: str, remedy: str) -> Rule:
 
 
 def plastic_material(what: str) -> Rule:
-    """A plastic law; ``what`` says who needs it."""
-    from umform.materials.j2 import Plastic  # laws load NumPy, which the command line without numbers does without
+    """A plastic law; ``what`` names what needs it."""
+    from umform.materials.j2 import Plastic  # imported late: the command line works without NumPy until it needs a law
 
     return Rule(
         lambda value: isinstance(value, Plastic),
@@ -114,7 +114,7 @@ ROLLING = Rule(
 
 
 def check_rolling(material: Any, rolling: float | None) -> None:
-    """Reject a law with directions without its rolling direction.
+    """Reject an anisotropic law without its rolling direction.
 
     Raises
     ------
@@ -132,7 +132,7 @@ def check_rolling(material: Any, rolling: float | None) -> None:
 
 
 def _shown(value: object) -> str:
-    """A value as it is written by hand: a mesh as 24x1."""
+    """A value as typed by hand: a mesh as 24x1."""
     if isinstance(value, tuple | list):
         return "x".join(map(str, value))
     return str(value)

@@ -19,7 +19,7 @@ def draw_sizes(sizes: ToolSizes, path: str | Path, mesh: Mesh | None = None) -> 
     Parameters
     ----------
     sizes : ToolSizes
-        What :func:`umform.surfaces.tool_sizes` has given.
+        Result of :func:`umform.surfaces.tool_sizes`.
     path : str or Path
         Picture: .png, .svg or .pdf.
     mesh : Mesh, optional

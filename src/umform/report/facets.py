@@ -1,4 +1,4 @@
-"""Faces made ready for a renderer: which corners share a normal, so that bends look smooth and edges sharp."""
+"""Group the corners of faces for a renderer: bends look smooth, edges sharp."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The parts of a page that move: shape in space, curves with a cursor, history as a file and a table."""
+"""The interactive parts of a page: shape in 3D, curves with a cursor, history as a file and a table."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ _SCRIPTS = ("unpack.js", "space.js", "shape.js", "curves.js", "start.js")
 
 @dataclass(frozen=True)
 class Live:
-    """The parts for one result, as text: a page may be written where the result is not.
+    """The parts for one result, as text: a page may be written by another process than the result.
 
     Attributes
     ----------
     shape, curves, table : str
-        The parts; the programs ask for all of them.
+        The parts, which need all of the scripts.
     notes : tuple of str
-        What could not be drawn in space.
+        What could not be drawn in 3D.
     scripts : str
-        Data and programs, to be put at the end of the page.
+        Data and programs for the end of the page.
     """
 
     shape: str
@@ -48,9 +48,9 @@ class Live:
 
     @classmethod
     def of(cls, result: History, *, stills: bool = True) -> Live:
-        """The parts for a result with a history; without kept frames, its last state only is drawn in space.
+        """The parts for a result with a history; without kept frames, only its last state is drawn in 3D.
 
-        ``stills``: pictures of shape and curves for where nothing moves; a page that shows both may do without.
+        ``stills``: pictures of shape and curves for printing; a page that shows both may omit them.
         """
         scene = scene_of(result)
         shape, curves = _shape(result, scene, stills), _curves(result, stills)
@@ -58,7 +58,7 @@ class Live:
 
 
 def style() -> str:
-    """What the parts need beside the style of all pages."""
+    """Style of the parts, in addition to that of all pages."""
     return _asset("run.css")
 
 
@@ -74,7 +74,7 @@ def _scripts(scene: Scene) -> str:
 
 
 def _shape(result: History, scene: Scene, stills: bool) -> str:
-    """The picture in space, or a still of the last state where it cannot be drawn."""
+    """The 3D view, or a still of the last state if it cannot be drawn."""
     options = "".join(f"<option>{escape(name)}</option>" for name in scene.fields)
     caption = "The sheet in its last state, in true proportion" + ("; one part is modelled." if scene.mirrors else ".")
     still = parts.figure(plot_shape(whole(Shape.of(result), scene.mirrors)), caption) if stills else ""
@@ -99,7 +99,7 @@ def _curves(result: History, stills: bool) -> str:
 
 
 def _table(result: History) -> str:
-    """The history as a file to download, and all of its rows."""
+    """The history as a file to download, and as a table."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "history.csv"
         write_csv(path, result.table())

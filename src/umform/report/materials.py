@@ -1,4 +1,4 @@
-"""Materials in words, with six digits."""
+"""Materials as text, with six digits."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from umform.materials import CompiledLaw, Elastic, LinearVoce, Metal, Plastic, S
 
 
 def material_text(material: object) -> str:
-    """Law and constants of a material, for people.
+    """Law and constants of a material as text.
 
     Parameters
     ----------
     material : object
-        A law of umform; of others, what ``str`` says.
+        A law of umform; for others, their ``str``.
 
     Returns
     -------
     str
-        "J2: E = 210000, nu = 0.3, yield stress 160, linear hardening 500" for one.
+        "J2: E = 210000, nu = 0.3, yield stress 160, linear hardening 500" for instance.
     """
     if isinstance(material, UserLaw):
         return f"user law: {material.name}"
@@ -39,7 +39,7 @@ def material_text(material: object) -> str:
 
 
 def _part_text(part: object) -> str:
-    """A part of a metal with its constants."""
+    """A component of a metal with its constants."""
     if isinstance(part, float):
         return f"{part:.6g}"
     if isinstance(part, tuple):
@@ -51,7 +51,7 @@ def _part_text(part: object) -> str:
 
 
 def hardening_text(curve: object) -> str:
-    """A hardening curve: the first yield stress, and how it rises."""
+    """A hardening curve: the initial yield stress, and its increase."""
     if isinstance(curve, LinearVoce):
         parts = [f"yield stress {curve.yield_stress:.6g}"]
         if curve.modulus:

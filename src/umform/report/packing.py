@@ -1,4 +1,4 @@
-"""Arrays and scripts made small enough to live inside of a page: quantised, compressed, as base64."""
+"""Arrays and scripts for embedding in a page: quantised, compressed, as base64."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from numpy.typing import NDArray
 
 #: Largest code of a quantised number.
 _TOP = 65535
-#: What a typed array of the browser is called.
+#: Names of typed arrays of the browser.
 _TYPES = {"<f4": "Float32Array", "<u4": "Uint32Array"}
 
 
 @dataclass(frozen=True)
 class Quantised:
-    """Numbers as integers of 16 bits: value = low + step * code, off by half a step at most.
+    """Numbers as integers of 16 bits: value = low + step * code, with an error of half a step at most.
 
     Attributes
     ----------
     codes : ndarray of uint16, shape (frames, n)
         The integers.
     low, step : float
-        Value of code 0, and from one code to the next.
+        Value of code 0, and the difference between successive codes.
     """
 
     codes: NDArray[np.uint16]
@@ -43,7 +43,7 @@ class Quantised:
         return cls(np.round((flat - low) / step).astype(np.uint16), low, step)
 
     def planes(self) -> NDArray[np.uint8]:
-        """The codes as differences from frame to frame, all low bytes before all high bytes: what compresses well."""
+        """Differences of the codes from frame to frame, all low bytes before all high bytes, which compresses well."""
         changes = np.diff(self.codes, axis=0, prepend=np.uint16(0))  # modulo 65536, as the browser adds them
         return np.concatenate([(changes & 255).astype(np.uint8).ravel(), (changes >> 8).astype(np.uint8).ravel()])
 
@@ -60,7 +60,7 @@ def pack(head: Mapping[str, Any], arrays: Mapping[str, NDArray[Any] | Quantised]
     Parameters
     ----------
     head : mapping
-        What JSON can hold.
+        JSON data.
     arrays : mapping of str to ndarray or Quantised
         Arrays of float, of int that is not negative, or quantised numbers.
 

@@ -28,9 +28,9 @@ def write_report(result: History, path: str | Path, *, deck: str = "", title: st
     path : str or Path
         The page to write, ending in .html.
     deck : str, optional
-        The input that the result comes from, to be kept in the page.
+        The input of the result, to be embedded in the page.
     title : str, optional
-        Heading of the page; without it, element and increments are.
+        Heading of the page; default: element and number of increments.
 
     Returns
     -------
@@ -77,7 +77,7 @@ def _parts(result: History, live: Live, deck: str) -> Iterator[str]:
 
 
 def parameter_parts(values: Mapping[str, object], note: str) -> Iterator[str]:
-    """The parameters of a process, with where its material comes from."""
+    """The parameters of a process, with the source of its material data."""
     yield parts.heading("Parameters")
     if note:
         yield parts.paragraph(note)
@@ -85,7 +85,7 @@ def parameter_parts(values: Mapping[str, object], note: str) -> Iterator[str]:
 
 
 def closing(result: History) -> Iterator[str]:
-    """What every report ends with: the time of the run, and versions."""
+    """The end of every report: the time of the run, and versions."""
     yield parts.heading("Where the time went")
     yield time_spent(result)
     yield parts.heading("Versions")
@@ -110,7 +110,7 @@ def time_spent(result: History) -> str:
 
 
 def _attempts(attempts: Attempts) -> str:
-    """How often each strategy was tried and won, and what was thrown away."""
+    """How often each strategy was tried and succeeded, and discarded evaluations."""
     rows = [[name, str(tried), str(won)] for name, tried, won in attempts.rows()]
     rows += [[f"given up: {cause}", str(count), ""] for cause, count in attempts.causes.most_common()]
     rows += [["return maps in stages", str(attempts.staged), ""]] if attempts.staged else []
@@ -119,7 +119,7 @@ def _attempts(attempts: Attempts) -> str:
 
 
 def settings(result: History) -> dict[str, object]:
-    """What the model of a run is made of, in words, with the penetrations that were reached."""
+    """Model of a run as text, with the largest penetrations."""
     model = result.model
     options = ", ".join(f"{name}={value}" for name, value in model.element.options.items())
     rows: dict[str, object] = {

@@ -1,4 +1,4 @@
-"""The parts of a page: headings, paragraphs, tables, figures as HTML, and the page that holds them."""
+"""The parts of a page: headings, paragraphs, tables, figures as HTML, and the page itself."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def paragraph(text: str) -> str:
 
 
 def note(text: str, *, bad: bool = False) -> str:
-    """A remark that must not be overlooked; lines stay as they are in a bad one."""
+    """A highlighted remark; lines of an error are kept."""
     if bad:
         return f'<pre class="note bad">{escape(text)}</pre>'
     return f'<p class="note">{escape(text)}</p>'
@@ -53,7 +53,7 @@ def figure(picture: Figure, caption: str) -> str:
 
 
 def folded(title: str, text: str) -> str:
-    """A long text that is opened by a click; its lines stay as they are."""
+    """A long text in a collapsed block, with its lines."""
     return f"<details><summary>{escape(title)}</summary><pre>{escape(text)}</pre></details>"
 
 
@@ -77,7 +77,7 @@ def check_name(path: str | Path) -> None:
 def write_html(
     path: str | Path, title: str, lead: str, parts: Iterable[str], *, style: str = "", scripts: str = ""
 ) -> Path:
-    """Write a page that needs nothing but itself, whole or not at all.
+    """Write a self-contained page, atomically.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def write_html(
     title, lead : str
         Plain text at its top.
     parts : iterable of str
-        What is in it, as HTML.
+        Its content, as HTML.
     style, scripts : str, optional
         More CSS, and <script> elements for the end of the page.
     """

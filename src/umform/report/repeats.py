@@ -1,16 +1,16 @@
-"""Warnings that come again and again are shown once, with their number."""
+"""Show repeated warnings once, with their number."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
 
-#: Where in a run a warning was given; what follows is what it says.
+#: Step and time at the beginning of a warning; the rest is its text.
 _PLACE = re.compile(r"^(step \d+, time [^:]*): ")
 
 
 def counted(warnings: Iterable[str]) -> list[str]:
-    """Warnings in the order in which they came first, those that differ only in their step and time as one.
+    """Warnings in the order of their first occurrence; those that differ only in step and time are merged.
 
     Parameters
     ----------
@@ -20,7 +20,7 @@ def counted(warnings: Iterable[str]) -> list[str]:
     Returns
     -------
     list of str
-        Each warning once; one that came more often says how often, and where first and last.
+        Each warning once; a repeated one has its number, and its first and last occurrence.
     """
     groups: dict[str, list[str]] = {}
     for warning in warnings:
@@ -29,7 +29,7 @@ def counted(warnings: Iterable[str]) -> list[str]:
 
 
 def without_place(warning: str) -> str:
-    """What a warning says, without the step and time at which it was given."""
+    """Text of a warning, without its step and time."""
     return _PLACE.sub("", warning)
 
 

@@ -1,4 +1,4 @@
-"""What the page draws in space: outer faces, frames with their fields, tools with their places."""
+"""The 3D scene of a page: outer faces, frames with their fields, tools with their poses."""
 
 from __future__ import annotations
 
@@ -27,18 +27,18 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int64]
-#: Places of a tool, one for each frame: rotations (frames, 3, 3) and shifts (frames, 3).
+#: Poses of a tool, one for each frame: rotations (frames, 3, 3) and shifts (frames, 3).
 Poses = tuple[Floats, Floats]
 #: Lowest and highest corner.
 Box = tuple[Floats, Floats]
 
-#: Tools are drawn as far as this share of the diagonal of the sheet around its path.
+#: Tools are drawn up to this part of the diagonal of the sheet around its path.
 _MARGIN = 0.12
-#: Largest distance of a drawn tool from the true one, as a share of the same diagonal.
+#: Largest deviation of a drawn tool from the true one, as a part of the same diagonal.
 _CHORD = 5e-4
-#: A field has two signs if the smaller extreme is more than this share of the larger one.
+#: A field has two signs if the smaller extreme is more than this part of the larger one.
 _TWO_SIGNS = 0.02
-#: Fields in the order in which they are offered; others follow.
+#: Order of the fields in the menu; others follow.
 _ORDER = (
     "plastic_strain_max",
     "plastic_strain_mean",
@@ -55,7 +55,7 @@ _ORDER = (
 
 @dataclass(frozen=True)
 class Scene:
-    """What is drawn.
+    """Content of the scene.
 
     Attributes
     ----------
@@ -64,7 +64,7 @@ class Scene:
     frames : int
         Number of frames.
     fields : list of str
-        Names of the fields for people.
+        Labels of the fields.
     tools : list of str
         Names of the tools that are drawn.
     notes : list of str
@@ -85,7 +85,7 @@ class Scene:
 
 
 def scene_of(result: History) -> Scene:
-    """The scene of a result; without kept frames, its last state only."""
+    """The scene of a result; without kept frames, only its last state."""
     mesh = result.model.mesh
     faces, owners = outer_quads(mesh.connectivity.astype(np.int64))
     nodes, faces = np.unique(faces, return_inverse=True)
@@ -127,7 +127,7 @@ def scene_of(result: History) -> Scene:
 
 @dataclass(frozen=True)
 class _Body:
-    """A tool to be drawn, and the planes at which it has a mirror image of its own."""
+    """A tool to be drawn, and the planes at which it is mirrored separately."""
 
     name: str
     surface: Triangles
@@ -136,7 +136,7 @@ class _Body:
 
 
 def _tools(result: History, box: Box, planes: list[Mirror]) -> tuple[list[_Body], list[str]]:
-    """The tools that can be drawn, and what is said of the others."""
+    """The tools that can be drawn, and notes on the others."""
     bodies, notes = [], []
     for tool, poses in zip(result.model.tools, _poses(result), strict=True):
         try:
@@ -160,13 +160,13 @@ def _goes_through(tool: RigidTool, poses: Poses, plane: Mirror, box: Box) -> boo
 
 
 def _gap(tool: RigidTool, rotation: Floats, shift: Floats, x: Floats) -> Floats:
-    """Distances of positions to a tool in some place."""
+    """Distances of positions to a tool in some pose."""
     gaps: Floats = np.asarray(tool.kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0])
     return gaps
 
 
 def _both_sides(box: Box, plane: Mirror) -> Box:
-    """The box of a box and its mirror image."""
+    """The bounding box of a box and its mirror image."""
     corners = np.stack(box)
     both = np.concatenate([corners, plane.image(corners)])
     return both.min(axis=0), both.max(axis=0)
@@ -186,7 +186,7 @@ def _marks(result: History) -> list[dict[str, float]]:
 
 
 def _fields(frames: list[Frame], shifts: Floats, nodes: Ids, cells: Ids) -> Iterator[tuple[str, str, Floats]]:
-    """Name, place and values (frames, n) of the scalar fields that are finite everywhere."""
+    """Name, location and values (frames, n) of the scalar fields that are finite everywhere."""
     found: dict[str, tuple[str, Floats]] = {"displacement": ("points", np.linalg.norm(shifts, axis=2))}
     if frames:
         for place, ids in (("points", nodes), ("cells", cells)):
@@ -200,14 +200,14 @@ def _fields(frames: list[Frame], shifts: Floats, nodes: Ids, cells: Ids) -> Iter
 
 
 def _rolling(frames: list[Frame], cells: Ids) -> Floats | None:
-    """Rolling directions (frames, cells, 3) of the cells that are seen; None if no body has one."""
+    """Rolling directions (frames, cells, 3) of the visible cells; None if no body has one."""
     if not frames or "rolling" not in frames[0].cells:
         return None
     return np.stack([frame.cells["rolling"][cells] for frame in frames])
 
 
 def _scale(values: Floats) -> dict[str, object]:
-    """The colour map that suits a field: from one side to the other of zero if it has both signs."""
+    """The colour map for a field: diverging about zero if it has both signs."""
     low, high = float(values.min()), float(values.max())
     both = min(-low, high) > _TWO_SIGNS * max(-low, high)
     return {"map": "coolwarm" if both else "viridis", "symmetric": both}
@@ -228,7 +228,7 @@ def _around(x: Floats) -> Box:
 
 
 def _poses(result: History) -> Iterator[Poses]:
-    """Places of each tool at the frames."""
+    """Poses of each tool at the frames."""
     for tool in result.model.tools:
         if not result.frames:
             rotation, shift = tool.pose_now
@@ -244,7 +244,7 @@ def _poses(result: History) -> Iterator[Poses]:
 
 
 def _surface(tool: RigidTool, poses: Poses, box: Box) -> Triangles:
-    """Triangles of a tool, in its own frame, that come into the box at one frame at least."""
+    """Triangles of a tool, in its frame, that enter the box in one frame at least."""
     low, high = box
     corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
     own = np.concatenate([(corners - shift) @ rotation for rotation, shift in zip(*poses, strict=True)])

@@ -1,4 +1,4 @@
-"""Planes of symmetry of a model, and the whole part that it is a half or a quarter of."""
+"""Planes of symmetry of a model, and the whole part from a modelled half or quarter."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from umform.results.shape import Shape
 
 Floats = NDArray[np.float64]
 
-#: Nodes this near to a plane lie in it, as a share of the size of the sheet.
+#: Distance of nodes from a plane that counts as zero, as a part of the size of the sheet.
 _HAIR = 1e-7
-#: Distances that differ by less than this share of the size of the sheet are the same.
+#: Difference of distances that counts as zero, as a part of the size of the sheet.
 _SAME = 1e-6
 #: Points along each side of a box in which a tool is compared with its mirror image.
 _SAMPLES = 7
@@ -44,10 +44,11 @@ class Mirror:
 
 
 def mirrors(model: Model) -> list[Mirror]:
-    """Planes of symmetry that the supports of a model say, at most one across each axis.
+    """Planes of symmetry according to the supports of a model, at most one across each axis.
 
     A plane counts if the sheet ends there through its whole thickness, all nodes in it are held across it, and not all
-    of them in every direction, which is a clamp. Nodes that are all held along an axis, as in plane strain, are none.
+    of them in every direction, which is a clamp. Nodes that are all held along an axis, as in plane strain, do not
+    count.
 
     Parameters
     ----------
@@ -70,7 +71,7 @@ def mirrors(model: Model) -> list[Mirror]:
 
 
 def _through_the_thickness(model: Model, inside: NDArray[np.bool_]) -> bool:
-    """Whether of each pair of a lower and an upper node both lie in a plane, or none."""
+    """Whether for each pair of a lower and an upper node both lie in a plane, or neither."""
     lower, upper = np.split(model.mesh.connectivity, 2, axis=1)
     return bool((inside[lower] == inside[upper]).all())
 

@@ -1,4 +1,4 @@
-"""What a result was computed with."""
+"""Versions of the software of a result."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from umform.solvers import available
 
 
 def versions() -> dict[str, str]:
-    """Versions of umform and of all that its numbers depend on."""
+    """Versions of umform and of the packages that affect its numbers."""
     return {
         "umform": umform.__version__,
         "python": platform.python_version(),
         "numpy": numpy.__version__,
-        "scipy": version("scipy"),  # without the time of its import
+        "scipy": version("scipy"),  # without importing it
         "platform": platform.platform(),
         "solvers": ", ".join(name for name, here in available().items() if here),
     }

@@ -1,1 +1,1 @@
-"""What comes out of a run: history, fields, balance of work and energies, shape."""
+"""Results of a run: history, fields, balance of work and energies, shape."""

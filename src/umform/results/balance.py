@@ -1,8 +1,9 @@
-"""The balance of a run: external work against energies, external forces against each other.
+"""The balance of a run: external work against energies, resultants of the external forces.
 
-What is put in from outside is stored in elastic strains, spent on plastic flow or held by the penalty of contact. The
-work is summed over the converged states by the trapezoidal rule, without a look at the energies, so that the difference
-measures the increments. Over the largest energy of the run it falls with their square. docs/theory, 5.11
+External work is stored as elastic energy, dissipated by plastic flow and friction, or stored by the penalty of contact.
+The work is the trapezoidal rule over the converged states and does not use the energies, so that the difference
+measures the time discretisation. Relative to the largest energy it falls with the square of the increment. docs/theory,
+5.11
 """
 
 from __future__ import annotations
@@ -51,15 +52,16 @@ class Balance:
     step, time : ndarray
         As in the history.
     external_work : ndarray
-        Work of loads, pressures, supports and tools, from the energy that the run started with.
+        Work of loads, pressures, supports and tools, plus the sum of the energies at the start.
     elastic, plastic, contact, friction : ndarray
         Energies, see :class:`Energies`.
     drift : ndarray
-        External work minus the sum of the energies, over the largest sum in any row. eq. (5.33)
+        External work minus the sum of the energies, relative to the largest sum in any row. eq. (5.33)
     force_imbalance : ndarray
-        Sum of all external forces on the sheet, over the largest sum of their magnitudes so far. eq. (5.34)
+        Sum of all external forces on the sheet, relative to the largest sum of their magnitudes so far. eq. (5.34)
     moment_imbalance : ndarray
-        Sum of their moments about the origin, over the same times the largest distance of a node from it at the start.
+        Sum of their moments about the origin, relative to the same sum times the largest initial distance of a node
+        from it.
     """
 
     step: Floats
@@ -75,10 +77,10 @@ class Balance:
 
 
 def drift(external_work: Floats, stored: Floats) -> Floats:
-    """External work minus energies, over the largest energy of the run. eq. (5.33)
+    """External work minus energies, relative to the largest energy of the run. eq. (5.33)
 
-    The row of a first touch or a first yield errs by a part of the work in it, however short the increment is: the
-    energies up to there are no scale for it.
+    At first contact or first yield the error of a row is a fixed part of its work, however short the increment is. The
+    energies up to that row are therefore no suitable scale.
 
     Parameters
     ----------
@@ -117,10 +119,10 @@ class _Tool:
         return cls(point, rotation, ranks.sum(force), ranks.sum(moment), ranks.sum(magnitude))
 
     def work_since(self, before: _Tool) -> float:
-        """Work that moves the tool against the sheet, from a state before. eq. (5.32)"""
+        """Work of the forces that move the tool against the sheet, from an earlier state. eq. (5.32)"""
         work = -0.5 * float((before.force + self.force) @ (self.point - before.point))
         if not np.array_equal(self.rotation, before.rotation):
-            from scipy.spatial.transform import Rotation  # slow to import
+            from scipy.spatial.transform import Rotation  # the import is slow
 
             turn = Rotation.from_matrix(self.rotation @ before.rotation.T).as_rotvec()
             work -= 0.5 * float((before.moment + self.moment) @ turn)
@@ -129,16 +131,16 @@ class _Tool:
 
 @dataclass(frozen=True)
 class _State:
-    """A state for work and sums of forces.
+    """A state for work and resultants.
 
     Attributes
     ----------
     u : ndarray, shape (3 n,)
         Displacement.
     forces : ndarray, shape (3 n,)
-        External nodal forces whose work is external.
+        External nodal forces that do external work.
     all_forces : ndarray, shape (3 n,)
-        With those of foundations, whose work is among the energies.
+        The same with forces of foundations, whose energy is part of the energies.
     tools : list of _Tool
         Tools.
     """
@@ -150,17 +152,17 @@ class _State:
 
 
 class ExternalWork:
-    """External work along the converged states of a run, and the resultants in each of them.
+    """External work along the converged states of a run, and the resultants in each state.
 
-    It starts at the sum of the energies that it finds, which is zero for a model at rest; where the energies are not
-    known it starts at zero and counts the work of this run.
+    It starts at the sum of the energies of the model, which is zero at rest. If energies are unknown (NaN), it starts
+    at zero and counts the work of this run only.
 
     Attributes
     ----------
     value : float
         External work so far.
     energies : Energies
-        Of the last state.
+        Energies of the last state.
     imbalances : list of tuple of float
         Relative resultants of all external forces and moments, one pair for each state. eq. (5.34)
     """
@@ -176,7 +178,7 @@ class ExternalWork:
         self._length = model.ranks.max(float(distances.max()))
 
     def advance(self, evaluation: Evaluation) -> None:
-        """Go on to the converged state of the model, which the evaluation was made at."""
+        """Continue to the converged state of the model at which the evaluation was made."""
         model = self.model
         tools = [_Tool.of(tool, evaluation, model.ranks) for tool in model.tools]
         state = _State(model.u.copy(), *self._nodal_forces(evaluation), tools)
@@ -189,7 +191,7 @@ class ExternalWork:
         self.imbalances.append(self._imbalance(state))
 
     def begin_anew(self, evaluation: Evaluation) -> None:
-        """Go on from the same state with loads in the place of tools, which take back what their contact held."""
+        """Continue from the same state with loads that replace the contact forces of removed tools."""
         model, before = self.model, self.energies
         tools = [_Tool.of(tool, evaluation, model.ranks) for tool in model.tools]
         self._before = _State(model.u.copy(), *self._nodal_forces(evaluation), tools)
@@ -197,25 +199,25 @@ class ExternalWork:
         self.value += self.energies.contact - before.contact
 
     def copy(self) -> Self:
-        """The same, to go on with apart from this one."""
+        """A copy that continues independently."""
         other = copy(self)
         other.imbalances = list(self.imbalances)
         return other
 
     def memory(self) -> dict[str, Any]:
-        """All that the work of later states follows from, beside the model itself."""
+        """All that the work of later states depends on, besides the model itself."""
         imbalances = np.array(self.imbalances)
         return {"value": self.value, "imbalances": imbalances, "largest": self._largest, "length": self._length}
 
     def recall(self, memory: Mapping[str, Any], evaluation: Evaluation) -> None:
-        """Go on with the work of a run that was kept.
+        """Restore the work of a run.
 
         Parameters
         ----------
         memory : mapping
-            What `memory` has given.
+            Value of `memory`.
         evaluation : Evaluation
-            That of its last state.
+            The evaluation of its last state.
         """
         self.advance(evaluation)
         self.imbalances = [(force, moment) for force, moment in memory["imbalances"].tolist()]
@@ -235,12 +237,12 @@ class ExternalWork:
         return forces, sum(held, start=forces)
 
     def _work(self, before: _State, state: _State) -> float:
-        """Trapezoidal rule over the way from one state to the next. eqs. (5.31), (5.32)"""
+        """Trapezoidal rule from one state to the next. eqs. (5.31), (5.32)"""
         nodes = 0.5 * self.model.ranks.dot(before.forces + state.forces, state.u - before.u)
         return nodes + sum(now.work_since(then) for now, then in zip(state.tools, before.tools, strict=True))
 
     def _imbalance(self, state: _State) -> tuple[float, float]:
-        """Resultants in the current configuration, over the largest magnitudes so far. eq. (5.34)"""
+        """Resultants in the current configuration, relative to the largest magnitudes so far. eq. (5.34)"""
         ranks, owned = self.model.ranks, self.model.owned
         x = (self.model.mesh.points + state.u.reshape(-1, 3))[owned]
         forces = self.model.sum_at_nodes(state.all_forces.reshape(-1, 3))[owned]

@@ -1,20 +1,26 @@
-"""Tools that bottom: the force of a tool on its way jumps, since the sheet is squeezed between tools."""
+"""Detect bottoming: the force of a tool jumps because the sheet is squeezed between tools."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from umform.model import Model
+from umform.model.contact.encounter import sheet_thickness
 from umform.model.tool_controls import ToolMotion
 from umform.results.history import History
 
 Floats = NDArray[np.float64]
 
-#: Growth of the force within a part of the way, after the tool has touched for another part of it and for some rows.
+#: Growth of the force within a part of the travel, after contact over another part of it and in some rows.
 _GROWTH, _WITHIN, _AFTER, _ROWS = 4.0, 0.05, 0.1, 4
+#: Part of the force of a tool that other tools answer across the sheet where it bottoms, and how far across and beside
+#: it the points which they hold may lie, in thicknesses.
+_SQUEEZED, _ACROSS, _BESIDE = 0.5, (0.3, 1.5), 0.5
 
 
 @dataclass(frozen=True)
@@ -24,9 +30,9 @@ class Bottoming:
     Attributes
     ----------
     at : float
-        Value of its way.
+        Value of its control.
     before, largest : float
-        Largest force up to there, and up to the end of the step.
+        Largest force up to that value, and up to the end of the step.
     """
 
     at: float
@@ -35,16 +41,16 @@ class Bottoming:
 
 
 def bottoming(way: Floats, force: Floats) -> Bottoming | None:
-    """Where the force of a tool jumps along its way; None where it does not.
+    """Where the force of a tool jumps along its travel; None if it does not.
 
-    It does so where it exceeds four times its largest value so far within a twentieth of the way, and keeps that to the
-    end. First touch is none: the tool must have touched over a tenth of the way and in four rows. A tool that stands or
-    comes back does not bottom: others change its force.
+    The tool bottoms where the force exceeds four times its previous maximum within a twentieth of the travel and stays
+    there to the end. First contact does not count: the tool must have touched over a tenth of the travel and in four
+    rows. A tool that stands still or moves back does not bottom: other tools change its force.
 
     Parameters
     ----------
     way, force : ndarray, shape (n,)
-        Way and force in the rows of a step.
+        Control value and force in the rows of a step.
     """
     run, size = np.abs(way - way[:1]), np.abs(force)
     touching = np.flatnonzero(size > 1e-6 * size.max(initial=0.0))
@@ -61,21 +67,65 @@ def bottoming(way: Floats, force: Floats) -> Bottoming | None:
     return None
 
 
-def warn_of_bottoming(model: Model, result: History) -> None:
-    """Say for each tool that steps move whether it has bottomed."""
+def squeezed(model: Model, tool: Any, found: Mapping[Any, Any]) -> float:
+    """Part of the force of a tool at places where another tool holds the sheet on its other side.
+
+    It tells a tool that bottoms from one that touches the sheet a second time, where the force jumps as well.
+
+    Parameters
+    ----------
+    model : Model
+        The model.
+    tool : Tool
+        One of its tools.
+    found : mapping of Contact to ContactFound
+        What was found at a converged state.
+    """
+    from scipy.spatial import cKDTree  # slow to import
+
+    mine = [found[pair] for pair in model.contacts if pair in tool.pairs]
+    others = [found[pair].held.x for pair in model.contacts if pair not in tool.pairs]
+    x, normal, force = (np.concatenate(parts) for parts in zip(*(_held(one) for one in mine), strict=True))
+    opposite, answered = np.concatenate([np.empty((0, 3)), *(x for x in others if len(x))]), 0.0
+    if len(x) and len(opposite):
+        thickness = sheet_thickness(model.mesh)
+        beside = max(thickness, *(float(np.sqrt(one.area.max())) for one in mine))
+        tree = cKDTree(opposite)
+        far, near = tree.query(x + thickness * normal, distance_upper_bound=_BESIDE * (thickness + beside))
+        there = np.flatnonzero(np.isfinite(far))
+        across = np.einsum("ni,ni->n", opposite[near[there]] - x[there], normal[there]) / thickness
+        answered = float(force[there[(across > _ACROSS[0]) & (across < _ACROSS[1])]].sum())
+    return float(model.ranks.sum(answered) / max(model.ranks.sum(float(force.sum())), 1e-300))
+
+
+def bottoms(model: Model, tool: Any, found: Mapping[Any, Any]) -> bool:
+    """Whether other tools answer most of the force of a tool across the sheet, see :func:`squeezed`."""
+    return squeezed(model, tool, found) >= _SQUEEZED
+
+
+def _held(found: Any) -> tuple[Floats, Floats, Floats]:
+    """Positions, normals and forces of the points that a tool holds."""
+    held = found.held
+    force = np.asarray(held.pressure) * found.area[held.points]
+    return np.reshape(held.x, (-1, 3)), np.reshape(held.normal, (-1, 3)), np.reshape(force, -1)
+
+
+def warn_of_bottoming(model: Model, result: History, step: int, found: Mapping[Any, Any]) -> None:
+    """Say for each tool that a step has moved whether it has bottomed; found is what holds at the end of the step."""
     steps = result["step"] if len(result) else np.empty(0)
+    rows = np.flatnonzero(steps == step)
+    if len(rows) == 0:
+        return
+    rows = rows if rows[0] == 0 else np.concatenate([[rows[0] - 1], rows])
     for control in model.controls:
         if not isinstance(control, ToolMotion):
             continue
-        for step in np.unique(steps):
-            rows = np.flatnonzero(steps == step)
-            rows = rows if rows[0] == 0 else np.concatenate([[rows[0] - 1], rows])
-            found = bottoming(result[control.name][rows], result[f"{control.name}_force"][rows])
-            if found is None:
-                continue
-            text = (
-                f"the tool {control.tool.name} bottoms at {control.name} = {found.at:.4g}: its force rises from "
-                f"{found.before:.4g} to {found.largest:.4g}; a shorter stroke, or more clearance between the tools"
-            )
-            if text not in result.warnings:
-                result.warn(text)
+        at = bottoming(result[control.name][rows], result[f"{control.name}_force"][rows])
+        if at is None or not bottoms(model, control.tool, found):
+            continue
+        text = (
+            f"the tool {control.tool.name} bottoms at {control.name} = {at.at:.4g}: its force rises from "
+            f"{at.before:.4g} to {at.largest:.4g}; a shorter stroke, or more clearance between the tools"
+        )
+        if text not in result.warnings:
+            result.warn(text)

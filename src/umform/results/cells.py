@@ -1,4 +1,4 @@
-"""What is said at the beginning of a run of the cells that contact is integrated over."""
+"""Report at the beginning of a run on the cells over which contact is integrated."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from umform.results.history import History
 
 
 def tell_of_cells(model: Model, result: History) -> None:
-    """Note the number of cells of each pair and the ripple of the force that they leave. eq. (4.121)"""
+    """Note the number of cells of each pair and the resulting ripple of the force. eq. (4.121)"""
     for contact in model.contacts:
         if contact.cells is None or contact.ripple is None:
             continue

@@ -16,10 +16,10 @@ from umform.model import Body, Evaluation, Model
 
 Floats = NDArray[np.float64]
 
-#: Directions of the two products of a cross product.
+#: Index pairs of the two products of a cross product.
 _NEXT, _LAST = [1, 2, 0], [2, 0, 1]
 
-#: Means in a cell, and the largest value of the last one.
+#: Fields that have means in a cell; of the last one also the maximum.
 _STRESSES = ("stress_cauchy", "stress_cauchy_local", "stress_pk2", "stress_pk2_local", "stress_von_mises")
 
 
@@ -77,14 +77,14 @@ class PointFields:
 
     @cached_property
     def _stresses(self) -> tuple[Floats, ...]:
-        """Cauchy stress in the local frame, which is turned with the sheet, and in global axes; S in global axes."""
+        """Cauchy stress in the local frame, which rotates with the sheet, and in global axes; S in global axes."""
         found = _core.point_stresses(self.E, self.S, self.frame, self.F)
         return tuple(stress.reshape(self.S.shape) for stress in found)
 
     def cell_average(self, values: Floats) -> Floats:
         """Average over the volume of each cell of values (cells, points, ...)."""
         weight = self.volume / self.volume.sum(axis=1, keepdims=True)
-        each = math.prod(values.shape[2:])  # a rank may have no cells of a body
+        each = math.prod(values.shape[2:])  # A rank may have no cells of a body.
         average: Floats = (weight[:, None] @ values.reshape(*weight.shape, each))[:, 0]
         return average.reshape(len(weight), *values.shape[2:])
 
@@ -118,7 +118,7 @@ def cell_fields(model: Model) -> dict[str, Floats]:
 
 
 def _cell_fields(body: Body, u: Floats) -> dict[str, Floats]:
-    """Means over the cells of a body, and largest values in them: what follows from `body_fields`, without its size."""
+    """Means and maxima over the cells of all bodies, as `body_fields` gives them, with less memory."""
     names = list(_STRESSES)
     place = -1
     if "eqps" in body.block.state_names:

@@ -1,4 +1,4 @@
-"""A whole run: `solve` begins one, `resume` continues one from its checkpoint; both give a `Result`."""
+"""A whole run: `solve` starts one, `resume` continues one from its checkpoint; both return a `Result`."""
 
 from umform.run.execute import resume, solve
 from umform.run.result import Result

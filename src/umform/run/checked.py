@@ -1,4 +1,4 @@
-"""Reject steps that a model cannot go, before time is spent on the first of them."""
+"""Reject steps that a model cannot execute, before the first one starts."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from umform.steps.release import Release
 
 
 def checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
-    """The steps, if the model can go them."""
+    """The steps, if they are valid for the model."""
     assert model is not None
     sequence = [steps] if isinstance(steps, Step) else list(steps)
     for number, step in enumerate(sequence, start=1):
@@ -42,12 +42,14 @@ def checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
             _refuse_a_way_that_is_found(model, control, sequence[: number - 1], f"step {number}")
     for step in sequence:
         if isinstance(step, Free):
-            step.prepare(model)  # the history has the columns of its forces from the beginning on
+            step.prepare(model)  # the history has the columns of its forces from the beginning
     return sequence
 
 
 def _refuse_a_way_that_is_found(model: Model, control: Control, earlier: Sequence[Step], where: str) -> None:
-    """Reject to move a tool along the way that a force or a spring finds, unless it has been released or opened."""
+    """Reject to move a tool along a travel that a force or a spring determines, unless it has been released or
+    opened.
+    """
     press = way_is_found(model, control)
     if press is None:
         return
@@ -67,7 +69,7 @@ def _refuse_a_way_that_is_found(model: Model, control: Control, earlier: Sequenc
 
 
 def _refuse_to_free(model: Model, step: Free, earlier: Sequence[Step], where: str) -> None:
-    """Reject to free a support that does not act when its step begins, or a tool that is open."""
+    """Reject to remove a support that is inactive when its step begins, or a tool that is open."""
     freed = [thing for other in earlier if isinstance(other, Free) for thing in other.things]
     put = [other.on for other in earlier if isinstance(other, Free)]
     for number, thing in enumerate(step.things):

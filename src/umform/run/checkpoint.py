@@ -1,7 +1,7 @@
-"""Checkpoints: the whole state of a run between two increments in one file, and a run that stands there again.
+"""Checkpoints: the complete state of a run between two increments in one file, and its restoration.
 
-The next increment recovers its enhanced parameters with the blocks of the last evaluation (2.19), which are not kept:
-the evaluation is made again, from the history that it had read. docs/long-runs.md
+The next increment recovers its enhanced parameters with the blocks of the last evaluation (2.19), which are not saved:
+the evaluation is repeated from its input history. docs/long-runs.md
 """
 
 from __future__ import annotations
@@ -30,35 +30,35 @@ from umform.steps.trail import Trail
 
 _KIND = "checkpoint of umform"
 
-#: Checkpoints may take one part in so many of the time, where they are large.
+#: Large checkpoints may take at most one part in this number of the time.
 _SHARE = 20
 
 
 class Checkpoints:
-    """Writes the checkpoints of a run, one over the other.
+    """Writes the checkpoints of a run, each replacing the previous one.
 
     Parameters
     ----------
     path : str or PathLike
         The file.
-    every : float
+    Least seconds between two of them; 0: one after each increment.
         Seconds between two of them, at least; 0: one after each increment.
     fingerprint : dict of str to str
-        What the run is made of.
+        Fingerprint of the run.
     note : dict, optional
-        What else the file holds, see :func:`umform.io.trees.write_tree`: the deck that the run was built from.
+        Additional content of the file, see :func:`umform.io.trees.write_tree`: the deck that the run was built from.
 
     Attributes
     ----------
     problem : str
-        Why the last one could not be written; empty if it could.
+        Why the last one could not be written; empty without a failure.
 
     Raises
     ------
     FileProblem
         If no file can be written there.
     InvalidValue
-        If the seconds are not a number, zero or more.
+        If the seconds are negative or not finite.
     """
 
     def __init__(
@@ -81,7 +81,7 @@ class Checkpoints:
         self.note = dict(note or {})
         self._writes = ranks.rank == 0  # one rank writes for all
         self._last, self._cost, self.problem = clock.perf_counter(), 0.0, ""
-        ranks.agree(_problem_of_writing(self.path) if self._writes else None)  # better now than after an hour
+        ranks.agree(_problem_of_writing(self.path) if self._writes else None)  # fail now rather than after an hour
 
     def due(self) -> bool:
         """Whether it is time for the next one."""
@@ -89,14 +89,16 @@ class Checkpoints:
         return clock.perf_counter() - self._last >= wait
 
     def write(self, run: Run) -> None:
-        """Write the state of a run between two increments; if that fails, the result is warned and the run goes on."""
+        """Write the state of a run between two increments; a failure adds a warning to the result, and the run
+        continues.
+        """
         start = clock.perf_counter()
         tree = {"fingerprint": self.fingerprint, "note": self.note, **_tree(run)}
         try:
             if self._writes:
                 write_tree(self.path, tree, _KIND)
         except FileProblem as problem:
-            if problem.cause != self.problem:  # say it once
+            if problem.cause != self.problem:  # warn once
                 run.result.warn(f"no checkpoint was written to {self.path}: {problem.cause}; what was there stays")
             self.problem = problem.cause
         else:
@@ -106,7 +108,7 @@ class Checkpoints:
 
 
 def read_checkpoint(path: str | PathLike[str]) -> dict[str, Any]:
-    """What a checkpoint holds; its ``note`` is what :func:`umform.solve` was asked to keep with it.
+    """Content of a checkpoint; its ``note`` is that given to :func:`umform.solve`.
 
     Raises
     ------
@@ -117,7 +119,7 @@ def read_checkpoint(path: str | PathLike[str]) -> dict[str, Any]:
 
 
 def read_note(path: str | PathLike[str]) -> dict[str, Any]:
-    """What :func:`umform.solve` was asked to keep in a checkpoint, without the state, which may be large.
+    """The note of a checkpoint, without the state, which may be large.
 
     Raises
     ------
@@ -138,19 +140,19 @@ def _problem_of_writing(path: Path) -> FileProblem | None:
 
 
 def take_up(run: Run, checkpoints: Checkpoints) -> dict[str, Any] | None:
-    """Let a run that has not begun stand where its checkpoint says.
+    """Restore a run that has not begun from its checkpoint.
 
     Parameters
     ----------
     run : Run
         The run, with its model.
     checkpoints : Checkpoints
-        Where it is, and what the run is made of; gets the note that was kept there.
+        Path, and fingerprint of the run; gets the note of the checkpoint.
 
     Returns
     -------
     dict or None
-        Memory of the loop of the step ``run.number``; None if the run is at its end.
+        State of the loop of the step ``run.number``; None if the run is complete.
 
     Raises
     ------
@@ -182,7 +184,7 @@ def _tree(run: Run) -> dict[str, Any]:
     return model.whole_state(
         {
             "number": run.number,
-            # After an indefinite matrix a solver with a memory tries other factors than those of Cholesky.
+            # After an indefinite matrix, a solver with state uses other factors than those of Cholesky.
             "factors": solver.memory() if isinstance(solver, Remembering) else None,
             "loop": None if run.loop is None else run.loop.memory(),
             "model": vars(model.snapshot()),
@@ -197,7 +199,7 @@ def _tree(run: Run) -> dict[str, Any]:
 def _refuse_another_run(path: str | PathLike[str], there: dict[str, str], here: dict[str, str]) -> None:
     different = [part for part in here if there.get(part) != here[part]]
     if different == ["solver"] and "petsc" in (there.get("solver"), here["solver"]):
-        return  # on ranks, then on more of them or on one: the same to rounding
+        return  # with another number of ranks: the same up to round-off
     if not different:
         return
     part = different[0]
@@ -211,7 +213,7 @@ def _refuse_another_run(path: str | PathLike[str], there: dict[str, str], here: 
 
 
 def _around(there: str, here: str, width: int = 60) -> str:
-    """Where two texts part."""
+    """First difference of two texts."""
     same = next((k for k, (a, b) in enumerate(zip(there, here, strict=False)) if a != b), min(len(there), len(here)))
     first = max(0, same - width // 2)
     before = "... " if first else ""
@@ -259,7 +261,7 @@ def _frame(tree: dict[str, Any]) -> Frame:
 
 
 def _stacked(trees: list[dict[str, Any]]) -> dict[str, Any] | None:
-    """Trees of the same shape as one tree of longer arrays; None for no trees."""
+    """Stack trees of the same structure to one tree of longer arrays; None for no trees."""
     if not trees:
         return None
     columns = {key: [tree[key] for tree in trees] for key in trees[0]}
@@ -267,7 +269,7 @@ def _stacked(trees: list[dict[str, Any]]) -> dict[str, Any] | None:
 
 
 def _unstacked(tree: dict[str, Any] | None) -> list[dict[str, Any]]:
-    """The trees that `_stacked` has made one of."""
+    """Split a tree made by `_stacked`."""
     if tree is None:
         return []
     return [_slice(tree, k) for k in range(len(tree["number"]))]

@@ -38,25 +38,25 @@ def solve(
     Parameters
     ----------
     model : Model or None
-        The model; it is left at its last converged state, whatever happens. With the solver "petsc" all ranks but the
-        first may give None, and no steps: they get their shares from there.
+        The model; it is always left at its last converged state. With the solver "petsc" all ranks but the first may
+        pass None, and no steps: they receive their parts from it.
     steps : Step or sequence of Step
         Sequence of steps.
     solver : str
-        Sparse solver, see :mod:`umform.solvers`; "petsc" runs on all ranks that mpiexec has started (docs/parallel.md).
+        Sparse solver, see :mod:`umform.solvers`; "petsc" runs on all ranks started by mpiexec (docs/parallel.md).
     options : NewtonOptions, optional
         Tolerances, line search, predictor.
     frames : int
-        About how many states are kept for pictures in each step (the history has all of them); 0 keeps none.
+        Approximate number of states kept for pictures in each step (the history has all of them); 0 keeps none.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
     checkpoint : str or PathLike, optional
-        File that the whole state of the run is written to now and then, at Ctrl-C and at the end; :func:`resume` takes
-        the run up from it.
+        File for the complete state of the run, written at intervals, at Ctrl-C and at the end; :func:`resume` continues
+        from it.
     every : float
-        Seconds between two checkpoints, at least; 0 writes one after each increment.
+        Least seconds between two checkpoints; 0 writes one after each increment.
     note : mapping of str to object, optional
-        Texts and numbers that are kept in the checkpoint, see :func:`umform.run.checkpoint.read_checkpoint`: a deck.
+        Texts and numbers to keep in the checkpoint, see :func:`umform.run.checkpoint.read_checkpoint`: a deck.
 
     Returns
     -------
@@ -68,14 +68,14 @@ def solve(
     NoConvergence
         If an increment fails at its smallest size.
     RigidBodyMotion, ToolSwallowsSheet
-        If the model cannot be solved as it stands.
+        If the model cannot be solved.
     FileProblem
-        If no checkpoint can be written in its folder. One that fails later is a warning of the result.
+        If no checkpoint can be written in its folder. A later failure to write is a warning of the result.
 
     Notes
     -----
-    Any exception that ends the run, Ctrl-C too, carries all that was reached as its attribute ``result``. The first
-    Ctrl-C ends the run after the present increment, the second one at once.
+    Any exception that ends the run, including Ctrl-C, carries the results so far as its attribute ``result``. The first
+    Ctrl-C ends the run after the present increment, the second one immediately.
 
     Examples
     --------
@@ -118,16 +118,16 @@ def resume(
     Parameters
     ----------
     path : str or PathLike
-        The checkpoint, which the run goes on to write.
+        The checkpoint, which the run continues to write.
     model, steps, solver, options, frames
-        Those that :func:`solve` was called with, built again.
+        Those of the call of :func:`solve`, built again.
     progress, every
         See :func:`solve`; they may differ.
 
     Returns
     -------
     Result
-        History, frames and iterations from the very beginning on.
+        History, frames and iterations from the beginning of the run.
 
     Raises
     ------
@@ -138,7 +138,7 @@ def resume(
 
     Notes
     -----
-    The bits are the same on the same machine with the same versions of Python's packages, see docs/long-runs.md.
+    The bits are the same on the same machine with the same versions of Python packages, see docs/long-runs.md.
 
     Examples
     --------
@@ -150,7 +150,7 @@ def resume(
     >>> result = uf.solve(model, steps, checkpoint="run.h5")  # doctest: +SKIP
     >>> result = uf.resume("run.h5", model, steps)  # doctest: +SKIP
     """
-    from umform.run.checkpoint import take_up  # few runs need it
+    from umform.run.checkpoint import take_up  # imported late: few runs need it
 
     def work(model: Model, steps: Sequence[Step]) -> Result:
         timing = new_timing()
@@ -170,7 +170,7 @@ def resume(
 
 
 def _prepared(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
-    """The steps, if the model can go them; a loose sheet rests on springs then."""
+    """The steps, if they are valid for the model; weak springs support a loose sheet."""
     sequence = checked(model, steps)
     assert model is not None
     carry_loose_sheet(model, sequence)
@@ -178,9 +178,9 @@ def _prepared(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
 
 
 def _where(solver: str) -> Callable[[Model | None, Callable[[], Sequence[Step]], _Work], Result]:
-    """Where a run goes: through this process, or on all ranks that mpiexec has started."""
+    """Run in this process, or on all ranks started by mpiexec."""
     if solver == "petsc":
-        from umform.parallel.run import on_ranks  # MPI starts only where it is asked for
+        from umform.parallel.run import on_ranks  # MPI starts only on demand
 
         return on_ranks
     return _here

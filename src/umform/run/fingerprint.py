@@ -1,7 +1,7 @@
-"""Texts that say what a run is made of, so that two runs that would go different ways can be told apart.
+"""Fingerprints: texts that identify the input of a run.
 
-A text holds names and numbers to the last digit; arrays and functions are there as digests. A function is its code, its
-defaults and what it encloses; where it is defined does not matter, as a script has another name when it is imported.
+A text has names and numbers to the last digit, and digests of arrays and functions. A function is identified by its
+code, defaults and closure, not by its module, because an imported script has another name.
 """
 
 from __future__ import annotations
@@ -28,18 +28,18 @@ _DEEPEST = 8
 
 
 def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: int) -> dict[str, str]:
-    """What must be the same in two runs that give the same bits, part by part.
+    """Input that two runs must share to give the same bits, part by part.
 
     Parameters
     ----------
     model : Model
-        The model, wherever it stands.
+        The model, at any state.
     steps : sequence of Step
-        What happens.
+        Steps of the run.
     newton : Newton
         Its options and its solver.
     frames : int
-        How many states are kept for pictures.
+        Number of states to keep for pictures.
     """
     mesh = model.mesh
     supports = [
@@ -68,13 +68,13 @@ def fingerprint(model: Model, steps: Sequence[object], newton: Newton, frames: i
 
 
 def text(value: object, depth: int = 0) -> str:
-    """A value in words that stay the same from one process to the next."""
+    """A value as text that is the same in every process."""
     if depth > _DEEPEST:
         return "..."
     inner = partial(text, depth=depth + 1)
     if isinstance(value, enum.Enum):
         return str(value)
-    if isinstance(value, np.generic):  # a float of NumPy is a float too
+    if isinstance(value, np.generic):  # a NumPy float is also a float
         return repr(value.item())
     if value is None or isinstance(value, str | bool | int | float | complex | bytes):
         return repr(value)
@@ -100,7 +100,7 @@ def text(value: object, depth: int = 0) -> str:
 
 
 def _object(value: object, depth: int = 0) -> str:
-    """Class of an object with the code of its methods, and what the object holds: two of one class may differ."""
+    """Class of an object with the code of its methods, and its attributes: two objects of one class may differ."""
     kind = type(value)
     held = dict(sorted(getattr(value, "__dict__", {}).items()))
     methods = [_function(part, depth) for key, part in sorted(vars(kind).items()) if hasattr(part, "__code__")]
@@ -111,7 +111,7 @@ def _object(value: object, depth: int = 0) -> str:
 
 
 def _control(control: Control) -> str:
-    """All of a control but its value."""
+    """All attributes of a control but its value."""
     entries = {name: value for name, value in vars(control).items() if name != "value"}
     return f"{type(control).__qualname__} {text(entries)}"
 
@@ -138,7 +138,7 @@ def _tool(tool: Tool) -> str:
 
 
 def _term(term: Term) -> str:
-    """All of a term but what changes in a run, and the code of its class."""
+    """All constant attributes of a term, and the code of its class."""
     entries = {name: value for name, value in vars(term).items() if name not in term.memory}
     methods = [_function(part, 0) for _, part in sorted(vars(type(term)).items()) if hasattr(part, "__code__")]
     return f"{type(term).__qualname__} {text([entries, methods])}"
@@ -165,5 +165,5 @@ def _code(code: CodeType) -> list[object]:
 def _content(cell: Any) -> object:
     try:
         return cell.cell_contents
-    except ValueError:  # it is empty so far
+    except ValueError:  # empty so far
         return None

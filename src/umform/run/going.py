@@ -1,4 +1,4 @@
-"""A run from increment to increment: made ready, taken through its steps, stopped between two increments."""
+"""Execution of a run: preparation, steps, actions between increments."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ _LOOPS: dict[type, Any] = {Release: Releasing, Arc: Following, Free: Freeing, Cl
 
 
 def ready(result: Result, solver: str, options: NewtonOptions | None, frames: int) -> Run:
-    """Refuse a model that cannot be solved, and make the run that has not begun."""
+    """Refuse an invalid model, and make the run at its first state."""
     model, timing = result.model, result.timing
     model.timing = timing
     model.check()
-    evaluation = model.evaluate(model.x, tangent=False)  # history and frames ask for forces only
+    evaluation = model.evaluate(model.x, tangent=False)  # history and frames need forces only
     model.begin(evaluation)
     run = Run(model, Newton(model, options, solver, timing), result, evaluation, frames=frames)
     run.result.solver = run.newton.solver
@@ -47,7 +47,7 @@ def ready(result: Result, solver: str, options: NewtonOptions | None, frames: in
 
 
 def begun(result: Result, solver: str, options: NewtonOptions | None, frames: int) -> Run:
-    """A run at its first state, which the result has."""
+    """A run at its first state, which is in the result."""
     run = ready(result, solver, options, frames)
     result.add(run.evaluation, [], frame=frames > 0)
     return run
@@ -60,10 +60,10 @@ def checkpoints_of(
     every: float,
     note: Mapping[str, Any] | None = None,
 ) -> Checkpoints | None:
-    """What writes the checkpoints of a run; None without a path."""
+    """The checkpoints of a run; None without a path."""
     if path is None:
         return None
-    from umform.run.checkpoint import Checkpoints  # few runs need it
+    from umform.run.checkpoint import Checkpoints  # imported late: few runs need it
     from umform.run.fingerprint import fingerprint
 
     whole = run.model.described  # the first rank writes and compares
@@ -72,7 +72,7 @@ def checkpoints_of(
 
 
 def go_on(run: Run, steps: Sequence[Step], progress: bool | None, checkpoints: Checkpoints | None) -> None:
-    """Go on to the end from wherever the run stands."""
+    """Continue to the end from the present state."""
     talks = run.model.ranks.rank == 0
     with progress_bar(progress if talks else False) as tick:
         taken(run, steps, tick, checkpoints, last=True)
@@ -81,7 +81,7 @@ def go_on(run: Run, steps: Sequence[Step], progress: bool | None, checkpoints: C
 def taken(
     run: Run, steps: Sequence[Step], tick: Tick, checkpoints: Checkpoints | None = None, *, last: bool = False
 ) -> None:
-    """Take the steps from ``run.number`` on; behind the last step of a run comes what is said at its end."""
+    """Execute the steps from ``run.number``; after the last one, add the final notes and warnings."""
     result = run.result
     start = clock.perf_counter() - result.seconds
     with gentle_interrupt() as stop:
@@ -89,16 +89,16 @@ def taken(
         try:
             while run.number <= len(steps):
                 _finish(run, steps[run.number - 1])
+                warn_of_bottoming(run.model, result, run.number, run.evaluation.found)
                 run.number, run.loop = run.number + 1, None
             if last:
                 warn_of_contact(run.model, result)
-                warn_of_bottoming(run.model, result)
                 tell_of_rest(run.model, result)
             _pause(run, start, checkpoints, stop, last=last)
-        except BaseException as error:  # whatever ends the run: what was reached is kept with the error
+        except BaseException as error:  # whatever ends the run, the error carries the results so far
             result.seconds = clock.perf_counter() - start
             if isinstance(error, NoConvergence):
-                warn_of_bottoming(run.model, result)
+                warn_of_bottoming(run.model, result, run.number, run.evaluation.found)
             error.result = result  # type: ignore[attr-defined]
             raise
 
@@ -109,10 +109,10 @@ def loop_for(step: Step) -> Any:
 
 
 def _finish(run: Run, step: Step) -> None:
-    """Take a step to its end, from its beginning or from where it stands."""
+    """Execute a step to its end, from its beginning or a restored state."""
     if run.loop is None:
         if not isinstance(step, Move):
-            run.trail = None  # only a move goes on from the step before
+            run.trail = None  # only a move continues the trail of the previous step
         run.loop = loop_for(step).begin(run, step)
     while not run.loop.done:
         run.pause()
@@ -120,7 +120,7 @@ def _finish(run: Run, step: Step) -> None:
 
 
 def _pause(run: Run, start: float, checkpoints: Checkpoints | None, stop: Interrupt, *, last: bool = False) -> None:
-    """Between two increments: write a checkpoint if it is time to, and stop if somebody has asked to."""
+    """Between two increments: write a checkpoint if it is due, and stop on request."""
     run.result.seconds, ranks = clock.perf_counter() - start, run.model.ranks
     show(run)
     asked = ranks.any(stop.asked)

@@ -1,4 +1,4 @@
-"""Ctrl-C or SIGTERM twice: the first one asks a run to end after its increment, the second one ends it at once."""
+"""Ctrl-C or SIGTERM twice: the first one ends a run after its increment, the second one immediately."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from types import FrameType
 
 log = logging.getLogger("umform")
 
-#: Signals that ask a run to end, and what a program that leaves them alone has for them.
+#: Signals that end a run, with their default handlers.
 _USUAL = {
     signal.SIGINT: (signal.default_int_handler,),
     signal.SIGTERM: (signal.default_int_handler, signal.SIG_DFL),
@@ -21,16 +21,16 @@ _USUAL = {
 
 @dataclass
 class Interrupt:
-    """Whether somebody has asked to stop."""
+    """Whether a stop was requested."""
 
     asked: bool = False
 
 
 @contextmanager
 def gentle_interrupt() -> Iterator[Interrupt]:
-    """Turn the first Ctrl-C or SIGTERM into a question that the block may look at when it suits.
+    """Turn the first Ctrl-C or SIGTERM into a request that the block can poll.
 
-    Nothing changes outside of the main thread, or for a signal that a program handles in its own way.
+    No effect outside of the main thread, or for a signal with another handler.
     """
     stop = Interrupt()
     if threading.current_thread() is not threading.main_thread():

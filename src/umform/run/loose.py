@@ -1,4 +1,4 @@
-"""Springs under a sheet that is loose at first: a run adds them by itself if its steps bring tools to it.
+"""Springs under an initially loose sheet, added automatically if the steps bring tools to it.
 
 docs/theory, 4.18
 """
@@ -20,19 +20,19 @@ from umform.steps import Close, Move, Release, Step
 
 
 def carry_loose_sheet(model: Model, steps: Sequence[Step]) -> Rest | None:
-    """Put springs under a sheet that can move as a rigid body now and that tools will hold.
+    """Add springs under a sheet that can move as a rigid body now but will be held by tools.
 
     Parameters
     ----------
     model : Model
         The model before the first step.
     steps : sequence of Step
-        What will happen to it.
+        Steps of the run.
 
     Returns
     -------
     Rest or None
-        The springs, where any were needed.
+        The springs, if needed.
     """
     motions = carried_motions(model, steps)
     if not motions:
@@ -44,7 +44,7 @@ def carry_loose_sheet(model: Model, steps: Sequence[Step]) -> Rest | None:
 
 @contextmanager
 def carried(model: Model, steps: Sequence[Step]) -> Iterator[None]:
-    """Put springs under a loose sheet inside of the block."""
+    """Add springs under a loose sheet within the block."""
     springs = carry_loose_sheet(model, steps)
     try:
         yield
@@ -55,18 +55,18 @@ def carried(model: Model, steps: Sequence[Step]) -> Iterator[None]:
 
 
 def carried_motions(model: Model, steps: Sequence[Step]) -> list[str]:
-    """Rigid-body motions that are free now and that tools will take away, in words; none if others stay free."""
+    """Rigid-body motions that are free now and that tools will constrain, as text; none if others remain free."""
     if not model.carries_loose_sheet or not model.contacts or not _brings_tools(model, steps):
         return []
     try:
         free = free_now(model)
-    except ModelError:  # the check of the model has the details
+    except ModelError:  # the check of the model reports the details
         return []
     return free if free and not free_in_touch(model) else []
 
 
 def note_springs(model: Model, result: History) -> None:
-    """Note in the events that a run has put springs under the sheet."""
+    """Note in the events that a run added springs under the sheet."""
     for term in model.others:
         if isinstance(term, Rest) and term.motions and term.acts(model.ranks):
             result.note(
@@ -76,7 +76,7 @@ def note_springs(model: Model, result: History) -> None:
 
 
 def _brings_tools(model: Model, steps: Sequence[Step]) -> bool:
-    """Whether a step moves a tool, or nodes of the sheet to one."""
+    """Whether a step moves a tool, or nodes of the sheet."""
     if any(tool.motion is not None for tool in model.tools):
         return True
     moved = [control for step in steps if isinstance(step, Move | Close) for control in step.moved()]

@@ -1,4 +1,4 @@
-"""A run that is taken step by step and may go back to a state that it has been in: for searches and for branches."""
+"""A run with interactive steps and branches: it may return to an earlier state."""
 
 from __future__ import annotations
 
@@ -28,24 +28,24 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Mark:
-    """A state between two steps that a run can go back to.
+    """A state between two steps to which a run can return.
 
     Attributes
     ----------
     snapshot : Snapshot
         State of the model.
     before : dict of str to ndarray
-        Histories that the evaluation there had read.
+        Input histories of the evaluation there.
     steps : list of Step
-        The steps that have led there.
+        Steps up to this state.
     trail : Trail or None
-        The increments that the next one is extrapolated from.
+        Last increments, for the extrapolation.
     history : HistoryMark
-        What of the result belongs to it.
+        The corresponding part of the result.
     factors : int or None
-        What the sparse solver remembers.
+        State of the sparse solver.
     habits : Habits
-        What earlier increments have taught.
+        Statistics of earlier increments that select the first strategy.
     """
 
     snapshot: Snapshot
@@ -58,7 +58,8 @@ class Mark:
 
 
 class OpenRun:
-    """A run whose steps are not known beforehand; its result is to the last bit that of `umform.solve` with its steps.
+    """A run whose steps are chosen as it proceeds; its result equals that of `umform.solve` with its steps to the last
+    bit.
 
     Parameters
     ----------
@@ -69,16 +70,16 @@ class OpenRun:
     options : NewtonOptions, optional
         Tolerances, line search, predictor.
     frames : int
-        About how many states are kept for pictures in each step.
+        Approximate number of states kept for pictures in each step.
 
     Attributes
     ----------
     result : Result
-        History and frames of the steps that have led to the present state.
+        History and frames of the steps up to the present state.
     steps : list of Step
         These steps.
     iterations : int
-        Newton iterations of all steps taken, those that were left again too.
+        Newton iterations of all steps, including those of other branches.
     """
 
     def __init__(
@@ -101,23 +102,23 @@ class OpenRun:
         return self._run.evaluation
 
     def take(self, *steps: Step, tick: Tick = silent) -> None:
-        """Take more steps, from the present state on.
+        """Execute more steps from the present state.
 
         Raises
         ------
         NoConvergence
-            If an increment fails at its smallest size; like any exception that ends a step, it has the result so far as
-            its attribute ``result``.
+            If an increment fails at its smallest size; like any exception that ends a step, it has the results so far
+            as its attribute ``result``.
         """
         run = self._run
         self.steps += checked(run.model, list(steps))
         whole = self.result.timing.run
         with whole:
             taken(run, self.steps, tick)
-        whole.calls = 1  # all steps are one run
+        whole.calls = 1  # all steps form one run
 
     def mark(self) -> Mark:
-        """The present state, to go back to."""
+        """The present state, to which the run can return."""
         run, solver = self._run, self._run.newton.ready_solver().solver.solver
         factors = solver.memory() if isinstance(solver, Remembering) else None
         before = {term.key: term.before for term in run.model.terms if term.before.size > 0}
@@ -126,7 +127,7 @@ class OpenRun:
         )
 
     def go_back(self, mark: Mark) -> None:
-        """Go back to a state, of this branch or another one; steps and result are what they were there."""
+        """Return to a state of any branch, with its steps and result."""
         run, solver = self._run, self._run.newton.ready_solver().solver.solver
         run.model.restore(mark.snapshot)
         run.evaluation = run.model.repeat(mark.before)
@@ -138,6 +139,6 @@ class OpenRun:
         self.steps = list(mark.steps)
 
     def close(self) -> Result:
-        """The result of the steps taken, with the warnings that are given at the end of a run."""
+        """The result of the steps, with the warnings of the end of a run."""
         warn_of_contact(self._run.model, self.result)
         return self.result

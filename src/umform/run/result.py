@@ -1,4 +1,4 @@
-"""The result of a run: its history and frames, and how to write and draw them."""
+"""The result of a run: its history and frames, files and plots."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Result(History):
     """
 
     def write(self, path: str | Path, *, lagrange: bool = False) -> Path:
-        """Write frames (``.vtkhdf``) or the history (``.csv``), whole or not at all.
+        """Write frames (``.vtkhdf``) or the history (``.csv``), atomically.
 
         Parameters
         ----------
@@ -87,7 +87,7 @@ class Result(History):
         path : str or Path
             The page, ending in .html.
         deck : str, optional
-            The input that the result comes from, to be kept in the page.
+            The input of the run, to be embedded in the page.
 
         Returns
         -------

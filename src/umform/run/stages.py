@@ -1,7 +1,6 @@
-"""A run in stages: each has a mesh, bodies and tools of its own, and begins where the one before has ended.
+"""A run in stages: each has its mesh, bodies and tools, and begins at the end of the previous one.
 
-One stage is a run of :func:`umform.solve`. Between two of them a part may be trimmed, meshed again or laid into other
-tools.
+One stage is a run of :func:`umform.solve`. Between stages a part may be trimmed, remeshed or moved to other tools.
 """
 
 from __future__ import annotations
@@ -25,14 +24,14 @@ from umform.steps import Step
 
 @dataclass(frozen=True)
 class Stage:
-    """A stretch of a run with one mesh and one set of bodies.
+    """A part of a run with one mesh and one set of bodies.
 
     Parameters
     ----------
     name : str
         For results and checkpoints: letters, digits, hyphens and underscores.
     build : callable
-        Gets the result of the stage before, None for the first one, and returns the model and its steps.
+        Called with the result of the previous stage, None for the first one; returns the model and its steps.
 
     Examples
     --------
@@ -58,7 +57,7 @@ class Stage:
 
 
 class StagedResult:
-    """Results of the stages of a run, in their order.
+    """Results of the stages of a run, in order.
 
     Attributes
     ----------
@@ -84,7 +83,7 @@ class StagedResult:
         return len(self.results)
 
     def table(self) -> dict[str, Any]:
-        """Histories of all stages below each other, with the column ``stage``; NaN where a stage lacks a column."""
+        """Concatenated histories of all stages, with the column ``stage``; NaN where a stage lacks a column."""
         columns = dict.fromkeys(name for result in self.results.values() for name in result.columns())
         rows = {name: len(result) for name, result in self.results.items()}
         table: dict[str, Any] = {"stage": np.repeat(list(rows), list(rows.values()))}
@@ -105,12 +104,12 @@ def solve_stages(
     Parameters
     ----------
     stages : sequence of Stage
-        What happens, in a row.
+        The stages, in order.
     checkpoints : str or PathLike, optional
-        Folder for the checkpoint of each stage. Stages whose checkpoint lies there already are resumed from it, to
-        the same bits; so the same call continues a run that was stopped.
+        Folder for the checkpoint of each stage. Stages with an existing checkpoint are resumed from it, to the same
+        bits; the same call therefore continues a stopped run.
     **options
-        See :func:`umform.solve`; they hold for all stages.
+        See :func:`umform.solve`; they apply to all stages.
 
     Returns
     -------
@@ -158,17 +157,17 @@ def _result_of(stage: Stage, before: Result | None, file: Path | None, options: 
 
 
 def continued(model: Model, before: Result, motion: RigidMotion | None = None) -> Model:
-    """Let a model of the same mesh and bodies begin in the state that a run has ended in.
+    """Start a model of the same mesh and bodies from the final state of a run.
 
     Parameters
     ----------
     model : Model
-        The model of the next stage, with tools, supports and loads of its own. Supports that are put in place later
-        with ``here=True`` hold the nodes where they are then.
+        The model of the next stage, with its tools, supports and loads. Supports that are activated later with
+        ``here=True`` hold the nodes in their positions at that time.
     before : Result
         Result of the stage before.
     motion : RigidMotion, optional
-        How the part is moved as a rigid body first, into other tools for instance.
+        Rigid motion of the part before the stage, into other tools for instance.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Somebody who looks at a run between two increments: a page that draws the curve while it grows."""
+"""Observers of a run between two increments: a page that draws the curve during the run."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from umform.steps.loop import Run
 
-#: Is called with the run, which it must leave as it is.
+#: Called with the run, which it must not change.
 Watcher = Callable[["Run"], None]
 _watcher: ContextVar[Watcher | None] = ContextVar("umform_watcher", default=None)
 
 
 @contextmanager
 def watching(watcher: Watcher) -> Iterator[None]:
-    """Have a function called between any two increments of the runs in the block."""
+    """Call a function between any two increments of the runs in the block."""
     before = _watcher.set(watcher)
     try:
         yield
@@ -26,7 +26,7 @@ def watching(watcher: Watcher) -> Iterator[None]:
 
 
 def show(run: Run) -> None:
-    """Call who is watching."""
+    """Call the observers."""
     watcher = _watcher.get()
     if watcher is not None:
         watcher(run)

@@ -27,7 +27,7 @@ _CURVES: dict[str, Callable[..., Hardening]] = {
 
 @cache
 def card_rows() -> dict[str, Row]:
-    """What the file says, by the name of the metal."""
+    """Content of the file, by the name of the metal."""
     return tomllib.loads(resources.files("umform.sheet_metals").joinpath("cards.toml").read_text(encoding="utf-8"))
 
 

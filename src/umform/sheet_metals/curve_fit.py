@@ -26,7 +26,7 @@ def fit_hardening(
     eqps, stress : array_like, shape (n,)
         Plastic strain and true stress.
     build : callable
-        Makes the curve of its constants, ``lambda c: LinearVoce(**c)`` for one.
+        Makes the curve from its constants, for instance ``lambda c: LinearVoce(**c)``.
     start : mapping of str to float
         First guess, all positive.
     """
@@ -83,7 +83,7 @@ def fit_perfect(eqps: ArrayLike, stress: ArrayLike) -> Fit[Hardening]:
 
 
 def fit_table(eqps: ArrayLike, stress: ArrayLike) -> Fit[Hardening]:
-    """A table of at most 25 points that rises, means over equal numbers of measurements; nothing is smoothed else."""
+    """An increasing table of at most 25 points, means over equal numbers of measurements, without other smoothing."""
     strains, stresses = pairs(eqps, stress)
     order = np.argsort(strains, kind="stable")
     parts = np.array_split(order, min(_POINTS, len(order)))

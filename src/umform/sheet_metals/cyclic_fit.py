@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 #: Strains and stresses of a bar, one test.
 Test = tuple[ArrayLike, ArrayLike]
 
-#: Flat valleys, of constants that stand for each other, are not followed farther.
+#: Flat valleys, of correlated constants, are not followed farther.
 _TOLERANCE = 1e-6
 #: Recalls of the back stresses of a first guess.
 _RECALLS = ((60.0,), (200.0, 15.0), (500.0, 60.0, 6.0), (1000.0, 150.0, 25.0, 4.0))
@@ -28,18 +28,18 @@ def fit_cycles(
     start: Mapping[str, float],
     largest_step: float = 1e-3,
 ) -> Fit[Metal]:
-    """Constants of a metal from a bar that is pulled and pushed along the rolling direction.
+    """Constants of a metal from tension and compression of a bar along the rolling direction.
 
     Parameters
     ----------
     strain, stress : array_like, shape (n,)
-        Logarithmic strains in their order, and true stresses.
+        Logarithmic strains in order, and true stresses.
     build : callable
-        Makes the metal of its constants.
+        Makes the metal from its constants.
     start : mapping of str to float
         First guess, all positive.
     largest_step : float
-        Strains farther apart than this are reached in steps.
+        Larger strain differences are divided into steps.
     """
     return fit_tests([(strain, stress)], build, start, largest_step)
 
@@ -75,7 +75,7 @@ def fit_chaboche(
     ----------
     tests : sequence of pairs of array_like
         Logarithmic strains and true stresses of each test; one at least must turn back. NaN is a stress that was not
-        measured: the strains must have every turning point.
+        measured: the strains must include every turning point.
     parts : int
         Number of back stresses, 1 to 4.
     young, poisson : float
@@ -83,7 +83,7 @@ def fit_chaboche(
     yield_function : YieldFunction, optional
         Default: von Mises.
     largest_step : float
-        Strains farther apart than this are reached in steps.
+        Larger strain differences are divided into steps.
 
     Returns
     -------
@@ -157,7 +157,7 @@ def _prepared(
 
 
 def _test(strain: ArrayLike, stress: ArrayLike) -> tuple[Floats, Floats]:
-    """Strains and stresses, NaN where a strain was passed whose stress was not measured."""
+    """Strains and stresses, NaN at strains without a measured stress."""
     strains, stresses = np.asarray(strain, dtype=float), np.asarray(stress, dtype=float)
     known = np.isfinite(stresses) if stresses.shape == strains.shape else slice(None)
     pairs(strains[known], stresses[known])

@@ -1,4 +1,4 @@
-"""Yield functions from what tension at several angles and biaxial tension say of a sheet."""
+"""Yield functions from tension at several angles and biaxial tension."""
 
 from __future__ import annotations
 
@@ -18,24 +18,24 @@ Floats = NDArray[np.float64]
 #: The same share of the stress may be added to all normal components of both transformed stresses: one row stays.
 _OF_FIRST = ("c21", "c23", "c31", "c32", "shear12")
 _OF_SECOND = ("c12", "c13", "c21", "c23", "c31", "c32", "shear12")
-#: Starts of Yld2004, whose sum of squares has more than one valley.
+#: Starts of Yld2004, whose sum of squares has several minima.
 _STARTS, _SPREAD = 12, 0.3
 
 
 @dataclass(frozen=True)
 class Directions:
-    """Measurements of a sheet; what was not measured is left out.
+    """Measurements of a sheet; missing ones are left out.
 
     Attributes
     ----------
     stress : mapping of float to float
-        Yield stress over that of the hardening curve, by the angle to the rolling direction in degrees.
+        Yield stress relative to that of the hardening curve, by the angle to the rolling direction in degrees.
     r : mapping of float to float
         r-value by the same angle.
     biaxial : float, optional
-        Yield stress of equal tension in both directions, over that of the curve.
+        Equibiaxial yield stress, relative to that of the curve.
     r_biaxial : float, optional
-        Strain across over strain along the rolling direction there.
+        Ratio of the strains across and along the rolling direction in that test.
     """
 
     stress: Mapping[float, float]
@@ -58,20 +58,20 @@ class Directions:
 
 
 def uniaxial(function: YieldFunction, angle: float) -> tuple[float, float]:
-    """Yield stress over that of the curve, and r-value, of tension at an angle in degrees, eq. (3.140)."""
+    """Yield stress relative to that of the curve, and r-value, in tension at an angle in degrees, eq. (3.140)."""
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     phi, n = function.function()(np.array([c * c, s * s, 0.0, c * s, 0.0, 0.0]))
     return 1.0 / phi, float(s * s * n[0] + c * c * n[1] - c * s * n[3]) / float(n[2])
 
 
 def balanced(function: YieldFunction) -> tuple[float, float]:
-    """Yield stress over that of the curve, and strain across over strain along, of equal tension in both directions."""
+    """Equibiaxial yield stress relative to that of the curve, and ratio of the strains across and along."""
     phi, n = function.function()(np.array([1.0, 1.0, 0.0, 0.0, 0.0, 0.0]))
     return 1.0 / phi, float(n[1] / n[0])
 
 
 def fit_hill48(measured: Directions) -> Fit[Hill48]:
-    """Hill (1948) by least squares through stresses and r-values, which its four constants cannot all meet."""
+    """Hill (1948) by least squares from stresses and r-values, which its four constants cannot all meet."""
 
     def build(constants: Mapping[str, float]) -> Hill48:
         return Hill48(constants["r0"], constants["r45"], constants["r90"])
@@ -81,7 +81,8 @@ def fit_hill48(measured: Directions) -> Fit[Hill48]:
 
 
 def fit_yld2004(measured: Directions, exponent: float = 8) -> Fit[Yld2004]:
-    """Yld2004-18p by least squares, the best of twelve starts; the shears 23 and 13, which no sheet shows, stay 1.
+    """Yld2004-18p by least squares, the best of twelve starts; the shears 23 and 13, which sheet tests do not
+    determine, stay 1.
 
     Parameters
     ----------
@@ -104,7 +105,7 @@ def fit_yld2004(measured: Directions, exponent: float = 8) -> Fit[Yld2004]:
 
 
 def _residuals(function: YieldFunction, measured: Directions) -> Floats:
-    """Differences in stresses over 1 %, in r-values over 5 %: as well as they are measured."""
+    """Differences of stresses over 1 %, of r-values over 5 %: their measurement uncertainties."""
     found = [(uniaxial(function, angle)[0] - stress) / (0.01 * stress) for angle, stress in measured.stress.items()]
     found += [(uniaxial(function, angle)[1] - r) / (0.05 * max(r, 0.2)) for angle, r in measured.r.items()]
     if measured.biaxial is not None:

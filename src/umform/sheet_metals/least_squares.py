@@ -1,4 +1,4 @@
-"""Constants from measurements by least squares, and how well each of them is determined."""
+"""Constants from measurements by least squares, and their uncertainties."""
 
 from __future__ import annotations
 
@@ -14,27 +14,26 @@ from umform.errors import InvalidValue, UmformError
 Floats = NDArray[np.float64]
 Law = TypeVar("Law")
 
-#: Residual of constants of which no law can be made.
+#: Residual for constants that define no valid law.
 _REFUSED = 1e3
-#: A constant is not determined if its standard deviation is more than this share of it.
+#: A constant is not determined if its standard deviation is more than this part of it.
 _VAGUE = 0.5
-#: Two constants stand for each other if their correlation is beyond this.
+#: Two constants are not determined separately if their correlation is beyond this.
 _TIED = 0.95
 
 
 @dataclass(frozen=True)
 class Fit(Generic[Law]):
-    """A law whose constants were fitted.
+    """A fitted law.
 
     Attributes
     ----------
     law : object
         The law.
     constants : mapping of str to float
-        What was fitted.
+        Fitted constants.
     deviations : mapping of str to float
-        Standard deviation of each, as far as the scatter of the measurements tells; infinite where they do not
-        determine it.
+        Standard deviation of each, from the scatter of the measurements; infinite if they do not determine it.
     misfit : float
         Root of the mean square of the residuals.
     correlation : ndarray, shape (n, n)
@@ -49,12 +48,12 @@ class Fit(Generic[Law]):
 
     @property
     def undetermined(self) -> tuple[str, ...]:
-        """Constants whose standard deviation is more than half of them."""
+        """Constants whose standard deviation is more than half of their value."""
         return tuple(name for name, value in self.constants.items() if not self.deviations[name] <= _VAGUE * abs(value))
 
     @property
     def tied(self) -> tuple[tuple[str, str, float], ...]:
-        """Pairs of constants of which little more than one combination is determined, with their correlation."""
+        """Pairs of constants that are not determined separately, with their correlation."""
         names = list(self.constants)
         pairs = np.argwhere(np.triu(np.abs(self.correlation) > _TIED, 1))
         return tuple((names[i], names[j], float(self.correlation[i, j])) for i, j in pairs)
@@ -77,18 +76,18 @@ def fit(
     bounds: Mapping[str, tuple[float, float]] | None = None,
     tolerance: float = 1e-8,
 ) -> Fit[Law]:
-    """Find the constants whose law has the least sum of squares.
+    """Find the constants with the least sum of squares.
 
     Parameters
     ----------
     build : callable
-        Makes the law of constants.
+        Makes the law from constants.
     residuals : callable
-        Differences of a law to the measurements, each over its uncertainty or scale.
+        Differences between a law and the measurements, each over its uncertainty or scale.
     start : mapping of str to float
         First guess, by name.
     positive : bool
-        Constants are positive and may be wrong by factors: their logarithms are varied.
+        Constants are positive and of unknown magnitude: their logarithms are varied.
     bounds : mapping of str to pairs of float, optional
         Lower and upper bounds of some of them; one that ends there is not determined.
     tolerance : float
@@ -97,7 +96,7 @@ def fit(
     Raises
     ------
     InvalidValue
-        If no law can be made of the first guess, or of what is found.
+        If the first guess or the result define no valid law.
     """
     names, guess = list(start), np.array(list(start.values()), dtype=float)
     if positive and not (guess > 0).all():
@@ -108,7 +107,7 @@ def fit(
             cause="a zero",
             remedy="a small number in place of zero",
         )
-    build(start)  # let it say what is wrong with it
+    build(start)  # raises the error of the law
 
     def constants(x: Floats) -> dict[str, float]:
         return dict(zip(names, (guess * np.exp(x) if positive else guess + x).tolist(), strict=True))
@@ -118,10 +117,10 @@ def fit(
     def differences(x: Floats) -> Floats:
         try:
             return residuals(build(constants(x)))
-        except UmformError:  # a law that cannot be, or a state that it cannot reach
+        except UmformError:  # an invalid law, or a state that cannot be reached
             return np.full_like(sample, _REFUSED)
 
-    from scipy.optimize import least_squares  # slow to import
+    from scipy.optimize import least_squares  # the import is slow
 
     free = (0.0 if positive else -np.inf, np.inf)
     low, high = np.array([(bounds or {}).get(name, free) for name in names]).T
@@ -147,7 +146,7 @@ def fit(
 
 
 def _uncertainty(jacobian: Floats, residual: Floats) -> tuple[Floats, Floats]:
-    """Standard deviations, infinite along directions that nothing determines, and correlations, eq. (3.141)."""
+    """Standard deviations, infinite along undetermined directions, and correlations, eq. (3.141)."""
     _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)
     free = max(len(residual) - jacobian.shape[1], 1)
     variance = float(residual @ residual) / free

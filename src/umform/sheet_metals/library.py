@@ -42,7 +42,7 @@ def cards() -> tuple[str, ...]:
 
 
 def get(name: str) -> SheetMetal:
-    """Sheet metal of a name.
+    """Sheet metal by name.
 
     Parameters
     ----------
@@ -53,12 +53,12 @@ def get(name: str) -> SheetMetal:
     Returns
     -------
     SheetMetal
-        Its ``law`` is what a model takes; N, mm, MPa.
+        Its ``law`` is for a model; N, mm, MPa.
 
     Raises
     ------
     InvalidValue
-        If the library has no such metal; the message names the nearest one.
+        If the library has no such metal; the message names the most similar one.
     """
     known = _known()
     key = _plain(name)
@@ -98,7 +98,7 @@ def _known() -> dict[str, str]:
 
 
 def _strain_at_largest_force(row: dict[str, Any]) -> float:
-    """Total elongation at the largest force, by the rule of the metal."""
+    """Total elongation at the largest force, by the empirical rule of the metal."""
     R = float(row["yield_stress"])
     ratio = R / float(row["tensile_strength"])
     match row["uniform"]:
@@ -117,12 +117,12 @@ def _strain_at_largest_force(row: dict[str, Any]) -> float:
 def of_certificate(
     name: str, yield_stress: float, tensile_strength: float, uniform_elongation: float | None = None
 ) -> SheetMetal:
-    """Sheet metal of the library with R, Rm and Ag of a coil; a Voce curve where no Swift curve goes through them.
+    """Sheet metal of the library with R, Rm and Ag of a coil; a Voce curve if no Swift curve meets them.
 
     Parameters
     ----------
     name : str
-        The metal that the coil is of; one whose curve is derived from a standard.
+        Metal of the coil; one whose curve is derived from a standard.
     yield_stress, tensile_strength : float
         Re or Rp0.2, and Rm of the certificate, in MPa.
     uniform_elongation : float, optional

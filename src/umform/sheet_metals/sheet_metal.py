@@ -21,24 +21,24 @@ class SheetMetal:
     aliases : tuple of str
         Other names.
     law : J2 or Metal
-        The law that a model takes; one with directions needs the rolling direction.
+        Its law; an anisotropic one needs the rolling direction.
     young, poisson : float
         Elastic constants.
     yield_stress, tensile_strength : float
-        Rp0.2 or the yield point, and Rm: numbers of the source; of a published card, tension along the rolling
+        Rp0.2 or the yield point, and Rm: values of the source; for a published card, tension along the rolling
         direction.
     uniform_elongation : float
         Ag, plastic elongation at the largest force as a fraction; derived.
     valid_strain : float
         Plastic strain at the largest force. Beyond it the curve is an extrapolation.
     basis : str
-        Which of the values of the source are taken.
+        Selected values of the source.
     source : str
-        Where they stand; keys are those of ``references.bib``.
+        References; keys are those of ``references.bib``.
     derived : str
-        What is not in the source, and how it was derived.
+        Quantities that are not in the source, and their derivation.
     caveat : str
-        What the law leaves out, and how far coils differ.
+        Effects that the law omits, and the scatter between coils.
     measured : Directions, optional
         Yield stresses and r-values of the source.
     """

@@ -1,4 +1,4 @@
-"""Flow curves from what a certificate says of a tensile test, and back.
+"""Flow curves from certificate data of a tensile test, and vice versa.
 
 A bar under uniaxial tension is, in the law J2, in a state of Kirchhoff stress y(p) and logarithmic strain p + y/E, with
 p the plastic strain. The force over the first area, against the stretch L, is therefore
@@ -22,12 +22,12 @@ from umform.materials import J2, LinearVoce, Swift, Voce
 #: Plastic elongation at the proof stress Rp0.2.
 OFFSET = 0.002
 
-#: Widest range of plastic strain in which the largest force is looked for.
+#: Range of plastic strain in which the largest force is sought.
 _LARGEST = 3.0
 
 
 class TensileTest(NamedTuple):
-    """What a tensile test says of a sheet.
+    """Results of a tensile test.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class TensileTest(NamedTuple):
 
 
 class _Anchors(NamedTuple):
-    """Points that a flow curve goes through: plastic strain and Kirchhoff stress at yield and at the largest force."""
+    """Points of a flow curve: plastic strain and Kirchhoff stress at yield and at the largest force."""
 
     p_yield: float
     y_yield: float

@@ -1,4 +1,4 @@
-"""Proof stress, tensile strength and uniform elongation of any metal, by pulling a material point."""
+"""Proof stress, tensile strength and uniform elongation of any metal, from tension of a material point."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from umform.errors import InvalidValue
 from umform.materials import J2, Metal, tension
 from umform.sheet_metals.tensile_test import OFFSET, TensileTest, tensile_test
 
-#: Logarithmic strains at which a bar is looked at: fine where it yields, coarse up to the largest force.
+#: Logarithmic strains of the test: fine at yield, coarse up to the largest force.
 _STRAINS = np.concatenate([np.linspace(2.5e-4, 0.02, 80), np.arange(0.022, 0.3, 0.002), np.geomspace(0.3, 1.2, 40)])
 
 
 def tension_test(law: J2 | Metal, angle: float = 0.0) -> TensileTest:
-    """Rp0.2, Rm and Ag of a bar cut at an angle to the rolling direction.
+    """Rp0.2, Rm and Ag of a bar at an angle to the rolling direction.
 
     Parameters
     ----------

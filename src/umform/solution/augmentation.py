@@ -1,4 +1,4 @@
-"""Multipliers that take the penetration away which a penalty leaves: the loop of Uzawa around Newton's method."""
+"""Augmented Lagrangian method (Uzawa): multipliers remove the penetration of a penalty solution."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from umform.solution.records import Converged
 
 log = logging.getLogger("umform.contact")
 
-#: Passes after which an increment is taken as it is; the history has the penetration that is left.
+#: Largest number of passes; the history has the remaining penetration.
 _PASSES = 10
 
 
 def augmented(model: Model, newton: Newton, converged: Converged) -> Converged:
-    """Hand the pressure over to the multipliers and iterate on, until no point is further off than allowed. eq. (4.34)
+    """Update the multipliers and iterate until no point exceeds the allowed penetration. eq. (4.34)
 
     Parameters
     ----------
     model : Model
         At ``converged``, not yet committed.
     newton : Newton
-        The method that has converged.
+        The method, converged.
     converged : Converged
         Equilibrium with the present multipliers.
 

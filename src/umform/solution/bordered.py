@@ -1,6 +1,6 @@
-"""Linear systems with a border: scalar unknowns beside those at the nodes, solved with the factors of the tangent.
+"""Bordered linear systems: scalar unknowns beside those at the nodes, solved with the factors of the tangent.
 
-[K B; C D] [q; z] = [r; s]: K is factorised as it is, and a dense system of the few scalar unknowns remains. eq. (5.48)
+[K B; C D] [q; z] = [r; s]: K is factorised, and a small dense system of the scalar unknowns remains. eq. (5.48)
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 
 
 class Bordered:
-    """A sparse solver with the rows and columns of scalar unknowns; without any, the solver itself.
+    """A sparse solver with the rows and columns of scalar unknowns; without any, the plain solver.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class Bordered:
         self._eliminated = False
 
     def factor(self, evaluation: Evaluation, values: Floats | None = None) -> Factorisation:
-        """Factorise the tangent of an evaluation, or other values in its place.
+        """Factorise the tangent of an evaluation, or other values.
 
         Raises
         ------
@@ -45,7 +45,7 @@ class Bordered:
         return found
 
     def _eliminate(self, border: Border, at_nodes: Floats) -> Floats:
-        """Eliminate the unknowns at the nodes from the border, beside a first right-hand side; return its solution."""
+        """Eliminate the nodal unknowns from the border, together with a first right-hand side; return its solution."""
         system, ranks = self.system, self.system.ranks
         columns = [system.restrict(column) for column in border.columns]
         solved = self.solver.solve(np.stack([at_nodes, *columns], axis=1))
@@ -58,7 +58,7 @@ class Bordered:
         return solved[:, 0]
 
     def _check(self, what: list[str], corner: Floats) -> None:
-        """Reject scalar unknowns that nothing answers, by name."""
+        """Reject undetermined scalar unknowns, by name."""
         scale = np.abs(corner).max(initial=0.0)
         finite = bool(np.isfinite(self._schur).all())
         _, sizes, directions = np.linalg.svd(self._schur if finite else np.zeros_like(self._schur))
@@ -71,12 +71,12 @@ class Bordered:
             )
 
     def solve(self, rhs: Floats) -> Floats:
-        """Solve for the unknowns at the nodes and the scalar ones behind them; shape (n + k,) or (n + k, m).
+        """Solve for the nodal unknowns followed by the scalar ones; shape (n + k,) or (n + k, m).
 
         Raises
         ------
         SingularMatrix
-            If the scalar unknowns are not determined: a tool that nothing holds.
+            If the scalar unknowns are not determined: nothing supports a tool.
         """
         if self._border is None:
             return self.solver.solve(rhs)

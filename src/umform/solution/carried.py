@@ -1,4 +1,4 @@
-"""A sheet that friction carries on a turning tool goes round with it: the guess of its increment is an arc."""
+"""Predictor for a sheet that friction carries on a rotating tool: a circular arc instead of a straight line."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from umform.model.tool import Tool
 
 Floats = NDArray[np.float64]
 
-#: A body goes round with a tool if its way differs by at most this part from what the turn about its middle makes.
+#: Largest deviation, relative to the displacement, of a body that rotates with a tool.
 _DIFFERENT = 0.5
-#: What supports and ties may take from a way that they let pass, over its largest entry.
+#: Largest effect of supports and ties on a displacement that is compatible with them, relative to its largest entry.
 _ROUND_OFF = 1e-9
 
 
 @dataclass(frozen=True)
 class Screw:
-    """A rigid motion x -> Q x + s, and the straight way w x x + v whose exponential it is. eq. (4.178)
+    """A rigid motion x -> Q x + s, and the velocity field w x x + v whose exponential it is. eq. (4.178)
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Screw:
 
     @classmethod
     def of(cls, Q: Floats, s: Floats) -> Screw:
-        """With the logarithm of a rigid motion that turns by less than half a turn."""
+        """From the logarithm of a rigid motion with less than half a turn."""
         from scipy.spatial.transform import Rotation
 
         w = Rotation.from_matrix(Q).as_rotvec()
@@ -49,35 +49,35 @@ class Screw:
         return cls(Q, s, w, np.asarray(np.linalg.solve(V, s), dtype=float))
 
     def straight(self, x: Floats) -> Floats:
-        """Way of places (n, 3) along their velocities."""
+        """Displacement of points (n, 3) along their velocities."""
         return np.asarray(np.cross(self.w, x) + self.v)
 
     def arrival(self, x: Floats) -> Floats:
-        """Way that the motion has behind it when it comes to places (n, 3)."""
+        """Displacement of points (n, 3) up to their present positions."""
         return np.asarray(x - (x - self.s) @ self.Q)
 
     def beyond(self, x: Floats, way: Floats) -> Floats:
-        """What a straight way of places, both (n, 3), lacks to one that the motion has carried with it."""
+        """Difference of the rigid motion from a straight displacement of points, both (n, 3)."""
         relative = way - self.straight(x)
         return np.asarray(x @ self.Q.T + self.s - x + relative @ self.Q.T - way)
 
 
 def carried(model: Model, last: Evaluation, increment: Floats) -> Floats | None:
-    """What a straight increment lacks where the sheet goes round with a tool, or None if it goes round with none.
+    """Correction of a straight increment if the sheet rotates with a tool; None if it does not.
 
     Parameters
     ----------
     model : Model
         With the controls and the time of the increment.
     last : Evaluation
-        Of the last converged state.
+        Evaluation at the last converged state.
     increment : ndarray, shape (3 n + k,)
-        Guess of the increment, along the tangent.
+        Predicted increment, along the tangent.
 
     Returns
     -------
     ndarray, shape (3 n + k,), or None
-        Zero for bodies that go round with no tool, and where supports or ties would not let them.
+        Zero for bodies that rotate with no tool, and where supports or ties prevent the rotation.
     """
     tools = _turning(model, last, increment)
     if not tools:
@@ -100,7 +100,7 @@ def carried(model: Model, last: Evaluation, increment: Floats) -> Floats | None:
 
 
 def came_round(model: Model, last: Evaluation, increment: Floats) -> bool:
-    """Whether an extrapolated increment is that of a body that came round with a tool: it leads off the arc.
+    """Whether an extrapolated increment is that of a body that rotated with a tool: it leaves the arc.
 
     Parameters as of `carried`.
     """
@@ -118,12 +118,12 @@ def _places(model: Model, last: Evaluation) -> Floats:
 
 
 def _bodies(model: Model, x: Floats) -> list[Floats]:
-    """For each body, how many of its cells have each of the nodes: ranks, which share nodes, share no cells."""
+    """For each body, the number of its cells at each of the nodes; ranks share nodes, but no cells."""
     return [np.bincount(body.connectivity.ravel(), minlength=len(x)).astype(float) for body in model.bodies]
 
 
 def _turning(model: Model, last: Evaluation, increment: Floats) -> list[Screw]:
-    """Motions of the tools with friction that touch the sheet and turn."""
+    """Motions of the rotating tools with friction that touch the sheet."""
     values = {control: control.value for control in model.controls}
     for unknown, change in zip(model.unknowns, increment[model.u.size :].tolist(), strict=True):
         unknown.move(values, unknown.value + change)
@@ -139,14 +139,14 @@ def _turning(model: Model, last: Evaluation, increment: Floats) -> list[Screw]:
 
 
 def _motion(tool: Tool, last: Evaluation, values: dict[Control, float], time: float) -> tuple[Floats, Floats]:
-    """Rigid motion of a tool from the converged state to where it goes."""
+    """Rigid motion of a tool from the converged to the present state."""
     (before, at), (after, then) = tool.pose(last.controls, last.time), tool.pose(values, time)
     Q = after @ before.T
     return Q, then - Q @ at
 
 
 def _goes_round(model: Model, screw: Screw, goes: Floats, x: Floats, way: Floats, weights: Floats) -> bool:
-    """Whether the way of places with weights, those of the cells of a body, is that of a motion. eq. (4.179)"""
+    """Whether the weighted displacement of points, those of the cells of a body, is that of a motion. eq. (4.179)"""
     sums = model.ranks.sum(np.concatenate([[weights.sum()], weights @ x]))
     turn, relative = np.cross(screw.w, x - sums[1:] / max(sums[0], 1.0)), way - goes
     squares = model.ranks.sum(np.array([weights @ (relative**2).sum(axis=1), weights @ (turn**2).sum(axis=1)]))

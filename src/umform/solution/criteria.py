@@ -1,10 +1,9 @@
-"""When an iteration is converged. docs/theory, 5.3
+"""Convergence criteria. docs/theory, 5.3
 
-Convergence asks for a small residual AND a small increment, both without units: the residual against the root of the
-sum of squares of all element forces, the increment against the largest displacement. Neither can fall below round-off,
-so the floor that round-off sets is estimated in each iteration: a residual below it is small, and two in a row end the
-iteration even where the increment cannot become small (sheets so thin that round-off moves them).
-eqs. (5.8)-(5.11), (5.36), (5.40)
+Convergence requires a small residual and a small increment, both dimensionless: the residual relative to the root of
+the sum of squares of all element forces, the increment relative to the largest displacement. Neither falls below
+round-off, which is estimated in each iteration: a residual below it is small, and two in a row end the iteration even
+if the increment cannot become small (sheets so thin that round-off moves them). eqs. (5.8)-(5.11), (5.36), (5.40)
 """
 
 from __future__ import annotations
@@ -22,12 +21,12 @@ _EPS = float(np.finfo(float).eps)
 
 
 class Criteria:
-    """Judges the iterations of one increment, one after the other.
+    """Judges the successive iterations of one increment.
 
     Parameters
     ----------
     system : System
-        What is iterated on.
+        The system to solve.
     residual, increment : float
         Tolerances.
     """
@@ -35,24 +34,24 @@ class Criteria:
     def __init__(self, system: System, residual: float, increment: float) -> None:
         self._system, self._residual, self._increment = system, residual, increment
         self._granted = self._at_floor = 0
-        #: Largest entry of the tangent, where evaluations have none.
+        #: Largest entry of the tangent, for evaluations without one.
         self.entry: float | None = None
 
     def met(self, norm: float, increment: float, u: Floats, evaluation: Evaluation, *, moved: bool) -> bool:
-        """Whether the iteration has converged; asked once in each.
+        """Whether the iteration has converged; to be called once in each.
 
         Parameters
         ----------
         norm : float
             Of the residual of the unknowns.
         increment : float
-            The last one, over the largest displacement.
+            The last one, relative to the largest displacement.
         u : ndarray, shape (3 n,)
             Displacement.
         evaluation : Evaluation
             The residual and tangent there.
         moved : bool
-            Whether contact points came or went; two iterations more are granted then.
+            Whether contact points opened or closed; two more iterations are then allowed.
         """
         displacement = largest(self._system, u, evaluation)
         floor = self.floor(displacement, evaluation)
@@ -66,7 +65,7 @@ class Criteria:
         return False
 
     def floor(self, displacement: float, evaluation: Evaluation) -> float:
-        """Residual that round-off of the largest displacement and of the gaps leaves behind. eqs. (5.10), (5.36)"""
+        """Residual due to round-off of the largest displacement and of the gaps. eqs. (5.10), (5.36)"""
         return math.hypot(self._round_off(evaluation, displacement), _EPS * evaluation.round_off)
 
     def _nothing_left(self, norm: float, displacement: float, evaluation: Evaluation) -> bool:
@@ -75,7 +74,7 @@ class Criteria:
         return displacement <= _EPS * extent and norm <= self._round_off(evaluation, extent)
 
     def _round_off(self, evaluation: Evaluation, length: float) -> float:
-        """Residual that a relative error of such lengths leaves behind. eqs. (5.10), (5.40)"""
+        """Residual due to a relative error of such lengths. eqs. (5.10), (5.40)"""
         system = self._system
         entry = system.largest_entry(evaluation.values) if self.entry is None else self.entry
         return _EPS * entry * length * math.sqrt(system.pattern.n)

@@ -1,10 +1,9 @@
-"""Whether old factors will do: Newton's method modified where its slower convergence costs less than a factorisation.
+"""Modified Newton: reuse factors where its slower convergence costs less than a factorisation.
 
-The tangent changes by what the last increment is relative to the one before; by a small multiple of this, `fall`, old
-factors bring residual and increment down in each iteration, new ones quadratically. Both are counted up to the
-tolerances, and each iteration weighed: 1 for evaluation and solve, and the cost of a factorisation on top. That cost is
-estimated from the entries of the factors, never from a clock: a run repeats to the last bit.
-docs/performance-solving.md
+The tangent changes by a small multiple, `fall`, of the ratio of the last two increments. With old factors residual and
+increment fall by this factor in each iteration, with new ones quadratically. Both are counted to the tolerances, and
+each iteration is weighted: 1 for evaluation and solve, plus the cost of a factorisation. This cost is estimated from
+the entries of the factors, not measured, so that a run is reproducible to the last bit. docs/performance-solving.md
 """
 
 from __future__ import annotations
@@ -14,11 +13,11 @@ import math
 from umform.solution.options import NewtonOptions
 from umform.solvers import Factorisation
 
-#: Where new factors cost less than this, in evaluations with a solve, they are made always.
+#: Cost of a factorisation, relative to an evaluation with a solve, below which factors are never reused.
 _CHEAP = 1.0
-#: From the ratio of two increments to what old factors leave of the residual: 2 in theory, 1 to 4 as measured.
+#: Ratio of the residual left by old factors to the ratio of two increments: 2 in theory, 1 to 4 as measured.
 _FALL = 3.0
-#: Slower than this old factors are not worth a thought.
+#: Reduction per iteration above which old factors are not worthwhile.
 _SLOW = 0.2
 #: Nanoseconds, whose ratios alone count: of a factorisation for each entry of the factors times their mean number in a
 #: column, of a solve for each of them, of an evaluation of effort 1 for each equation. benchmarks/reuse.py prints them.
@@ -26,22 +25,24 @@ _FACTOR, _SOLVE, _EVALUATE = 0.055, 1.5, 1450.0
 
 
 def cost_of_factors(fill: int, equations: int, effort: float) -> float:
-    """Factorisation over evaluation and solve, from the entries of the factors and :attr:`umform.Model.effort`."""
+    """Cost of a factorisation over that of evaluation and solve, from the entries of the factors and
+    :attr:`umform.Model.effort`.
+    """
     column = fill / equations
     return _FACTOR * column * column / (_EVALUATE * effort + _SOLVE * column)
 
 
 class Reuse:
-    """Decides for the iterations of one increment, and hands on what is known of the last factorisation.
+    """Decides for the iterations of one increment, and keeps data of the last factorisation.
 
     Parameters
     ----------
     options : NewtonOptions
-        Tolerances, and the cost of a factorisation if that is given.
+        Tolerances, and the cost of a factorisation if given.
     equations : int
         Of the matrix.
     effort : float
-        Of an evaluation, for each equation.
+        Cost of an evaluation for each equation.
     """
 
     def __init__(self, options: NewtonOptions, equations: int, effort: float) -> None:
@@ -49,31 +50,31 @@ class Reuse:
         self._cost = 0.0
         self._increment: float | None = None  # of the iteration before
         self._residual = 0.0
-        self._old = False  # whether the iteration before had old factors
+        self._old = False  # whether the previous iteration had old factors
 
     @property
     def dear(self) -> bool:
-        """Whether a factorisation costs so much that old factors may serve."""
+        """Whether a factorisation is expensive enough for reuse."""
         return self._cost >= _CHEAP
 
     def factors_will_do(self, residual: float, increment: float, *, settled: bool) -> bool:
-        """Whether the next iteration may take the factors of the one before.
+        """Whether the next iteration may use the previous factors.
 
         Parameters
         ----------
         residual, increment : float
             Without units, as :class:`umform.solution.newton.Iteration` has them.
         settled : bool
-            Whether the tangent changes with the increment only: the active set of contact is that of the iteration
-            before.
+            Whether the tangent changes with the increment only: the active set of contact is that of the previous
+            iteration.
         """
         before, self._increment = self._increment, increment
         fall = _FALL * increment / before if before else 1.0
         if (
             before is None and self.dear
-        ):  # the factors of the first increment, which leaves what is quadratic in the change
+        ):  # factors of the first increment: the remaining residual is quadratic in the change
             fall = _FALL * math.sqrt(residual)
-        if self._old:  # seen, not guessed
+        if self._old:  # measured, not estimated
             fall = max(residual / self._residual, increment / before if before else 1.0)
         self._residual = residual
         self._old = (
@@ -86,7 +87,7 @@ class Reuse:
         return self._old
 
     def remember(self, factorisation: Factorisation) -> int | None:
-        """Keep what new factors cost; return their negative pivots."""
+        """Store the cost of new factors; return their negative pivots."""
         given = self._options.factor_cost
         self._cost = cost_of_factors(factorisation.fill, self._equations, self._effort) if given is None else given
         return factorisation.negative_pivots

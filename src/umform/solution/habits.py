@@ -1,4 +1,4 @@
-"""What earlier increments have taught the next one."""
+"""Statistics of earlier increments that select the first strategy."""
 
 from __future__ import annotations
 
@@ -7,33 +7,33 @@ from dataclasses import dataclass
 
 from umform.solution.records import Cause
 
-#: An extrapolation that goes too far again and again is left out for so many increments at most.
+#: Largest number of increments for which a failing extrapolation is skipped.
 _LONGEST_REST = 15
-#: Softer penalties that lead nowhere again and again are left out for so many cuts at most.
+#: Largest number of cuts for which failing softer penalties are skipped.
 _LONGEST_SOFT_REST = 3
 
 
 @dataclass
 class Habits:
-    """Whether an increment begins with the extrapolation of the last one, and whether softer penalties are worth it.
+    """Whether an increment begins with the extrapolation of the last one, and whether softer penalties are tried.
 
-    Where the extrapolation has gone too far and another start has won, it is left out in the next increment; if it
-    fails again then, in the next three, seven, fifteen. Where softer penalties have led nowhere, the next increment
-    that fails is cut without them; if they fail again then, the next three are.
+    If the extrapolation fails and another start converges, the next increment skips it; if it fails again then, the
+    next three, seven, fifteen do. If softer penalties fail, the next failed increment is cut without them; if they fail
+    again then, the next three are.
 
     Attributes
     ----------
     misses : int
-        Extrapolations in a row that went too far.
+        Successive failures of the extrapolation.
     rest : int
-        Increments that do without.
+        Increments that will skip it.
     stable : bool
-        Whether the last equilibrium had no negative pivots, as far as the solver knows. If so, an indefinite tangent
-        far from the next one is a sign of an increment that leads astray.
+        Whether the last equilibrium had no negative pivots, as far as the solver reports them. If so, an indefinite
+        tangent far from the next one indicates a bad increment.
     soft_misses : int
-        Softer penalties in a row that led nowhere, while a tool held the sheet.
+        Successive failures of softer penalties while a tool held the sheet.
     soft_rest : int
-        Increments that are cut without them.
+        Failed increments that will be cut without them.
     """
 
     misses: int = 0
@@ -44,7 +44,7 @@ class Habits:
 
     @property
     def extrapolates(self) -> bool:
-        """Whether the next increment may begin with it."""
+        """Whether the next increment may begin with the extrapolation."""
         return self.rest == 0
 
     @property
@@ -53,7 +53,7 @@ class Habits:
         return self.soft_rest == 0
 
     def learn(self, failed: Mapping[str, Cause], won: str, negative_pivots: int | None) -> None:
-        """Learn from an increment: the strategies that failed and why, the one that won, the pivots at the end."""
+        """Record an increment: the strategies that failed and why, the one that converged, the pivots at the end."""
         self.stable = not negative_pivots
         if won == "extrapolation":
             self.misses = 0
@@ -66,14 +66,14 @@ class Habits:
             self.soft_misses = 0
 
     def learn_of_cut(self, failed: Mapping[str, Cause]) -> None:
-        """Learn from an increment that all strategies failed in."""
+        """Record an increment in which all strategies failed."""
         cause = failed.get("softer penalties")
         if cause is None:
             self.soft_rest = max(self.soft_rest - 1, 0)
-        elif cause is not Cause.SINGULAR:  # near lift-off cuts do not help, and softer penalties may
+        elif cause is not Cause.SINGULAR:  # near loss of contact cuts do not help, but softer penalties may
             self.soft_misses += 1
             self.soft_rest = min(2**self.soft_misses - 1, _LONGEST_SOFT_REST)
 
     def last_chance(self) -> None:
-        """Have softer penalties tried in an increment that will not be cut."""
+        """Try softer penalties in an increment that will not be cut."""
         self.soft_rest = 0

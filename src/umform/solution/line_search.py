@@ -1,8 +1,8 @@
-"""Shorten an increment of Newton's method that goes too far. eq. (5.12)
+"""Shorten an increment of Newton's method that is too long. eq. (5.12)
 
-It costs nothing where the full increment will do: the residual there is wanted anyway, and the slope along the
-increment is a product of two vectors. A shorter one costs an evaluation; enhanced parameters are shortened with the
-displacement, so nothing is evaluated again at the point of departure.
+If the full increment is accepted, the line search costs only a scalar product: the residual there is needed anyway. A
+shorter one costs an evaluation; enhanced parameters are scaled with the displacement, so the start of the increment is
+not evaluated again.
 """
 
 from __future__ import annotations
@@ -16,31 +16,32 @@ from umform.solution.system import Evaluation, System
 
 Floats = NDArray[np.float64]
 
-#: Slope at the end over that at the beginning, against it, up to which an increment is taken.
+#: Ratio of the slope at the end to that at the beginning, of opposite sign, up to which an increment is accepted.
 _OVERSHOOT = 0.8
-#: Each trial is at least a quarter of the one before: thin sheets, whose energy is a narrow bent valley, creep else.
+#: Each trial is at least a quarter of the previous one: otherwise thin sheets, whose energy is a narrow curved valley,
+#: progress too slowly.
 _TRIALS, _SHORTEST, _LONGEST = 3, 0.25, 0.5
-#: Slope at the end over that at the beginning from which an increment is doubled, and how often.
+#: Ratio of the slopes at end and beginning from which an increment is doubled, and how often.
 _STILL_DOWNHILL, _DOUBLINGS = 0.5, 6
 
 
 def shortened(
     system: System, u: Floats, du: Floats, r: Floats, evaluation: Evaluation, length: float
 ) -> tuple[Evaluation, float]:
-    """The evaluation where the slope along the increment has fallen, and the part of the increment that led there.
+    """The evaluation where the slope along the increment has decreased, and the accepted part of the increment.
 
     Parameters
     ----------
     system : System
         It has recovered this part of the increment.
     u, du : ndarray, shape (3 n + k,)
-        Where the increment begins, and the whole of it.
+        Start of the increment, and the full increment.
     r : ndarray
         Residual of the unknowns at ``u``.
     evaluation : Evaluation
         At ``u + length du``.
     length : float
-        Part of the increment that has been taken.
+        Accepted part of the increment.
     """
     along = system.coefficients(du)
     slope = system.ranks.dot(r, along)
@@ -58,10 +59,10 @@ def shortened(
 def lengthened(
     system: System, u: Floats, du: Floats, r: Floats, evaluation: Evaluation, length: float
 ) -> tuple[Evaluation, float]:
-    """The same, after an increment that has been doubled as long as the slope along it hardly falls.
+    """The same, after doubling the increment as long as the slope along it hardly decreases.
 
-    Increments of a tangent that was shifted to be positive are too short: near a state that has lost its stability the
-    residual is small, and the next stable state far. Parameters as of :func:`shortened`.
+    Increments of a tangent that was shifted to be positive definite are too short: near a loss of stability the
+    residual is small, and the next stable state is far. Parameters as of :func:`shortened`.
     """
     along = system.coefficients(du)
     slope = system.ranks.dot(r, along)
@@ -75,7 +76,9 @@ def lengthened(
 
 
 def _overshoot(system: System, along: Floats, slope: float, evaluation: Evaluation) -> float:
-    """Slope over that at the beginning, positive where it has changed sign; infinite where a cell has no residual."""
+    """Ratio of the slope to that at the beginning, positive after a change of sign; infinite where a cell has
+    failed.
+    """
     if evaluation.failed >= 0:
         return math.inf
     ratio = -system.ranks.dot(system.restrict(evaluation.residual), along) / slope if slope else 0.0

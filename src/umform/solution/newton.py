@@ -1,7 +1,7 @@
-"""Newton's method on a system that can evaluate, recover, commit and revert; it knows no elements and no contact.
+"""Newton's method for a system that can evaluate, recover, commit and revert, independent of elements and contact.
 
-What is unknown beside the nodes is for the system: the ways of pressed tools, the load along a path. Whether an
-iteration has arrived is for `umform.solution.criteria`.
+Scalar unknowns belong to the system: the travel of force-driven tools, the load along a path. Convergence is judged by
+`umform.solution.criteria`.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ log = logging.getLogger("umform.newton")
 Floats = NDArray[np.float64]
 _T = TypeVar("_T")
 
-#: A displacement of so many times the extent of the sheet is none of a sheet that something holds.
+#: Displacement, relative to the extent of the sheet, that indicates an unsupported sheet.
 _FLIGHT = 1e4
 
 
 class Newton:
-    """Newton's method with a solver that keeps its symbolic factorisation while the pattern holds."""
+    """Newton's method with a solver that keeps its symbolic factorisation while the pattern is unchanged."""
 
     def __init__(
         self,
@@ -60,28 +60,28 @@ class Newton:
 
     @property
     def solver(self) -> str:
-        """Name of the sparse solver that the system gets."""
+        """Name of the sparse solver for the system."""
         return self.ready_solver().solver.name
 
     @cached_property
     def mixed(self) -> bool:
-        """Whether tangents have the geometric stiffness of the stress that the last increment foresaw. eq. (5.39)"""
+        """Whether tangents have the geometric stiffness of the stress predicted by the last increment. eq. (5.39)"""
         return self.system.elastic if self.options.mixed is None else self.options.mixed
 
     def manner(self, *, consistent: bool = False, wary: Wary = Wary.NOT, rubs: bool = False) -> Manner:
-        """How iterations are made, with the options of the user.
+        """Mode of the iterations, with the options of the user.
 
         Parameters
         ----------
         consistent : bool
-            Take the consistent tangent even if the options ask for the mixed one.
+            Use the consistent tangent even if the options select the mixed one.
         wary : Wary
-            When to give up because the tangent is indefinite far from equilibrium.
+            When to stop because the tangent is indefinite far from equilibrium.
         rubs : bool
-            Whether points may go to and fro between stick and slip, so that elastic sheets get a line search, too.
+            Whether points may alternate between stick and slip, so that elastic sheets use a line search, too.
         """
         search = self.options.line_search
-        if search is None:  # in elastic sheets, whose energy is a narrow bent valley, it creeps
+        if search is None:  # in elastic sheets, whose energy is a narrow curved valley, it is too slow
             search = rubs or not self.system.elastic
         return Manner(search, True, self.mixed and not consistent, wary)
 
@@ -93,12 +93,12 @@ class Newton:
         Parameters
         ----------
         extrapolation : ndarray, shape (3 n,), optional
-            Guess of the increment of this step; prescribed entries are overwritten. Without it the first increment is
-            that of the tangent. It is recovered with the blocks of the last evaluation, which must be at ``system.u``.
+            Predicted increment; prescribed entries are overwritten. Without it the first increment is that of the
+            tangent. It is recovered with the blocks of the last evaluation, which must be at ``system.u``.
         manner : Manner, optional
-            How to iterate; default: as the options say.
+            Mode of the iterations; default: from the options.
         beyond : ndarray, shape (3 n + k,), optional
-            A rigid turn beyond the extrapolation, which strains no element. eq. (4.178)
+            A rigid rotation in addition to the extrapolation, which strains no element. eq. (4.178)
 
         Raises
         ------
@@ -108,16 +108,16 @@ class Newton:
         return self.guarded(lambda: self._solve(extrapolation, manner or self.manner(), beyond))
 
     def go_on(self, converged: Converged, change: Floats, manner: Manner | None = None) -> Converged:
-        """Find the equilibrium again after forces in the system have changed at the same loads, supports and tools.
+        """Find the equilibrium again after a change of forces in the system at fixed loads, supports and tools.
 
         Parameters
         ----------
         converged : Converged
-            The equilibrium before, which the last evaluation was at.
+            The previous equilibrium, at which the last evaluation was made.
         change : ndarray, shape (3 n,)
-            Change of the residual there, to first order; the first increment answers it with the tangent of before.
+            First-order change of the residual there; the first increment uses the previous tangent.
         manner : Manner, optional
-            How to iterate; default: as the options say.
+            Mode of the iterations; default: from the options.
 
         Raises
         ------
@@ -134,7 +134,7 @@ class Newton:
         return self.guarded(work)
 
     def guarded(self, work: Callable[[], _T]) -> _T:
-        """Do work that leaves no trace in the system if it fails.
+        """Run an attempt that leaves the system unchanged if it fails.
 
         Raises
         ------
@@ -148,7 +148,7 @@ class Newton:
             what = ", ".join(filter(None, (error.what, error.where)))
             cause = Cause.SINGULAR if isinstance(error, SingularMatrix) else Cause.OTHER
             raise Failed(what, [], cause, getattr(error, "motion", None)) from error
-        except BaseException:  # an error of a user's function or an interrupt too leaves no trace
+        except BaseException:  # errors of a user's function and interrupts also leave the system unchanged
             self.system.revert()
             raise
 
@@ -172,7 +172,7 @@ class Newton:
         return self.correct(u, du, manner, start, of_tangent, beyond)
 
     def prescribed_increment(self, u: Floats) -> Floats:
-        """What takes the supports from ``u`` to where they are prescribed; nothing of it is left to the unknowns."""
+        """Increment of the supports from ``u`` to their prescribed values; zero at the unknowns."""
         gap = np.zeros_like(u)
         prescribed = self.system.prescribed_displacement()
         gap[: prescribed.size] = prescribed - u[: prescribed.size]
@@ -187,7 +187,7 @@ class Newton:
         first: First | None = None,
         beyond: Floats | None = None,
     ) -> Converged:
-        """Take a first increment ``du`` from ``u``, and iterate until residual and increments are small. eq. (5.9)"""
+        """Apply a first increment ``du`` from ``u``, and iterate until residual and increments are small. eq. (5.9)"""
         system, options = self.system, self.options
         solver = self.ready_solver()
         start = clock.perf_counter() if start is None else start
@@ -237,7 +237,7 @@ class Newton:
             energy = abs(system.ranks.dot(r, system.coefficients(du)))
             recorder.add(evaluation.flowing, norm / scale, increment, energy, entered, left, step_length, pivots)
             lean = self._lean(reuse, manner) and not evaluation.border.unknowns
-            evaluation = evaluation.without_tangent()  # factors there are: the next one takes its memory
+            evaluation = evaluation.without_tangent()  # factors exist: release the memory of the tangent
             u, evaluation, step_length = self._advance(u, du, r, manner, longest, lean, shifted)
             criteria.entry = criteria.entry if lean else None
             increment = step_length * self._relative(du, evaluation)
@@ -245,13 +245,13 @@ class Newton:
         raise Failed(f"no convergence in {options.max_iterations} iterations", iterations, Cause.ITERATIONS)
 
     def _lean(self, reuse: Reuse, manner: Manner) -> bool:
-        """Whether an iteration looks at the forces first: where factors are dear, they may do without a tangent."""
+        """Whether an iteration evaluates the forces first: where factors are expensive, it may need no tangent."""
         return reuse.dear and not manner.line_search and self.system.smooth
 
     def _advance(
         self, u: Floats, du: Floats, r: Floats, manner: Manner, longest: float, lean: bool, shifted: bool
     ) -> tuple[Floats, Evaluation, float]:
-        """Take the increment, or a part of it where it goes too far. eq. (5.12)"""
+        """Apply the increment, or a part of it if it is too long. eq. (5.12)"""
         system, length = self.system, longest
         system.recover(du, manner.mixed)
         if length < 1.0:
@@ -275,7 +275,7 @@ class Newton:
 
     @staticmethod
     def check_domain(evaluation: Evaluation, iterations: list[Iteration]) -> None:
-        """Fail where a cell has no residual: it is turned inside out, or its law has no answer."""
+        """Fail if a cell has no residual: it is inverted, or its law failed."""
         if evaluation.failed >= 0:
             raise Failed(f"cell {evaluation.failed} {evaluation.failure}", iterations, Cause.CELL)
 
@@ -283,12 +283,12 @@ class Newton:
         return int(self.system.ranks.sum(float(points.sum())))
 
     def _relative(self, dx: Floats, evaluation: Evaluation) -> float:
-        """Size of an increment over that of the displacement."""
+        """Size of an increment relative to the displacement."""
         displacement = largest(self.system, evaluation.x, evaluation)
         return largest(self.system, dx, evaluation) / displacement if displacement > 0 else 0.0
 
     def _check_flight(self, evaluation: Evaluation, iterations: list[Iteration]) -> None:
-        """Fail where nothing holds the sheet and round-off has hidden that from the factorisation: it flies away."""
+        """Fail if the sheet is unsupported but round-off has hidden this from the factorisation."""
         displacement = largest(self.system, evaluation.x, evaluation)
         if displacement > _FLIGHT * self.system.extent:
             reason = f"nothing holds the sheet: a displacement of {displacement:.3g} follows from round-off"

@@ -1,4 +1,4 @@
-"""How far and how hard Newton's method iterates."""
+"""Options of Newton's method."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from umform.errors import InvalidValue
 
 @dataclass(frozen=True)
 class NewtonOptions:
-    """How far and how hard to iterate.
+    """Tolerances and strategies of Newton's method.
 
     Attributes
     ----------
@@ -19,20 +19,19 @@ class NewtonOptions:
     increment : float
         Tolerance of the increment, relative to the largest displacement.
     max_iterations : int
-        Iterations before a step is given up.
+        Largest number of iterations.
     line_search : bool, optional
-        Shorten increments that go too far, see :mod:`umform.solution.line_search`. Default: where a law has a history.
+        Shorten increments that are too long, see :mod:`umform.solution.line_search`. Default: if a law has a history.
     extrapolate : int
-        Where an increment starts: 0 from the tangent; 1 from the last increment of the step, extrapolated; 2 from the
-        parabola through the last three states, over the end of a move too if the next one goes on the same way.
-        eq. (5.50) The parabola is for smooth ways: many increments, and contact at many points.
+        Predictor: 0 from the tangent; 1 from the last increment of the step, extrapolated; 2 from the parabola through
+        the last three states, also across the end of a move if the next one continues its direction. eq. (5.50) The
+        parabola suits smooth paths: many increments, and contact at many points.
     factor_cost : float, optional
-        What a factorisation costs over an evaluation with a solve; where it is dear, old factors serve for more than
-        one iteration, see :mod:`umform.solution.factor_reuse`. Default: an estimate from the entries of the factors; 0
-        makes new ones always.
+        Cost of a factorisation relative to an evaluation with a solve. If it is large, factors are reused, see
+        :mod:`umform.solution.factor_reuse`. Default: an estimate from the entries of the factors; 0 never reuses them.
     mixed : bool, optional
-        Take the geometric stiffness from the stress that the last increment foresaw, not from the present one: thin
-        elastic sheets take larger steps and fewer iterations. eq. (5.39) Default: where no law has a history.
+        Compute the geometric stiffness from the stress predicted by the last increment, not from the present one: thin
+        elastic sheets then allow larger steps and need fewer iterations. eq. (5.39) Default: if no law has a history.
 
     Examples
     --------
@@ -67,7 +66,7 @@ class NewtonOptions:
 
 
 class Wary(Enum):
-    """What becomes of an attempt whose tangent is indefinite far from equilibrium."""
+    """Response to an indefinite tangent far from equilibrium."""
 
     NOT = "it goes on"
     OF_MORE = "it ends where negative pivots become more from one iteration to the next"
@@ -76,18 +75,18 @@ class Wary(Enum):
 
 @dataclass(frozen=True)
 class Manner:
-    """How iterations are made.
+    """Mode of the iterations.
 
     Attributes
     ----------
     line_search : bool
-        Whether increments that go too far are shortened, and iterations end when the residual does not fall. eq. (5.12)
+        Whether to shorten increments that are too long, and to stop when the residual stagnates. eq. (5.12)
     reuses : bool
-        Whether the factors of the iteration before may serve for the next one.
+        Whether the factors of the previous iteration may be reused.
     mixed : bool
-        Whether the geometric stiffness is that of the stress which the last increment foresaw. eq. (5.39)
+        Whether the geometric stiffness is that of the stress predicted by the last increment. eq. (5.39)
     wary : Wary
-        When iterations end because the tangent is indefinite far from equilibrium.
+        When to stop because the tangent is indefinite far from equilibrium.
     """
 
     line_search: bool

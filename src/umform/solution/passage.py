@@ -1,4 +1,4 @@
-"""Reject an equilibrium for which the sheet went through a tool."""
+"""Reject an equilibrium in which the sheet has passed through a tool."""
 
 from __future__ import annotations
 
@@ -9,29 +9,29 @@ from umform.model import Evaluation, Model
 from umform.model.contact.found import ContactFound
 from umform.solution.records import Cause, Converged, Failed
 
-#: Farther than this part of the thickness of the sheet a point does not slide over a sharp edge in one increment.
+#: Largest distance, relative to the thickness, by which a point slides over a sharp edge in one increment.
 _OVER_AN_EDGE = 0.5
 
 
 def same_side(model: Model, last: Evaluation, converged: Converged) -> Converged:
-    """The equilibrium, if no contact point has gone through a tool. docs/theory, 4.15
+    """The equilibrium, if no contact point has passed through a tool. docs/theory, 4.15
 
-    A point has gone through if its normal has turned round while it moved as far as its distances from the tool before
-    and after, or farther, and farther than half the thickness of the sheet.
+    A point has passed through if its normal has reversed while its displacement was at least the sum of its distances
+    from the tool before and after, and more than half the thickness of the sheet.
 
     Parameters
     ----------
     model : Model
         At ``converged``, not yet committed.
     last : Evaluation
-        Of the last converged state.
+        Evaluation at the last converged state.
     converged : Converged
         The increment.
 
     Raises
     ------
     Failed
-        If one has; the model is reverted.
+        If a point has; the model is reverted.
     """
     found, least = converged.evaluation.found, _OVER_AN_EDGE * model.thickness
     pairs = [contact for contact in model.contacts if not contact.tool.open]
@@ -42,7 +42,7 @@ def same_side(model: Model, last: Evaluation, converged: Converged) -> Converged
 
 
 def _through(before: ContactFound, now: ContactFound, least: float) -> bool:
-    """Whether a point has gone through."""
+    """Whether a point has passed through."""
     turned: NDArray[np.bool_] = np.einsum("qk,qk->q", before.normal, now.normal) < 0.0
     if not turned.any():
         return False

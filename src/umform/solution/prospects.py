@@ -1,4 +1,4 @@
-"""Whether iterations are hopeless: contact that goes in circles, a residual that does not fall. docs/theory, 4.9"""
+"""Detect hopeless iterations: contact that cycles, a residual that stagnates. docs/theory, 4.9"""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from umform.solution.options import Wary
 from umform.solution.records import Cause, Failed, Iteration
 from umform.solution.system import Evaluation, System
 
-#: A residual this large, over the force scale, is far from equilibrium.
+#: A residual that is far from equilibrium, relative to the force scale.
 _FAR = 0.1
 
 
 class Prospects:
-    """Looks at the iterations of one increment, one after the other."""
+    """Monitors the successive iterations of one increment."""
 
     def __init__(self, system: System) -> None:
         self._cycle = Cycle(system)
@@ -28,46 +28,46 @@ class Prospects:
     def longest(
         self, evaluation: Evaluation, before: NDArray[np.uint8], norm: float, iterations: list[Iteration]
     ) -> float:
-        """Part of the next increment that may be taken; asked once in each iteration.
+        """Part of the next increment to apply; to be called once in each iteration.
 
         Parameters
         ----------
         evaluation : Evaluation
             Of this iteration.
         before : ndarray of uint8
-            Status of the contact points in the iteration before.
+            Status of the contact points in the previous iteration.
         norm : float
             Of the residual of the unknowns.
         iterations : list of Iteration
-            Those before.
+            The previous ones.
 
         Raises
         ------
         Failed
-            If there is no hope.
+            If convergence is not expected.
         """
         cycle, stall = self._cycle, self._stall
         longest = 0.5 if cycle.seen(evaluation.status, [record.residual for record in iterations]) else 1.0
         if cycle.stays:
             where = evaluation.at_points(evaluation.status != before)
             raise Failed(f"contact comes and goes in a cycle{where}", iterations, Cause.CYCLE)
-        if stall is not None and not self._downhill and stall.seen(norm):  # downhill the residual may grow
+        if stall is not None and not self._downhill and stall.seen(norm):  # downhill, the residual may grow
             raise Failed(f"the residual has not fallen for {stall.patience} iterations", iterations, Cause.STALL)
         return longest
 
     def bear(self, pivots: int | None, residual: float, wary: Wary, iterations: list[Iteration]) -> None:
-        """Look at the negative pivots of the tangent; asked where there is a new one.
+        """Check the negative pivots of a new tangent.
 
         Parameters
         ----------
         pivots : int or None
-            Their number, where the solver tells.
+            Their number, if the solver reports it.
         residual : float
-            Over the force scale.
+            Relative to the force scale.
         wary : Wary
-            What is borne.
+            The accepted response.
         iterations : list of Iteration
-            Those before.
+            The previous ones.
 
         Raises
         ------
@@ -82,9 +82,10 @@ class Prospects:
             raise Failed(reason, iterations, Cause.INDEFINITE)
 
     def shifts(self, pivots: int | None, wary: Wary) -> bool:
-        """Whether an indefinite tangent is shifted, so that the increment goes downhill; parameters as of `bear`.
+        """Whether an indefinite tangent is shifted, so that the increment is a descent direction; parameters as of
+        `bear`.
 
-        It is where the last equilibrium was stable, and where contact has gone in a cycle.
+        It is if the last equilibrium was stable, and if contact has cycled.
         """
         wanted = bool(pivots) and (wary is Wary.OF_ANY or self._cycle.met)
         self._downhill = self._downhill or wanted
@@ -92,12 +93,12 @@ class Prospects:
 
 
 class Cycle:
-    """Sees contact points come and go in a cycle while the residual does not fall.
+    """Detects contact points that cycle while the residual does not fall.
 
     Attributes
     ----------
     stays : bool
-        Whether a cycle was seen again after the first one was to be broken.
+        Whether a cycle occurred again after a measure against the first one.
     """
 
     def __init__(self, system: System) -> None:
@@ -107,23 +108,23 @@ class Cycle:
 
     @property
     def met(self) -> bool:
-        """Whether a cycle was seen."""
+        """Whether a cycle occurred."""
         return self._count > 0
 
     @property
     def stays(self) -> bool:
-        """Whether a cycle was seen again."""
+        """Whether a cycle occurred again."""
         return self._count > 1
 
     def seen(self, status: NDArray[np.uint8], residuals: Sequence[float]) -> bool:
-        """Whether two or three states have just followed each other twice; asked once in each iteration.
+        """Whether two or three states have just repeated twice; to be called once in each iteration.
 
         Parameters
         ----------
         status : ndarray of uint8
-            Which points are open, held, slipping in this iteration.
+            Status of the points in this iteration: open, held, slipping.
         residuals : sequence of float
-            Those of the iterations before.
+            Those of the previous iterations.
         """
         ranks = self._system.ranks
         if not ranks.any(status.size > 0):
@@ -141,7 +142,7 @@ class Cycle:
 
 
 class Stall:
-    """Sees a residual that has not fallen by a tenth for a number of iterations.
+    """Detects a residual that has not fallen by a tenth over a number of iterations.
 
     Attributes
     ----------
@@ -155,7 +156,7 @@ class Stall:
         self._least, self._since = math.inf, 0
 
     def seen(self, norm: float) -> bool:
-        """Whether it has not; asked once in each iteration."""
+        """Whether the residual stagnates; to be called once in each iteration."""
         if norm < 0.9 * self._least:
             self._least, self._since = norm, 0
         else:

@@ -1,4 +1,4 @@
-"""Keeps the records of the iterations of one increment, and shows them to those who listen."""
+"""Records of the iterations of one increment, and their callbacks."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ class Recorder:
     callbacks : sequence of callable
         Called with each record.
     ranks : Ranks
-        Who shares the model.
+        Ranks that share the model.
     start : float
-        When the increment began.
+        Start time of the increment.
     """
 
     def __init__(self, callbacks: Sequence[Callable[[Iteration], None]], ranks: Ranks, start: float) -> None:
         self.iterations: list[Iteration] = []
         self._callbacks, self._ranks, self._start = callbacks, ranks, start
-        self._flowing: NDArray[np.uint8] | None = None  # in the iteration before
+        self._flowing: NDArray[np.uint8] | None = None  # of the previous iteration
 
     def add(
         self,
@@ -44,7 +44,7 @@ class Recorder:
         step_length: float,
         pivots: int | None,
     ) -> None:
-        """Add a record; the arguments are those of :class:`Iteration`, and the points of the material that flow."""
+        """Add a record; the arguments are those of :class:`Iteration`, and the plastic points."""
         before, self._flowing = self._flowing, flowing
         switched = 0 if before is None else int(self._ranks.sum(float((flowing != before).sum())))
         number, seconds = len(self.iterations) + 1, clock.perf_counter() - self._start

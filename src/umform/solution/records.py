@@ -1,4 +1,4 @@
-"""What comes out of the iterations of an increment: records, equilibrium, or failure."""
+"""Results of the iterations of an increment: records, equilibrium, or failure."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ class Iteration:
     Attributes
     ----------
     residual : float
-        Norm of the residual of the free degrees of freedom over the force scale.
+        Norm of the residual of the unknowns relative to the force scale.
     increment : float
-        Largest entry of the increment that led here over the largest displacement.
+        Largest entry of the last increment relative to the largest displacement.
     energy : float
-        Residual times the increment to come (absolute); zero in the last iteration.
+        Scalar product of the residual and the next increment (absolute); zero in the last iteration.
     entered, left : int
-        Contact points that came into and went out of contact.
+        Contact points that closed and opened.
     step_length : float
-        Step length that the line search took.
+        Step length of the line search.
     negative_pivots : int or None
-        Negative pivots of the tangent, where the solver tells.
+        Negative pivots of the tangent, if the solver reports them.
     seconds : float
         Wall time.
     switched : int
-        Points of the material that began or ceased to flow since the iteration before.
+        Material points that began or ceased to flow since the previous iteration.
     """
 
     number: int
@@ -65,9 +65,9 @@ class Cause(StrEnum):
 
 
 class Failed(Exception):
-    """An attempt that did not converge: why, and the iterations so far. Steps turn it into a cut or an error.
+    """A failed attempt: the cause, and the iterations so far. Steps turn it into a cut or an error.
 
-    A singular tangent may say which displacement of the unknowns at nodes it does not resist, its ``motion``.
+    A singular tangent may report the displacement of the nodal unknowns that it does not resist, its ``motion``.
     """
 
     def __init__(
@@ -82,7 +82,7 @@ class Failed(Exception):
 
 @dataclass(frozen=True)
 class Converged:
-    """A converged step: the evaluation there, the iterations, those of more passes at the same loads."""
+    """A converged increment: the evaluation, the iterations, and those of augmentations at the same loads."""
 
     evaluation: Any
     iterations: list[Iteration]
@@ -101,7 +101,7 @@ class Converged:
 
 @dataclass(frozen=True)
 class First:
-    """What the first increment came from: factors of the tangent, and its largest entry."""
+    """Source of the first increment: factors of the tangent, and its largest entry."""
 
     factors: Factorisation
     entry: float

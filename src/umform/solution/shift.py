@@ -1,8 +1,8 @@
-"""Descend to a stable equilibrium where the tangent is indefinite: factorise K + s 1 in its place. eq. (5.54)
+"""Find a stable equilibrium where the tangent is indefinite: factorise K + s 1 instead. eq. (5.54)
 
-Where a contact point opens the sheet may lose its stability: no equilibrium is near, and Newton's method alternates
-between states with the point and without it. With all eigenvalues positive each increment goes downhill, and the line
-search leads to the next stable equilibrium. There the tangent is positive definite and is not shifted.
+When a contact point opens, the sheet may lose its stability: no equilibrium is near, and Newton's method alternates
+between states with the point and without it. With a positive definite matrix each increment is a descent direction, and
+the line search leads to the next stable equilibrium. There the tangent is positive definite and is not shifted.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from umform.solvers import Factorisation
 
 Floats = NDArray[np.float64]
 
-#: First shift over the largest entry, factor from one to the next, and how many are tried.
+#: First shift relative to the largest entry, ratio of successive shifts, and their number.
 _FIRST, _GROWTH, _MOST = 1e-8, 10.0, 9
 
 
@@ -28,7 +28,7 @@ class Shift:
     Parameters
     ----------
     system : System
-        Its pattern has all diagonal entries.
+        Its pattern contains all diagonal entries.
     """
 
     def __init__(self, system: System) -> None:
@@ -40,12 +40,12 @@ class Shift:
         return np.flatnonzero(pattern.indices == pattern.rows)
 
     def factor(self, solver: Bordered, evaluation: Evaluation) -> Factorisation:
-        """Factorise a tangent that has negative pivots, with the least shift tried that leaves none.
+        """Factorise a tangent with negative pivots, with the smallest tried shift that removes them.
 
         Returns
         -------
         Factorisation
-            Of the shifted tangent; with negative pivots if no shift was enough.
+            Of the shifted tangent; with negative pivots if no shift sufficed.
         """
         unit, shift = self._system.largest_entry(evaluation.values), self._next
         for _ in range(_MOST):

@@ -1,4 +1,4 @@
-"""Equilibrium with a stiff penalty by way of softer ones, for increments that Newton's method does not make at once."""
+"""Continuation in the penalty, from a soft to the full one, for increments that fail otherwise."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from umform.solution.records import Cause, Converged, Failed
 
 log = logging.getLogger("umform.contact")
 
-#: Powers of ten by which the penalty is softened at first: the second where the first is still too stiff.
+#: Powers of ten by which the penalty is reduced at first: the second if the first is still too stiff.
 _SOFTER = (3, 6)
 
 
@@ -31,33 +31,33 @@ def softened(
     *,
     touched: bool = False,
 ) -> Converged:
-    """Find the equilibrium with a part of the penalty, and stiffen it tenfold at a time. docs/theory, 4.14
+    """Find the equilibrium with a reduced penalty, and increase it tenfold at a time. docs/theory, 4.14
 
     Parameters
     ----------
     model : Model
-        With the controls and the time of the increment, and contacts.
+        With contacts, and with the controls and the time of the increment.
     newton : Newton
         Method.
     start : callable
-        The equilibrium with the penalties that the contacts have when it is asked.
+        Finds the equilibrium with the present penalties of the contacts.
     accept : callable
-        Returns an equilibrium, or raises Failed: while a tool is soft the sheet may go through it.
+        Returns an equilibrium, or raises Failed: with a soft tool the sheet may pass through it.
     manner : Manner, optional
-        How to iterate; default: as the options say.
+        Mode of the iterations; default: from the options.
     touched : bool
-        Whether the sheet touches a tool in the converged state. If so, the first penalty is hardly too stiff, and the
-        second is tried only where the contact was lost.
+        Whether the sheet touches a tool in the converged state. If so, the first penalty is soft enough, and the second
+        is tried only if contact was lost.
 
     Returns
     -------
     Converged
-        With the iterations of all penalties.
+        With the iterations for all penalties.
 
     Raises
     ------
     Failed
-        If no softer penalty leads to the equilibrium; the model is reverted, with its penalties.
+        If no softer penalty leads to the equilibrium; the model and its penalties are restored.
     """
     soft, softest = _SOFTER
     try:
@@ -72,7 +72,7 @@ def softened(
 def _stiffened(
     model: Model, newton: Newton, start: Callable[[], Converged], powers: int, manner: Manner | None
 ) -> Converged:
-    """Equilibrium with 10^-powers of the penalty, then with ten times as much, up to all of it. eq. (4.39)"""
+    """Equilibrium with 10^-powers of the penalty, then with ten times as much, up to the full one. eq. (4.39)"""
     with _own_penalties(model) as penalties:
         for contact, penalty in penalties.items():
             contact.penalty = 10.0**-powers * penalty
@@ -91,7 +91,7 @@ def _stiffened(
 
 @contextmanager
 def _own_penalties(model: Model) -> Iterator[dict[Contact, float]]:
-    """The penalties of the contacts, which they have again at the end, whatever happens."""
+    """The penalties of the contacts, restored at the end in any case."""
     penalties = {contact: contact.penalty for contact in model.contacts}
     try:
         yield penalties

@@ -1,7 +1,6 @@
-"""The list of strategies: where Newton's method starts an increment from, and what is tried when it fails.
+"""Strategies for an increment: start values for Newton's method, and alternatives after a failure.
 
-They are tried in their order until one leads to the equilibrium. docs/theory, 4.13; how often each is tried and wins is
-counted in `umform.attempts`.
+They are tried in order until one converges. docs/theory, 4.13; `umform.attempts` counts trials and successes.
 """
 
 from __future__ import annotations
@@ -28,20 +27,20 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Increment:
-    """An increment that is to be made: the controls have their new values.
+    """An increment to solve: the controls have their new values.
 
     Attributes
     ----------
     model, newton, habits
-        What is solved and how, and what earlier increments have taught.
+        System, method, and statistics of earlier increments.
     before : mapping of Control to float
         Values of the controls at the converged state.
     time : float
-        Time there.
+        Time at the converged state.
     guess : ndarray, shape (3 n + k,), optional
         The last increment, extrapolated.
     last : Evaluation
-        That of the converged state.
+        Evaluation at the converged state.
     """
 
     model: Model
@@ -53,22 +52,22 @@ class Increment:
     last: Evaluation
 
     def accept(self, converged: Converged) -> Converged:
-        """The equilibrium, if the sheet did not go through a tool, nor turned on one too far for its friction."""
+        """The equilibrium, unless the sheet passed through a tool, or rotated on one too far for its friction."""
         return follows(self.model, self.last, same_side(self.model, self.last, converged))
 
     @property
     def wary(self) -> Wary:
-        """An indefinite tangent far from equilibrium ends an attempt: softer penalties lead there sooner."""
+        """An indefinite tangent far from equilibrium ends an attempt: softer penalties converge faster."""
         return Wary.OF_ANY if self.touches and self.habits.stable else Wary.NOT
 
     @property
     def wary_with_soft_tools(self) -> Wary:
-        """With softer penalties a sheet goes astray where negative pivots become more and more."""
+        """With softer penalties a growing number of negative pivots indicates divergence."""
         return Wary.OF_MORE if self.habits.stable else Wary.NOT
 
     @property
     def extrapolates(self) -> bool:
-        """Whether there is a last increment to go on with, and it may be gone on with."""
+        """Whether there is a last increment to extrapolate, and the extrapolation is enabled."""
         return self.guess is not None and self.newton.options.extrapolate > 0 and self.habits.extrapolates
 
     @property
@@ -87,31 +86,31 @@ class Increment:
         return self.last.touching(self.model.ranks)
 
     def soft(self) -> Converged:
-        """The equilibrium by way of softer penalties."""
+        """The equilibrium by continuation in the penalty."""
         start, manner = self.tangent(), self.newton.manner(wary=self.wary_with_soft_tools)
         go = lambda: self.newton.solve(start, manner, self.beyond(start))  # noqa: E731
         return softened(self.model, self.newton, go, self.accept, manner, touched=self.touched)
 
     def along_tangent(self, *, consistent: bool = False) -> Converged:
-        """The equilibrium from the increment along the tangent, gone round with a tool where friction carries it."""
+        """The equilibrium from the increment along the tangent, corrected for rotation with a tool by friction."""
         start = self.tangent()
         manner = self.newton.manner(consistent=consistent, wary=self.wary, rubs=self.rubs)
         return self.newton.solve(start, manner, self.beyond(start))
 
     def beyond(self, start: Floats | None) -> Floats | None:
-        """What the straight increment lacks to the way of a sheet that goes round with a tool. eq. (4.178)"""
+        """Correction of the straight increment for a sheet that rotates with a tool. eq. (4.178)"""
         return None if start is None or not self.rubs else carried(self.model, self.last, start)
 
     @property
     def came_round(self) -> bool:
-        """Whether the last increment is that of a sheet that came round with a tool: extrapolated it leaves the arc."""
+        """Whether the last increment is that of a sheet that rotated with a tool: its extrapolation leaves the arc."""
         return self.guess is not None and self.rubs and came_round(self.model, self.last, self.guess)
 
     def tangent(self) -> Floats | None:
         """Increment along the tangent of the converged state: the sheet follows the tools that touch it. eq. (4.36)
 
-        None where nothing holds the sheet there but a tool that is still to come, and without contact: then Newton's
-        method takes the tangent at the new values, eq. (5.6).
+        None if the sheet is unsupported there except by a tool that is not yet in contact, and without contact: then
+        Newton's method uses the tangent at the new values, eq. (5.6).
         """
         if not self.touches:
             return None
@@ -137,16 +136,16 @@ class Increment:
 
 @dataclass(frozen=True)
 class Strategy:
-    """One way to an equilibrium.
+    """A strategy for an increment.
 
     Attributes
     ----------
     name : str
         For tables.
     serves : callable
-        Whether it can help an increment.
+        Whether it is applicable to an increment.
     attempt : callable
-        The equilibrium, or Failed.
+        Returns the equilibrium, or raises Failed.
     """
 
     name: str
@@ -155,7 +154,7 @@ class Strategy:
 
 
 STRATEGIES = (
-    # The last increment again, in proportion: no evaluation is needed to begin with.
+    # The last increment, scaled: it needs no evaluation to begin with.
     Strategy(
         "extrapolation",
         lambda at: at.extrapolates and not at.came_round,
@@ -166,13 +165,13 @@ STRATEGIES = (
         lambda at: True,
         lambda at: at.along_tangent(),
     ),
-    # It may cross a sudden change of shape where the mixed tangent of eq. (5.39) does not.
+    # It may cross a snap-through where the mixed tangent of eq. (5.39) fails.
     Strategy(
         "consistent tangent",
         lambda at: at.newton.mixed,
         lambda at: at.along_tangent(consistent=True),
     ),
-    # A stiff tool may come to where nothing touched before: with a soft one the sheet finds its shape first.
+    # A stiff tool may reach a region without contact: a soft one gives the initial guess of the shape.
     Strategy(
         "softer penalties",
         lambda at: at.touches and (at.habits.softens or not at.touched),
@@ -182,12 +181,12 @@ STRATEGIES = (
 
 
 def equilibrium(increment: Increment) -> Converged:
-    """Equilibrium at the present values of the controls, by the first strategy that leads there.
+    """Equilibrium at the present values of the controls, by the first strategy that converges.
 
     Raises
     ------
     Failed
-        If none does; the model is reverted. It is the failure with the penalty of the user, of the last start.
+        If none does; the model is reverted. The error is that of the last start with the user's penalty.
     """
     attempts, failures = increment.newton.timing.attempts, {}
     touched = increment.touched
@@ -211,12 +210,12 @@ def equilibrium(increment: Increment) -> Converged:
     plain = [failure for name, failure in failures.items() if name != "softer penalties"]
     for one in plain:
         if one.cause is Cause.SINGULAR:
-            plain[-1].cause, plain[-1].motion = Cause.SINGULAR, one.motion
+            plain[-1].cause = Cause.SINGULAR  # the motion stays that of the last attempt, whose state the message is of
     raise plain[-1]
 
 
 def _cause(strategy: str, failure: Failed, touched: bool) -> str:
-    """What an attempt failed of, as a user would say it."""
+    """Cause of the failure of an attempt, in words for users."""
     entered = any(record.entered for record in failure.iterations)
     if failure.cause is Cause.CYCLE:
         return "cycle of contact"

@@ -1,4 +1,4 @@
-"""What Newton's method asks of a model: it knows no elements and no contact beyond these two protocols."""
+"""Interface between Newton's method and a model: two protocols, independent of elements and contact."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ class Border(Protocol):
 
     @property
     def columns(self) -> Floats:
-        """Rates of the residual with each of them, shape (k, 3 n)."""
+        """Derivatives of the residual with respect to each of them, shape (k, 3 n)."""
 
     @property
     def rows(self) -> Floats:
-        """Derivatives of their equations with the displacement, shape (k, 3 n)."""
+        """Derivatives of their equations with respect to the displacement, shape (k, 3 n)."""
 
     @property
     def corner(self) -> Floats:
-        """Derivatives of their equations with them, shape (k, k)."""
+        """Derivatives of their equations with respect to each of them, shape (k, k)."""
 
 
 class Evaluation(Protocol):
-    """What Newton reads of an evaluation."""
+    """Data of an evaluation that Newton's method uses."""
 
     @property
     def x(self) -> Floats:
-        """Where it was made."""
+        """Where the evaluation was made."""
 
     @property
     def residual(self) -> Floats:
@@ -47,7 +47,7 @@ class Evaluation(Protocol):
 
     @property
     def values(self) -> Floats:
-        """Entries of the tangent; empty of forces alone."""
+        """Entries of the tangent; empty if only forces were evaluated."""
 
     @property
     def predictor(self) -> Floats:
@@ -63,25 +63,25 @@ class Evaluation(Protocol):
 
     @property
     def round_off(self) -> float:
-        """What a relative error of all positions makes of the residual of contact, over that error. eq. (5.36)"""
+        """Change of the residual of contact per relative error of all positions. eq. (5.36)"""
 
     @property
     def failed(self) -> int:
-        """First cell without an answer, or -1."""
+        """First cell whose evaluation failed, or -1."""
 
     @property
     def failure(self) -> str:
-        """Why it has none."""
+        """Cause of that failure."""
 
     @property
     def status(self) -> NDArray[np.uint8]:
-        """0 for each contact point that is open, 1 if a tool holds it, 2 if it slips as well."""
+        """0 for each open contact point, 1 if a tool holds it, 2 if it also slips."""
 
     def without_tangent(self) -> Self:
-        """The same without the entries of the tangent, whose memory the next one may take."""
+        """The same without the entries of the tangent, whose memory the next evaluation may reuse."""
 
     def at_points(self, chosen: NDArray[np.bool_]) -> str:
-        """Where some of the contact points are, in words."""
+        """Positions of some contact points as text."""
 
     @property
     def flowing(self) -> NDArray[np.uint8]:
@@ -89,7 +89,7 @@ class Evaluation(Protocol):
 
 
 class System(Protocol):
-    """What Newton asks of a model."""
+    """Operations of a model that Newton's method uses."""
 
     @property
     def x(self) -> Floats:
@@ -97,7 +97,7 @@ class System(Protocol):
 
     @property
     def ranks(self) -> Ranks:
-        """Who shares the model: forces are then shares that are to be summed up, displacements the same on all."""
+        """Ranks that share the model: forces are partial sums, displacements are the same on all."""
 
     @property
     def pattern(self) -> Pattern:
@@ -105,7 +105,7 @@ class System(Protocol):
 
     @property
     def effort(self) -> float:
-        """What an evaluation costs for each equation; 1 for 8-node elements with 20 points."""
+        """Cost of an evaluation per equation; 1 for 8-node elements with 20 points."""
 
     @property
     def extent(self) -> float:
@@ -120,34 +120,34 @@ class System(Protocol):
         """Whether there is neither contact nor a law with a history."""
 
     def restrict(self, r: Floats) -> Floats:
-        """Unknowns' share of forces, summed over the ranks; on the first rank scalar ones follow. eq. (5.18)"""
+        """Reduce forces to the unknowns, summed over the ranks; on the first rank scalar ones follow. eq. (5.18)"""
 
     def coefficients(self, u: Floats) -> Floats:
-        """Unknowns in a displacement of all degrees of freedom and scalar unknowns. eq. (5.18)"""
+        """Reduce a displacement of all degrees of freedom and scalar unknowns to the unknowns. eq. (5.18)"""
 
     def extend(self, x: Floats) -> Floats:
-        """Displacement of all degrees of freedom and scalar unknowns that the unknowns make. eqs. (5.17), (5.46)"""
+        """Displacement of all degrees of freedom and scalar unknowns from the unknowns. eqs. (5.17), (5.46)"""
 
     def prescribed_displacement(self) -> Floats:
         """Displacement that the supports prescribe, zero elsewhere, shape (3 n,)."""
 
     def displacement_of_supports(self, values: Mapping[Any, float]) -> Floats:
-        """Displacement that supports prescribe if their controls have these values, shape (3 n,)."""
+        """Displacement that supports prescribe for given values of their controls, shape (3 n,)."""
 
     def largest_entry(self, values: Floats) -> float:
         """Size of the largest entry of the tangent."""
 
     def evaluate(self, x: Floats, du: Floats | None = None, *, tangent: bool = True) -> Evaluation:
-        """Residual and tangent, or the residual alone, which leaves the blocks of enhanced parameters as they are."""
+        """Residual and tangent, or the residual alone, which leaves the blocks of enhanced parameters unchanged."""
 
     def recover(self, du: Floats, mixed: bool = False) -> None:
-        """Update condensed parameters; the next tangent may be mixed, of the stress that the increment foresaw."""
+        """Update condensed parameters; the next tangent may be mixed, with the stress that the increment predicts."""
 
     def follow(self) -> None:
-        """After forces alone were evaluated: let the next recovery take them, with the tangent of before."""
+        """After an evaluation of forces only: let the next recovery use them, with the previous tangent."""
 
     def shorten(self, part: float) -> None:
-        """Shorten the last update to a part of it."""
+        """Scale the last update."""
 
     def revert(self) -> None:
-        """Forget everything since the last commit."""
+        """Discard all changes since the last commit."""

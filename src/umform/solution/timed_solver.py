@@ -1,4 +1,4 @@
-"""A sparse solver that counts its time as parts of a run."""
+"""A sparse solver whose time counts to the timing of a run."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ Floats = NDArray[np.float64]
 
 
 class TimedSolver:
-    """A sparse solver on the clock of a run.
+    """A sparse solver with timing.
 
     Parameters
     ----------
     solver : SparseSolver
-        The solver, which has analysed its pattern.
+        The solver, with an analysed pattern.
     timing : Timing
         Its parts `analysis`, `factorisation` and `solve` are counted.
     """

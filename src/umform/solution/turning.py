@@ -1,4 +1,4 @@
-"""Reject an increment in which a sheet turns so far on a tool that a chord is not the direction of its slip."""
+"""Reject an increment in which a sheet rotates too far on a tool for its chord to be the direction of slip."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from umform.solution.records import Cause, Converged, Failed
 
 Floats = NDArray[np.float64]
 
-#: Chord over radius up to which the chord is shorter than the arc by at most a hundredth.
+#: Ratio of chord to radius up to which the chord is shorter than the arc by at most a hundredth.
 _LONGEST = 0.5
 
 
 def follows(model: Model, last: Evaluation, converged: Converged) -> Converged:
-    """The equilibrium, if the sheet turned on no tool with friction by more than half a radian. eq. (4.152)
+    """The equilibrium, if the sheet rotated on no tool with friction by more than half a radian. eq. (4.152)
 
     The slip of an increment is measured along its chord. After half a turn of a free sheet all chords pass through its
-    middle, and friction has no moment: a false equilibrium, which large increments may reach.
+    centre, and friction has no moment: a spurious equilibrium, which large increments may reach.
 
     Parameters
     ----------
     model : Model
         At ``converged``, not yet committed.
-    last : Evaluation
+    Evaluation at the last converged state.
         Of the last converged state.
     converged : Converged
         The increment.
@@ -33,7 +33,7 @@ def follows(model: Model, last: Evaluation, converged: Converged) -> Converged:
     Raises
     ------
     Failed
-        If it has; the model is reverted.
+        If it rotated farther; the model is reverted.
     """
     for pair in model.contacts:
         if pair.friction is None or pair.tool.open:
@@ -48,7 +48,9 @@ def follows(model: Model, last: Evaluation, converged: Converged) -> Converged:
 
 
 def _chord(model: Model, pair: Contact, last: Evaluation, now: Evaluation) -> float:
-    """Way of the points that touch before and behind, less their mean way, over their distance from their mean."""
+    """Displacement of the points in contact before and after, minus the mean, relative to their distance from their
+    mean.
+    """
     both = last.found[pair].active & now.found[pair].active
     before, behind = (_in_frame_of_tool(pair, evaluation)[both] for evaluation in (last, now))
     sums = model.ranks.sum(np.concatenate([[float(both.sum())], before.sum(axis=0), behind.sum(axis=0)]))
@@ -60,7 +62,7 @@ def _chord(model: Model, pair: Contact, last: Evaluation, now: Evaluation) -> fl
 
 
 def _in_frame_of_tool(pair: Contact, evaluation: Evaluation) -> Floats:
-    """Places of the contact points as the tool sees them, shape (points, 3)."""
+    """Positions of the contact points in the frame of the tool, shape (points, 3)."""
     rotation, shift = pair.tool.pose(evaluation.controls, evaluation.time)
     places: Floats = (evaluation.found[pair].x - shift) @ rotation
     return places

@@ -1,7 +1,7 @@
-"""Sparse solvers: the protocol, one file per solver, and the choice among them.
+"""Sparse solvers: the protocol, one file per solver, and their selection.
 
-``auto`` takes umform's own multifrontal solver, which is as fast as the fastest of the others, from strips to large
-sheets (``benchmarks/sparse.py``). The others are there to compare with. A solver of your own joins with `register`.
+``auto`` selects umform's multifrontal solver, which is as fast as the fastest of the others, from strips to large
+sheets (``benchmarks/sparse.py``). The others are for comparison. `register` adds your own solver.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _log = logging.getLogger("umform.solvers")
 
 
 def _superlu() -> SparseSolver:
-    from .superlu import SuperLU  # slow to import
+    from .superlu import SuperLU  # the import is slow
 
     return SuperLU()
 
@@ -36,14 +36,14 @@ _factories: dict[str, Callable[[], SparseSolver]] = {
 
 
 def register(name: str, factory: Callable[[], SparseSolver]) -> None:
-    """Make a solver known by a name.
+    """Register a solver under a name.
 
     Parameters
     ----------
     name : str
-        The name that `make_solver` is asked for; a solver of this name is replaced.
+        The name for `make_solver`; a solver of this name is replaced.
     factory : callable
-        Returns a new solver, such as the class itself.
+        Returns a new solver; for instance the class itself.
     """
     if name == "auto":
         raise InvalidValue("The name 'auto' stands for the choice among the solvers", remedy="take another")
@@ -51,17 +51,17 @@ def register(name: str, factory: Callable[[], SparseSolver]) -> None:
 
 
 def available() -> dict[str, bool]:
-    """Return for each solver whether it can run here."""
+    """For each solver, whether it can run on this machine."""
     return {name: name != "pardiso" or pardiso.available() for name in _factories}
 
 
 def make_solver(pattern: Pattern, name: str = "auto") -> SparseSolver:
-    """Return a solver that has analysed the pattern.
+    """A new solver that has analysed the pattern.
 
     Parameters
     ----------
     pattern : Pattern
-        Where the matrix has entries.
+        Pattern of the matrix.
     name : str, optional
         One of `available`, or ``auto`` for the fastest one.
     """

@@ -1,7 +1,7 @@
-"""Orders of the equations that make the band of a symmetric matrix narrow.
+"""Orders of the equations that minimise the bandwidth of a symmetric matrix.
 
-Reverse Cuthill-McKee, that of SciPy, finds the ends of a strip; moving each equation to the middle of its neighbours
-then takes an eighth to a quarter off the bandwidth.
+Reverse Cuthill-McKee of SciPy finds the ends of a strip; moving each equation to the mean of its neighbours then
+reduces the bandwidth by an eighth to a quarter.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ IntIndex = NDArray[np.intp]
 
 
 def orders(pattern: Pattern) -> Iterator[IntIndex]:
-    """Yield ways to number the equations one after the other along the strip: the place of each."""
-    from scipy import sparse  # slow to import: a matrix that is no strip does without
+    """Yield orders of the equations along the strip: the position of each."""
+    from scipy import sparse  # imported late: slow, and only strips need it
     from scipy.sparse.csgraph import reverse_cuthill_mckee
 
     ones, shape = np.ones(pattern.nnz, dtype=np.int32), (pattern.n, pattern.n)
@@ -33,12 +33,12 @@ def orders(pattern: Pattern) -> Iterator[IntIndex]:
 
 
 def bandwidth(places: IntIndex, rows: IntArray, columns: IntArray) -> int:
-    """Return how far the entries lie from the diagonal at most."""
+    """Half-bandwidth: the largest distance of an entry from the diagonal."""
     return int(np.abs(places[rows] - places[columns]).max())
 
 
 def _inverse(order: IntIndex) -> IntIndex:
-    """Return the place of each equation in an order."""
+    """Position of each equation in an order."""
     places = np.empty(len(order), dtype=np.intp)
     places[order] = np.arange(len(order))
     return places

@@ -1,7 +1,7 @@
-"""Cholesky factors in band storage by LAPACK, for long strips of few cells across: symmetric matrices only.
+"""Cholesky factorisation in band storage by LAPACK, for long narrow strips: symmetric matrices only.
 
-Another way to the same solution, to compare with: on strips up to a bandwidth of 32 it is as fast as the multifrontal
-solver, and no faster. That takes matrices that are not positive definite and finds their number of negative pivots.
+For comparison: on strips up to a bandwidth of 32 it is as fast as the multifrontal solver, but not faster. The latter
+takes over for matrices that are not positive definite, and counts their negative pivots.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from .protocol import Factorisation, FloatArray, Pattern, not_factored, singular
 
 
 class Banded:
-    """Band Cholesky factorisation, with the multifrontal solver behind it."""
+    """Band Cholesky factorisation, with the multifrontal solver as a fallback."""
 
     name = "banded"
     _back_substitute: Callable[[FloatArray], FloatArray] | None = None
 
     def analyse(self, pattern: Pattern) -> None:
-        """Look for the order with the narrowest band and plan the way of the values into the band."""
+        """Find the order with the smallest bandwidth and the map of the values into the band."""
         if not pattern.symmetric:
             raise InvalidValue("The solver 'banded' takes symmetric matrices only", remedy="choose 'auto'")
         rows, columns = pattern.rows, pattern.indices
@@ -41,9 +41,9 @@ class Banded:
         """Factorise by Cholesky, or by the multifrontal solver if a pivot is not positive."""
         self._back_substitute = None
         values = self._pattern.checked(values)
-        from scipy.linalg import lapack  # slow to import
+        from scipy.linalg import lapack  # the import is slow
 
-        band = np.zeros((self._pattern.n, self.bandwidth + 1))  # each row holds a column of the lower triangle
+        band = np.zeros((self._pattern.n, self.bandwidth + 1))  # each row stores a column of the lower triangle
         band.reshape(-1)[self._scatter] = values
         self._band, first_bad = lapack.dpbtrf(band.T, lower=1, overwrite_ab=1)
         if first_bad:
@@ -55,7 +55,7 @@ class Banded:
         return Factorisation(negative_pivots=0, fill=band.size)
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solve with the factors found last."""
+        """Solve with the last factors."""
         if self._back_substitute is None:
             raise not_factored()
         return self._back_substitute(rhs)
@@ -64,7 +64,7 @@ class Banded:
         if self._fallback is None:
             self._fallback = Multifrontal()
             self._fallback.analyse(self._pattern)
-        self._fallback.recall(0)  # known to be no matrix for Cholesky
+        self._fallback.recall(0)  # known not to be positive definite
         factorisation = self._fallback.factor(values)
         self._back_substitute = self._fallback.solve
         return factorisation

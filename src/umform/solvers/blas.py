@@ -1,10 +1,11 @@
-"""BLAS of SciPy for the kernels: its functions by address, without importing the whole of ``scipy.linalg``."""
+"""BLAS of SciPy for the kernels: function addresses, without importing the whole of ``scipy.linalg``."""
 
 from __future__ import annotations
 
 import ctypes
 import functools
 import sys
+import threading
 from importlib import import_module, util
 from importlib.machinery import PathFinder
 from pathlib import Path
@@ -12,19 +13,25 @@ from types import ModuleType
 
 from .. import _core
 
-# How OpenBLAS is told its number of threads: as built for SciPy, and by others.
+# Functions that set the number of threads of OpenBLAS: as built for SciPy, and by others.
 _PREFIXES = ("scipy_openblas", "openblas")
+_first = threading.Lock()
+
+
+def hand_over() -> None:
+    """Pass the functions of BLAS to the kernels, once per process; other threads wait until it is done."""
+    with _first:
+        _hand_over()
 
 
 @functools.cache
-def hand_over() -> None:
-    """Give the kernels the functions of BLAS, once a process."""
+def _hand_over() -> None:
     module = _module("scipy.linalg.cython_blas")
     _core.set_blas(module.__pyx_capi__, *_thread_control(module))
 
 
 def _module(name: str) -> ModuleType:
-    """Return a compiled module of SciPy; the package that it lies in takes 0.2 s to be imported and is left out."""
+    """A compiled module of SciPy, without importing its package, which takes 0.2 s."""
     if name in sys.modules:
         return sys.modules[name]
     import scipy
@@ -39,8 +46,8 @@ def _module(name: str) -> ModuleType:
 
 
 def _thread_control(module: ModuleType) -> tuple[int, int]:
-    """Addresses of the functions that set and get the number of threads of BLAS; 0 where there are none."""
-    library = ctypes.CDLL(str(module.__file__))  # the libraries that it is linked to are looked through as well
+    """Addresses of the functions that set and get the number of threads of BLAS; 0 if there are none."""
+    library = ctypes.CDLL(str(module.__file__))  # search linked libraries as well
     for prefix in _PREFIXES:
         names = (f"{prefix}_set_num_threads", f"{prefix}_get_num_threads")
         if all(hasattr(library, name) for name in names):

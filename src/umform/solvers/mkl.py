@@ -1,7 +1,7 @@
-"""MKL, the library of the PyPI package `mkl`: where it lies, and how it is loaded.
+"""MKL from the PyPI package `mkl`: where it is, and how it is loaded.
 
-MKL is made to use the GNU OpenMP runtime, the one of umform's kernels, so that there is one pool of threads;
-the environment variable ``MKL_THREADING_LAYER`` overrules this.
+MKL is set to the GNU OpenMP runtime, that of umform's kernels, so that there is one thread pool; the environment
+variable ``MKL_THREADING_LAYER`` overrules this.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _LP64, _GNU_THREADS = 0, 3
 
 @cache
 def find() -> Path | None:
-    """Return the file of the library, or None where MKL is not installed."""
+    """The file of the library, or None if MKL is not installed."""
     return next((path for path in _candidates() if path.suffix != ".lib" and path.is_file()), None)
 
 
@@ -50,7 +50,7 @@ def library() -> ctypes.CDLL:
 
 @contextmanager
 def threads(count: int | None) -> Iterator[None]:
-    """Let MKL take at most so many threads for what this thread asks of it; None leaves it as it is."""
+    """Limit the number of threads of MKL for calls of this thread; None changes nothing."""
     if count is None:
         yield
         return
@@ -62,11 +62,11 @@ def threads(count: int | None) -> Iterator[None]:
 
 
 def _candidates() -> Iterator[Path]:
-    """Yield files that may be it: beside Python as pip and conda put it, then among the files of the package `mkl`."""
+    """Yield candidate files: beside Python as pip and conda install it, then among the files of the package `mkl`."""
     prefix = Path(sys.prefix)
     yield from sorted(prefix.glob("lib/libmkl_rt.so*"), reverse=True)  # the newest
     yield from sorted(prefix.glob("Library/bin/mkl_rt*.dll"), reverse=True)
-    from importlib import metadata  # slow to import
+    from importlib import metadata  # the import is slow
 
     try:
         files = metadata.files("mkl") or []

@@ -1,10 +1,10 @@
-"""The solver of umform itself, for any matrix: multifrontal factors, dense products by the BLAS of SciPy.
+"""Multifrontal factorisation, for any matrix, with dense products by the BLAS of SciPy.
 
-The equations of a sheet are put in order by nested dissection of the graph of its fibres, those of other matrices by
-that or by minimum degree, whichever leaves less to do (`cpp/include/umform/multifrontal/elimination.hpp`). Cholesky
-comes first for a symmetric matrix; a pivot that is not positive leads to L D L^T with pivots of one and two columns,
-which know the inertia, until a matrix has no negative pivot any more. Unsymmetric matrices get LU factors. A pivot that
-is not stable within its front waits for the next one, so that no matrix needs another solver.
+The equations of a sheet are ordered by nested dissection of the graph of its fibres, those of other matrices by that or
+by minimum degree, whichever has fewer operations (`cpp/include/umform/multifrontal/elimination.hpp`). A symmetric
+matrix is first tried with Cholesky; a pivot that is not positive leads to L D L^T with pivots of one and two columns,
+which give the inertia, until a matrix has no negative pivot. Unsymmetric matrices get LU factors. A pivot that is
+unstable within its front is delayed to the parent front, so that no matrix needs another solver.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from .protocol import (
 )
 from .singularity import Iteration, Loose, large_solution, weak_pivot
 
-# A backward error above this is worth a step of iterative refinement, of which so many are made at most.
+# Backward error above which iterative refinement is used, and the largest number of its steps.
 _POOR_RESIDUAL, _STEPS = 1e-14, 2
 
 
@@ -39,11 +39,11 @@ class Multifrontal:
 
     name = "multifrontal"
     _ready = False
-    _values: FloatArray | None = None  # to refine with, of factors that are not Cholesky's
+    _values: FloatArray | None = None  # for refinement, unless the factors are those of Cholesky
     _factors: _core.Multifrontal
 
     def analyse(self, pattern: Pattern) -> None:
-        """Order the equations and plan the fronts; Cholesky is expected of a symmetric matrix."""
+        """Order the equations and plan the fronts; a symmetric matrix is first tried with Cholesky."""
         self._ready, self._values, self._asked = False, None, False
         blas.hand_over()
         indptr, indices = (np.ascontiguousarray(part, np.int32) for part in (pattern.indptr, pattern.indices))
@@ -53,7 +53,7 @@ class Multifrontal:
         self._positive = pattern.symmetric
 
     def factor(self, values: FloatArray) -> Factorisation:
-        """Factorise; after a pivot that is not positive, Cholesky is left out until none is negative any more."""
+        """Factorise; after a pivot that is not positive, Cholesky is skipped until no pivot is negative."""
         self._ready, self._values = False, None
         values = self._pattern.checked(values)
         factors, symmetric = self._factors, self._pattern.symmetric
@@ -75,7 +75,7 @@ class Multifrontal:
         return Factorisation(pivots.negative if symmetric else None, factors.fill, pivots.odd)
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solve; without Cholesky the residual is checked, and the solution refined where that is poor."""
+        """Solve; without Cholesky the residual is checked, and the solution refined if necessary."""
         if not self._ready:
             raise not_factored()
         b = np.ascontiguousarray(self._pattern.checked_rhs(rhs).T)
@@ -89,15 +89,15 @@ class Multifrontal:
         return x.T
 
     def memory(self) -> int:
-        """What later answers follow from, beside the values: whether the next matrix is tried with Cholesky."""
+        """State that affects later results, besides the values: whether the next matrix is tried with Cholesky."""
         return int(self._positive)
 
     def recall(self, kind: int) -> None:
-        """Go on with the kind of factors of a run that was kept."""
+        """Restore the kind of factors of a run."""
         self._positive = kind == 1 and self._pattern.symmetric
 
     def _loose(self, pivots: FloatArray, size: FloatArray, values: FloatArray) -> Loose | None:
-        """What moves without resistance: found by a weak pivot, or in the first matrix of a pattern by a solution."""
+        """Displacement without resistance: from a weak pivot, or for the first matrix of a pattern from a solution."""
         iteration = self._iteration(values)
         lost = weak_pivot(pivots, size, iteration.resistance)
         if lost is None and not self._asked:
@@ -109,7 +109,6 @@ class Multifrontal:
 
     def _iteration(self, values: FloatArray) -> Iteration:
         """Inverse iteration with the factors."""
-        sizes, nothing = np.abs(values), np.zeros(self._pattern.n)
         row, column = self._factors.scales
         if self._with_cholesky:
             row = column = 1.0 / np.sqrt(values[self._pattern.indptr[:-1]])
@@ -123,19 +122,19 @@ class Multifrontal:
 
         def magnitude(x: FloatArray) -> FloatArray:
             product = np.empty_like(x)
-            self._factors.residual(sizes, nothing, x, product)
+            self._factors.residual_of_magnitudes(values, np.zeros_like(x), x, product)
             return -product
 
         return Iteration(row, column, solve, magnitude)
 
     def _refine(self, values: FloatArray, b: FloatArray, x: FloatArray) -> None:
-        """Improve the solution while its residual is poor; refuse it if that does not help."""
+        """Refine the solution while its residual is large; refuse it if that does not help."""
         residual, change = np.empty_like(b), np.empty_like(b)
         size = float(self._factors.column_sizes.max())
         row, column = self._factors.scales
         for left in range(_STEPS, -1, -1):
             self._factors.residual(values, b, x, residual)
-            if row.size:  # of the equations that were eliminated
+            if row.size:  # of the eliminated equations
                 error = backward_error((residual * row).T, size, (x / column).T, (b * row).T)
             else:
                 error = backward_error(residual.T, size, x.T, b.T)
@@ -148,7 +147,7 @@ class Multifrontal:
 
 @contextmanager
 def _memory(pattern: Pattern, needed: Callable[[], int]) -> Iterator[None]:
-    """Reject factors that are larger than the memory of the machine, and say so where memory ends on the way."""
+    """Reject factors that exceed the memory of the machine, and report it if memory is exhausted later."""
     if needed() > _installed():
         raise _too_large(pattern, needed())
     try:
@@ -158,7 +157,7 @@ def _memory(pattern: Pattern, needed: Callable[[], int]) -> Iterator[None]:
 
 
 def _installed() -> float:
-    """Bytes of memory that the machine has; infinity where it does not say."""
+    """Memory of the machine in bytes; infinity if unknown."""
     try:
         return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
     except (AttributeError, ValueError, OSError):

@@ -1,16 +1,16 @@
-"""MKL PARDISO, called directly in the library of the PyPI package `mkl`: another solver to compare with.
+"""MKL PARDISO, called directly in the library of the PyPI package `mkl`, for comparison.
 
-The equations of a sheet are put in order here (`umform._core.SheetOrder`): those of a fibre are one vertex, and
-the separators are minimal cuts. PARDISO's own METIS orders each equation by itself, which takes longer and leaves
-more to factorise; it orders all other matrices. Large sheets go in as blocks, one for two neighbouring fibres: the
-analysis takes a quarter of the time then. PARDISO does not give the pivots of Cholesky factors of blocks, so
-these are L D L^T without exchanges.
+The equations of a sheet are ordered here (`umform._core.SheetOrder`): those of a fibre are one vertex, and the
+separators are minimal cuts. PARDISO's METIS orders single equations, which takes longer and gives more entries; it is
+used for all other matrices. Large sheets are stored as blocks of two neighbouring fibres: the analysis then takes a
+quarter of the time. PARDISO does not return the pivots of Cholesky factors of blocks, so these are L D L^T without
+exchanges.
 
-Against SuperLU it factorises strips 3 to 7 times faster and sheets 6 to 8 times. Cholesky comes first; a pivot
-that is not positive leads to Bunch-Kaufman factors, which cost 1.0 to 1.5 times as much and know the inertia, until a
-matrix has no negative pivot any more. LU for unsymmetric matrices costs twice as much. Matching and scaling would tie
-the analysis to the values and make the factors of a sheet 3 times dearer: they are off, and the residual is
-checked instead.
+It factorises strips 3 to 7 times faster than SuperLU and sheets 6 to 8 times. A symmetric matrix is first tried with
+Cholesky; a pivot that is not positive leads to Bunch-Kaufman factors, which cost 1.0 to 1.5 times as much and give the
+inertia, until a matrix has no negative pivot. LU for unsymmetric matrices costs twice as much. Matching and scaling
+would make the analysis depend on the values and the factors of a sheet 3 times more expensive: they are off, and the
+residual is checked instead.
 """
 
 from __future__ import annotations
@@ -45,16 +45,16 @@ from .protocol import (
 )
 from .sheet_blocks import sheet_of, worth_blocks
 
-_POSITIVE = (CHOLESKY, IN_BLOCKS)  # factors that end with the first pivot that is not positive
+_POSITIVE = (CHOLESKY, IN_BLOCKS)  # factors that stop at the first pivot that is not positive
 _CAUSES = {
     -1: "the pattern is not consistent",
     -2: "not enough memory",
     -3: "the ordering failed",
     -8: "the factors need more than 2^31 entries",
 }
-# From so many equations on blocks are worth it: below, Cholesky factors take a few per cent less than those of blocks.
+# Smallest number of equations for blocks: below, Cholesky factors are a few per cent faster.
 _LARGE = 100_000
-# Below so many equations one thread: two gain up to 20 ms, but take 2 to 5 times as long as one on a busy machine.
+# Below this number of equations one thread: two save up to 20 ms, but take 2 to 5 times as long on a busy machine.
 _SMALL = 25_000
 
 
@@ -66,10 +66,10 @@ class Pardiso:
     _handle: Handle
 
     def analyse(self, pattern: Pattern) -> None:
-        """Order the equations by nested dissection; Cholesky is expected of a symmetric matrix."""
+        """Order the equations by nested dissection; a symmetric matrix is first tried with Cholesky."""
         self._pattern = pattern
         self._matrix = Matrix(
-            np.empty(pattern.nnz),  # never touched: PARDISO reads the values that `factor` is given
+            np.empty(pattern.nnz),  # not allocated: PARDISO reads the values given to `factor`
             np.ascontiguousarray(pattern.indices, dtype=np.int32),
             np.ascontiguousarray(pattern.indptr, dtype=np.int32),
         )
@@ -80,13 +80,13 @@ class Pardiso:
         self._take(self._next)
 
     def factor(self, values: FloatArray) -> Factorisation:
-        """Factorise; after a pivot that is not positive, Cholesky is left out until none is negative any more."""
+        """Factorise; after a pivot that is not positive, Cholesky is skipped until no pivot is negative."""
         self._factored = False
         self._matrix.data = self._pattern.checked(values)
         with mkl.threads(self._threads):
             self._factorise()
             handle = self._handle
-            # PARDISO does not always give the pivots of unsymmetric matrices: the residual of each solve is checked.
+            # PARDISO does not always return the pivots of unsymmetric matrices: the residual of each solve is checked.
             weakest = vanishing_pivot(*handle.pivots()) if self._pattern.symmetric else None
         if weakest is not None or handle.perturbed_pivots:
             raise singular(self.name, None if weakest is None else handle.equation(weakest))
@@ -94,7 +94,7 @@ class Pardiso:
         return Factorisation(handle.negative_pivots if self._pattern.symmetric else None, handle.fill)
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solve; without Cholesky the residual is checked, as pivots are not sought everywhere."""
+        """Solve; without Cholesky the residual is checked, since pivoting is restricted."""
         if not self._factored:
             raise not_factored()
         b = np.array(self._pattern.checked_rhs(rhs), order="F")
@@ -106,15 +106,15 @@ class Pardiso:
         return x
 
     def memory(self) -> int:
-        """What later answers follow from, beside the values: the kind of factors that the next matrix is tried with."""
+        """State that affects later results, besides the values: the kind of factors for the next matrix."""
         return self._next
 
     def recall(self, kind: int) -> None:
-        """Go on with the kind of factors of a run that was kept."""
+        """Restore the kind of factors of a run."""
         self._next = self._first_kind() if kind in _POSITIVE else kind
 
     def _factorise(self) -> None:
-        """Factors of the kind that is next, or of an indefinite matrix; and what the next matrix is tried with."""
+        """Factors of the next kind, or of an indefinite matrix; and the kind for the next matrix."""
         tried = self._next
         self._take(tried)
         code = self._handle.call(FACTOR, self._matrix)
@@ -127,7 +127,7 @@ class Pardiso:
             self._next = self._first_kind()
 
     def _order(self) -> _core.SheetOrder | None:
-        """Return the order of a sheet; None leaves it to PARDISO."""
+        """The order of a sheet; None leaves the order to PARDISO."""
         return sheet_of(self._pattern)
 
     def _first_kind(self) -> int:
@@ -138,7 +138,7 @@ class Pardiso:
         return IN_BLOCKS if blocks else CHOLESKY
 
     def _take(self, kind: int) -> None:
-        """Turn to a kind of factors: those of another kind are forgotten, its analysis is kept."""
+        """Select a kind of factors: those of another kind are released, its analysis is kept."""
         if self._handles and self._handle.kind == kind:
             return
         self._factored = False
@@ -172,7 +172,7 @@ class Pardiso:
             )
 
     def _check_residual(self, x: FloatArray, b: FloatArray) -> None:
-        from scipy import sparse  # slow to import, and Cholesky does without it
+        from scipy import sparse  # imported late: slow, and Cholesky does not need it
 
         shape = (self._pattern.n, self._pattern.n)
         matrix = sparse.csr_matrix((self._matrix.data, self._matrix.indices, self._matrix.indptr), shape=shape)
@@ -184,5 +184,5 @@ class Pardiso:
 
 
 def available() -> bool:
-    """Return whether the library of MKL is installed here."""
+    """Whether MKL is installed."""
     return mkl.find() is not None

@@ -1,4 +1,4 @@
-"""PARDISO's memory for one matrix, and the calls of its phases."""
+"""PARDISO's memory for one matrix, and its phases."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _FORGET, _DIVIDE, _RELEASE = 0, 332, -1
 
 @dataclass(eq=False)
 class Matrix:
-    """The stored entries in compressed rows, where PARDISO reads them."""
+    """The stored entries in compressed rows, as PARDISO reads them."""
 
     data: FloatArray
     indices: IntArray
@@ -38,7 +38,7 @@ class Handle:
     kind : int
         PARDISO's type of matrix.
     matrix : Matrix or SheetBlocks
-        The stored entries; its pattern stays the same from call to call.
+        The stored entries; its pattern is the same in all calls.
     """
 
     def __init__(self, kind: int, matrix: Matrix | SheetBlocks) -> None:
@@ -58,11 +58,11 @@ class Handle:
         return _call(self._library, self._memory, self._parameters, self.kind, phase, matrix, self.order, b, x)
 
     def forget(self) -> None:
-        """Give the memory of the factors back, and keep the analysis."""
+        """Release the memory of the factors, and keep the analysis."""
         _call(self._library, self._memory, self._parameters, self._type, _FORGET, self._stored, self.order)
 
     def eliminate_in(self, order: NDArray[np.int32]) -> None:
-        """Have the analysis take an order instead of looking for one."""
+        """Use a given order in the analysis."""
         self.order[:] = order
         self._parameters[4] = 1
 
@@ -73,12 +73,12 @@ class Handle:
 
     @property
     def negative_pivots(self) -> int:
-        """Number of negative pivots of a symmetric matrix; PARDISO counts none under Cholesky."""
+        """Number of negative pivots of a symmetric matrix; PARDISO does not count them for Cholesky."""
         return int(self._parameters[22])
 
     @property
     def perturbed_pivots(self) -> int:
-        """Number of pivots that PARDISO has replaced because they vanish beside the norm of the matrix."""
+        """Number of pivots that PARDISO replaced because they are negligible relative to the norm of the matrix."""
         return int(self._parameters[13])
 
     def pivots(self) -> tuple[FloatArray, FloatArray]:
@@ -90,23 +90,23 @@ class Handle:
         return pivots, diagonal
 
     def equation(self, place: int) -> int:
-        """Return the equation of a pivot from its place in the order of elimination."""
+        """The equation of a pivot from its position in the order of elimination."""
         return int(self.order[place])
 
 
 class BlockHandle(Handle):
-    """L D L^T factors, without exchanges, of the matrix of a sheet in blocks: those of a positive definite one."""
+    """L D L^T factors, without pivoting, of the block matrix of a sheet, for positive definite matrices."""
 
     def __init__(self, sheet: _core.SheetOrder) -> None:
         self._blocks = SheetBlocks(sheet)
         super().__init__(INDEFINITE, self._blocks)
         self.kind = IN_BLOCKS
         self.eliminate_in(sheet.vertices)
-        self._parameters[20] = 0  # no exchanges
+        self._parameters[20] = 0  # no pivoting
         self._parameters[36] = self._blocks.size
 
     def call(self, phase: int, matrix: Matrix, b: FloatArray | None = None, x: FloatArray | None = None) -> int:
-        """Run a phase with the entries of the pattern; a pivot that is not positive ends a factorisation."""
+        """Run a phase with the entries of the pattern; a pivot that is not positive stops a factorisation."""
         if phase == FACTOR:
             self._blocks.fill(matrix.indptr, matrix.indices, matrix.data)
             self._diagonal = matrix.data[matrix.indptr[:-1]]
@@ -139,11 +139,11 @@ class BlockHandle(Handle):
         return _call(self._library, self._memory, self._parameters, self._type, phase, self._blocks, self.order, b, x)
 
 
-# By PARDISO's own numbers, counted from 0; what is not named is 0.
+# Parameters in PARDISO's numbering, counted from 0; others are 0.
 _PARAMETERS = {
     0: 1,  # these values instead of the defaults
     1: 2,  # nested dissection (METIS)
-    4: 2,  # return the order of elimination; 1: take the one that is given
+    4: 2,  # return the order of elimination; 1: use the given one
     9: 15,  # replace pivots below 1e-15 |K|
     17: -1,  # count the entries of the factors
     20: 1,  # Bunch-Kaufman pivots for symmetric indefinite matrices

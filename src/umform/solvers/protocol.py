@@ -1,7 +1,7 @@
-"""What every sparse solver takes, gives back and promises.
+"""Protocol of sparse solvers: input, output and guarantees.
 
-A solver sees a pattern once, values many times and right-hand sides as often as one likes; it never sees the
-model. Positions in the pattern are equations: free degrees of freedom, counted from 0.
+A solver analyses a pattern once, then factorises matrices and solves right-hand sides; it is independent of the model.
+Positions in the pattern are equations: free degrees of freedom, counted from 0.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ IntArray = NDArray[np.int32]
 
 @dataclass(frozen=True, eq=False)
 class Pattern:
-    """Where a sparse matrix has entries: compressed rows, columns sorted, every diagonal entry present.
+    """Pattern of a sparse matrix: compressed rows, columns sorted, every diagonal entry present.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class Pattern:
     symmetric: bool
 
     def __post_init__(self) -> None:
-        """Reject what is no pattern: the solvers would read outside of their arrays."""
+        """Reject an invalid pattern: the solvers would read outside of their arrays."""
         if len(self.indptr) != self.n + 1 or self.indptr[0] != 0 or self.indptr[-1] != len(self.indices):
             raise _bad_pattern("the row starts do not fit the number of equations and of columns")
         lengths = np.diff(self.indptr)
@@ -73,10 +73,10 @@ class Pattern:
         return np.repeat(np.arange(self.n, dtype=np.int32), np.diff(self.indptr))
 
     def upper(self) -> tuple[IntArray, IntArray] | None:
-        """Starts and columns of the rows of the upper triangle; None if entries have none opposite to them."""
+        """Starts and columns of the rows of the upper triangle; None if the pattern is not symmetric."""
         if self.symmetric:
             return np.ascontiguousarray(self.indptr, np.int32), np.ascontiguousarray(self.indices, np.int32)
-        from scipy import sparse  # slow to import
+        from scipy import sparse  # the import is slow
 
         shape = (self.n, self.n)
         mirrored = sparse.csr_matrix((np.empty(self.nnz, np.int8), self.indices, self.indptr), shape=shape).tocsc()
@@ -88,8 +88,8 @@ class Pattern:
         return indptr.astype(np.int32), self.indices[above].astype(np.int32)
 
     def positions(self) -> sparse.csr_matrix:
-        """Return the full matrix whose entries say where the value is stored, counted from 1."""
-        from scipy import sparse  # slow to import
+        """The full matrix; its entries are the positions of the values, counted from 1."""
+        from scipy import sparse  # the import is slow
 
         counted = np.arange(1, self.nnz + 1, dtype=np.int64)
         stored = sparse.csr_matrix((counted, self.indices, self.indptr), shape=(self.n, self.n))
@@ -98,8 +98,8 @@ class Pattern:
         return (stored + sparse.triu(stored, 1).T).tocsr()
 
     def checked(self, values: FloatArray) -> FloatArray:
-        """Return the values as contiguous float64, or refuse a wrong number of them, NaN and infinity."""
-        values = np.ascontiguousarray(values, dtype=np.float64)  # no copy where they are that already
+        """The values as contiguous float64; a wrong number of them, NaN and infinity are refused."""
+        values = np.ascontiguousarray(values, dtype=np.float64)  # no copy if they are already
         if values.shape != (self.nnz,):
             raise InvalidValue(
                 "The values do not fit the pattern of the matrix",
@@ -108,7 +108,7 @@ class Pattern:
             )
         with np.errstate(over="ignore", invalid="ignore"):
             total = float(values.sum())
-        if not math.isfinite(total):  # a sum may overflow too: look at each value
+        if not math.isfinite(total):  # a sum may overflow: check each value
             finite = np.isfinite(values)
             if finite.all():
                 return values
@@ -123,7 +123,7 @@ class Pattern:
         return values
 
     def checked_rhs(self, rhs: FloatArray) -> FloatArray:
-        """Return right-hand sides as float64, or refuse those of wrong size or not finite."""
+        """Right-hand sides as float64; wrong sizes and non-finite values are refused."""
         rhs = np.asarray(rhs, dtype=np.float64)
         if rhs.ndim not in (1, 2) or len(rhs) != self.n:
             raise InvalidValue(
@@ -144,17 +144,17 @@ class Pattern:
 
 @dataclass(frozen=True)
 class Factorisation:
-    """What a factorisation tells about the matrix.
+    """Information on the matrix from a factorisation.
 
     Parameters
     ----------
     negative_pivots : int or None
-        Number of negative pivots of a symmetric matrix, which is that of its negative eigenvalues; None where
-        the solver cannot say or the matrix is not symmetric. A stable equilibrium has none.
+        Number of negative pivots of a symmetric matrix, which is that of its negative eigenvalues; None if it is
+        unknown or the matrix is not symmetric. A stable equilibrium has none.
     fill : int
         Number of entries in the factors.
     odd : bool or None
-        Whether the determinant is negative: an odd number of real eigenvalues is; None where the solver cannot say.
+        Whether the determinant is negative, which means an odd number of negative real eigenvalues; None if unknown.
     """
 
     negative_pivots: int | None
@@ -163,39 +163,39 @@ class Factorisation:
 
 
 class SparseSolver(Protocol):
-    """A direct solver: `analyse` once a pattern, `factor` once a matrix, `solve` once a right-hand side."""
+    """A direct solver: `analyse` once per pattern, `factor` once per matrix, `solve` once per right-hand side."""
 
     name: str
 
     def analyse(self, pattern: Pattern) -> None:
-        """Order the equations and plan the factorisation; earlier factors are forgotten."""
+        """Order the equations and plan the factorisation; earlier factors are released."""
 
     def factor(self, values: FloatArray) -> Factorisation:
-        """Factorise the matrix with these values on the pattern analysed last.
+        """Factorise the matrix with these values on the last analysed pattern.
 
-        The values are not copied: they must stay as they are while the factors are in use.
+        The values are not copied: they must not change while the factors are in use.
 
         Raises
         ------
         NotFinite
             If a value is NaN or infinite.
         SingularMatrix
-            If a pivot vanishes; `value` is the number of its equation where the solver knows it.
+            If a pivot vanishes; `value` is the number of its equation if the solver knows it.
         """
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Return x of K x = rhs, for one right-hand side (1D) or for the columns of several (2D)."""
+        """Solve K x = rhs, for one right-hand side (1D) or for the columns of several (2D)."""
 
 
 @runtime_checkable
 class Remembering(Protocol):
-    """A solver whose answers depend on the matrices before to the last bit: a checkpoint keeps what it remembers."""
+    """A solver whose results depend on previous matrices in the last bits: a checkpoint keeps its state."""
 
     def memory(self) -> int:
-        """What later answers follow from, beside the values."""
+        """State that affects later results, besides the values."""
 
     def recall(self, kind: int) -> None:
-        """Go on as a solver that remembered this."""
+        """Restore this state."""
 
 
 # A pivot below this part of its diagonal entry is rounding error. Rounding leaves 1e-14 and more of a pivot that
@@ -205,12 +205,12 @@ _ROUNDING = 2e-13
 
 
 def vanishing_pivot(pivots: FloatArray, scale: FloatArray) -> int | None:
-    """Return the place of the weakest pivot if it is nothing but rounding error.
+    """Position of the weakest pivot if it is round-off.
 
     Parameters
     ----------
     pivots, scale : arrays, shape (n,)
-        The pivots, and the size of the same entries before the elimination.
+        The pivots, and the magnitude of the same entries before the elimination.
     """
     excess = np.abs(pivots) - _ROUNDING * np.abs(scale)
     weakest = int(np.argmin(excess))
@@ -218,16 +218,16 @@ def vanishing_pivot(pivots: FloatArray, scale: FloatArray) -> int | None:
 
 
 def backward_error(residual: FloatArray, size: float, x: FloatArray, rhs: FloatArray) -> float:
-    """Return the residual as a part of ``size |x| + |rhs|``, the worst of all right-hand sides.
+    """Residual relative to ``size |x| + |rhs|``, the largest of all right-hand sides.
 
-    Rounding alone leaves about 1e-16; NaN if the solution is not finite.
+    Round-off alone leaves about 1e-16; NaN if the solution is not finite.
     """
     whole = size * np.abs(x).max(axis=0) + np.abs(rhs).max(axis=0)
     return float(np.max(np.abs(residual).max(axis=0) / np.where(whole == 0.0, 1.0, whole)))
 
 
 def check_accuracy(solver: str, error: float) -> None:
-    """Reject a solution whose backward error is far above rounding."""
+    """Reject a solution whose backward error is far above round-off."""
     if not error <= 1e-8:
         raise SolveError(
             "The solution of the linear equations is not accurate",
@@ -239,7 +239,7 @@ def check_accuracy(solver: str, error: float) -> None:
 
 
 def singular(solver: str, equation: int | None, motion: FloatArray | None = None) -> SingularMatrix:
-    """Return the error for a matrix whose pivot of this equation vanishes; with the displacement it does not resist."""
+    """The error for a matrix with a vanishing pivot of this equation, with the displacement that it does not resist."""
     error = SingularMatrix(
         "The matrix is singular",
         where=f"solver {solver!r}" if equation is None else f"equation {equation}, solver {solver!r}",
@@ -252,7 +252,7 @@ def singular(solver: str, equation: int | None, motion: FloatArray | None = None
 
 
 def not_factored() -> RuntimeError:
-    """Return the error for a solve without factors."""
+    """The error for a solve without factors."""
     return RuntimeError("solve() needs a successful factor() first")
 
 

@@ -1,4 +1,4 @@
-"""Sheets: the order of elimination of their equations, and their matrix in square blocks, where PARDISO reads it."""
+"""Sheets: order of elimination of their equations, and their matrix in square blocks for PARDISO."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import numpy as np
 from .. import _core
 from .protocol import FloatArray, IntArray, Pattern
 
-# A block row has to take at most so many more equations than there are: those of supported nodes are few.
+# Largest relative number of additional equations from padding; those of supported nodes are few.
 _FILLING = 1.1
 
 
 class SheetBlocks:
-    """Upper triangle of the blocks by rows; they are filled up with equations x = 0 to one size.
+    """Upper triangle of the blocks by rows, padded with equations x = 0 to one size.
 
     Parameters
     ----------
@@ -38,22 +38,22 @@ class SheetBlocks:
         self.data = np.empty(len(self.indices) * self.size**2)
 
     def fill(self, indptr: IntArray, indices: IntArray, values: FloatArray) -> None:
-        """Take over the entries of the pattern that the sheet was made from."""
+        """Copy the entries of the pattern of the sheet."""
         self._pattern.fill(indptr, indices, values, self.data)
 
     def spread(self, b: FloatArray) -> FloatArray:
-        """Return right-hand sides, shape (n,) or (n, k), for the rows of the blocks; columns contiguous."""
+        """Right-hand sides, shape (n,) or (n, k), in the rows of the blocks; columns contiguous."""
         spread = np.zeros((self.shape[0] * self.size, *b.shape[1:]), order="F")
         spread[self._place] = b
         return spread
 
     def gather(self, x: FloatArray) -> FloatArray:
-        """Return the rows of the equations."""
+        """Extract the rows of the equations."""
         return np.asarray(x[self._place], order="F")
 
 
 def sheet_of(pattern: Pattern) -> _core.SheetOrder | None:
-    """Return the order of elimination of a sheet; None if the matrix is not that of one."""
+    """The order of elimination of a sheet; None if the matrix is of another kind."""
     upper = pattern.upper()
     if upper is None:
         return None
@@ -62,5 +62,5 @@ def sheet_of(pattern: Pattern) -> _core.SheetOrder | None:
 
 
 def worth_blocks(sheet: _core.SheetOrder, n: int) -> bool:
-    """Return whether the groups of n equations are of one size but for few."""
+    """Whether nearly all groups of n equations have one size."""
     return len(sheet.vertices) * sheet.largest <= _FILLING * n

@@ -1,14 +1,13 @@
-"""SuperLU through SciPy, for any matrix: another solver to compare with.
+"""SuperLU through SciPy, for any matrix, for comparison.
 
-SciPy cannot keep SuperLU's symbolic work, but it can keep the ordering, which is found once a pattern; the values are
-gathered in that order, which saves about a tenth of each call. A sheet is ordered as for PARDISO
+SciPy cannot keep SuperLU's symbolic factorisation, but it can keep the ordering, which is computed once per pattern;
+the values are gathered in that order, which saves about a tenth of each call. A sheet is ordered as for PARDISO
 (`umform._core.SheetOrder`), symmetric or not: 1.5 to 1.8 times faster than by minimum degree on K + K^T. That orders
 all other matrices, 2 to 4 times faster than SciPy's default COLAMD.
 
-A pivot stays on the diagonal unless it is 1000 times smaller than its column (10 times if the matrix is not
-symmetric), so that the signs of the pivots give the inertia; a step of iterative refinement, where the
-residual asks for it, repairs what that costs in accuracy. SuperLU's blocking parameters are left alone on
-purpose: SciPy accepts values that overrun SuperLU's work arrays.
+A pivot stays on the diagonal unless it is 1000 times smaller than its column (10 times if the matrix is not symmetric),
+so that the signs of the pivots give the inertia; a step of iterative refinement, if necessary, restores
+the accuracy. SuperLU's blocking parameters are not changed: SciPy accepts values that overrun SuperLU's work arrays.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ from .protocol import (
 )
 from .sheet_blocks import sheet_of
 
-# A backward error above this is worth a step of iterative refinement.
+# Backward error above which a step of iterative refinement is made.
 _POOR_RESIDUAL = 1e-14
 
 
@@ -43,7 +42,7 @@ class SuperLU:
     _lu: Factors | None = None
 
     def analyse(self, pattern: Pattern) -> None:
-        """Order the equations and plan the way of the values into that order."""
+        """Order the equations and plan the map of the values into that order."""
         positions = pattern.positions().tocsc()
         sheet = sheet_of(pattern)
         order = _minimum_degree(positions) if sheet is None else sheet.equations
@@ -60,7 +59,7 @@ class SuperLU:
         self._lu = None
 
     def factor(self, values: FloatArray) -> Factorisation:
-        """Factorise; the inertia is known as long as all pivots lie on the diagonal."""
+        """Factorise; the inertia is known if all pivots are on the diagonal."""
         self._lu = None
         matrix = self._matrix
         np.take(self._pattern.checked(values), self._gather, out=matrix.data)
@@ -87,7 +86,7 @@ class SuperLU:
         return Factorisation(negative if on_diagonal else None, int(lu.nnz), odd)
 
     def solve(self, rhs: FloatArray) -> FloatArray:
-        """Solve, and refine the solution once if its residual is poor."""
+        """Solve, and refine the solution once if its residual is large."""
         if self._lu is None:
             raise not_factored()
         b = self._pattern.checked_rhs(rhs)[self._order]
@@ -102,7 +101,7 @@ class SuperLU:
 
 
 def _transpositions(rows: NDArray[np.intp], columns: NDArray[np.intp]) -> int:
-    """Number of exchanges that make one permutation of the other: whether it is odd is the sign of both together."""
+    """Number of exchanges between the permutations; its parity gives the sign of the determinant of both."""
     place = np.empty_like(columns)
     place[columns] = rows
     steps = sparse.csr_matrix((np.ones(place.size), place, np.arange(place.size + 1)))
@@ -110,7 +109,7 @@ def _transpositions(rows: NDArray[np.intp], columns: NDArray[np.intp]) -> int:
 
 
 def _minimum_degree(positions: sparse.csc_matrix) -> NDArray[np.intp]:
-    """Return the equations in the order of elimination; a matrix with a heavy diagonal stands in for K."""
+    """The equations in the order of elimination, from a diagonally dominant matrix with the same pattern."""
     model = sparse.csc_matrix(
         (np.full(positions.nnz, -1.0), positions.indices, positions.indptr), shape=positions.shape
     )

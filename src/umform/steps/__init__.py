@@ -1,4 +1,4 @@
-"""What a run does: move controls, release them, close and open tools, free supports, follow a path of equilibria."""
+"""Steps of a run: move controls, release them, close and open tools, remove supports, arc length."""
 
 from umform.steps.arc_length.arc import Arc
 from umform.steps.close import Close

@@ -18,21 +18,21 @@ from umform.steps.loop import Run
 from umform.steps.move import check_time
 from umform.steps.saved import Saved, tightened
 
-#: Part of the force that the residual of the last increment may reach.
+#: Largest residual of the last increment relative to the force.
 _EXACT = 1e-10
-#: Penetration of the first touch, over the thickness of the sheet.
+#: Penetration at first contact relative to the thickness of the sheet.
 _HAIR = 1e-4
-#: Increments that fail or go too far before the step is given up.
+#: Failed or too large increments before the run fails.
 _MOST = 60
-#: A tool this near to a rigid stop, over the largest way, lies on it.
+#: Distance from a rigid stop that counts as contact, relative to the largest travel.
 _AT_STOP = 1e-12
-#: Iterations after which an increment was easy.
+#: Number of iterations up to which an increment counts as easy.
 _EASY = 8
 
 
 @dataclass(frozen=True)
 class Close:
-    """Close a pressed tool that need not touch the sheet yet: displacement control, then force control.
+    """Close a force-driven tool that need not touch the sheet yet: displacement control, then force control.
 
     The first increments bring the tool to the sheet with a negligible overshoot; the next ones grow while Newton
     converges easily. The last one prescribes the force, with the displacement as an unknown, and meets it exactly.
@@ -41,13 +41,13 @@ class Close:
     Parameters
     ----------
     control : ToolForce
-        What ``press``, ``press_turn`` or ``spring`` of the model returned.
+        Return value of ``press``, ``press_turn`` or ``spring`` of the model.
     force : float
         Closing force (or moment) on the tool, in the direction of the control.
     way : float, optional
         Largest displacement (or angle). Default: its distance from the sheet and the largest extent of the sheet.
     time : float
-        What the step takes.
+        Duration of the step.
 
     Examples
     --------
@@ -96,28 +96,28 @@ class Close:
 
 @dataclass
 class Closing:
-    """Increments of the way, then one of the force. docs/theory, 4.18
+    """Increments of the travel, then one of the force. docs/theory, 4.18
 
     Attributes
     ----------
     start_time, start_way, start_force : float
-        Time, way, and force that the tool took at the beginning.
+        Time, travel, and force on the tool at the beginning.
     limit : float
-        Largest way.
+        Largest travel.
     hair : float
-        Way beyond the first touch that is aimed at.
+        Travel beyond first contact to aim at.
     size : float
-        Increment of the way that comes next, in touch.
+        Next increment of the travel, in contact.
     before : tuple of float, optional
-        Way and force of the state before the present one, if the tool touched there.
+        Travel and force of the previous state, if the tool was in contact there.
     taken : float, optional
-        The last increment of the way, for the extrapolation.
+        The last increment of the travel, for the extrapolation.
     bound : float, optional
-        A way at which the force is known to be more than asked for.
+        A travel at which the force exceeds the target.
     failures : int
-        Increments that did not converge or went too far.
+        Increments that did not converge or were too large.
     done : bool
-        Whether the tool is held by the force.
+        Whether the force is applied.
     """
 
     start_time: float
@@ -144,16 +144,16 @@ class Closing:
 
     @classmethod
     def recall(cls, run: Run, step: Close, memory: dict[str, Any]) -> Self:
-        """The loop as it stood."""
+        """The restored loop."""
         before = memory["before"]
         return cls(**{**memory, "before": None if before is None else (float(before[0]), float(before[1]))})
 
     def memory(self) -> dict[str, Any]:
-        """All that the loop remembers."""
+        """State of the loop, for checkpoints."""
         return dict(vars(self))
 
     def advance(self, run: Run, step: Close) -> None:
-        """Try one increment: of the way, or the last one of the force."""
+        """Try one increment: of the travel, or the last one of the force."""
         press = run.model.press_of(step.control)
         force, touches = _takes(run, press), _touches(run, press)
         sense = math.copysign(1.0, step.force - self.start_force)
@@ -176,18 +176,18 @@ class Closing:
         self._go(run, step, press, force, sense * min(size, left))
 
     def _short_of_the_sheet(self, gap: float) -> float:
-        """Way to a hair before the sheet, then to a hair beyond: no work is counted over the way in the air."""
+        """Travel to just before the sheet, then to just beyond: free travel does no work."""
         return gap - self.hair if gap > 2.0 * self.hair else max(gap, 0.0) + self.hair
 
     def _ahead(self, press: Press, force: float, target: float) -> float | None:
-        """Way to the force along the last secant, or along springs; None where neither is known. eq. (4.64)"""
+        """Travel to the force along the last secant, or along springs; None if neither is known. eq. (4.64)"""
         slope = press.takes(press.way.value, 0.0)[1]
         if self.before is not None and self.before[0] != press.way.value:
             slope = (force - self.before[1]) / (press.way.value - self.before[0])
         return (target - force) / slope if slope > 0.0 else None
 
     def _go(self, run: Run, step: Close, press: Press, force: float, way: float) -> None:
-        """One increment of the way; one beyond the force is taken back."""
+        """One increment of the travel; one beyond the force is undone."""
         model, value, touched = run.model, press.way.value, _touches(run, press)
         saved, attempts = Saved.of(model, run.evaluation), run.newton.timing.attempts
         mark = attempts.mark()
@@ -218,7 +218,7 @@ class Closing:
         run.keep(converged, [step.control], name=f"step {run.number}: close", fraction=min(done, 1.0), frame=False)
 
     def _land(self, run: Run, step: Close, press: Press) -> None:
-        """The increment of the force, with the way among the unknowns."""
+        """The increment of the force, with the travel as an unknown."""
         run.trail = None
         step.control.value = _takes(run, press)
         try:
@@ -235,7 +235,7 @@ class Closing:
         run.result.note(f"step {run.number}: tool {press.way.tool.name}, {held} = {press.way.value:.6g}")
 
     def _shorten(self, run: Run, step: Close, part: float, touched: bool, failure: Failed) -> None:
-        """Go a part of the way next time, or give up."""
+        """Reduce the next increment, or end the run."""
         self.failures, self.taken = self.failures + 1, None
         if touched:
             self.size *= part
@@ -260,18 +260,18 @@ class Closing:
 
 
 def _takes(run: Run, press: Press) -> float:
-    """Force that the press must have for its tool to stand where it does."""
+    """Force of the press for equilibrium of its tool in the present position."""
     return press.takes(press.way.value, press.way.force(run.evaluation, run.model.ranks))[0]
 
 
 def _touches(run: Run, press: Press) -> bool:
-    """Whether one of its tools holds the sheet anywhere."""
+    """Whether one of its tools touches the sheet."""
     found = run.evaluation.found
     return run.model.ranks.any(any(bool(found[pair].active.any()) for tool in press.way.tools for pair in tool.pairs))
 
 
 def _gap(run: Run, press: Press) -> float:
-    """Least distance of its tools from the sheet."""
+    """Smallest distance of its tools from the sheet."""
     found = run.evaluation.found
     gaps = [float(found[pair].gap.min(initial=np.inf)) for tool in press.way.tools for pair in tool.pairs]
     least = -run.model.ranks.max(-min(gaps, default=math.inf))
@@ -279,7 +279,7 @@ def _gap(run: Run, press: Press) -> float:
 
 
 def _as_way(run: Run, press: Press, length: float) -> float:
-    """A way in which no point of the tools goes farther than a length: an angle where the tool is turned."""
+    """Travel in which no point of the tools moves farther than a length; an angle for a rotation."""
     if not isinstance(press.way, ToolTurn):
         return length
     axis, point = press.way.tool.axis_of(press.way, run.evaluation.controls, run.evaluation.time)
@@ -293,6 +293,6 @@ def _as_way(run: Run, press: Press, length: float) -> float:
 
 
 def way_is_found(model: Model, control: object) -> Press | None:
-    """The press that finds this way; None if it is given."""
+    """The press that determines this travel; None if it is prescribed."""
     presses = (press for tool in model.tools for press in tool.presses)
     return next((press for press in presses if press.way is control), None)

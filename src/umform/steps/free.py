@@ -1,4 +1,4 @@
-"""Free supports and open tools gradually: the forces that they exert become loads, which go to zero."""
+"""Remove supports and open tools gradually: their forces become loads, which decrease to zero."""
 
 from __future__ import annotations
 
@@ -21,27 +21,27 @@ from umform.steps.moving import Marching
 
 @dataclass(frozen=True)
 class Free:
-    """Remove supports and open tools; the forces that they exert become dead loads that go to zero over the step.
+    """Remove supports and open tools; their forces become dead loads that decrease to zero over the step.
 
     The history has the columns ``<name>`` and ``<name>_force`` of a support, ``<name>_left`` and ``<name>_left_force``
-    of a tool, from the beginning of the run on: the share of the forces that is left, zero while the thing acts.
+    of a tool, from the beginning of the run: the remaining part of the forces, zero before the step.
 
-    A tool that is opened stays where it is, and the sheet springs back as if it were not there: with all tools in one
-    step, on a support from :meth:`umform.Model.hold_rigid`, the part ends free of external forces.
-    Forces that fade support nothing: a wall that is ironed between two tools buckles under them. Open these tools in
-    two steps, so that the part lies on one of them while the forces of the other fade.
+    An opened tool keeps its position, and the sheet springs back as if the tool did not exist. With all tools in one
+    step, on a support from :meth:`umform.Model.hold_rigid`, the part ends free of external forces. Decreasing forces do
+    not stabilise: a wall that is ironed between two tools buckles under them. Open these tools in two steps, so that
+    the part lies on one of them while the forces of the other decrease.
 
     Parameters
     ----------
     support : Support, Tool, Contact or sequence of them
-        What ``fix``, ``symmetry``, ``hinge``, ``hold_director``, ``tool`` or ``contact`` of the model returned; with a
-        contact its tool opens.
+        Return value of ``fix``, ``symmetry``, ``hinge``, ``hold_director``, ``tool`` or ``contact`` of the model; with
+        a contact its tool opens.
     steps, cuts, grow
         As for :class:`umform.Move`.
     on : Support, optional
-        What ``hold_rigid`` of the model returned: it holds its nodes where they are when the step begins, from then on.
+        Return value of ``hold_rigid`` of the model: it holds its nodes in their positions at the beginning of the step.
     time : float
-        What the step takes.
+        Duration of the step.
 
     Examples
     --------
@@ -78,16 +78,16 @@ class Free:
                 cause="a support that acts already, or something else",
                 remedy="what hold_rigid() of the model returned",
             )
-        Move([], [], self.steps, self.cuts, self.grow, time=self.time)  # refuses numbers that make no sense
+        Move([], [], self.steps, self.cuts, self.grow, time=self.time)  # refuses invalid numbers
 
     @property
     def things(self) -> list[Support | Tool]:
-        """Supports and tools, in the order in which they were given."""
+        """Supports and tools, in the given order."""
         given = list(self.support) if isinstance(self.support, Sequence) else [self.support]
         return [thing.tool if isinstance(thing, Contact) else thing for thing in given]
 
     def prepare(self, model: Model) -> None:
-        """Make the loads that take the place of what is freed, so that the history has their columns."""
+        """Make the loads that replace the removed objects, so that the history has their columns."""
         for thing in self.things:
             if isinstance(thing, Tool):
                 fading_tool(model, thing)
@@ -95,7 +95,7 @@ class Free:
                 fading(model, thing)
 
     def moved(self) -> list[Control]:
-        """The loads that take the place of supports and tools."""
+        """The loads that replace supports and tools."""
         return [thing.load for thing in self.things if thing.load is not None]
 
     def move(self) -> Move:
@@ -105,7 +105,7 @@ class Free:
 
 
 class Freeing(Marching):
-    """Moves the loads that take the place of supports and tools; these are gone once the first increment converges."""
+    """Moves the replacing loads; supports and tools are removed when the first increment converges."""
 
     @classmethod
     def begin(cls, run: Run, step: Free) -> Self:  # type: ignore[override]
@@ -114,11 +114,11 @@ class Freeing(Marching):
 
     @classmethod
     def recall(cls, run: Run, step: Free, memory: dict[str, object]) -> Self:  # type: ignore[override]
-        """The loop as it stood."""
+        """The restored loop."""
         return super().recall(run, step.move(), memory)
 
     def advance(self, run: Run, step: Free) -> None:  # type: ignore[override]
-        """Try one increment; as long as none has converged, all acts between two of them."""
+        """Try one increment; until one has converged, supports and tools are active between attempts."""
         if self.fraction > 0.0:
             super().advance(run, step.move())
             return
@@ -132,11 +132,11 @@ class Freeing(Marching):
 
 
 def _let_go(run: Run, step: Free) -> None:
-    """Take all away; loads of factor 1 hold the sheet where it is."""
+    """Remove all; loads of factor 1 hold the sheet in equilibrium."""
     model = run.model
     for support in (thing for thing in step.things if isinstance(thing, Support)):
         remove(model, support)
-    if step.on is not None:  # it may hold nodes of the supports that have gone
+    if step.on is not None:  # it may hold nodes of the removed supports
         put_back(model, step.on)
     for tool in (thing for thing in step.things if isinstance(thing, Tool)):
         open_tool(model, tool)
@@ -146,7 +146,7 @@ def _let_go(run: Run, step: Free) -> None:
 
 
 class _Before:
-    """What supports and tools were before the step."""
+    """State of supports and tools before the step."""
 
     def __init__(self, run: Run, step: Free) -> None:
         self._tools = [thing for thing in step.things if isinstance(thing, Tool)]
@@ -156,7 +156,7 @@ class _Before:
         self._loads, self._evaluation, self._mark = step.moved(), run.evaluation, run.result.mark()
 
     def restore(self, run: Run) -> None:
-        """Let all act again as it did."""
+        """Restore supports and tools."""
         put_supports(run.model, self._supports)
         for tool, state in zip(self._tools, self._states, strict=True):
             tool.restore(state)

@@ -1,4 +1,4 @@
-"""One increment of a run: set the controls, let Newton find the equilibrium, commit; or put everything back."""
+"""One increment of a run: set the controls, solve with Newton's method, commit; or restore the previous state."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ log = logging.getLogger("umform.steps")
 def take_increment(
     run: Run, values: Sequence[float], controls: Sequence[Control], time: float, extrapolation: float | None
 ) -> Converged:
-    """One increment to new values of the controls; on failure everything stands as before."""
+    """One increment to new values of the controls; after a failure the previous state is restored."""
     model = run.model
     before, time_before = [control.value for control in controls], model.time
     for control, value in zip(controls, values, strict=True):
@@ -41,11 +41,11 @@ def take_increment(
             with _counted(run):
                 converged = augmented(model, run.newton, converged)
             _multipliers_stay(run, None)
-        except Failed as failure:  # a smaller increment would end in the same pass: it is taken as the penalty has it
+        except Failed as failure:  # a smaller increment would fail in the same pass: accept the penalty solution
             _multipliers_stay(run, failure)
             model.prepare()
             converged = equilibrium(replace(increment, guess=converged.x - x_before))
-    except BaseException:  # no convergence, Ctrl-C, a user's function: the last converged state stands
+    except BaseException:  # no convergence, Ctrl-C, an error of a user's function: restore the last converged state
         for control, value in zip(controls, before, strict=True):
             control.value = value
         model.time = time_before
@@ -60,7 +60,7 @@ def take_increment(
 
 
 def _multipliers_stay(run: Run, failure: Failed | None) -> None:
-    """Mark the pairs whose multipliers stay what they were, if a pass of them has failed, and warn of it."""
+    """Mark the pairs whose multipliers stay constant because an augmentation failed, and warn of it."""
     pairs = [contact for contact in run.model.contacts if contact.augmented]
     for pair in pairs:
         pair.multipliers_stay = failure is not None
@@ -73,13 +73,13 @@ def _multipliers_stay(run: Run, failure: Failed | None) -> None:
 
 
 def _counted(run: Run) -> AbstractContextManager[None]:
-    """Count the passes of multipliers, where there are any."""
+    """Number of augmentations, if there are multipliers."""
     multiplied = any(contact.augmented for contact in run.model.contacts)
     return run.newton.timing.attempts.trying("multipliers") if multiplied else nullcontext()
 
 
 def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], values: Sequence[float]) -> NoConvergence:
-    """Error for the step under way, which could not bring the controls to the values."""
+    """Error for the present step, in which the controls did not reach the values."""
     goal = ", ".join(f"{c.name} = {v:.6g}" for c, v in zip(controls, values, strict=True))
     cause, remedy = (
         failure.reason,
@@ -112,7 +112,7 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
 
 
 def pressed_tools(run: Run) -> list[str]:
-    """How many points of each tool that a force presses touch at the last converged state, in words."""
+    """Number of points in contact of each force-driven tool at the last converged state, as text."""
     ranks, found, words = run.model.ranks, run.evaluation.found, []
     for press in (press for tool in run.model.tools for press in tool.presses if not press.held):
         pairs = [found[pair].active for tool in press.way.tools for pair in tool.pairs]
@@ -123,6 +123,6 @@ def pressed_tools(run: Run) -> list[str]:
 
 
 def last_residuals(iterations: Sequence[Iteration]) -> str:
-    """Residuals of the last iterations in words."""
+    """Residuals of the last iterations as text."""
     tail = [f"{record.residual:.1e}" for record in iterations[-4:]]
     return "last residuals " + ", ".join(tail) if tail else "no iteration"

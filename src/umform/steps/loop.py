@@ -1,7 +1,7 @@
-"""State of a run between two increments, and what each kind of step remembers there.
+"""State of a run between two increments, and the state of each kind of step.
 
-A run is a state machine: between two increments all that it will do follows from the model, from what `Run` holds and
-from the `Loop` of the step that is under way. There it may be written to a checkpoint, stopped and taken up again.
+A run is a state machine: between two increments its future depends only on the model, on `Run` and on the `Loop` of the
+present step. At such a point it may be written to a checkpoint, stopped and resumed.
 """
 
 from __future__ import annotations
@@ -24,22 +24,22 @@ from umform.steps.trail import Trail
 
 log = logging.getLogger("umform.steps")
 
-#: Beginning of the warning about return maps in stages, which is given once.
+#: Beginning of the warning about return maps in stages, which is issued once.
 _STAGES = "the return map of the material went through stages of a shrinking yield surface"
 
 
 class Loop(Protocol):
-    """Where a step stands between two of its increments, and how it goes on."""
+    """Position of a step between two of its increments."""
 
     @property
     def done(self) -> bool:
-        """Whether the step has come to its end."""
+        """Whether the step is complete."""
 
     def advance(self, run: Run, step: Any) -> None:
-        """Try one increment: take it, or learn from its failure."""
+        """Try one increment: accept it, or adapt to its failure."""
 
     def memory(self) -> dict[str, Any]:
-        """All that the loop remembers, as numbers, lists and arrays; ``recall`` of its class makes it again."""
+        """State of the loop as numbers, lists and arrays; ``recall`` of its class restores it."""
 
 
 @dataclass
@@ -49,23 +49,23 @@ class Run:
     Attributes
     ----------
     model, newton, result
-        What is solved, how, and what came out so far.
+        Model, method and results so far.
     frames : int
-        About how many states of a step are kept for pictures.
+        Approximate number of states of a step that are kept for pictures.
     number : int
-        The step under way, counted from 1.
+        The present step, counted from 1.
     loop : Loop, optional
-        Where it stands; None before it begins.
+        Its loop; None before it begins.
     trail : Trail, optional
-        The last increments of the move or release under way and of moves before it, for the extrapolation.
+        The last increments of the present move or release and of preceding moves, for the extrapolation.
     evaluation : Evaluation
-        That of the converged state.
+        Evaluation at the converged state.
     habits : Habits
-        What earlier increments have taught.
+        Statistics of earlier increments that select the first strategy.
     staged : int
-        Count of return maps in stages when the last increment was kept.
+        Number of return maps in stages up to the last increment.
     tick, pause : callable
-        Shows where the run stands; writes checkpoints and stops the run, between increments.
+        Shows progress; writes checkpoints and stops the run, between increments.
     """
 
     model: Model
@@ -84,7 +84,7 @@ class Run:
     def keep(
         self, converged: Converged, controls: Sequence[Control], *, name: str, fraction: float, frame: bool
     ) -> None:
-        """Add a converged increment of the step to the result and show how far the step ``name`` has come."""
+        """Add a converged increment to the result and show the progress of the step ``name``."""
         self.result.add(converged.evaluation, converged.iterations + converged.passes, step=self.number, frame=frame)
         self._tell_of_stages()
         row = self.result.rows[-1]
@@ -95,7 +95,7 @@ class Run:
         self.tick(name, fraction, "; ".join([*forces, f"{row['iterations']} iterations"]))
 
     def _tell_of_stages(self) -> None:
-        """Count the points whose return map went through stages since the last increment; warn at the first ones."""
+        """Count the points with return maps in stages since the last increment; warn at the first ones."""
         before, self.staged = self.staged, staged_returns()
         points = int(self.model.ranks.sum(float(self.staged - before)))
         if points == 0:

@@ -1,4 +1,4 @@
-"""Messages about tools under forces or springs that lost contact with the sheet in an increment."""
+"""Messages about force-driven or sprung tools that lost contact with the sheet in an increment."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def lost_tools(model: Model, before: Row, now: Row) -> list[tuple[bool, str]]:
     model : Model
         The model at the state of the second row.
     before, now : mapping of str to float
-        Two rows that follow each other.
+        Two successive rows.
 
     Returns
     -------

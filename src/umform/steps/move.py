@@ -12,7 +12,7 @@ from umform.errors import InvalidValue, NotFinite
 from umform.model.control import Control
 from umform.steps.pace import Pace
 
-#: Value of a control over that of another one: a function, or pairs of both.
+#: Value of a control as a function of another one: a function, or pairs of both.
 Law = Callable[[float], float] | Sequence[tuple[float, float]]
 
 
@@ -23,21 +23,21 @@ class Move:
     Parameters
     ----------
     control : Control or sequence of Control
-        What is moved: a prescribed displacement, a load factor, a pressure, a tool.
+        The quantity to move: a prescribed displacement, a load factor, a pressure, a tool.
     to : float, callable or sequence
         End value, or a function of the fraction (0 ... 1) of the step, one for each control.
     steps : int or Pace, optional
-        Number of equal increments, or limits on the changes in one, which set its size. Default: those of
+        Number of equal increments, or limits on the changes in one, which determine its size. Default: those of
         :class:`umform.Pace`.
     cuts : int
         How often an increment may be halved before the run fails.
     grow : float
-        Largest increment over the nominal one: 1 never grows beyond ``1/steps``. A pace has a limit of its own.
+        Largest increment relative to the nominal one: 1 never exceeds ``1/steps``. A pace has its own limit.
     follow : mapping of Control to callable or sequence of (float, float), optional
         More controls, as functions of the value of the first one: a holder force over the stroke. A sequence of pairs
         (stroke, force) is a table with straight lines between them, constant outside.
     time : float
-        What the step takes: for metals with a rate, and for motions of tools over time.
+        Duration of the step: for rate-dependent metals, and for motions of tools in time.
 
     Examples
     --------
@@ -94,16 +94,16 @@ class Move:
 
     @property
     def pace(self) -> Pace | None:
-        """What limits the increments; None if they are equal."""
+        """Limits of the increments; None if they are equal."""
         return Pace() if self.steps is None else self.steps if isinstance(self.steps, Pace) else None
 
     @property
     def nominal(self) -> float:
-        """First increment, as a part of the step."""
+        """First increment, as a fraction of the step."""
         return self.pace.first if self.pace is not None else 1.0 / self.steps  # type: ignore[operator]
 
     def moved(self) -> list[Control]:
-        """The controls of the step: those that are given, then those that follow the first of them."""
+        """The controls of the step: the given ones, then the followers of the first one."""
         return [*self._given(), *self.follow]
 
     def _given(self) -> list[Control]:
@@ -114,7 +114,7 @@ class Move:
         return list(self.to) if isinstance(self.to, Sequence) else [self.to]
 
     def values(self, fraction: float, starts: Sequence[float]) -> list[float]:
-        """Values of the controls at a fraction of the step that has begun at ``starts``."""
+        """Values of the controls at a fraction of the step that began at ``starts``."""
         values = [
             float(target(fraction)) if callable(target) else start + fraction * (target - start)
             for start, target in zip(starts, self.targets(), strict=False)
@@ -128,7 +128,7 @@ class Move:
 
 
 def check_time(where: str, time: float) -> None:
-    """Raise an error if the step takes no time.
+    """Reject an invalid duration of the step.
 
     Raises
     ------
@@ -146,7 +146,7 @@ def check_time(where: str, time: float) -> None:
 
 
 def _at(law: Law, value: float) -> float:
-    """Value of a law at that of the control that is followed."""
+    """Value of a follower for the value of the first control."""
     if callable(law):
         return float(law(value))
     places, values = np.array(sorted(law), dtype=float).T
@@ -154,7 +154,7 @@ def _at(law: Law, value: float) -> float:
 
 
 def _check_law(control: Control, law: Law) -> None:
-    """Reject a law that is neither a function nor a table."""
+    """Reject a follower that is neither a function nor a table."""
     if callable(law):
         return
     table = np.asarray(law, dtype=float)

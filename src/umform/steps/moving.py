@@ -1,4 +1,4 @@
-"""Increments of a move, equal ones or at a pace, which are cut where they fail. eq. (5.13)"""
+"""Increments of a move, equal or at a pace, with cuts after failures. eq. (5.13)"""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from umform.steps.trail import changes
 
 log = logging.getLogger("umform.steps")
 
-#: A fraction this near to a mark, in increments, is at the mark.
+#: Distance from a mark, in increments, that counts as zero.
 _NEAR = 1e-9
-#: Easy increments after which a size that has failed is tried again, at most.
+#: Largest number of easy increments after which a failed size is tried again.
 _LONGEST_PATIENCE = 24
-#: A size is trusted once so many increments in a row have been made with it.
+#: A size is trusted after this number of successive increments.
 _TRUSTED = 2
-#: After a cut, increments at a pace stay below this part of the size that failed; each of them raises the limit.
+#: After a cut, increments at a pace stay below this part of the failed size; each success raises the limit.
 _BELOW_FAILED, _RAISE = 0.6, 1.05
 
 
@@ -41,16 +41,16 @@ class Moving:
     start_time : float
         Time there.
     size : float
-        Increment that comes next, of the fraction of the step.
+        Next increment, as a fraction of the step.
     fraction : float
-        How much of the step is done.
+        Completed fraction of the step.
     last_size : float, optional
-        Size of the last increment, for the extrapolation; None after a cut. At the beginning that of the step
-        before, if this one goes on the same way.
+        Size of the last increment, for the extrapolation; None after a cut. At the beginning that of the previous step,
+        if this one continues its direction.
     count : int
         Increments so far.
     done : bool
-        Whether the step is at its end.
+        Whether the step is complete.
     """
 
     starts: list[float]
@@ -69,11 +69,11 @@ class Moving:
 
     @classmethod
     def recall(cls, run: Run, step: Move, memory: dict[str, Any]) -> Self:
-        """The loop as it stood."""
+        """The restored loop."""
         return cls(**memory)
 
     def memory(self) -> dict[str, Any]:
-        """All that the loop remembers."""
+        """State of the loop, for checkpoints."""
         return dict(vars(self))
 
     def advance(self, run: Run, step: Move) -> None:
@@ -100,7 +100,7 @@ class Moving:
 
     @abstractmethod
     def _target(self, step: Move) -> float:
-        """Where the increment goes."""
+        """End of the increment."""
 
     @abstractmethod
     def _adapt(self, step: Move, converged: Converged, happened: Callable[[], Happened]) -> None:
@@ -108,10 +108,10 @@ class Moving:
 
     @abstractmethod
     def _pictured(self, step: Move, frames: int, before: float) -> bool:
-        """Whether the state is kept for pictures, of which there shall be about so many."""
+        """Whether the state is kept for pictures, for the approximate number of states."""
 
     def _cut(self, run: Run, step: Move, failure: Failed, target: float) -> None:
-        """Halve an increment that failed, or give up."""
+        """Halve an increment that failed, or end the run."""
         self.size, self.last_size = 0.5 * (target - self.fraction), None
         if failure.cause is Cause.CYCLE:
             time = self.start_time + target * step.time
@@ -123,24 +123,24 @@ class Moving:
 
     @staticmethod
     def _hopeless(step: Move, size: float) -> bool:
-        """Whether the run is given up rather than tried with so small an increment."""
+        """Whether the run ends rather than try such a small increment."""
         return bool(size < step.nominal / 2**step.cuts)
 
 
 @dataclass
 class Marching(Moving):
-    """Equal increments, that grow back and meet the nominal marks again after a cut.
+    """Equal increments that grow again after a cut and return to the nominal marks.
 
     Attributes
     ----------
     easy : int
-        Increments in a row that took few iterations.
+        Successive increments that took few iterations.
     patience : int
-        So many of them let the increments grow; twice as many after each increment that had grown and failed.
+        Number of easy increments before the size grows; doubled after each growth that failed.
     grown : bool
         Whether increments have grown to a size that is not trusted yet.
     held : int
-        Increments in a row of this size.
+        Successive increments of this size.
     """
 
     easy: int = 0
@@ -149,7 +149,7 @@ class Marching(Moving):
     held: int = 0
 
     def _target(self, step: Move) -> float:
-        """Off the nominal marks, after a cut, the next one is met again."""
+        """Between nominal marks, after a cut, continue to the next mark."""
         nominal = step.nominal
         passed = self.fraction / nominal
         next_mark = (math.floor(passed + _NEAR) + 1) * nominal
@@ -158,7 +158,7 @@ class Marching(Moving):
         return 1.0 if self.fraction + advance > 1.0 - _NEAR * nominal else self.fraction + advance
 
     def _adapt(self, step: Move, converged: Converged, happened: Callable[[], Happened]) -> None:
-        """Grow after some increments that were easy."""
+        """Grow after some easy increments."""
         largest = step.grow * step.nominal
         self.easy = self.easy + 1 if len(converged.iterations) <= 8 else 0
         assert self.last_size is not None
@@ -180,7 +180,7 @@ class Marching(Moving):
 
 @dataclass
 class Pacing(Moving):
-    """Increments whose size follows what happened in the last one.
+    """Increments whose size adapts to the changes in the last one.
 
     Attributes
     ----------
@@ -191,14 +191,14 @@ class Pacing(Moving):
     limit: float = math.inf
 
     def _target(self, step: Move) -> float:
-        """The rest of the way is divided equally where less than two increments are left."""
+        """Divide the rest equally if less than two increments remain."""
         rest = 1.0 - self.fraction
         if self.size >= rest * (1.0 - _NEAR):
             return 1.0
         return self.fraction + (0.5 * rest if self.size > 0.5 * rest else self.size)
 
     def _adapt(self, step: Move, converged: Converged, happened: Callable[[], Happened]) -> None:
-        """Follow the pace."""
+        """Adapt the size to the pace."""
         assert step.pace is not None
         assert self.last_size is not None
         self.size = min(step.pace.factor(happened()) * self.last_size, step.pace.largest, self.limit)
@@ -213,7 +213,7 @@ class Pacing(Moving):
 
 
 def _size_of_last(run: Run, step: Move, starts: list[float]) -> float | None:
-    """Size that the last increment would have in the step that begins, if the step goes on where that one led."""
+    """Size of the last increment in terms of the new step, if the step continues its direction."""
     if run.trail is None or run.newton.options.extrapolate < 2:
         return None
     by = np.subtract(step.values(step.nominal, starts), starts)

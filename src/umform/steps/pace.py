@@ -1,4 +1,4 @@
-"""How far an increment may go where its size follows from what happens in it. eq. (5.49)"""
+"""Limits for increments whose size adapts to the changes in them. eq. (5.49)"""
 
 from __future__ import annotations
 
@@ -15,30 +15,30 @@ from umform.solution.records import Converged
 
 Floats = NDArray[np.float64]
 
-#: From one increment to the next the size changes by these factors at most.
+#: Range of the ratio of successive sizes.
 _LEAST, _MOST = 0.5, 2.0
-#: So many contact points, or more, may come or go without a thought.
+#: This number of contact points may always open or close.
 _FEW_POINTS = 8
 
 
 @dataclass(frozen=True)
 class Pace:
-    """Limits of what may happen in one increment; half of them give finer increments, for a study of convergence.
+    """Limits of the changes in one increment; half of them give finer increments, for a study of convergence.
 
     Parameters
     ----------
     first : float
-        First increment, as a part of the step.
+        First increment, as a fraction of the step.
     largest : float
-        Largest increment, as a part of the step.
+        Largest increment, as a fraction of the step.
     turn : float
-        Angle that a fibre through the thickness turns, in degrees.
+        Rotation of a fibre through the thickness, in degrees.
     strain : float
-        Growth of the accumulated plastic strain at a point of the material.
+        Increase of the accumulated plastic strain at a material point.
     contact : float
-        Share of the contact points in touch that come and go.
+        Contact points that open or close, relative to those in contact.
     iterations : int
-        Iterations of Newton's method at which the size is kept: with half of them it may double.
+        Newton iterations at which the size is kept: with half of them it may double.
 
     Examples
     --------
@@ -69,7 +69,7 @@ class Pace:
             )
 
     def factor(self, happened: Happened) -> float:
-        """Size of the next increment over that of the one in which this has happened."""
+        """Ratio of the next size to that of the increment with these changes."""
         limits = [
             self.iterations / happened.iterations,
             _ratio(self.turn, happened.turn),
@@ -81,18 +81,18 @@ class Pace:
 
 @dataclass(frozen=True)
 class Happened:
-    """What has happened in an increment, in the terms of :class:`Pace`.
+    """Changes in an increment, in the terms of :class:`Pace`.
 
     Attributes
     ----------
     turn : float
-        Largest angle that a fibre has turned, in degrees.
+        Largest rotation of a fibre, in degrees.
     strain : float
-        Largest growth of the accumulated plastic strain.
+        Largest increase of the accumulated plastic strain.
     contact : float
-        Contact points that have come or gone, over those in touch; zero for a few.
+        Contact points that opened or closed, relative to those in contact; zero for a few.
     iterations : int
-        Of Newton's method.
+        Newton iterations.
     """
 
     turn: float
@@ -104,16 +104,16 @@ class Happened:
     def between(
         cls, model: Model, x_before: Floats, active_before: NDArray[np.bool_], converged: Converged
     ) -> Happened:
-        """What has happened until a converged state, which is committed.
+        """Changes up to a committed converged state.
 
         Parameters
         ----------
         model : Model
             At the converged state.
         x_before : ndarray, shape (3 n + k,)
-            Displacement of the state before.
+            Displacement of the previous state.
         active_before : ndarray of bool
-            Contact points in touch there.
+            Contact points in contact at the previous state.
         converged : Converged
             The increment.
         """

@@ -1,4 +1,4 @@
-"""Take a control back until its force is zero or contact has lifted off."""
+"""Move a control back until its force is zero or contact is lost."""
 
 from __future__ import annotations
 
@@ -17,33 +17,33 @@ from umform.steps.loop import Run
 from umform.steps.move import check_time
 from umform.steps.saved import Saved, tightened
 
-#: Part of the force that counts as zero which the residual of an increment may reach.
+#: Part of the zero-force tolerance that the residual of an increment may reach.
 _PART = 0.1
-#: An increment shorter than this part of the way to the bound does not lead there but for rounding.
+#: An increment shorter than this part of the distance to the bound is round-off.
 _SHORT = 1.0 - 1e-9
 
 
 @dataclass(frozen=True)
 class Release:
-    """Take a displacement or a tool back until its force is zero (or contact has lifted off).
+    """Retract a displacement or a tool until its force is zero (or contact is lost).
 
     A force-controlled tool retracts under displacement control; a step :class:`umform.Close` presses it again. The
     column of its control has the required force, zero at the end.
 
-    The increments of a release are solved so far that the force is known to a part of the tolerance, even where the
+    The increments of a release are solved until the error of the force is a part of the tolerance, even if the
     tolerance of the residual in :class:`umform.NewtonOptions` is looser.
 
     Parameters
     ----------
     control : Control
-        A prescribed displacement or a tool motion, or the force that presses a tool.
+        A prescribed displacement or a tool motion, or the force on a tool.
     increment : float, optional
-        Size of the first increment of the way back; default 1/1000 of the present value. It doubles while Newton
-        converges easily, up to a twentieth of the value.
+        Size of the first increment; default 1/1000 of the present value. It doubles while Newton converges easily, up
+        to a twentieth of the value.
     tolerance : float
         Force that counts as zero, relative to the force at the beginning.
     time : float
-        What it would take to go back all the way to zero.
+        Time for the full way back to zero.
 
     Examples
     --------
@@ -71,24 +71,25 @@ class Release:
 
 @dataclass
 class Releasing:
-    """Secant on force against displacement from saved states; lift-off is bracketed to 1e-6 of the value. eq. (5.14)
+    """Secant on force against displacement with saved states; loss of contact is bracketed to 1e-6 of the value. eq.
+    (5.14)
 
     Attributes
     ----------
     start_time, start_value, scale : float
-        Time, value of the control and size of its force at the beginning.
+        Time, value of the control and magnitude of its force at the beginning.
     force, size : float
-        Force now, and the increment that comes next while the zero is not yet bracketed.
+        Present force, and the next increment while the zero is not bracketed.
     before : pair of float, optional
-        Value and force of the state before the present one.
+        Value and force of the previous state.
     bound : float, optional
-        A value where the force is known to be zero or beyond.
+        A value at which the force is zero or has changed its sign.
     finest : float
-        Resolution of the way to the bound: where the force changes sign, only its zero counts.
+        Resolution of the distance to the bound: where the force changes sign, only its zero counts.
     taken : float, optional
         The last increment, for the extrapolation.
     failures, attempts : int
-        Increments that did not converge, and those that went too far.
+        Increments that did not converge, and those beyond zero.
     done : bool
         Whether the force is zero.
     """
@@ -121,11 +122,11 @@ class Releasing:
 
     @classmethod
     def recall(cls, run: Run, step: Release, memory: dict[str, Any]) -> Self:
-        """The loop as it stood."""
+        """The restored loop."""
         return cls(**memory)
 
     def memory(self) -> dict[str, Any]:
-        """All that the loop remembers."""
+        """State of the loop, for checkpoints."""
         return dict(vars(self))
 
     def advance(self, run: Run, step: Release) -> None:
@@ -140,7 +141,7 @@ class Releasing:
             target = _short_of_zero(value, self.force, self.before, target)
         if target * self.start_value < 0.0:
             target = 0.0
-        if target == value or self.attempts > 50:  # the force jumps over zero
+        if target == value or self.attempts > 50:  # the force jumps across zero
             jump = Failed("the zero of the force cannot be closed in", [])
             raise no_convergence(run, jump, [control], [target])
         time = self.start_time + step.time * (1.0 - target / self.start_value)
@@ -179,14 +180,14 @@ class Releasing:
             run.result.note(f"step {run.number}: {how} at {control.name} = {control.value:.6g}")
 
     def _go_back(self, run: Run, saved: Saved, target: float, finest: float) -> None:
-        """Restore the state before an increment that went too far; its end is the new bound."""
+        """Restore the state before an increment beyond zero; its end is the new bound."""
         self.bound, self.finest, self.attempts = target, finest, self.attempts + 1
         saved.restore(run)
         self.taken = None
 
 
 def _moved(run: Run, step: Release) -> Control:
-    """The control that goes back: of a pressed tool its way, which is given from now on."""
+    """The control to retract: for a force-driven tool its travel, which is then prescribed."""
     if not isinstance(step.control, ToolForce):
         return step.control
     press = run.model.press_of(step.control)
@@ -195,18 +196,18 @@ def _moved(run: Run, step: Release) -> Control:
 
 
 def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> float:
-    """Largest force on the control that the residual of an increment may hide. docs/theory, 5.7
+    """Largest error of the force due to the residual of the increment. docs/theory, 5.7
 
     Parameters
     ----------
     run : Run
         The run.
     before : Evaluation
-        That of the state before.
+        Evaluation of the previous state.
     converged : Converged
         The increment.
     way : float
-        How far the control went in it.
+        Change of the control in the increment.
     """
     model = run.model
     r, dx = model.restrict(converged.residual), model.coefficients(converged.x - before.x)
@@ -214,7 +215,9 @@ def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> f
 
 
 def _short_of_zero(value: float, force: float, before: Sequence[float] | None, target: float) -> float:
-    """The target, or a value just short of the zero of the secant if that comes first: behind it nothing may hold."""
+    """The target, or a value just short of the zero of the secant if that comes first: beyond it contact may be
+    lost.
+    """
     if before is None or before[0] == value or force == before[1]:
         return target
     to_zero = -force * (value - before[0]) / (force - before[1])
@@ -228,13 +231,13 @@ def _at_ease(converged: Converged) -> bool:
 def _next_release(
     value: float, force: float, before: Sequence[float] | None, bound: float | None, size: float, resolution: float
 ) -> float:
-    """Next value of a control on its way to zero force; with a bound, close in on the zero from the loaded side."""
+    """Next value of a control on its way to zero force; with a bound, approach the zero from the loaded side."""
     if bound is None:
         return value + size
     sign = 1.0 if bound > value else -1.0
     if abs(bound - value) <= 2.5 * resolution:
         return bound
-    if before is None or before[0] == value:  # crossed zero: the size is that of the secant
+    if before is None or before[0] == value:  # beyond zero: the size is that of the secant
         return value + size if abs(size) < _SHORT * abs(bound - value) else 0.5 * (value + bound)
     slope = (force - before[1]) / (value - before[0])
     zero = value - force / slope if slope != 0.0 else bound

@@ -1,4 +1,4 @@
-"""A converged state that a step may go back to, and increments that are solved so far that a force is exact."""
+"""A converged state to which a step may return, and increments with an accurate force."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from umform.steps.loop import Run
 
 @dataclass(frozen=True)
 class Saved:
-    """A converged state with its evaluation, and the histories that this had read."""
+    """A converged state with its evaluation, and the input histories of the evaluation."""
 
     snapshot: Snapshot
     evaluation: Evaluation
@@ -25,11 +25,11 @@ class Saved:
 
     @classmethod
     def of(cls, model: Model, evaluation: Evaluation) -> Self:
-        """That of a model."""
+        """State of the model."""
         return cls(model.snapshot(), evaluation, [(term, term.before) for term in model.terms])
 
     def restore(self, run: Run) -> None:
-        """Put the run back, so that a checkpoint can repeat the evaluation to the last bit."""
+        """Restore the run, so that a checkpoint can repeat the evaluation to the last bit."""
         run.model.restore(self.snapshot)
         run.model.stand(self.evaluation)
         for term, before in self.before:
@@ -39,7 +39,7 @@ class Saved:
 
 @contextmanager
 def tightened(run: Run, force: float) -> Iterator[None]:
-    """Let Newton's method go on until the residual is no more than a force, if its tolerance asks for less."""
+    """Continue Newton's method until the residual is below a force, if its tolerance is looser."""
     own = run.newton.options
     scale = run.evaluation.force_scale
     run.newton.options = replace(own, residual=min(own.residual, force / scale)) if scale > 0.0 else own

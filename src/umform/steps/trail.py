@@ -1,4 +1,4 @@
-"""The last increment of a run, how it differs from the one before, and the guess of the next one. eq. (5.50)"""
+"""The last increment of a run, its difference from the previous one, and the predictor. eq. (5.50)"""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from umform.model.control import Control
 
 Floats = NDArray[np.float64]
 
-#: Controls go on the same way if their changes are parallel but for so much of their size.
+#: Tolerated deviation of the changes of the controls from parallel, relative to their size.
 _PARALLEL = 1e-6
 
 
@@ -24,8 +24,8 @@ class Trail:
     Attributes
     ----------
     terms : ndarray, shape (1 or 2, 3 n + k)
-        Last increment of displacement and scalar unknowns; and, if it went on along the one before, its curvature:
-        half of what the increment would change by from one to the next, were all of the same size.
+        Last increment of displacement and scalar unknowns; and, if it continued the previous direction, its curvature:
+        half of the change of the increment from one to the next, at equal sizes.
     way : ndarray, shape (controls,)
         Changes of the controls of the model in the last increment.
     """
@@ -44,9 +44,9 @@ class Trail:
         way : ndarray, shape (controls,)
             Changes of the controls in it.
         before : Trail, optional
-            The trail before it; None if its curvature is not wanted.
+            The previous trail; None without curvature.
         ratio : float, optional
-            Its size over that of the increment before, if it went on along that one.
+            Its size relative to the previous increment, if it continued its direction.
         """
         terms = [increment]
         if before is not None and ratio is not None:
@@ -54,14 +54,14 @@ class Trail:
         return cls(np.stack(terms), way)
 
     def guess(self, ratio: float) -> Floats:
-        """Increment that is so many times as large as the last one: on the line or the parabola of the last states."""
+        """Extrapolated increment for a ratio of sizes: on the line or the parabola of the last states."""
         guess: Floats = ratio * self.terms[0]
         if len(self.terms) == 2:
             guess += ratio * (1.0 + ratio) * self.terms[1]
         return guess
 
     def size(self, way: Floats) -> float | None:
-        """Size of the last increment over one that changes the controls by `way`; None if this leads elsewhere."""
+        """Ratio of the last increment to one that changes the controls by `way`; None if the direction differs."""
         square = float(way @ way)
         size = float(self.way @ way) / square if square else 0.0
         off = self.way - size * way

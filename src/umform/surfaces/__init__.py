@@ -1,4 +1,4 @@
-"""Rigid tools as functions of position: signed distance, unit normal and Hessian of the distance."""
+"""Rigid tools as signed distance functions: distance, unit normal and Hessian of the distance."""
 
 from umform.surfaces.cad import CadTool
 from umform.surfaces.check import SurfaceCheck, check_surface

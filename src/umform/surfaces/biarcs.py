@@ -1,4 +1,4 @@
-"""Plane curves of any kind as tangent arcs."""
+"""Approximate plane curves by tangent arcs."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ _STRAIGHT = 1e-9
 
 
 def as_arcs(curve: Curve, parameters: list[float], tolerance: float) -> list[Segment]:
-    """Pairs of arcs that meet each other and the next pair with one tangent, no farther than a distance from the curve.
+    """Tangent-continuous pairs of arcs within a distance of the curve.
 
     Parameters
     ----------
     curve : callable
         Point and tangent at a parameter.
     parameters : list of float
-        Places where the curve is cut in any case: its ends, and where its curvature jumps.
+        Parameters where the curve is always split: its ends, and jumps of its curvature.
     tolerance : float
-        Largest distance, looked for at seven places of each pair.
+        Largest distance, sampled at seven places of each pair.
     """
     segments: list[Segment] = []
     for a, b in pairwise(parameters):
@@ -46,7 +46,7 @@ def _fitted(curve: Curve, a: float, b: float, tolerance: float, depth: int) -> l
 
 
 def _biarc(p: Floats, t: Floats, q: Floats, s: Floats) -> list[Segment]:
-    """Two arcs with tangents of one length to their joint; nothing where they would turn back."""
+    """Two arcs with tangents of one length to their joint; none where they would turn back."""
     t, s, v = t / np.hypot(*t), s / np.hypot(*s), q - p
     if t @ s < -0.5 or v @ t <= 0.0 or v @ s <= 0.0:
         return []
@@ -63,7 +63,7 @@ def _reflected(p: Floats, q: Floats, s: Floats) -> Floats:
 
 
 def _arc(p: Floats, q: Floats, t: Floats) -> Segment:
-    """Arc from p, with the unit tangent t there, to q; a line if it hardly bends."""
+    """Arc from p, with the unit tangent t there, to q; a line if its curvature is negligible."""
     d, left = q - p, np.array([-t[1], t[0]])
     across = float(d @ left)
     if abs(across) <= _STRAIGHT * float(np.hypot(*d)):
@@ -73,7 +73,7 @@ def _arc(p: Floats, q: Floats, t: Floats) -> Segment:
 
 
 def _distance(segment: Segment, x: Floats) -> float:
-    """Distance to a line or a circle, beside their ends to these."""
+    """Distance to a line or a circle; beyond the ends, to the nearest end."""
     ends = min(math.dist(x, segment.start), math.dist(x, segment.end))
     if isinstance(segment, Line):
         t = segment.tangents()[0]

@@ -1,4 +1,4 @@
-"""Loose lines and arcs of a drawing joined to one curve."""
+"""Join loose lines and arcs of a drawing to one curve."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def chain(segments: Sequence[Segment], tolerance: float, where: str) -> tuple[li
     segments : sequence of Line or Arc
         As they were drawn.
     tolerance : float
-        Ends nearer than this are one point, their mean; what is shorter is left out.
+        Ends nearer than this become one point, their mean; shorter segments are left out.
     where : str
         For messages.
 
@@ -32,12 +32,12 @@ def chain(segments: Sequence[Segment], tolerance: float, where: str) -> tuple[li
     segments : list of Line or Arc
         In the order of a walk along the curve.
     closed : bool
-        Whether it comes back to where it began.
+        Whether its end is its start.
 
     Raises
     ------
     OpenSection
-        If there is nothing, a gap, a branch, or more than one curve; the message has the coordinates.
+        If it is empty, or has a gap, a branch, or several curves; the message has the coordinates.
     """
     segments = [s for s in segments if s.start == s.end or math.dist(s.start, s.end) > tolerance]
     if not segments:
@@ -100,7 +100,7 @@ def _between(segment: Segment, start: Floats, end: Floats, *, closed: bool) -> S
 
 
 def _refuse_many(segments: Sequence[Segment], points: Floats, label: Ids, degree: Ids, ends: Ids, where: str) -> None:
-    """Gaps if some curve is open, else several loops."""
+    """Gaps if a curve is open, else several loops."""
     free = points[degree == 1]
     if len(free):
         near = np.linalg.norm(free[:, None] - free, axis=2)

@@ -1,4 +1,4 @@
-"""Normal and Hessian of a tool against differences of its own distance."""
+"""Check normal and Hessian of a tool by differences of its distance."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from umform.surfaces.tool import Surface
 
 @dataclass(frozen=True)
 class SurfaceCheck:
-    """Largest deviations of a surface from differences of its own distance.
+    """Largest deviations of a surface from differences of its distance.
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class SurfaceCheck:
     asymmetry: float
 
     def ok(self, tolerance: float = 1e-5) -> bool:
-        """Whether normal and Hessian belong to the function."""
+        """Whether normal and Hessian are derivatives of the distance."""
         return max(self.normal, self.hessian, self.asymmetry) < tolerance
 
 
@@ -42,7 +42,7 @@ def check_surface(surface: Surface, x: ArrayLike, step: float) -> SurfaceCheck:
     surface : Surface
         Any tool.
     x : array_like, shape (n, 3)
-        Points where to look, near the surface and away from its edges.
+        Points at which to compare, near the surface and away from its edges.
     step : float
         Step of the differences, about 1e-5 of the size of the tool.
 

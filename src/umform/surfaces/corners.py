@@ -1,4 +1,4 @@
-"""From a polyline to lines and arcs: corners that are rounded."""
+"""Polylines with rounded corners as lines and arcs."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def rounded(corners: Sequence[Point2], radii: float | Sequence[float], closed: b
     corners : sequence of (x, y)
         Corners in the order of the walk.
     radii : float or sequence of float
-        Radius at all corners or at each; 0 leaves a corner sharp. The ends of an open polyline are no corners.
+        Radius at all corners or at each; 0 leaves a corner sharp. The ends of an open polyline have no radius.
     closed : bool
         The last corner is followed by the first.
 
@@ -117,7 +117,7 @@ def _round(before: Floats, at: Floats, after: Floats, radius: float, where: str)
 
 
 def _joined(at: list[Floats], roundings: list[_Rounding], closed: bool) -> list[Segment]:
-    """Arcs at the corners and what is left of the lines between them."""
+    """Arcs at the corners and the rest of the lines between them."""
     segments: list[Segment] = []
     count = len(at)
     for i, rounding in enumerate(roundings):

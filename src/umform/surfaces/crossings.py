@@ -1,4 +1,4 @@
-"""Whether a plane curve meets itself."""
+"""Detect self-intersections of a plane curve."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import numpy as np
 from umform.errors import InvalidValue
 from umform.surfaces.segments import Arc, Floats, Line, Segment
 
-#: Segments nearer than this part of the profile's size touch; tangent ones are told from crossing ones up to its root.
+#: Segments nearer than this part of the profile's size touch; tangency and crossing are distinguished up to its root.
 _TOUCH = 1e-9
 
 
 def refuse_crossings(segments: Sequence[Segment], closed: bool, endless: tuple[bool, bool], where: str) -> None:
-    """Reject a curve that meets itself anywhere but where a segment follows the one before.
+    """Reject a curve that meets itself anywhere but at the joints of successive segments.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ def refuse_crossings(segments: Sequence[Segment], closed: bool, endless: tuple[b
     closed : bool
         The last segment is followed by the first.
     endless : tuple of bool
-        Whether the first and the last line go on for ever.
+        Whether the first and the last line extend to infinity.
     where : str
         For the message.
 
@@ -59,7 +59,7 @@ def refuse_crossings(segments: Sequence[Segment], closed: bool, endless: tuple[b
 
 
 def _meetings(one: Segment, other: Segment, size: float) -> list[Floats]:
-    """Common points of the two endless lines or whole circles; of coinciding ones the ends of both segments."""
+    """Common points of the two infinite lines or whole circles; for coinciding ones the ends of both segments."""
     if isinstance(one, Line) and isinstance(other, Line):
         return _of_lines(one, other, size)
     if isinstance(one, Arc) and isinstance(other, Arc):

@@ -1,4 +1,4 @@
-"""Points, directions and lengths as users write them, checked."""
+"""Check points, directions and lengths given by users."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def right_angle(x: Direction, y: Direction, where: str) -> tuple[Point, Point]:
     Raises
     ------
     InvalidValue
-        If the angle between them is another one.
+        If they are not at right angles.
     """
     first, second = unit_vector(x, f"{where}.x"), unit_vector(y, f"{where}.y")
     cosine = float(np.dot(first, second))

@@ -1,4 +1,4 @@
-"""Tools from files, by the ends of their names."""
+"""Tools from files; the extension selects the reader."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ def read_tool(
     open : bool
         The surface may have rims.
     scale : float
-        Factor to the unit of the model, from millimetres for STEP and IGES, from what stands in the file for STL.
+        Factor to the unit of the model, from millimetres for STEP and IGES, from the unit of the file for STL.
 
     Raises
     ------
     FileProblem
         If the file cannot be read.
     DrawingError
-        If it holds no surface that can be a tool; the message names places.
+        If it has no surface for a tool; the message names places.
 
     Examples
     --------

@@ -14,25 +14,25 @@ from umform.errors import FileProblem, InvalidValue, OpenSection
 from umform.surfaces.biarcs import Curve, as_arcs
 from umform.surfaces.segments import Arc, Floats, Line, Point2, Segment
 
-#: What may stand in a drawing beside the section.
+#: Entities that may accompany the section and are ignored.
 _IGNORED = {"TEXT", "MTEXT", "DIMENSION", "LEADER", "MULTILEADER", "MLEADER", "POINT", "HATCH", "ATTDEF", "VIEWPORT"}
 #: Names of the units of a drawing, by their number in the header.
 _UNITS = {"in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6, "um": 13}
-#: A direction across the drawing plane.
+#: A direction normal to the drawing plane.
 _UPRIGHT = 1e-9
 
 
 def read_dxf(path: str | Path, layer: str | None, unit: str, curve_error: float) -> list[Segment]:
-    """Lines and arcs of the model space of a drawing, as they were drawn.
+    """Lines and arcs of the model space of a drawing.
 
     Parameters
     ----------
     path : str or Path
         The drawing.
     layer : str, optional
-        The only layer that counts, large and small letters alike.
+        The only layer that is read, case-insensitive.
     unit : str
-        Unit of the result, mm, cm, m, um, in or ft; a drawing that does not say its unit is taken as it is.
+        Unit of the result: mm, cm, m, um, in or ft; a drawing without a unit is taken as it is.
     curve_error : float
         Largest distance of the arcs from ellipses and splines, in this unit.
 
@@ -43,7 +43,7 @@ def read_dxf(path: str | Path, layer: str | None, unit: str, curve_error: float)
     InvalidValue
         If there is no such layer, or no such unit.
     OpenSection
-        If there is something that is no plane curve.
+        If it contains an entity that is not a plane curve.
     """
     ezdxf = _ezdxf()
     path = Path(path)
@@ -162,7 +162,7 @@ def _segments(entity: Any, curve_error: float, where: str) -> list[Segment]:
 
 
 def _arc(start: Point2, end: Point2, centre: Point2, clockwise: bool) -> Arc:
-    """Its centre moved so that both ends are at one distance to the last digit."""
+    """Move its centre so that both ends have exactly the same distance."""
     p, q, c = np.array(start), np.array(end), np.array(centre)
     d = q - p
     c = c - ((c - 0.5 * (p + q)) @ d) / (d @ d) * d if d.any() else c
@@ -170,7 +170,7 @@ def _arc(start: Point2, end: Point2, centre: Point2, clockwise: bool) -> Arc:
 
 
 def _of_spline(spline: Any, curve_error: float) -> list[Segment]:
-    """Cut at the knots, where the curvature of a cubic one has a kink."""
+    """Split at the knots, where the curvature of a cubic spline has a kink."""
     low, high = spline.knots()[spline.order - 1], spline.knots()[spline.count]
     knots = sorted({float(t) for t in spline.knots() if low <= t <= high})
 

@@ -1,4 +1,4 @@
-"""Tools written for other programs."""
+"""Export of tools for other programs."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> P
 
     Parameters
     ----------
-    tool : Tool
+    Any tool; one that is known by its distance only is sampled, and its edges are cut off.
         Any tool; one that knows only its distance is sampled, its edges are then cut off.
     path : str or Path
         A file that ends in .stl, .vtk, .vtu, .ply or .obj.
@@ -34,7 +34,7 @@ def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> P
     Raises
     ------
     InvalidValue
-        If the end of the name is another one, or nothing of the tool lies in the box.
+        If the extension is unknown, or no part of the tool lies in the box.
     FileProblem
         If the file cannot be written.
 

@@ -1,4 +1,4 @@
-"""What belongs together: groups of things that are linked, and points that coincide."""
+"""Connected groups of linked things, and points that coincide."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ def groups(one: NDArray[np.integer], other: NDArray[np.integer], count: int) -> 
 
 
 def merged(points: Floats, near: float) -> tuple[Floats, Ids]:
-    """Points of which those nearer than a distance are one, their mean; and which of these each has become.
+    """Merge points nearer than a distance to their mean; returns them and the new number of each old point.
 
     Parameters
     ----------
     points : ndarray, shape (n, 2 or 3)
         Points.
     near : float
-        Distance; chains of near points are one point too.
+        Distance; chains of near points become one point too.
     """
     from scipy.spatial import cKDTree  # slow to import
 

@@ -1,4 +1,4 @@
-"""A profile led around a rectangle with rounded corners: punch and die of a square cup."""
+"""A profile swept around a rectangle with rounded corners: punch and die of a square cup."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from umform.surfaces.tool import Tool
 
 @dataclass(frozen=True)
 class LedAround(Tool):
-    """A profile led around a rectangle with rounded corners. eqs. (4.26), (4.27)
+    """A profile swept around a rectangle with rounded corners. eqs. (4.26), (4.27)
 
     Parameters
     ----------
     profile : Profile
-        The section: its x is the distance outwards from the outline of the rectangle, its y goes across. It is open,
-        begins and ends with a line that extends to infinity, and is flat where it lies deeper inside of the rectangle
-        than its corners are round.
+        The section: x is the distance outwards from the outline of the rectangle, y is normal to its plane. It is open,
+        begins and ends with a line that extends to infinity, and is flat where it lies deeper inside the rectangle than
+        the corner radius.
     size : tuple of float
         Sides of the rectangle.
     corner : float
@@ -73,7 +73,7 @@ class LedAround(Tool):
         return _core.led_around(rows, point(self.origin, "LedAround.origin"), axes, core.tolist(), float(self.corner))
 
     def _refuse_profile(self) -> None:
-        """Open, its ends infinite lines, and flat inside of the centres of the corners."""
+        """Open, its ends infinite lines, and flat further inside than the centres of the corners."""
         if self.profile.closed:
             raise InvalidValue(
                 "a profile that is led around a rectangle must be open",
@@ -101,7 +101,7 @@ class LedAround(Tool):
 
 
 def _deepest(segment: Line | Arc) -> float:
-    """Least x of a segment; an arc may bulge beyond its ends."""
+    """Smallest x of a segment; an arc may bulge beyond its ends."""
     ends = min(segment.start[0], segment.end[0])
     if isinstance(segment, Line):
         return ends

@@ -1,4 +1,4 @@
-"""Tools of a press brake: dies, punch, wiping die, with the numbers that stand on them."""
+"""Tools of a press brake: dies, punch, wiping die, from their catalogue dimensions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from umform.surfaces.triangles import Floats, Triangles
 
 @dataclass(frozen=True)
 class Section(Tool):
-    """Tool of one section all along; by default the section stands in the xz-plane and the tool goes along y."""
+    """Prismatic tool; by default the section lies in the xz-plane and the tool extends along y."""
 
     origin: Point = field(default=(0.0, 0.0, 0.0), kw_only=True)
     x: Direction = field(default="x", kw_only=True)
@@ -30,7 +30,7 @@ class Section(Tool):
         """Section of the tool."""
 
     def extruded(self) -> Extruded:
-        """The section, drawn out."""
+        """The extruded section."""
         return Extruded(self.profile, self.origin, self.x, self.y)
 
     def kernel(self) -> _core.Surface:
@@ -58,8 +58,8 @@ class VDie(Section):
     Parameters
     ----------
     opening : float
-        Distance of the two lines in which the flanks, drawn on as planes, meet the top: the width of the V before its
-        shoulders are rounded.
+        Distance of the two lines in which the extended flanks meet the top: the width of the V without rounded
+        shoulders.
     angle : float
         Angle between the flanks in degrees.
     shoulder_radius : float
@@ -109,7 +109,7 @@ class VDie(Section):
 
     @property
     def tangent_width(self) -> float:
-        """Distance of the two lines in which the shoulders leave the top. eq. (4.24)"""
+        """Distance of the two lines in which the shoulders meet the top. eq. (4.24)"""
         turn = 0.5 * (math.pi - math.radians(self.angle))
         return self.opening + 2.0 * self.shoulder_radius * math.tan(0.5 * turn)
 
@@ -163,7 +163,7 @@ class WipingDie(Section):
     radius : float
         Radius of the edge.
     origin : tuple of float
-        Where top and side, drawn on as planes, meet.
+        Where the extended top and side meet.
     x, y : str or tuple of float
         Directions out of the side and out of the top.
 
@@ -204,7 +204,7 @@ class Punch(Section):
     angle : float
         Angle between the flanks in degrees.
     width : float, optional
-        Width of the body above the flanks; by default the flanks go on for ever.
+        Width of the body above the flanks; by default the flanks extend to infinity.
     origin : tuple of float
         Lowest line of the tip.
     x, y : str or tuple of float

@@ -17,10 +17,10 @@ from umform.surfaces.segments import Arc, Floats, Point2, Segment
 
 @dataclass(frozen=True)
 class Profile:
-    r"""Lines and arcs, one after the other, with the solid on the left of who walks along them.
+    r"""rLines and arcs, one after the other, with the solid on the left of the direction of travel.
 
-    A closed profile that is walked counter-clockwise is solid inside (its :attr:`area` is positive), clockwise it is a
-    hole in the solid. An open one divides the plane: its first and last line go on for ever. ::
+    A closed profile is solid inside if it runs counter-clockwise (its :attr:`area` is positive); clockwise it is a
+    hole in the solid. An open one divides the plane: its first and last line extend to infinity. ::
 
                  void                                  .---<---.
         -----<-----.       .-----<-----                |       |
@@ -30,7 +30,7 @@ class Profile:
     Parameters
     ----------
     segments : sequence of Line or Arc
-        In the order of the walk, each starting where the one before has ended.
+        In order, each starting where the previous one ends.
     closed : bool
         The last one ends where the first one starts.
 
@@ -74,7 +74,7 @@ class Profile:
         Parameters
         ----------
         corners : sequence of (x, y)
-            Corners in the order of the walk; the ends of an open profile only say where its lines go on to.
+            Corners in order; the ends of an open profile only define the directions of its infinite lines.
         radii : float or sequence of float
             Radius at all corners or at each; 0 leaves a corner sharp.
         closed : bool
@@ -112,18 +112,18 @@ class Profile:
             Where the solid is: inside (by default) or outside of a closed curve; below (by default), above, left or
             right of an open one, that is of the line from its one end to the other.
         origin : (x, y)
-            The place of the drawing, in the unit of the model, that is the origin of the profile.
+            The point of the drawing, in the unit of the model, that becomes the origin of the profile.
         unit : str
-            Unit of the model, mm, cm, m, um, in or ft; a drawing that does not say its unit is taken as it is.
+            Unit of the model: mm, cm, m, um, in or ft; a drawing without a unit is taken as it is.
         tolerance : float
-            Ends nearer than this are one point; arcs are no farther from ellipses and splines.
+            Ends nearer than this are one point; arcs deviate by at most this from ellipses and splines.
 
         Raises
         ------
         FileProblem
             If the file cannot be read.
         OpenSection
-            If lines and arcs do not make one curve; the message has the coordinates of gaps and branches.
+            If lines and arcs do not form one curve; the message has the coordinates of gaps and branches.
         """
         from umform.surfaces.chains import chain  # slow to import
         from umform.surfaces.dxf import read_dxf
@@ -175,7 +175,7 @@ class Profile:
         return Profile([segment.reversed() for segment in reversed(self.segments)], self.closed)
 
     def _has_solid(self, solid: str | None, where: str) -> bool:
-        """Whether the solid is on the side that is named."""
+        """Whether the solid is on the named side."""
         sides = {"below": (0, -1), "above": (0, 1), "left": (-1, 0), "right": (1, 0)}
         words = ("inside", "outside") if self.closed else tuple(sides)
         solid = solid or ("inside" if self.closed else "below")
@@ -211,12 +211,12 @@ class Profile:
         chord : float
             Largest distance of a chord from its arc.
         beyond : float
-            How much of an open profile to show beyond its ends.
+            Length of the infinite lines beyond the ends of an open profile.
 
         Returns
         -------
         ndarray, shape (n, 2)
-            Points in the order of the walk; of a closed profile the last one is the first.
+            Points in order; for a closed profile the last point is the first.
         """
         parts = [self.segments[0].points(chord)] + [segment.points(chord)[1:] for segment in self.segments[1:]]
         points = np.vstack(parts)
@@ -226,7 +226,7 @@ class Profile:
         return points
 
     def _check_joints(self) -> None:
-        """Each segment starts where the one before has ended, and does not turn back there."""
+        """Check that each segment starts where the previous one ends, and does not turn back there."""
         count = len(self.segments)
         for i in range(count if self.closed else count - 1):
             one, other = self.segments[i], self.segments[(i + 1) % count]

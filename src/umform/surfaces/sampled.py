@@ -1,8 +1,8 @@
-"""Triangles of a tool that is known by its distance only, from samples of it: marching tetrahedra.
+"""Triangles of a tool that is known by its distance only: marching tetrahedra on samples.
 
-Cubes that the surface may cross are halved until its curvature allows triangles of their size; each is cut into six
-tetrahedra around one diagonal, and the surface crosses a tetrahedron in a triangle or in two. Edges and corners of a
-tool are cut off by about a cube.
+Cubes that the surface may cross are halved until the curvature allows triangles of their size. Each is split into six
+tetrahedra around one diagonal; the surface crosses a tetrahedron in one or two triangles. Edges and corners of a tool
+are cut off by about the size of a cube.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from umform.surfaces.triangles import Floats, Ids, Triangles
 #: x (n, 3) -> distance (n,), normal, Hessian of the distance (n, 3, 3).
 Gap = Callable[[Floats], tuple[ArrayLike, ArrayLike, ArrayLike]]
 
-#: Cubes along the box at first, and at most.
+#: Number of cubes along the box: initial and largest.
 _COARSE, _FINE = 8, 64
-#: The function may say twice the distance, or half of it.
+#: Tolerated factor of the distance of a user's function, up and down.
 _SLACK = 2.0
 _STEPS = 4
 
@@ -31,7 +31,7 @@ _TETRAHEDRA = np.array([[0, a, a + b, 7] for a, b, _ in permutations((4, 2, 1))]
 
 
 def sampled(gap: Gap, centre: Floats, reach: float, chord: float) -> Triangles:
-    """Triangles of the surface on which a distance is zero.
+    """Triangles of the zero level of a distance.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def sampled(gap: Gap, centre: Floats, reach: float, chord: float) -> Triangles:
     reach : float
         Half of its side.
     chord : float
-        Distance from the surface to aim at; the cube has at most 64 small ones along a side.
+        Deviation from the surface to aim at; at most 64 small cubes along a side.
 
     Raises
     ------
@@ -63,7 +63,7 @@ def sampled(gap: Gap, centre: Floats, reach: float, chord: float) -> Triangles:
 
 
 def _curvature(H: Floats) -> float:
-    """Largest curvature of the level surfaces at some points; where the Hessian is not finite it is not asked."""
+    """Largest curvature of the level surfaces at some points; points with a non-finite Hessian are ignored."""
     known = H[np.isfinite(H).all(axis=(1, 2))]
     return float(np.abs(np.linalg.eigvalsh(known)).max()) if len(known) else 0.0
 
@@ -84,7 +84,7 @@ def _asked(gap: Gap, x: Floats) -> tuple[Floats, Floats]:
 
 
 def _marched(gap: Gap, cubes: Ids, place: Callable[[Floats], Floats]) -> Triangles:
-    """Triangles in cubes of one size, given by the numbers of their lowest corners."""
+    """Triangles in cubes of one size, given by the indices of their lowest corners."""
     lattice, ids = np.unique((cubes[:, None] + _CORNERS).reshape(-1, 3), axis=0, return_inverse=True)
     g, _ = _asked(gap, place(lattice.astype(float))) if len(lattice) else (np.empty(0), None)
     corners = ids.reshape(-1, 8)[:, _TETRAHEDRA].reshape(-1, 4)
@@ -108,7 +108,7 @@ def _marched(gap: Gap, cubes: Ids, place: Callable[[Floats], Floats]) -> Triangl
 
 
 def _joined(gap: Gap, edges: Ids, outward: Floats, x: Floats, g: Floats) -> Triangles:
-    """Triangles from the edges, inner end first, that their corners lie on."""
+    """Triangles from the edges on which their corners lie, inner end first."""
     ends, ids = np.unique(edges.reshape(-1, 2), axis=0, return_inverse=True)
     triangles = ids.reshape(-1, 3).astype(np.int64)
     points = _crossings(gap, x[ends[:, 0]], x[ends[:, 1]], g[ends[:, 0]], g[ends[:, 1]])
@@ -118,7 +118,7 @@ def _joined(gap: Gap, edges: Ids, outward: Floats, x: Floats, g: Floats) -> Tria
 
 
 def _crossings(gap: Gap, low: Floats, high: Floats, g_low: Floats, g_high: Floats) -> Floats:
-    """Where edges from inside to outside meet the surface, by the rule of false position."""
+    """Intersections of edges with the surface, by regula falsi."""
     for _ in range(_STEPS if len(low) else 0):
         x = low + (g_low / (g_low - g_high))[:, None] * (high - low)
         g, _ = _asked(gap, x)

@@ -56,7 +56,7 @@ class Line:
 
     @property
     def area(self) -> float:
-        """Area between the segment and the origin, positive if it is seen turning left."""
+        """Area between the segment and the origin, positive if it runs counter-clockwise about the origin."""
         return 0.5 * (self.start[0] * self.end[1] - self.start[1] * self.end[0])
 
     def points(self, chord: float) -> Floats:
@@ -64,11 +64,11 @@ class Line:
         return np.array([self.start, self.end], dtype=float)
 
     def reversed(self) -> Line:
-        """The same line, walked the other way."""
+        """The same line, reversed."""
         return Line(self.end, self.start)
 
     def shifted(self, by: Point2) -> Line:
-        """The same line at another place."""
+        """The same line, transformed."""
         return Line(_sum(self.start, by), _sum(self.end, by))
 
     def row(self) -> list[float]:
@@ -95,7 +95,7 @@ class Arc:
     clockwise: bool = False
 
     def check(self, where: str) -> None:
-        """Reject an arc whose ends are not on one circle."""
+        """Reject an arc whose ends have different distances from the centre."""
         centre = point(self.centre, f"{where}.centre", 2)
         first = math.dist(point(self.start, f"{where}.start", 2), centre)
         last = math.dist(point(self.end, f"{where}.end", 2), centre)
@@ -147,7 +147,7 @@ class Arc:
 
     @property
     def area(self) -> float:
-        """Area between the segment and the origin, positive if it is seen turning left."""
+        """Area between the segment and the origin, positive if it runs counter-clockwise about the origin."""
         cap = 0.5 * self.radius**2 * (self.angle - math.sin(self.angle))
         return Line(self.start, self.end).area + self.turn * cap
 
@@ -159,7 +159,7 @@ class Arc:
         return np.array([p[0] * math.cos(half) - p[1] * math.sin(half), p[0] * math.sin(half) + p[1] * math.cos(half)])
 
     def points(self, chord: float) -> Floats:
-        """Points along the segment, both ends among them, with chords that leave it by no more than ``chord``."""
+        """Points along the segment, both ends included, with chords that deviate by at most ``chord``."""
         step = 2.0 * math.acos(max(1.0 - chord / self.radius, 0.5))
         angles = self.turn * np.linspace(0.0, self.angle, math.ceil(self.angle / step) + 1)
         p = np.subtract(self.start, self.centre)
@@ -169,11 +169,11 @@ class Arc:
         return np.vstack([self.start, inner, self.end])
 
     def reversed(self) -> Arc:
-        """The same arc, walked the other way."""
+        """The same arc, reversed."""
         return Arc(self.end, self.start, self.centre, not self.clockwise)
 
     def shifted(self, by: Point2) -> Arc:
-        """The same arc at another place."""
+        """The same arc, transformed."""
         return Arc(_sum(self.start, by), _sum(self.end, by), _sum(self.centre, by), self.clockwise)
 
     def row(self) -> list[float]:

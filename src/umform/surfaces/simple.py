@@ -45,7 +45,7 @@ class Plane(Tool):
 
 @dataclass(frozen=True)
 class Cylinder(Tool):
-    """Round bar of endless length, or with ``inside`` the space around a bore.
+    """Infinitely long round bar, or with ``inside`` the space around a bore.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ class Cylinder(Tool):
     radius : float
         Radius.
     inside : bool
-        The sheet lies inside of the bore.
+        The sheet lies inside the bore.
 
     Examples
     --------
@@ -98,7 +98,7 @@ class Sphere(Tool):
     radius : float
         Radius.
     inside : bool
-        The sheet lies inside of the sphere.
+        The sheet lies inside the sphere.
 
     Examples
     --------

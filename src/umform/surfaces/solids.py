@@ -45,7 +45,7 @@ class Torus(Tool):
     minor: float
 
     def revolved(self) -> Revolved:
-        """The circle that is turned."""
+        """The circle that is revolved."""
         if not positive(self.minor, "Torus.minor") < positive(self.major, "Torus.major"):
             raise InvalidValue(
                 "a ring must have a hole",
@@ -100,7 +100,7 @@ class Box(Tool):
         return _core.rounded_box(point(self.centre, "Box.centre"), axes, [float(c) for c in core], float(self.radius))
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
-        """Eighths of a sphere, drawn apart; what stretches between them are the edges and faces."""
+        """Octants of a sphere, moved apart; edges and faces fill the gaps."""
         axes, core = self._frame()
         step = 2.0 * math.acos(max(1.0 - 0.5 * chord / self.radius, 0.5)) if self.radius else math.pi
         parts = math.ceil(0.5 * math.pi / step)
@@ -121,7 +121,7 @@ class Box(Tool):
         return grid(np.array(self.centre) + np.concatenate([-middle, belts, middle]) @ axes)
 
     def _frame(self) -> tuple[Floats, Floats]:
-        """Rows of its directions, and half of the box inside of the roundings."""
+        """Rows of its directions, and half-lengths of the box without the roundings."""
         x, y = right_angle(self.x, self.y, "Box")
         half = np.array([0.5 * positive(length, "Box.size", "size") for length in point(self.size, "Box.size")])
         if not_negative(self.radius, "Box.radius") > half.min() * (1.0 + 1e-12):

@@ -26,14 +26,14 @@ def read_stl(path: str | Path, weld: float = 0.0, scale: float = 1.0) -> Triangl
     path : str or Path
         The file, binary or text, read by meshio.
     weld : float
-        Corners nearer than this are one point; 0 stands for 1e-6 of the size of the surface.
+        Corners nearer than this are merged; 0 means 1e-6 of the size of the surface.
     scale : float
         Factor on all coordinates.
 
     Returns
     -------
     Triangles
-        Those that are no lines after the welding.
+        Triangles that are not degenerate after welding.
 
     Raises
     ------
@@ -92,14 +92,14 @@ def _read(path: Path) -> tuple[Floats, Ids]:
 
 
 def welded(points: Floats, triangles: Ids, near: float) -> tuple[Triangles, NDArray[np.bool_]]:
-    """Points nearer to each other than a distance made one.
+    """Merge points nearer to each other than a distance.
 
     Returns
     -------
     surface : Triangles
-        The means of such points, and the triangles that have three corners still.
+        The means of such points, and the triangles that still have three corners.
     kept : ndarray of bool, shape (m,)
-        Which ones these are.
+        Mask of these triangles.
     """
     means, label = merged(points, near)
     ids = label[triangles]

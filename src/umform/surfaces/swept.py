@@ -1,4 +1,4 @@
-"""Profiles made into tools: drawn out along an axis, or turned about one."""
+"""Tools from profiles: extruded along an axis, or revolved about one."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _JOINED, _ENDLESS, _ON_AXIS = _core.ProfileEnd.joined, _core.ProfileEnd.endless,
 
 @dataclass(frozen=True)
 class Extruded(Tool):
-    """A profile drawn out endlessly at right angles to its plane. eq. (4.25)
+    """A profile extruded to infinity normal to its plane. eq. (4.25)
 
     Parameters
     ----------
@@ -30,8 +30,8 @@ class Extruded(Tool):
     origin : tuple of float
         Where the origin of the profile lies.
     x, y : str or tuple of float
-        The two directions of the profile, at right angles; by default it stands in the xz-plane and the tool goes
-        along y.
+        The two directions of the profile, at right angles; by default the section lies in the xz-plane and the tool
+        extends along y.
 
     Examples
     --------
@@ -72,13 +72,13 @@ class Extruded(Tool):
 
 @dataclass(frozen=True)
 class Revolved(Tool):
-    """A profile turned about an axis: its x is the distance to the axis, its y goes along the axis. eq. (4.26)
+    """A profile revolved about an axis: its x is the distance to the axis, its y lies along the axis. eq. (4.26)
 
     Parameters
     ----------
     profile : Profile
         The meridian, at x >= 0. An open one may begin or end on the axis x = 0; elsewhere it begins and ends with a
-        line that goes on for ever. A closed one may have one line on the axis, which is no surface.
+        line that extends to infinity. A closed one may have one line on the axis, which is no surface.
     origin : tuple of float
         Where the origin of the profile lies.
     axis : str or tuple of float
@@ -122,7 +122,7 @@ class Revolved(Tool):
         return grid(np.array(self.origin) + curve[:, None, :1] * ring + curve[:, None, 1:] * axis)
 
     def _meridian(self) -> tuple[Profile, _core.ProfileEnd, _core.ProfileEnd]:
-        """What of the profile is a surface, and what its two ends do."""
+        """The segments that are surfaces, and the type of both ends."""
         near = 1e-12 * self.profile.size
         segments = [_snapped(segment, near) for segment in self.profile.segments]
         for i, segment in enumerate(segments):
@@ -144,7 +144,7 @@ class Revolved(Tool):
         return Profile(segments[k + 1 :] + segments[:k], closed=False), _ON_AXIS, _ON_AXIS
 
     def _open_meridian(self, segments: list[Segment]) -> tuple[Profile, _core.ProfileEnd, _core.ProfileEnd]:
-        """Each end on the axis, or a line that goes on for ever away from it."""
+        """Check that each end is on the axis, or a line to infinity away from it."""
         start = _ON_AXIS if segments[0].start[0] == 0.0 else _ENDLESS
         end = _ON_AXIS if segments[-1].end[0] == 0.0 else _ENDLESS
         outwards = -segments[0].tangents()[0][0], segments[-1].tangents()[1][0]
@@ -176,7 +176,7 @@ def refuse_endless_arcs(first: Segment, last: Segment, where: str) -> None:
 
 
 def _snapped(segment: Segment, near: float) -> Segment:
-    """Ends and centre exactly on the axis if they lie there to round-off."""
+    """Move ends and centre exactly onto the axis if they are there up to round-off."""
 
     def snap(at: Point2) -> Point2:
         return (0.0, at[1]) if abs(at[0]) <= near else at
@@ -187,7 +187,7 @@ def _snapped(segment: Segment, near: float) -> Segment:
 
 
 def _refuse_beyond_axis(segment: Segment, near: float, where: str) -> None:
-    """No point at x < 0, the leftmost one of an arc neither."""
+    """Reject points at x < 0, including the leftmost one of an arc."""
     least = min(segment.start[0], segment.end[0])
     if isinstance(segment, Arc) and -segment.middle[0] >= math.cos(0.5 * segment.angle):
         least = min(least, segment.centre[0] - segment.radius)

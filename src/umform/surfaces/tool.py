@@ -1,4 +1,4 @@
-"""What all tools have in common: a kernel, and copies at other places."""
+"""Base of all tools: the kernel's surface, and transformed copies."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Surface(Protocol):
 
 
 class Tool(ABC):
-    """A rigid tool that can be placed anew and drawn."""
+    """A rigid tool that can be transformed and drawn."""
 
     @abstractmethod
     def kernel(self) -> _core.Surface:
@@ -64,7 +64,7 @@ class Tool(ABC):
         return self.kernel().gap(points)
 
     def moved(self, translation: Point = (0.0, 0.0, 0.0), rotation: Point = (0.0, 0.0, 0.0)) -> Placed:
-        """The same tool, turned about the origin and then shifted.
+        """The same tool, rotated about the origin and then shifted.
 
         Parameters
         ----------
@@ -81,24 +81,24 @@ class Tool(ABC):
         Parameters
         ----------
         normal : str or tuple of float
-            Direction across the mirror.
+            Normal of the mirror plane.
         point : tuple of float
-            A point of the mirror.
+            A point of the mirror plane.
         """
         return _mirrored(self, normal, point)
 
     def offset(self, distance: float) -> Offset:
-        """The tool grown by a distance on all sides, or made smaller by a negative one.
+        """The tool offset outward by a distance, or inward by a negative one.
 
         Parameters
         ----------
         distance : float
-            How far its surface goes outward. Edges become round as it grows, concave radii below it vanish.
+            Offset of its surface. Convex edges become round, concave radii below the distance vanish.
         """
         return Offset(self, distance)
 
     def counterpart(self, thickness: float) -> Offset:
-        """All beyond a sheet that lies on the tool: the punch of a die.
+        """The region beyond a sheet that lies on the tool: the punch for a die.
 
         Parameters
         ----------
@@ -122,21 +122,21 @@ class Tool(ABC):
         Triangles
             Points and triangles, counter-clockwise from outside of the tool.
         """
-        from umform.surfaces.triangles import inside_of  # knows the shapes of tools
+        from umform.surfaces.triangles import inside_of  # imports the shapes of tools
 
         return inside_of(self.facets, box, chord)
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
         """Triangles of the surface that cover at least the ball about ``centre`` with the radius ``reach``.
 
-        Tools that know their shape give their own; of any other the distance is sampled.
+        Tools of known shape have their own method; for any other the distance is sampled.
 
         Raises
         ------
         InvalidValue
             If the distance cannot be sampled.
         """
-        from umform.surfaces.sampled import sampled  # most tools do without
+        from umform.surfaces.sampled import sampled  # imported late: few tools need it
 
         return sampled(self.kernel().gap, centre, reach, chord)
 
@@ -178,7 +178,7 @@ class Placed(Tool):
         return _core.placed(self.tool.kernel(), Q, point(self.shift, "Placed.shift"))
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
-        """Those of the tool, placed; a mirror turns them over."""
+        """Those of the tool, transformed; a reflection reverses their order."""
         if not isinstance(self.tool, Tool):
             return super().facets(centre, reach, chord)  # by samples
         Q, c = np.array(self.matrix), np.array(self.shift)
@@ -189,9 +189,9 @@ class Placed(Tool):
 
 @dataclass(frozen=True)
 class Offset(Tool):
-    """What a tool gives at a distance from its surface. eq. (4.172)
+    """A tool offset from another one. eq. (4.172)
 
-    Made by :meth:`Tool.offset` and :meth:`Tool.counterpart`; exact as far as the distance to the tool is.
+    Made by :meth:`Tool.offset` and :meth:`Tool.counterpart`; as exact as the distance to the tool.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ class Offset(Tool):
     distance : float
         Distance of the new surface from that of the tool, positive outward.
     other_side : bool
-        The solid is what lies beyond the new surface.
+        The solid is the region beyond the new surface.
     """
 
     tool: Surface
@@ -220,7 +220,7 @@ class Offset(Tool):
         return _core.offset(self.tool.kernel(), float(self.distance), -1 if self.other_side else 1)
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
-        """Those of the tool along its normals, without what is nearer to another part of it."""
+        """Those of the tool moved along its normals, except parts that are nearer to another part of it."""
         if not isinstance(self.tool, Tool):
             return super().facets(centre, reach, chord)  # by samples
         own = self.tool.facets(centre, reach + abs(self.distance), chord)
@@ -231,7 +231,7 @@ class Offset(Tool):
 
 
 def _moved(tool: Surface, translation: Point, rotation: Point) -> Placed:
-    """A tool that is turned by a rotation vector about the origin and then shifted."""
+    """A tool rotated by a rotation vector about the origin and then shifted."""
     return _after(tool, rotation_matrix(point(rotation, "rotation")), np.array(point(translation, "translation")))
 
 
@@ -243,7 +243,7 @@ def _mirrored(tool: Surface, normal: Direction, at: Point) -> Placed:
 
 
 def _after(tool: Surface, Q: Floats, c: Floats) -> Placed:
-    """Placing a placed tool makes one placed tool."""
+    """Combine two transformations to one."""
     if isinstance(tool, Placed):
         c = Q @ np.array(tool.shift) + c
         Q = Q @ np.array(tool.matrix)

@@ -1,4 +1,4 @@
-"""Sizes of elements of a flat blank that follow the curvature of its tools, of any shape. docs/theory, eq. (5.69)"""
+"""Element sizes of a flat blank from the curvature of any tools. docs/theory, eq. (5.69)"""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from umform.surfaces.tool import Surface
 
 Floats = NDArray[np.float64]
 
-#: Steps along a line towards a tool; distance that counts as on it, over the size of the blank.
+#: Steps along a line towards a tool; distance that counts as contact, relative to the size of the blank.
 _STEPS, _ON = 300, 1e-6
-#: How often the height is doubled at which the lines begin.
+#: How often the initial height of the lines is doubled.
 _DOUBLINGS = 20
 #: Lines of the map along the longer side of the blank.
 _LINES = 121
@@ -32,7 +32,7 @@ class ToolSizes:
     x, y : ndarray
         Lines of the map.
     radius : ndarray, shape (x, y)
-        Least radius of the middle of the sheet on the tools that metal from there goes over; infinite where there is
+        Smallest radius of the mid-surface on the tools over which this part of the sheet moves; infinite where there is
         none.
     size : ndarray, shape (x, y)
         Sizes.
@@ -47,11 +47,11 @@ class ToolSizes:
     turn: float
 
     def __call__(self, x: float, y: float) -> float:
-        """Size at a place, linear between the lines of the map; beyond the map that of its border."""
+        """Size at a place, linear between the lines of the map; outside the map the size at its border."""
         return float(_between(self.x, self.y, self.size, np.array([[x, y]]))[0])
 
     def turns(self, mesh: Mesh) -> Floats:
-        """Angle in degrees that each element of a blank turns over the radius there, by its longest side; (cells,)."""
+        """Largest angle in degrees by which each element of a blank turns over the local radius; (cells,)."""
         corners = mesh.points[mesh.connectivity[:, [0, 1, 2, 3]], :2]
         sides = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1)
         bend = _between(self.x, self.y, 1.0 / self.radius, corners.mean(axis=1))
@@ -80,12 +80,12 @@ def tool_sizes(
     growth: float = 1.5,
     smallest: float = 0.0,
 ) -> ToolSizes:
-    """Sizes of elements of a flat blank: none turns more than an angle over the convex radii of its tools. eq. (5.69)
+    """Element sizes of a flat blank that limit the angle of an element over the convex radii of its tools. eq. (5.69)
 
-    The tools travel along z. Seen along their way, each place of the blank faces one place of each tool; its greatest
-    principal curvature gives the radius: the greatest eigenvalue of the Hessian of the signed distance, as its mean
-    over the thickness of the sheet, by differences of the normals, since the curvature of triangles jumps. Concave
-    radii do not count: the sheet lies on the convex ones of the other tool.
+    The tools travel along z. Along z, each place of the blank faces one place of each tool; the largest principal
+    curvature there gives the radius. It is the largest eigenvalue of the Hessian of the signed distance, averaged over
+    the thickness of the sheet by differences of normals, because the curvature of triangulations is discontinuous.
+    Concave radii do not count: the sheet lies on the convex radii of the other tool.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def tool_sizes(
     largest : float
         Largest size of an element.
     flow : float
-        Way that metal slides over the tools: places nearer than this to a radius have its sizes too.
+        Sliding distance over the tools: places nearer than this to a radius have its sizes too.
     growth : float
         Largest ratio of the sizes of neighbours farther away.
     smallest : float
@@ -139,7 +139,7 @@ def tool_sizes(
             bend[on] = np.maximum(bend[on], _curvature(tool, at, 0.5 * thickness))
     with np.errstate(divide="ignore"):
         radius = np.where(bend > 0.0, 1.0 / bend + 0.5 * thickness, np.inf)
-    flat = 2.0 * math.degrees(1.0) * largest / turn  # radii that elements of the largest size resolve anyway
+    flat = 2.0 * math.degrees(1.0) * largest / turn  # radii that the largest size resolves
     radius[radius > flat] = np.inf
     radius = radius.reshape(len(x), len(y))
     around, size = _spread((x[1] - x[0], y[1] - y[0]), radius, math.radians(turn), flow, math.log(growth), largest)
@@ -168,7 +168,7 @@ def _lines(low: Floats, high: Floats) -> tuple[Floats, Floats]:
 def _first_met(
     tool: Surface, places: Floats, side: float, reach: float, where: str
 ) -> tuple[Floats, NDArray[np.int64]]:
-    """Where lines along z first meet a tool from one side, and which of them do."""
+    """Heights at which lines along z first meet a tool from one side, and a mask of those that do."""
     kernel = tool.kernel()
 
     def gap(which: NDArray[np.int64], z: Floats) -> Floats:
@@ -200,7 +200,7 @@ def _first_met(
 
 
 def _beyond(level: Callable[[float], Floats], reach: float, *, endless: bool = False) -> float:
-    """A height beyond a tool: farther on no place comes nearer to it; or those inside of an endless one stay there."""
+    """A height beyond a tool: distances no longer decrease beyond it, or stay zero inside an infinite tool."""
     height, near, walled = reach, level(reach), 0.0
     for _ in range(_DOUBLINGS):
         height *= 2.0
@@ -210,13 +210,13 @@ def _beyond(level: Callable[[float], Floats], reach: float, *, endless: bool = F
         if (far >= near).all() if free.all() else endless and stay:
             return height
         if not walled and stay and free.any():
-            walled = height  # between walls that may have no end
+            walled = height  # between walls that may be infinite
         near = far
     return walled or height
 
 
 def _curvature(tool: Surface, at: Floats, step: float) -> Floats:
-    """Greatest convex curvature at places on a tool: central differences of the normal along two tangents."""
+    """Largest convex curvature at places on a tool: central differences of the normal along two tangents."""
     if len(at) == 0:
         return np.empty(0)
     kernel = tool.kernel()
@@ -237,7 +237,7 @@ def _curvature(tool: Surface, at: Floats, step: float) -> Floats:
 def _spread(
     steps: tuple[float, float], radius: Floats, turn: float, flow: float, growth: float, largest: float
 ) -> tuple[Floats, Floats]:
-    """Least radius within the flow, and sizes that grow from there; radii that differ by a twentieth go together."""
+    """Smallest radius within the sliding distance, and sizes that grow from there; similar radii (5 %) are merged."""
     from scipy.ndimage import distance_transform_edt  # slow to import
 
     around, size = radius.copy(), np.minimum(turn * radius, largest)

@@ -45,7 +45,7 @@ class Triangles:
 
 
 def grid(points: Floats) -> Triangles:
-    """Two triangles for each cell of a grid of points, shape (k, m, 3); seen from outside m turns left into k."""
+    """Two triangles for each cell of a grid of points, shape (k, m, 3); from outside, m turns left into k."""
     k, m, _ = points.shape
     at = np.arange(k * m).reshape(k, m)
     a, b, c, d = at[:-1, :-1].ravel(), at[:-1, 1:].ravel(), at[1:, 1:].ravel(), at[1:, :-1].ravel()
@@ -79,7 +79,7 @@ def inside_of(facets: Callable[[Floats, float, float], Triangles], box: Box3, ch
     box : tuple of two points
         Lowest and highest corner.
     chord : float
-        Largest distance to the true surface; 0 is 1/1000 of the diagonal of the box.
+        Largest distance from the true surface; 0 means 1/1000 of the diagonal of the box.
 
     Raises
     ------
@@ -105,11 +105,13 @@ def inside_of(facets: Callable[[Floats, float, float], Triangles], box: Box3, ch
 
 
 def _cut(soup: Floats, height: Floats) -> Floats:
-    """What of the triangles, shape (m, 3, 3), lies where the height at their corners, shape (m, 3), is not negative."""
+    """Clip triangles, shape (m, 3, 3), to the region where the height at their corners, shape (m, 3), is not
+    negative.
+    """
     inside = height >= 0.0
     count = inside.sum(axis=1)
     parts = [soup[count == 3]]
-    for kept in (1, 2):  # turn the odd corner to the front
+    for kept in (1, 2):  # rotate the odd corner to the front
         chosen = count == kept
         first = (inside[chosen] == (kept == 1)).argmax(axis=1)
         order = (first[:, None] + np.arange(3)) % 3
@@ -127,7 +129,7 @@ def _pair_of(quad: tuple[Floats, Floats, Floats, Floats]) -> list[Floats]:
 
 
 def _welded(soup: Floats, near: float) -> Triangles:
-    """Corners that coincide made one point; triangles of no area left out."""
+    """Merge coincident corners; drop degenerate triangles."""
     keys = np.round(soup.reshape(-1, 3) / near).astype(np.int64)
     _, first, ids = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     triangles = ids.reshape(-1, 3)

@@ -1,4 +1,4 @@
-"""Tools of triangles: a smooth surface through their corners."""
+"""Tools from triangles: a smooth surface through their corners."""
 
 from __future__ import annotations
 
@@ -97,8 +97,8 @@ class Triangulated(Tool):
     ) -> Triangulated:
         """A tool from the triangles of an STL file.
 
-        Such a file does not hold the true surface: normals are estimated from the triangles. Prefer a STEP file if
-        there is one.
+        The file does not hold the true surface: normals are estimated from the triangles. Prefer a STEP file if there
+        is one.
 
         Parameters
         ----------
@@ -131,7 +131,7 @@ class Triangulated(Tool):
 
     @cached_property
     def arrow(self) -> float:
-        """Largest distance of the smooth surface from the triangles: what the tessellation has cut off, about."""
+        """Largest distance of the smooth surface from the triangles: about the error of the tessellation."""
         n = self.surface.area_vectors
         n = np.repeat(n / np.linalg.norm(n, axis=1, keepdims=True), 3, axis=0)
         beside = self.patches.at(_SAMPLES) - self.patches.control[:, None, 0]
@@ -141,7 +141,7 @@ class Triangulated(Tool):
     def largest_curvature(self) -> float:
         """Largest convex curvature in the middles of the thirds of all triangles; infinite with a sharp edge.
 
-        A sheet is bent around one over it. Concave edges do not count.
+        A sheet bends over convex curvature. Concave edges do not count.
         """
         if self._has_convex_edge():
             return math.inf
@@ -181,7 +181,7 @@ class Triangulated(Tool):
         return {name: value for name, value in self.__dict__.items() if name != "_kernel"}  # rebuilt on demand
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
-        """Flat triangles of the patches, as small as the chord error asks for."""
+        """Flat triangles of the patches, within the chord error."""
         del centre, reach
         parts = math.ceil(math.sqrt(float(self.patches.bulge().max()) / chord)) if chord > 0.0 else 1
         return self.patches.facets(min(max(parts, 1), 16))

@@ -22,14 +22,14 @@ GapFunction = Callable[[Floats], tuple[ArrayLike, ArrayLike, ArrayLike]]
 
 @dataclass(frozen=True)
 class UserSurface(Tool):
-    """A tool from a function of your own.
+    """A tool from a Python function.
 
     Parameters
     ----------
     function : callable
         Takes positions (n, 3) and returns the signed distance (n,), negative inside the tool, the normal (n, 3) out of
         the tool and the Hessian of the distance (n, 3, 3). It is called once for all contact points of a pair. Where
-        the function is not a distance but close to one (a scaled level set), gap and pressure are scaled with it.
+        function is not a distance but close to one (a scaled level set), gap and pressure are scaled with it.
         :func:`check_surface` compares normal and Hessian with differences.
     name : str
         For messages and reports.
@@ -90,7 +90,7 @@ class UserSurface(Tool):
         return arrays[0], arrays[1], arrays[2]
 
     def facets(self, centre: Floats, reach: float, chord: float) -> Triangles:
-        """Triangles from samples of the function, which may say NaN away from the tool."""
+        """Triangles from samples of the function, which may return NaN away from the tool."""
         return sampled(self.function, centre, reach, chord)
 
     def kernel(self) -> _core.Surface:

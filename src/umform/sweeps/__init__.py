@@ -1,4 +1,4 @@
-"""Sweeps: a deck run over values of some of its keys, in processes, with one table and one plot of all jobs."""
+"""Sweeps: run a deck over values of some of its keys, in parallel, with one table and one plot."""
 
 from umform.sweeps.study import Sweep, sweep
 

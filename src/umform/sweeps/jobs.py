@@ -1,4 +1,4 @@
-"""Jobs of a sweep: a deck, a folder and a fingerprint each; and running one of them, wherever that is."""
+"""Jobs of a sweep: deck, folder and fingerprint; and running a job in any process."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from umform.io.tables import write_json
 from umform.run import Result
 from umform.sweeps.measures import Function, Record, number_of, springback, stats
 
-#: What is kept of a job in its folder.
+#: Record of a job in its folder.
 RECORD = "job.json"
-#: What a job does not write unless it is asked for: files for the eye.
+#: Output that a job omits by default: pictures and pages.
 _NUMBERS_ONLY = {"output.frames": 1, "output.vtkhdf": False, "output.report": False, "output.pictures": False}
 _UNLOADING = ("release", "free")
 
@@ -37,13 +37,13 @@ class Job:
     deck : Deck
         The deck with its changes.
     varied : dict of str to object
-        What is varied, by the names of the sweep.
+        The varied values, by the names of the sweep.
     folder : Path
-        Where its files go; its name follows from the values and from all that the deck says.
+        Folder of its files; its name depends on the values and on the whole deck.
     functions : tuple of callable
-        Measures of the user.
+        User-defined measures.
     force : bool
-        Whether it runs in spite of numbers that cannot be meant.
+        Whether it runs in spite of numbers that are certainly wrong.
     """
 
     deck: Deck
@@ -53,7 +53,7 @@ class Job:
     force: bool = False
 
     def record(self) -> Record | None:
-        """What is kept of the job, if it was finished with all the functions that are wanted."""
+        """Record of the job, if it was finished with all requested functions."""
         try:
             kept: Record = json.loads((self.folder / RECORD).read_text(encoding="utf-8"))
             missing = {function.__name__ for function in self.functions} - set(kept["functions"])
@@ -65,12 +65,12 @@ class Job:
 def job(
     deck: Deck, changes: Mapping[str, Any], varied: Mapping[str, Any], folder: Path, *, files: bool, **options: Any
 ) -> Job:
-    """The job of some values.
+    """The job for some values.
 
     Parameters
     ----------
     deck : Deck
-        The deck that is varied.
+        The deck to vary.
     changes : mapping of str to object
         Other values of some of its keys.
     varied : mapping of str to object
@@ -78,14 +78,14 @@ def job(
     folder : Path
         The folder of all jobs.
     files : bool
-        Whether all files that the deck asks for are written.
+        Whether to write all files that the deck asks for.
     **options
         See :class:`Job`.
 
     Raises
     ------
     DeckError
-        With all that is wrong with the deck.
+        With all mistakes in it.
     """
     source = deck.source
     all_changes = {**source.changes, **changes, **({} if files else _NUMBERS_ONLY)}
@@ -102,14 +102,14 @@ def run_numbered(task: tuple[int, Job]) -> tuple[int, Record]:
 
 
 def run_job(job: Job) -> Record:
-    """Run a job, or take it up where it was killed, and keep what came of it in its folder.
+    """Run or resume a job, and keep its record in its folder.
 
     Raises
     ------
     KeyboardInterrupt
         At Ctrl-C; the checkpoint stays.
     Exception
-        Anything unexpected, such as a full disk: then nothing is kept, and the job runs again next time.
+        Anything unexpected, such as a full disk: then no record is kept, and the job runs again next time.
     """
     start = time.perf_counter()
     try:
@@ -146,7 +146,7 @@ def record_of(outcome: str, reason: BaseException | str) -> dict[str, Any]:
 
 
 def _outcome(job: Job) -> running.Outcome:
-    """What came of the run of a job, from its checkpoint on if there is one that can be used."""
+    """Outcome of the run of a job, from its checkpoint if there is a valid one."""
     checkpoint = job.folder / CHECKPOINT
     if checkpoint.is_file():
         try:
@@ -159,7 +159,7 @@ def _outcome(job: Job) -> running.Outcome:
 
 
 def _numbers(job: Job, result: Result) -> dict[str, Any]:
-    """All numbers of a finished job that a measure can be."""
+    """All numbers of a finished job that may become measures."""
     steps = [step.kind for step in job.deck.contents.steps]
     unloading = next((number for number, kind in enumerate(steps, 1) if kind in _UNLOADING), None)
     return {
@@ -177,7 +177,7 @@ def _word(value: Any) -> str:
 
 
 def _fingerprint(deck: Deck) -> str:
-    """Digest of all that the numbers of a deck follow from: its values, the files that it reads, the version."""
+    """Digest of everything that affects the numbers of a deck: its values, the files that it reads, the version."""
     data = _without_whole_numbers({key: value for key, value in deck.source.data.items() if key != "title"})
     check = hashlib.sha256(json.dumps([umform.__version__, data], sort_keys=True, default=str).encode())
     for text in sorted(set(_texts(data))):
@@ -189,7 +189,7 @@ def _fingerprint(deck: Deck) -> str:
 
 
 def _without_whole_numbers(data: Any) -> Any:
-    """Data whose whole numbers are floats: 1 and 1.0 are one value."""
+    """Data with integers as floats: 1 and 1.0 are the same value."""
     if isinstance(data, Mapping):
         return {key: _without_whole_numbers(entry) for key, entry in data.items()}
     if isinstance(data, list | tuple):

@@ -1,4 +1,4 @@
-"""Names of the keys that a sweep varies: in full as in --set, or as short as they are unambiguous."""
+"""Names of the varied keys: in full as in --set, or the shortest unambiguous part."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from umform.deck.errors import slip
 from umform.deck.settings import Output, Solution
 from umform.errors import InvalidValue
 
-#: Names of the material of a deck, whose values may be sheet metals of the library.
+#: Name of the material of a deck, whose values may be sheet metals of the library.
 _MATERIAL = ("material", "material.library")
-#: Keys that a deck may leave out, and that have a short name nevertheless.
+#: Keys that a deck may omit and that nevertheless have a short name.
 _OPTIONAL = tuple(
     f"{table}.{key}"
     for table, part in (("element", ElementPart), ("solution", Solution), ("output", Output))
@@ -22,12 +22,12 @@ _OPTIONAL = tuple(
 
 
 def find_key(name: str, data: Mapping[str, Any]) -> str:
-    """The key of a deck that a name stands for.
+    """The key of a deck for a name.
 
     Parameters
     ----------
     name : str
-        In full, as ``mesh.thickness`` or ``steps.0.to.stroke``; or the last parts of it, as ``thickness``.
+        In full, as ``mesh.thickness`` or ``steps.0.to.stroke``; or its last parts, as ``thickness``.
     data : mapping
         The deck.
 
@@ -65,12 +65,12 @@ def find_key(name: str, data: Mapping[str, Any]) -> str:
 
 
 def is_text(key: str, data: Mapping[str, Any]) -> bool:
-    """Whether a key has text as its value in a deck, or names a metal."""
+    """Whether the value of a key in a deck is text, or the key names a metal."""
     return key in _MATERIAL or isinstance(value_of(key, data), str)
 
 
 def value_of(key: str, data: Any) -> Any:
-    """What stands in a deck under a key; None if nothing does."""
+    """Value of a key in a deck; None if it is missing."""
     for part in key.split("."):
         if isinstance(data, Mapping):
             data = data.get(part)
@@ -82,7 +82,7 @@ def value_of(key: str, data: Any) -> Any:
 
 
 def change(key: str, value: Any, data: Mapping[str, Any]) -> tuple[str, Any]:
-    """The change of a deck that gives a key a value; the name of a metal takes the place of any other law."""
+    """The change of a deck that sets a key to a value; the name of a metal replaces any other law."""
     if key in _MATERIAL and isinstance(value, str):
         rolling = value_of("material.rolling", data)
         return "material", {"library": value} | ({} if rolling is None else {"rolling": rolling})
@@ -90,7 +90,7 @@ def change(key: str, value: Any, data: Mapping[str, Any]) -> tuple[str, Any]:
 
 
 def _keys(data: Any, before: str = "") -> Iterator[str]:
-    """All keys of a deck in full, entries of lists by number."""
+    """All keys of a deck in full, entries of lists by index."""
     entries: Any = ()
     if isinstance(data, Mapping):
         entries = data.items()

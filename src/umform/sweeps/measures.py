@@ -1,4 +1,4 @@
-"""Measures of a job: numbers of its history, springback, and functions of the user."""
+"""Measures of a job: numbers of its history, springback, and user-defined functions."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from umform.report.symmetry import mirrors
 from umform.results.forming import lay_by_best_fit
 from umform.run import Result
 
-#: A function of the user: a number from a result. Other processes must be able to import it.
+#: A user-defined function: a number from a result. Other processes must be able to import it.
 Function = Callable[[Result], float]
-#: What is kept of a job, as JSON.
+#: Record of a job, as JSON.
 Record = Mapping[str, Any]
 
 _SPRINGBACK = "springback"
-#: Columns of the history whose last values say nothing of a part.
+#: Columns of the history whose last values do not characterise a part.
 _COUNTS = ("step", "time", "iterations")
 _STATS: dict[str, Callable[[NDArray[np.float64]], float]] = {
     "last": lambda column: float(column[-1]),
@@ -40,9 +40,9 @@ class Measure:
     Attributes
     ----------
     name : str
-        Its name there.
+        Its name in the table.
     column, stat : str
-        Column of the history and what is taken of it; empty for springback and for functions.
+        Column of the history and its statistic; empty for springback and for functions.
     """
 
     name: str
@@ -51,12 +51,12 @@ class Measure:
 
     @classmethod
     def of(cls, wanted: str | Function) -> Measure:
-        """The measure that is written as ``punch_force:max``, ``punch_force`` or ``springback``, or a function.
+        """The measure for ``punch_force:max``, ``punch_force`` or ``springback``, or a function.
 
         Raises
         ------
         InvalidValue
-            An unknown word behind the colon.
+            An unknown word after the colon.
         """
         if not isinstance(wanted, str):
             return cls(wanted.__name__)
@@ -127,7 +127,7 @@ def stats(result: Result) -> dict[str, dict[str, float | None]]:
 
 
 def springback(result: Result, unloading: int) -> float | None:
-    """Largest way of a node by unloading, after the part was laid by the best fit into its loaded shape. eq. (5.67)
+    """Largest displacement of a node by unloading, after the best fit of the part into its loaded shape. eq. (5.67)
 
     Parameters
     ----------
@@ -139,7 +139,8 @@ def springback(result: Result, unloading: int) -> float | None:
     Returns
     -------
     float or None
-        In units of length. Of half a part, or a quarter, the whole part is laid. None if nothing was loaded before.
+        In units of length. For a modelled half or quarter, the whole part is fitted. None without a loading step
+        before.
     """
     steps = [int(result.rows[frame.number]["step"]) for frame in result.frames]
     before = [number for number, step in enumerate(steps) if 0 < step < unloading]
@@ -158,5 +159,5 @@ def _finite(value: float) -> float | None:
 
 
 def number_of(function: Function, result: Result) -> float | None:
-    """What a function of the user says of a result."""
+    """Value of a user-defined function for a result."""
     return _finite(float(function(result)))

@@ -1,4 +1,4 @@
-"""The plan of a sweep: its keys, its jobs, those that cannot run, and the rows of its table."""
+"""The plan of a sweep: its keys, its jobs, refused jobs, and the rows of its table."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ from umform.sweeps.values import MOST_VALUES, Written, read_values
 
 @dataclass(frozen=True)
 class Plan:
-    """All jobs of a sweep, by number from 0.
+    """All jobs of a sweep, by index from 0.
 
     Attributes
     ----------
     varied : list of str
-        Names of what is varied.
+        Names of the varied keys.
     values : list of dict
         Values by these names, for each job.
     jobs : dict of int to Job
-        Those whose deck can be read.
+        Jobs with a valid deck.
     refused : dict of int to Record
-        The others.
+        Records of the others.
     """
 
     varied: list[str]
@@ -43,14 +43,14 @@ class Plan:
         return len(self.values)
 
     def known(self, *, retry: bool, force: bool) -> dict[int, Record]:
-        """Records of the jobs that need not run: they are done, or would end in the same way again.
+        """Records of the jobs that need not run: they are done, or would fail again.
 
         Parameters
         ----------
         retry : bool
-            Whether jobs that are not done run again.
+            Whether to run jobs again that are not done.
         force : bool
-            Whether jobs that were refused run again.
+            Whether to run refused jobs again.
         """
         finished = {"done"} | (set() if retry else {"stopped"}) | (set() if retry or force else {"refused"})
         kept = {number: job.record() for number, job in self.jobs.items()}
@@ -59,7 +59,7 @@ class Plan:
         }
 
     def alike(self, number: int) -> list[int]:
-        """Jobs that are the same as one, itself included: a value may be given twice."""
+        """Jobs that are equal to one, itself included: a value may be given twice."""
         return self._by_folder[self.jobs[number].folder]
 
     @cached_property
@@ -75,7 +75,7 @@ class Plan:
         Raises
         ------
         InvalidValue
-            A measure that is not there.
+            An unknown measure.
         """
         done = record["outcome"] == "done"
         found = {measure.name: measure.value(record) if done else None for measure in measures}

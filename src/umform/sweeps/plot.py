@@ -12,14 +12,14 @@ from matplotlib.figure import Figure
 
 from umform.plotting import COLOURS, house_style, save
 
-#: More lines than these are not named in a legend.
+#: Largest number of lines in a legend.
 _MOST_NAMED = 12
 
 Row = Mapping[str, Any]
 
 
 def plot(rows: Sequence[Row], varied: Sequence[str], measures: Sequence[str], path: str | Path | None = None) -> Figure:
-    """Draw measures of the jobs that were done over what is varied, one panel for each.
+    """Draw measures of the finished jobs over the first varied key, one panel for each.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def plot(rows: Sequence[Row], varied: Sequence[str], measures: Sequence[str], pa
 
 
 def _abscissa(rows: Sequence[Row], varied: Sequence[str]) -> str:
-    """The first key whose values are numbers; else the first one."""
+    """The first key with numeric values; else the first one."""
     numbers = [name for name in varied if all(_is_number(row[name]) for row in rows)]
     return [*numbers, *varied][0]
 

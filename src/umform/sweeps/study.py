@@ -1,4 +1,4 @@
-"""``sweep``: run a deck over values of some of its keys; the jobs in processes, or in an executor of the user."""
+"""``sweep``: run a deck over values of some of its keys, in processes or in an executor of the user."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from umform.sweeps.plan import Plan
 
 log = logging.getLogger("umform")
-#: What is varied, what came out, and why not.
+#: Varied values, results, and causes of failures.
 Row = dict[str, Any]
 
 
@@ -33,9 +33,9 @@ class Sweep:
     Attributes
     ----------
     varied, measures : list of str
-        Names of the columns that are varied, and of those that came out.
+        Names of the varied columns, and of the results.
     rows : list of dict
-        One for each job: what is varied, ``outcome``, measures, ``warnings``, ``seconds``, ``reason``, ``folder``.
+        One for each job: varied values, ``outcome``, measures, ``warnings``, ``seconds``, ``reason``, ``folder``.
     files : list of Path
         Table and plot.
 
@@ -68,7 +68,7 @@ class Sweep:
         return columns(self.rows, self.varied, self.measures)
 
     def plot(self, path: str | Path | None = None, measures: Sequence[str] | None = None) -> Figure:
-        """Draw measures over what is varied.
+        """Draw measures over the varied keys.
 
         Parameters
         ----------
@@ -101,20 +101,20 @@ def sweep(
 ) -> Sweep:
     """Run a deck over values of some of its keys.
 
-    Each job has a folder of its own. A job that was finished is not run again, one that was killed goes on from its
-    checkpoint: call it again after an interruption, with more values, or with other measures. Processes are spawned,
-    so a script needs ``if __name__ == "__main__":``.
+    Each job has its own folder. A finished job is not run again, a killed one continues from its checkpoint: call the
+    function again after an interruption, with more values, or with other measures. Processes are spawned, so a script
+    needs ``if __name__ == "__main__":``.
 
     Parameters
     ----------
     deck : str, Path or Deck
         The deck.
     vary : mapping of str to sequence or str
-        Values by key; all combinations are run. Keys are named as in ``--set``, or by their last parts if no other key
-        ends like that. A text is a list with commas or a range with both ends: ``"0.8:1.2:0.1"``. The values of
+        Values by key; all combinations are run. Keys are named as in ``--set``, or by their last parts if these are
+        unambiguous. A text is a list with commas or a range with both ends: ``"0.8:1.2:0.1"``. The values of
         ``material`` are names of the library.
     jobs : sequence of mapping, optional
-        Values that belong together, one mapping for each job; ``vary`` multiplies them.
+        Combined values, one mapping for each job; ``vary`` multiplies them.
     changes : mapping of str to object, optional
         Other values of keys for all jobs, as ``--set`` gives them.
     measures : sequence of str or callable, optional
@@ -126,13 +126,14 @@ def sweep(
     processes : int, optional
         Jobs at a time; default: as many as processors.
     executor : concurrent.futures.Executor, optional
-        Runs the jobs in place of these processes; its workers must see the folders of deck and results.
+        Runs the jobs instead of these processes; its workers must have access to the folders of deck and results.
     files : bool
-        Whether each job writes what the deck asks for: fields, report, pictures. Else history and numbers only.
+        Whether each job writes the files that the deck asks for: fields, report, pictures. Else history and numbers
+        only.
     retry : bool
         Run jobs again that were refused or did not converge.
     force : bool
-        Run in spite of numbers that cannot be meant; jobs that were refused run again.
+        Run in spite of numbers that are certainly wrong; refused jobs run again.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
     on_job : callable
@@ -147,8 +148,9 @@ def sweep(
     ------
     InvalidValue
         A key or a measure that is unknown or ambiguous.
-    DeckError
+    An unknown or ambiguous key or measure.
         No job has a deck that can be read.
+    No job has a valid deck.
 
     Examples
     --------
@@ -194,7 +196,7 @@ def _run(
     tick: Tick,
     on_job: Callable[[Row], None],
 ) -> None:
-    """Run the jobs that have no record, and put what comes of each into the records."""
+    """Run the jobs that have no record, and add their records."""
     from umform.sweeps.jobs import record_of, run_numbered
 
     def show() -> None:
@@ -211,7 +213,7 @@ def _run(
         show()
 
     for number, record in records.items():
-        plan.row(number, record, wanted)  # refuses a measure that is not there
+        plan.row(number, record, wanted)  # refuses an unknown measure
     show()
     todo = [(n, job) for n, job in plan.jobs.items() if n not in records and n == plan.alike(n)[0]]
     run_all(

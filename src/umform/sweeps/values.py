@@ -11,7 +11,7 @@ from typing import Any
 
 from umform.errors import InvalidValue
 
-#: More values of one key than these are a slip: the number of values in place of the step between them.
+#: More values of one key are probably a mistake: the number of values instead of the step between them.
 MOST_VALUES = 10_000
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _RANGE = re.compile(rf"\s*({_NUMBER}):({_NUMBER}):({_NUMBER})\s*")
@@ -20,17 +20,17 @@ _OPENING, _CLOSING = "[{", "]}"
 
 @dataclass(frozen=True)
 class Written:
-    """A value as it was written; whether it is a number or text depends on the key."""
+    """A value as text; whether it is a number or a word depends on the key."""
 
     text: str
 
     def value(self, *, as_text: bool) -> Any:
-        """The value: TOML where it is TOML, else the text itself.
+        """The value: parsed as TOML if possible, else the text itself.
 
         Parameters
         ----------
         as_text : bool
-            Whether the key takes text: 1.4301 is then the name of a steel, and no number.
+            Whether the key takes text: 1.4301 is then the name of a steel, not a number.
         """
         try:
             found = tomllib.loads(f"value = {self.text}")["value"]
@@ -52,7 +52,7 @@ def read_values(text: str, key: str) -> list[Written]:
     Raises
     ------
     InvalidValue
-        There is no value, one is empty, or a range does not end.
+        There is no value, one is empty, or a range is infinite.
     """
     values: list[Written] = []
     for piece in _pieces(text):
@@ -73,7 +73,7 @@ def read_values(text: str, key: str) -> list[Written]:
 
 
 def _pieces(text: str) -> Iterator[str]:
-    """Parts between commas that stand outside of brackets and quotes."""
+    """Parts between commas outside of brackets and quotes."""
     depth, quote, piece = 0, "", ""
     for letter in text:
         if quote:

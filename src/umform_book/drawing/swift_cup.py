@@ -25,9 +25,9 @@ def hill_of(metal: Metal) -> Metal:
 
 def run(page: Page) -> None:
     """Fill the page."""
-    coarse: dict[str, object] = {"turn": 30.0, "around": 8, "penalty": 1e4}
+    coarse: dict[str, object] = {"turn": 30.0, "around": 8, "penalty": 1e4, "contact_points": 2}
     if page.short:
-        coarse = {"turn": 45.0, "around": 4, "penalty": 3e3, "stroke": 5.0}
+        coarse = {"turn": 45.0, "around": 4, "penalty": 3e3, "contact_points": 2, "stroke": 5.0}
     quadratic = aa6016(exponent=2)
     cases = {
         "without directions": esaform(J2(70e3, 0.33, hardening=_VOCE), **coarse),

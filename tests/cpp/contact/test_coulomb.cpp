@@ -68,6 +68,7 @@ void check_states() {
     CHECK(stiffness > 50.0 * 0.4);
     CHECK_NEAR(first.tangential[0], -stiffness * 0.25 * 0.0484, 1e-3);
     check_tangent(rubbing, touched, state, false);
+    CHECK_NEAR(held[18], 0.0, 1e-15);  // elastic slip stores all of the work
 
     // It sticks, then slips: the traction is at its bound, against the way.
     check_tangent(rubbing, {0.06, 0.01, 1.9}, held, false);
@@ -76,7 +77,17 @@ void check_states() {
     CHECK_NEAR(std::sqrt(dot(slip.tangential, slip.tangential)), 0.3 * slip.pressure, 1e-13);
     CHECK_NEAR(dot(slip.tangential, Ball({0.30, 0.10, 1.88}).n), 0.0, 1e-14);
     CHECK(slip.tangential[0] < 0.0 && slip.tangential[1] < 0.0);
-    CHECK(after[18] > held[18]);  // friction has cost work
+    CHECK(after[18]
+          > held[18]);  // friction has cost work: that of the mean traction along the way, less what is stored
+    const double stored =
+        (dot(slip.tangential, slip.tangential) / after[19] - dot(first.tangential, first.tangential) / held[19]) / 2.0;
+    const Vec3 x = {0.30, 0.10, 1.88}, way{0.26, 0.10, -0.02};
+    const Vec3 n = Ball(x).n,
+               t_n = Carried(Pose{}, Facing({0.0, x, n, Ball(x).H, Pose{}}), first.tangential, Ball(touched).n, true)
+                         .value;
+    double work = 0.0;
+    for (int k = 0; k < 3; ++k) work -= 0.5 * (t_n[k] + slip.tangential[k]) * (way[k] - n[k] * dot(n, way));
+    CHECK_NEAR(after[18], work - stored, 1e-12);
     CHECK(after[17] > held[17]);
 
     // At rest nothing moves, and the tangent sticks.
@@ -90,6 +101,36 @@ void check_states() {
     double gone[numbers]{};
     CHECK(!at(rubbing, {0.30, 0.10, 2.1}, after, gone).held);
     CHECK(gone[1] == 0.0 && gone[8] == 0.0 && gone[17] == after[17] && gone[18] == after[18]);
+}
+
+/// Friction that fades with the distance slid: the stiffness that follows the bound falls with it.
+void check_fading() {
+    auto friction = std::make_shared<CoulombFriction>();
+    friction->pressure = {0.0}, friction->mu = {0.3}, friction->kinetic = 0.5, friction->decay = 0.05;
+    const Coulomb fading{50.0, 0.4, 0.05, friction};
+    double state[numbers]{}, held[numbers]{};
+    fading.leave({0.0, 0.0, 2.3}, state, state);
+    check_tangent(fading, {0.04, 0.0, 1.9}, state, false);
+    at(fading, {0.04, 0.0, 1.9}, state, held);
+    check_tangent(fading, {0.05, 0.01, 1.88}, held, false);
+    check_tangent(fading, {0.30, 0.10, 1.88}, held, true);
+}
+
+/// Whatever the direction of the slide, a state at the bound sticks at rest, and slips as soon as it slides on.
+void check_rest() {
+    const Coulomb rubbing = law();
+    for (int i = 0; i < 100; ++i) {
+        double state[numbers]{}, held[numbers]{}, after[numbers]{}, again[numbers]{};
+        const double angle = 0.063 * i, c = std::cos(angle), s = std::sin(angle);
+        rubbing.leave({0.0, 0.0, 1.95}, state, state);
+        at(rubbing, {0.01 * c, 0.01 * s, 1.93}, state, held);
+        const Vec3 slid{0.3 * c, 0.3 * s, 1.93 - 0.0005 * i};
+        CHECK(at(rubbing, slid, held, after).slipping);
+        CHECK(!at(rubbing, slid, after, again).slipping);
+        CHECK(!at(rubbing, slid, again, held).slipping);
+        check_tangent(rubbing, {slid[0] - 1e-4 * c, slid[1] - 1e-4 * s, slid[2]}, after, false);
+        check_tangent(rubbing, {slid[0] + 1e-4 * c, slid[1] + 1e-4 * s, slid[2]}, after, true);
+    }
 }
 
 /// A sheet and a tool that are turned together, after a slide, feel the same traction, turned: all is kept in the frame of the tool.
@@ -155,6 +196,8 @@ void check_laws() {
 
 int main() {
     check_states();
+    check_fading();
+    check_rest();
     check_frame();
     check_transport();
     check_laws();

@@ -38,6 +38,18 @@ void check_parts() {
     }
 }
 
+/// A given pressure, of a cell: the traction is along the normal, and turns with it as the place moves.
+void check_press() {
+    Reaction reaction{};
+    law.press({-0.2, x, n, H, pose}, 12.0, 0.25, nullptr, nullptr, reaction);
+    CHECK_NEAR(reaction.pressure, 3.0, 1e-15);
+    for (int k = 0; k < 3; ++k) {
+        CHECK_NEAR(reaction.tangential[k], 0.0, 0.0);
+        CHECK_NEAR(reaction.by_pressure[k], 0.25 * n[k], 1e-15);
+        for (int l = k; l < 3; ++l) CHECK_NEAR(reaction.K[k][l], -3.0 * H(k, l), 1e-15);
+    }
+}
+
 /// A law whose places remember nothing else has one number a place; laws of several places reach as far as their farthest.
 void check_wrapped() {
     ContactLawOf<Penalty> wrapped{law};
@@ -53,6 +65,7 @@ void check_wrapped() {
 int main() {
     check_pressure();
     check_parts();
+    check_press();
     check_wrapped();
     return report("contact penalty");
 }

@@ -114,6 +114,14 @@ def test_a_deck_goes_on_where_another_has_ended(drawn):
     assert result["elastic_energy"][-1] < 1e-8 * result["elastic_energy"][0]
 
 
+def test_what_was_cut_off_is_said_of_a_run_that_ends_early_too(drawn):
+    text = SECOND.replace("to = { cut = 0.0 }", "to = { cut = -1e9 }\ncuts = 0")
+    (drawn / "early.toml").write_text(text)
+    with pytest.raises(UmformError) as caught:
+        load(drawn / "early.toml").build().solve(progress=False)
+    assert any("trim 1: 2 cells are left" in event for event in caught.value.result.events)
+
+
 def test_a_third_operation_and_a_run_that_was_stopped(drawn):
     assert umform("run", drawn / "trim.toml", "--out", drawn / "trim").exit_code == 0
     third = SECOND.replace('"draw.toml"', '"trim.toml"').replace('"draw/', '"trim/')

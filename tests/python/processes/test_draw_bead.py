@@ -147,6 +147,20 @@ def test_three_meshes_are_run_and_the_finest_is_kept(drawn, monkeypatch):
     assert summary(found)[1] == ["its estimated error", "0.8", "N/mm"]  # a fifth of 100 / 25
 
 
+def test_a_mesh_that_penetrates_too_far_gives_the_finer_one_a_stiffer_penalty(drawn):
+    """Without a warning where the penetration is below half the rise of an arc over an element; else by eq. (4.191)."""
+    pairs, result = drawn.result.model.contacts, drawn.result
+    deepest = max(result[f"{pair.name}_penetration"].max() for pair in pairs)
+    assert not any("penetration" in text for text in drawn.warnings) or deepest > drawn.case.allowed
+    same = max(pair.penalty for pair in pairs)
+    finer = replace(drawn.case, elements=4.0 * drawn.case.elements)
+    assert finer.allowed == pytest.approx(max(drawn.case.size**2 / 16.0 / 16.0 / 3.0, 1.0 / 200.0))
+    wanted = 1.2 * (deepest / 4.0 / finer.allowed) ** 2
+    assert case_module.penalty_by(drawn, finer) == pytest.approx(max(1.0, wanted) * same)
+    strict = replace(drawn.case, elements=30.0)
+    assert case_module.penalty_by(replace(drawn, case=replace(strict, elements=60.0)), strict) > 1.5 * same
+
+
 def test_a_shallow_bead_has_no_walls_and_a_high_one_has():
     shallow, high = DrawBead(material=MILD, **SMALL), DrawBead(material=MILD, **SMALL | {"height": 6.0})
     assert len(shallow.profile.segments) == 3 and len(high.profile.segments) == 5

@@ -7,7 +7,7 @@ import pytest
 
 import umform as uf
 from umform.errors import NoConvergence
-from umform.results.bottoming import bottoming
+from umform.results.bottoming import bottoming, squeezed
 
 STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(strength=567.0, offset=0.0071, exponent=0.264))
 
@@ -31,6 +31,9 @@ def test_a_punch_that_squeezes_the_sheet_on_the_bottom_of_the_die_is_named():
     assert len(said) == 1 and "the tool punch bottoms at way = 3." in said[0]
     found = bottoming(result["way"], result["way_force"])
     assert 3.5 < found.at < 4.05 and found.largest == pytest.approx(-result["way_force"].min())
+    model = result.model
+    punch = next(tool for tool in model.tools if tool.name == "punch")
+    assert squeezed(model, punch, {pair: pair.found for pair in model.contacts}) > 0.8
 
 
 def test_a_run_that_cannot_go_on_keeps_what_it_has_and_says_which_tool_bottoms():
@@ -43,6 +46,20 @@ def test_a_run_that_cannot_go_on_keeps_what_it_has_and_says_which_tool_bottoms()
 
 def test_a_punch_that_bends_freely_does_not_bottom():
     assert not any("bottoms" in text for text in coined(-1.0, 15).warnings)
+
+
+def test_a_punch_that_bends_a_strip_lightly_until_it_meets_a_support_beside_it_does_not_bottom():
+    model = uf.Model(uf.mesh.strip(16.0, 1.0, 0.5, (32, 1)), material=uf.SVK(E=1e4, nu=0.0))
+    model.fix("x0")
+    model.symmetry("y0", "y")
+    model.symmetry("y1", "y")
+    roll = [uf.Cylinder((15, 0, 1.25), "y", 1.0), uf.Cylinder((12.5, 0, -2.05), "y", 1.0)]
+    punch = model.contact("upper", roll[0], penetration=0.02, name="punch")
+    model.contact("lower", roll[1], penetration=0.02, name="support")
+    way = model.drive(punch, "-z", name="way")
+    result = uf.solve(model, uf.Move(way, 2.0, steps=40), frames=0, progress=False)
+    assert bottoming(result["way"], result["way_force"]) is not None  # by the force alone
+    assert not any("bottoms" in text for text in result.warnings)
 
 
 @pytest.mark.parametrize(

@@ -189,3 +189,27 @@ def test_what_cannot_be_trimmed_is_refused(bent):
     with pytest.raises(InvalidValue, match="elsewhere than it is") as caught:
         part.model.unbalanced()
     assert "here=True" in str(caught.value)
+
+
+def plate(cells=(12, 10)):
+    """A flat plate at rest."""
+    model = uf.Model(strip(float(cells[0]), float(cells[1]), 0.5, cells, layers=2), material=STEEL)
+    model.rest()
+    return model
+
+
+def test_cells_of_a_slanting_cut_that_hang_by_an_edge_are_cut_off_too_and_named():
+    def tooth(x, y):
+        """Left of x = 8; but at y = 5.5 the cell left of it goes, and that right of it stays: it has edges only."""
+        row = (y > 5.0) & (y < 6.0)
+        return np.where(np.where(row, (x < 7.0) | ((x > 8.0) & (x < 9.0)), x < 8.0), -1.0, 1.0)
+
+    part = uf.Trim(tooth, formed=False).of(plate())
+    assert part.dropped == 2 and len(part.cells) == 2 * (80 - 1)
+    assert "2 more are cut off, which hung by an edge" in str(part)
+    assert uf.Trim(lambda x, y: x - 8.0, formed=False).of(plate()).dropped == 0
+
+
+def test_halves_that_hang_together_by_an_edge_are_refused():
+    with pytest.raises(MeshError, match="hang together by an edge or a node"):
+        uf.Trim(lambda x, y: np.where((x < 6.0) == (y < 5.0), -1.0, 1.0), formed=False).of(plate())

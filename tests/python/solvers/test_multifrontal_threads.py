@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib.util
+import subprocess
+import sys
 import threading
 from pathlib import Path
 
@@ -108,6 +110,42 @@ def test_solvers_in_several_threads_of_python():
     for worker in workers:
         worker.join()
     assert not failed
+
+
+TWO = """
+import sys, threading
+sys.path.insert(0, sys.argv[1])
+from matrices import Multifrontal, grid, np, stored
+import umform
+umform.set_threads(2)
+given = [stored(grid((14, 14, 14), 3, seed)) for seed in range(2)]
+found, start = [[], []], threading.Barrier(2)
+
+def work(k):
+    solver = Multifrontal()
+    solver.analyse(given[k][0])
+    for _ in range(3):
+        start.wait(30)
+        solver.factor(given[k][1])
+        found[k].append(solver.solve(np.ones(given[k][0].n)))
+
+workers = [threading.Thread(target=work, args=(k,)) for k in range(2)]
+[worker.start() for worker in workers]
+[worker.join() for worker in workers]
+for k, (pattern, values) in enumerate(given):
+    solver = Multifrontal()
+    solver.analyse(pattern)
+    solver.factor(values)
+    x = solver.solve(np.ones(pattern.n))
+    print(len(found[k]) == 3 and all(np.array_equal(x, other) for other in found[k]))
+"""
+
+
+def test_the_first_factorisations_of_a_process_may_be_two_at_once():
+    """BLAS is handed over once, and has buffers for the threads of both."""
+    command = [sys.executable, "-c", TWO, str(Path(__file__).parent)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+    assert done.stdout.split() == ["True", "True"], done.stderr
 
 
 def test_the_threads_of_blas_are_as_before():

@@ -142,9 +142,24 @@ def test_only_weak_pivots_are_asked_about():
     assert weak_pivot(np.array([-1e-9, 5.0]), size[:2], held) is None
     assert asked == [0]
     assert weak_pivot(np.array([1.0, 1e-9]), size[:2], lambda start: (1e-17, start)).equation == 1
-    assert weak_pivot(np.array([1.0, 1e-16]), size[:2], held).equation == 1
+    nothing = weak_pivot(np.array([1.0, 1e-16]), size[:2], held)  # refused whatever is found, which says what moves
+    assert nothing.equation == 1
+    np.testing.assert_array_equal(nothing.motion, [0.0, 1.0])
+    assert asked == [0, 1]
     assert weak_pivot(np.array([1.0, 1.0, 0.0]), size, held).equation == 2
-    assert asked == [0]
+    assert asked == [0, 1]
+
+
+def test_a_pivot_that_is_nothing_but_rounding_names_what_moves():
+    """A chain of springs that nothing holds, but for a part of 4e-16 of one of them."""
+    count = 5
+    chain = sparse.diags([2.0 * np.ones(count), -np.ones(count - 1), -np.ones(count - 1)], [0, 1, -1]).tolil()
+    chain[0, 0] = 1.0 + 4e-16
+    chain[count - 1, count - 1] = 1.0
+    with pytest.raises(SingularMatrix) as caught:
+        factored(chain.tocsr())
+    motion = caught.value.motion
+    np.testing.assert_allclose(motion / motion[0], np.ones(count), rtol=1e-6)
 
 
 def test_the_error_of_a_run_names_what_moves():
@@ -166,6 +181,38 @@ def test_the_error_of_a_run_names_what_moves():
     ) as caught:
         uf.solve(model, uf.Move(push, 1.0, steps=1, cuts=1), progress=False)
     assert "join its nodes" in str(caught.value)
+
+
+def least_resistance(size, cells, turned, clamped, monkeypatch):
+    seen = []
+    monkeypatch.setattr(multifrontal, "weak_pivot", lambda pivots, size, resistance: seen.append((pivots, resistance)))
+    monkeypatch.setattr(multifrontal, "large_solution", lambda *_: None)
+    factored(sheet(size, cells, turned, clamped))
+    pivots, resistance = seen[0]
+    return resistance(np.cos(np.arange(1.0, len(pivots) + 1.0)), 3)[0]
+
+
+@pytest.mark.parametrize("cells", [(20, 1), (60, 1)])
+@pytest.mark.parametrize("slenderness", [1e-3, 4e-4, 2e-4])
+def test_a_strip_resists_bending_by_the_fourth_power_of_its_slenderness(slenderness, cells, monkeypatch):
+    """eq. (5.80)"""
+    least = least_resistance((100.0, 1.0, 100.0 * slenderness), cells, 0.0, True, monkeypatch)
+    assert least == pytest.approx(0.26 * slenderness**4, rel=0.15)
+
+
+def test_where_bending_resists_less_than_rounding_a_mechanism_may_resist_more(monkeypatch):
+    """Sheets of t/L = 1e-4: no bound on the resistance separates those that are clamped from those that are hinged."""
+    clamped, hinged = (
+        [
+            least_resistance((100.0, width, 0.01), cells, turned, kind, monkeypatch)
+            for width, cells in ((1.0, (20, 1)), (20.0, (20, 4)))
+            for turned in (0.0, 0.1, 0.3, 1.0)
+        ]
+        for kind in (True, False)
+    )
+    assert max(*clamped, *hinged) < 2.0**-52
+    assert np.median(clamped) < max(hinged)
+    assert min(clamped) < np.median(hinged)
 
 
 def test_the_error_of_a_thin_sheet_says_that_it_needs_more_supports():

@@ -294,6 +294,20 @@ def test_turned_triangles_are_refused_with_their_places():
         Triangulated(Triangles(surface.points, surface.triangles[:, ::-1]))
 
 
+def test_a_swept_section_that_is_wider_than_its_curve_is_refused_as_folded():
+    turn, inner = np.linspace(0.0, 0.5, 6), np.array([0.0, 5.0, 12.0])
+    radius = 10.0 - inner  # of a plate along a circle of 10; its inner side lies beyond the centre
+    points = np.stack([np.outer(radius, np.cos(turn)), np.outer(radius, np.sin(turn)), np.zeros((3, 6))], axis=2)
+    at = np.arange(18).reshape(3, 6)
+    a, b, c, d = at[:-1, :-1].ravel(), at[1:, :-1].ravel(), at[1:, 1:].ravel(), at[:-1, 1:].ravel()
+    plate = Triangles(points.reshape(-1, 3), np.vstack([np.c_[a, b, c], np.c_[a, c, d]]))
+    with pytest.raises(UnfitTriangles, match=r"folded.*\n.*\n.*edges?, at \("):
+        Triangulated(plate, open=True)
+    whole = plate.triangles[[0, 1, 2, 3, 4, 10, 11, 12, 13, 14]]
+    gap = Triangulated(Triangles(plate.points, whole), open=True).gap([[7.0, 2.0, 0.5]])[0][0]
+    assert abs(gap) == pytest.approx(0.5)
+
+
 def test_other_triangles_that_are_no_surface():
     surface = cube()
     a, b, c = surface.triangles[0]

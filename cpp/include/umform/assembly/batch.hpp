@@ -9,7 +9,7 @@
 
 namespace umform {
 
-/// Elements of the lanes; behind the last of `count` it is repeated, and what comes out of its copies is not used.
+/// Elements of the lanes; the last of `count` fills the remaining lanes, whose results are discarded.
 struct Batch {
     std::array<std::int32_t, lane_count> element;
     int count;
@@ -22,7 +22,7 @@ struct Batch {
 };
 
 /// Batches of all elements, colour after colour, and which of them belong to each colour. A batch holds elements of one
-/// colour, so that batches of a colour share no node either, and which elements go together depends on nothing but the mesh.
+/// colour, so that batches of a colour share no node either, and the batches depend on the mesh only.
 struct Batches {
     std::vector<Batch> all;
     std::vector<std::vector<std::int32_t>> colours;

@@ -12,7 +12,7 @@ using Colours = std::vector<std::vector<std::int32_t>>;
 
 /// Elements of each colour, which share no node: they are added in parallel, colour after colour, so that every sum is formed
 /// in the same order with any number of threads. eq. (5.15) An element takes the first colour that its neighbours leave; or,
-/// with a number of colours that is given, the one of them that has the fewest elements so far. Empty where these do not do.
+/// with a number of colours that is given, the one of them that has the fewest elements so far. Empty if these do not suffice.
 inline Colours make_colours(const Connectivity& part, int given = 0) {
     const int nodes = part.ids.empty() ? 0 : 1 + *std::max_element(part.ids.begin(), part.ids.end());
     std::vector<std::uint64_t> used(nodes, 0);  // bit c: the node has an element of colour c

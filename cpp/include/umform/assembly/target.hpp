@@ -8,7 +8,7 @@
 namespace umform {
 
 /// Where a block adds its share. Arrays over all degrees of freedom, but `values` over the entries of the pattern. Without
-/// `values` and `du` the residual is asked for only: the tangent costs nothing then.
+/// `values` and `du` only the residual is requested: the tangent then costs nothing.
 struct Target {
     double* f;                   // internal forces
     double* values = nullptr;    // if given: tangent over the free degrees of freedom
@@ -57,7 +57,7 @@ void gather(const Connectivity& part, int element, const double* field, double* 
         for (int k = 0; k < 3; ++k) local[k * Nodes + a] = field[3 * ids[a] + k];
 }
 
-/// Adds K, f (and K du of prescribed increments) of one element, as far as they are asked for. K holds its upper
+/// Adds K, f (and K du of prescribed increments) of one element, as far as they are requested. K holds its upper
 /// triangle, which is completed where that is needed, or all of a matrix that is not symmetric (`full`).
 template <int Nodes>
 void scatter_element(const Connectivity& part, const Scatter& scatter, int element, double* K, const double* f,

@@ -76,7 +76,7 @@ void for_each_by_colour(const std::vector<std::vector<std::int32_t>>& colours, i
     exception.rethrow();
 }
 
-/// Calls work(first, last) for the ranges that 0 .. count - 1 is cut into, whatever the number of threads.
+/// Calls work(first, last) for fixed ranges of 0 .. count - 1, independent of the number of threads.
 template <class Work>
 void for_each_range(int count, int threads, const Work& work) {
     constexpr int length = 64;

@@ -8,7 +8,7 @@
 
 namespace umform {
 
-/// Within a band along the line the tool holds a place back across the line by up to s = restraint W, whatever the pressure, and
+/// Within a band along the line the tool holds a place back across the line by up to s = restraint W, independent of the pressure, and
 /// pushes it away by uplift W; W = hat(d / b) / b has the integral one across the band. The traction is -s phi c: phi, between -1 and
 /// 1, is the share of the bound that a way across the line has called up; it follows the way within the elastic slip. eqs. (4.101) to (4.106)
 struct Bead {

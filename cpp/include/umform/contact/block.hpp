@@ -1,4 +1,4 @@
-// The facets of a contact pair as Python sees them, whatever their nodes and their rule.
+// The facets of a contact pair as Python sees them, for any number of nodes and any rule.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 namespace umform {
 
 /// The facets of a pair as Python sees them. `evaluate` reads the converged history and writes the trial history; multipliers are
-/// the part of it that an outer loop sets between evaluations. What is asked for after `evaluate` or `locate` belongs to the
+/// the part of it that an outer loop sets between evaluations. Queries after `evaluate` or `locate` refer to the
 /// positions that they were given, and to the present multipliers and penalty.
 class ContactBlock {
   public:
@@ -32,7 +32,7 @@ class ContactBlock {
 
     Pose pose;
     std::string name = "a contact";  // for messages
-    bool open = false;               // whether the tool has been taken away: it holds no point, wherever it stands
+    bool open = false;               // whether the tool is open: it holds no point, wherever it is
 
     const std::shared_ptr<ContactLaw>& law() const { return law_; }
     virtual bool symmetric() const = 0;
@@ -45,7 +45,7 @@ class ContactBlock {
     virtual std::vector<double> gaps() = 0;
     virtual std::vector<Vec3> normals() = 0;
 
-    /// Tractions of the tool on the sheet at all points, as they are (not times area).
+    /// Tractions of the tool on the sheet at all points (not multiplied by the area).
     virtual std::vector<Reaction> reactions() = 0;
     /// What is known of the points that are held, as a copy.
     virtual ContactFound found() = 0;
@@ -56,11 +56,11 @@ class ContactBlock {
     virtual double round_off_squared() = 0;
     /// Largest penetration, zero if there is none.
     virtual double penetration() = 0;
-    /// Facets that the last `evaluate` or `locate` did not have to look at.
+    /// Facets that the last `evaluate` or `locate` skipped.
     virtual int far_facets() const = 0;
 
     const History& history() const { return history_; }
-    /// Pressures that are there without a penetration, zero or more: those of now, which `commit` makes converged.
+    /// Pressures at zero penetration, zero or more: the present ones, which `commit` makes converged.
     std::vector<double> multipliers() const {
         std::vector<double> values;
         values.reserve(points());

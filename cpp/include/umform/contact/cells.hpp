@@ -38,16 +38,7 @@ struct FacetCells {
         const int first = count() + cell / per_side_ * (per_side_ + 1) + cell % per_side_;
         return {first, first + 1, first + per_side_ + 2, first + per_side_ + 1};
     }
-    /// How far a place can move at most when no node moves farther than by one.
-    double largest_motion() const {
-        double largest = 1.0;
-        for (const Values& values : N) {
-            double sum = 0.0;
-            for (const double value : values) sum += std::abs(value);
-            largest = std::max(largest, sum);
-        }
-        return largest;
-    }
+    double largest_motion() const { return umform::largest_motion<Nodes>(N); }
 
   private:
     double side() const { return 2.0 / per_side_; }

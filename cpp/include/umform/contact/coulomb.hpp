@@ -42,13 +42,13 @@ struct Coulomb {
         trial[Stiffness] = ratio * penalty;
     }
 
-    /// Puts the multipliers that were wanted into the history that was read.
+    /// Writes the requested multipliers to the input history.
     void put_wanted(const double* trial, double* read) const {
         read[Multiplier] = trial[Multiplier];
         put(read + Change, at(trial + Change));
     }
 
-    /// The multipliers wanted have become those of the new history.
+    /// The requested multipliers are now those of the new history.
     void settle(double* trial) const { put(trial + Change, Vec3{}); }
 
     Rubbing rubbing(const double* history) const {
@@ -96,7 +96,7 @@ struct Coulomb {
         Vec3 t, m{};
         for (int k = 0; k < 3; ++k) t[k] = before.value[k] - eps * slide.D[k];
         const double size = std::sqrt(dot(t, t));
-        const bool slips = size > bound.value;
+        const bool slips = size > bound.value * (1.0 + round_off);
         const double part = slips ? bound.value / size : 1.0;
         if (slips)
             for (int k = 0; k < 3; ++k) m[k] = t[k] / size, t[k] = bound.value * m[k];
@@ -136,6 +136,9 @@ struct Coulomb {
     }
 
   private:
+    /// A traction that a converged state left at its bound, and that has been carried since, differs from it by so much. eq. (4.180)
+    static constexpr double round_off = 1e-12;
+
     /// Where in the history each of the quantities begins.
     enum Part {
         Multiplier = 0,

@@ -16,6 +16,18 @@ struct ContactRule {
     bool at_nodes = false;
 };
 
+/// Largest displacement of a point if no node moves by more than one: the largest sum of |N|.
+template <int Nodes>
+double largest_motion(const std::vector<std::array<double, Nodes>>& N) {
+    double largest = 1.0;
+    for (const auto& values : N) {
+        double sum = 0.0;
+        for (const double value : values) sum += std::abs(value);
+        largest = std::max(largest, sum);
+    }
+    return largest;
+}
+
 /// Reference area of a facet over that of the square of r and s. eq. (4.8)
 template <int Nodes>
 double face_jacobian(const std::int32_t* ids, const std::vector<double>& X, double r, double s) {
@@ -48,16 +60,7 @@ struct FacetPoints {
     int count() const { return static_cast<int>(N.size()); }
     int places() const { return count(); }
 
-    /// How far a point can move at most when no node moves farther than by one: the largest sum of |N|.
-    double largest_motion() const {
-        double largest = 1.0;
-        for (const Values& values : N) {
-            double sum = 0.0;
-            for (const double value : values) sum += std::abs(value);
-            largest = std::max(largest, sum);
-        }
-        return largest;
-    }
+    double largest_motion() const { return umform::largest_motion<Nodes>(N); }
 
   private:
     void gaussian(const Connectivity& part, const std::vector<double>& X, const Rule& rule) {

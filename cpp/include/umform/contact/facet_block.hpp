@@ -270,7 +270,7 @@ class ContactBlockOf final : public ContactBlock {
     }
 
     /// Calls work(facet, point, workspace, new history) for all points of facets that are not far, in their order; the trial
-    /// history stays as it is.
+    /// history is unchanged.
     template <class Work>
     void for_each_near(const Work& work) {
         if (open) return;
@@ -295,13 +295,13 @@ class ContactBlockOf final : public ContactBlock {
         });
     }
 
-    /// Workspace of what only one thread asks for.
+    /// Workspace for queries of a single thread.
     Workspace& own_workspace() {
         if (workspaces_.empty()) workspaces_.emplace_back(per_facet());
         return workspaces_.front();
     }
 
-    /// Forces and, where wanted, the tangent of a facet; whether the tool holds it anywhere.
+    /// Forces and, if requested, the tangent of a facet; whether the tool holds it anywhere.
     bool form(int e, double* trial, Workspace& workspace, bool tangent, Element& element) const {
         const double* areas = area_.data() + static_cast<std::size_t>(e) * per_facet();
         respond(e, areas, trial, workspace);

@@ -163,7 +163,7 @@ class Locator {
         }
     }
 
-    /// Asks the tool once for the points of all wanted facets: a function of a user.
+    /// Evaluates the tool once for the points of all wanted facets: a function of a user.
     void locate_at_once() {
         std::vector<std::size_t> found;
         for (int e = 0; e < part_.size(); ++e) {

@@ -5,7 +5,7 @@
 
 namespace umform {
 
-/// Pressure <multiplier - penalty * gap>. The multiplier is a pressure that is there without a penetration, zero or more.
+/// Pressure <multiplier - penalty * gap>. The multiplier is the pressure at zero penetration, zero or more.
 struct Penalty {
     double penalty;
 

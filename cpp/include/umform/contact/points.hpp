@@ -1,4 +1,4 @@
-// The rule of points: the law is asked at Gauss points of a facet, or at its nodes, and each of them is held or not.
+// The rule of points: the law is evaluated at Gauss points of a facet, or at its nodes; each point is held or not.
 #pragma once
 
 #include "umform/contact/facet.hpp"

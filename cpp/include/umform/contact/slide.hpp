@@ -1,4 +1,4 @@
-// What friction needs of geometry: how far a place has slid along the tool, and how vectors along the tool are carried with it.
+// Kinematics of friction: the slip of a point along the tool, and the transport of tangential vectors with it.
 #pragma once
 
 #include "umform/contact/concept.hpp"
@@ -98,7 +98,7 @@ class Carried {
     double inverse_, part_;
 };
 
-/// The same the other way round: what is carried to `t` at the place, in the frame of the tool.
+/// The inverse: the vector that is transported to `t` at the point, in the frame of the tool.
 inline Vec3 carried_back(const Pose& pose, const Facing& facing, const Vec3& t, const Vec3& normal, bool held) {
     Vec3 a = t;
     if (held) {

@@ -134,11 +134,11 @@ class ShellBlockOf final : public ShellBlock {
         typename Element::Nodal X, u;
         std::vector<Lanes> alpha;
         Vec<Lanes, 3> rolling;
-        std::vector<Axes<Lanes>> axes;  // [q], for laws that ask for them
+        std::vector<Axes<Lanes>> axes;  // [q], for laws that need them
         NodalResults<Nodes> results;
         std::vector<Voigt> E;         // [q] of one element
         std::vector<Energy> energy;   // [q]
-        std::vector<double> scratch;  // [lane] history that nobody wants
+        std::vector<double> scratch;  // [lane] history that is discarded
     };
 
     void prepare_workspaces(int threads) {
@@ -194,7 +194,7 @@ class ShellBlockOf final : public ShellBlock {
         return points;
     }
 
-    /// Asks the material at the points of the `wanted` elements after an increment of time; `trial` takes the new history.
+    /// Evaluates the material at the points of the `wanted` elements for a time increment; `trial` gets the new history.
     LaneMask respond(const Batch& batch, LaneMask wanted, const LaneTrials& trial, double time, Workspace& w) const {
         LaneStates state;
         for (int lane = 0; lane < lane_count; ++lane) state[lane] = history_.state(batch.element[lane]);
@@ -241,7 +241,7 @@ class ShellBlockOf final : public ShellBlock {
         return element_.strains(w.X, w.u, w.alpha.data(), rolling(w), w.shell);
     }
 
-    /// Residual, and tangent if wanted, of the elements in the lanes; why those without them have none.
+    /// Residual, and tangent if requested, of the elements in the lanes; the cause of failures.
     Failures compute(const Batch& batch, const double* u, bool tangent, const std::vector<double>& correction,
                      const LaneTrials& trial, Workspace& w) const {
         Failures failures{};

@@ -60,7 +60,7 @@ void ShellBlockOf<Nodes>::for_each_response(const double* u, const Write& write)
         Failures failures{};
         LaneMask good = strains(batch, u, alpha_, w);
         mark(good, Failure::Inverted, failures);
-        w.scratch.resize(lane_count * history_.stride());  // the trial history stays as it is
+        w.scratch.resize(lane_count * history_.stride());  // the trial history is unchanged
         LaneTrials scratch;
         for (int lane = 0; lane < lane_count; ++lane) scratch[lane] = w.scratch.data() + lane * history_.stride();
         good = respond(batch, good, scratch, 0.0, w);  // no time passes at a converged state
@@ -160,7 +160,7 @@ Energy ShellBlockOf<Nodes>::energy(const double* u) {
             }
         }
     });
-    Energy total{0.0, 0.0};  // in the order of the elements, whatever the number of threads
+    Energy total{0.0, 0.0};  // in the order of the elements, for any number of threads
     for (const Energy& one : energy_) {
         total.elastic += one.elastic;
         total.plastic += one.plastic;

@@ -1,4 +1,4 @@
-// A block of solid-shells as Python sees it, whatever its number of nodes: history, enhanced parameters, evaluation.
+// A block of solid-shells as Python sees it, for any number of nodes: history, enhanced parameters, evaluation.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct PointFields {
 struct CellFields {
     std::array<double*, 4> stresses;  // [6] Cauchy stress in global and in local axes, S in global and in local axes
     double* von_mises;                // largest
-    double *mean = nullptr, *largest = nullptr;  // of a scalar of the history, if one is asked for
+    double *mean = nullptr, *largest = nullptr;  // of a scalar of the history, if requested
     int scalar = -1;                             // its place in the history of a point
 };
 
@@ -79,7 +79,7 @@ class ShellBlock {
         correction_.clear();
         return_to_kept_blocks();
     }
-    /// Whether the blocks of the converged state are there: not before the first `commit`, and not after `restore`.
+    /// Whether the blocks of the converged state exist: not before the first `commit`, and not after `restore`.
     virtual bool keeps_blocks() const = 0;
 
     const std::vector<double>& state() const { return history_.state(); }
@@ -98,7 +98,7 @@ class ShellBlock {
     /// Numbers of the elements for messages, where they are a part of a larger mesh.
     void set_numbers(std::vector<std::int32_t> numbers) { numbers_ = std::move(numbers); }
 
-    double step = 0.0;  // increment of time, for laws that ask for it
+    double step = 0.0;  // time increment, for laws that need it
 
   protected:
     std::int32_t number_of(int e) const { return numbers_.empty() ? e : numbers_[e]; }

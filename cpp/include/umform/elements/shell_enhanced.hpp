@@ -14,7 +14,7 @@ class ShellEnhanced : public ShellProducts<Nodes, Real> {
     using typename Products::Workspace;
 
     /// Eliminates the enhanced parameters: K -= Kda Kaa^-1 Kad, f -= Kda Kaa^-1 ra. False where Kaa is singular.
-    /// eq. (2.18) Without a tangent K and Kad stay as they are.
+    /// eq. (2.18) Without a tangent K and Kad are unchanged.
     Mask<Real> condense(bool tangent, Workspace& w) const {
         if (tables_.modes == 0) return true;
         const Mask<Real> regular = symmetric_ ? eliminate(w) : eliminate_full(w);

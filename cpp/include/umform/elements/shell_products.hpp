@@ -36,7 +36,7 @@ class ShellProducts : public ShellRows<Nodes, Real> {
         return sum;
     }
 
-    /// A few rows of C B at once, with their factors in registers.
+    /// A few rows of C B together, with their factors in registers.
     template <int Begin, int End, int Rows>
     static void multiply(const Voigt* C, const Real* B, Real* CB) {
         std::array<Voigt, Rows> factors;

@@ -82,7 +82,7 @@ class ShellRows : public ShellStrains<Nodes, Real> {
         }
     }
 
-    int first_extra_;  // first of the rows that the director has a share of its own in
+    int first_extra_;  // first row with an additional term of the director
 };
 
 }  // namespace umform

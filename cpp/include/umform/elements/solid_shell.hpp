@@ -1,10 +1,10 @@
-// The one Gauss loop, whose first half is shell_strains.hpp; rows B, products of rows and enhanced strains have files of their own: residual and tangent of a solid-shell with assumed strains by tying
-// and enhanced strains.
+// Residual and tangent of a solid-shell with assumed strains by tying and enhanced strains: the Gauss loop. Its first half is
+// shell_strains.hpp; rows B, products of rows and enhanced strains are in separate files.
 //
 // Everything is done in convected components; only the material sees a local orthonormal frame. Every strain component
 // is linear in sampled covariant strains, so that strain, its row B and its constant Hessian use the same weights:
 //   E_a = sum_T w_T E_a(T),  B_a = sum_T w_T B_a(T),  K_geo = sum_T sigma_T Hessian_a(T), sigma_T = int w_T S^a dV.
-// The scalar type is a parameter: `Lanes` for as many elements at once. Degrees of freedom are the mean and the half
+// The scalar type is a parameter: `Lanes` for several elements at the same time. Degrees of freedom are the mean and the half
 // difference of the faces ("director", strain_rows.hpp) until K and f leave.
 #pragma once
 

@@ -9,7 +9,7 @@
 
 namespace umform {
 
-/// Order of the strains in the loops: those without a share of their own in the director come first, E_33, which has
+/// Order of the strains in the loops: those without an additional term of the director come first, E_33, which has
 /// nothing in the mean, comes last.
 inline constexpr std::array<int, 6> row_order{C11, C22, C12, C13, C23, C33};
 inline constexpr int mean_rows = 5, first_shear_row = 3;

@@ -22,7 +22,7 @@ struct Term {
     double factor;
     int a, b, c;
 
-    /// With the mean of P_c under the rule taken off. eq. (2.48)
+    /// Minus the mean of P_c under the rule. eq. (2.48)
     double operator()(double r, double s, double t, double mean) const {
         return factor * std::pow(r, a) * std::pow(s, b) * (legendre(c, t).value - mean);
     }

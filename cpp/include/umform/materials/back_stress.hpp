@@ -31,7 +31,7 @@ struct Chaboche {
     }
 };
 
-/// Sum of the back stresses behind a plastic increment, a xi / y + A, and the derivatives of a and A. eq. (3.75)
+/// Sum of the back stresses after a plastic increment, a xi / y + A, and the derivatives of a and A. eq. (3.75)
 template <class Real>
 struct BackStress {
     Real a, da;

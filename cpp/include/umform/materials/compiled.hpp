@@ -6,7 +6,7 @@
 namespace umform {
 
 extern "C" {
-/// Arrays are those of the points one after the other: strain [6], state [size], axes [3][3] (null unless asked for), stress [6],
+/// Arrays are those of the points one after the other: strain [6], state [size], axes [3][3] (null unless needed), stress [6],
 /// tangent [6][6] = dstress/dstrain by rows, new_state [size]. `length` of the element is 0 unless asked for; `step` is the increment
 /// of time. Returns 0, else there is no answer and the increment is cut.
 using CompiledFunction = int(int points, const double* strain, const double* state, const double* properties,

@@ -87,7 +87,7 @@ class Material {
     virtual void initial(double* state) const = 0;
     /// Whether dS/dE is symmetric at any strain.
     virtual bool symmetric() const = 0;
-    /// Whether it asks for its points: the axes are not formed for laws that do not.
+    /// Whether it needs its points: the axes are formed only for laws that do.
     virtual bool sees_points() const = 0;
     /// Answers at the n points of the elements in the lanes of `wanted`; arrays are [n]. Returns which of them have an
     /// answer at every point.

@@ -29,7 +29,7 @@ struct RefusedAnswer final : std::exception {
 struct ForeignTraits {
     std::string name;
     std::vector<double> properties;
-    bool parallel = false;  // whether several threads may call it at once
+    bool parallel = false;  // whether several threads may call it at the same time
     MaterialFromFunction::Traits law;
 };
 

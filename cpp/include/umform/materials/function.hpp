@@ -8,12 +8,12 @@
 
 namespace umform {
 
-/// What a function is asked with: n points of one element.
+/// Arguments of a function: n points of one element.
 struct FunctionArguments {
     int n;
     const Voigt* E;            // [n]
     const double* state;       // [n][state_size]
-    const Axes<double>* axes;  // [n], or null if it does not ask for its points
+    const Axes<double>* axes;  // [n], or null if it does not need its points
     double size, step;
     std::int32_t cell;  // number of the element, or -1 outside of elements
 };

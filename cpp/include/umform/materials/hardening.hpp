@@ -1,4 +1,4 @@
-// Yield stress y(eqps), its slope and its integral: a part of its own, so that every plastic law takes every curve.
+// Yield stress y(eqps), its slope and its integral: separate from the laws, so that every plastic law takes every curve.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ struct Swift {
     }
 };
 
-/// Linear between the points of a table, constant behind its end. eq. (3.32)
+/// Linear between the points of a table, constant beyond its end. eq. (3.32)
 struct Tabulated {
     std::vector<double> eqps, stress;
 

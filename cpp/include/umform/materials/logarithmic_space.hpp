@@ -1,4 +1,4 @@
-// Any small-strain law as one of finite strain: it is asked with logarithmic strains. docs/theory, 3.9
+// Any small-strain law at finite strain: it is evaluated with logarithmic strains. docs/theory, 3.9
 #pragma once
 
 #include "umform/materials/concept.hpp"
@@ -26,7 +26,7 @@ class LogarithmicSpace final : public Material {
             for (int q = 0; q < count; ++q) {
                 const LaneMask positive = strains[q].set(E[first + q]);
                 wanted = wanted & positive;
-                // A lane without an answer asks for no strain, which every law knows. Lanes that nobody wants repeat others.
+                // A failed lane is evaluated at zero strain, which is valid for every law. Unused lanes repeat others.
                 for (int p = 0; p < 6; ++p) h[q][p] = select(positive, strains[q].h[p], 0.0);
             }
             LaneStates before = state;

@@ -1,4 +1,4 @@
-// What a law may know of the points at which it is asked: the axes of the sheet, the size of the element, the step.
+// Data of the points at which a law is evaluated: the axes of the sheet, the size of the element, the step.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Point {
 /// The points of the elements in the lanes.
 struct LanePoints {
     std::array<std::int32_t, lane_count> cell{};  // numbers of the elements, for messages
-    const Axes<Lanes>* axes = nullptr;            // [n]; null unless the law asks for its points
+    const Axes<Lanes>* axes = nullptr;            // [n]; null unless the law needs its points
     Lanes size = 0.0;
     double step = 0.0;
 };

@@ -58,7 +58,7 @@ class PointWalk {
     /// `turn` makes strains in the axes of the sheet of those in the axes of the test (engineering shears).
     PointWalk(const Material& law, const Voigt66& turn) : law_(law), turn_(turn), history_(law.state_size()) {}
 
-    /// On to the target, in halves where Newton's method does not get there at once; false where it cannot be reached.
+    /// Advance to the target, with bisection if Newton's method fails; false if it cannot be reached.
     bool reach(PointState& at, const PointTarget& target, int cuts = 0) {
         if (newton(at, target)) return true;
         if (cuts == most_cuts) return false;

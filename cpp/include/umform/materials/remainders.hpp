@@ -1,4 +1,4 @@
-// What is left of exp and log1p behind their first terms, to all digits, for small strains; and both for lanes.
+// Remainders of exp and log1p after their first terms, accurate for small strains; and both functions for lanes.
 #pragma once
 
 #include <cmath>

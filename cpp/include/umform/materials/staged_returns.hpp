@@ -14,14 +14,14 @@ inline std::atomic<std::uint64_t>& staged_returns() {
     return count;
 }
 
-/// Lanes whose return map has gone through stages since they were counted last, on this thread.
+/// Lanes whose return map used stages since the last count, on this thread.
 inline LaneMask& lanes_in_stages() {
     static thread_local LaneMask lanes = false;
     return lanes;
 }
 
 inline void note_stages(LaneMask staged) { lanes_in_stages() = lanes_in_stages() | staged; }
-inline void note_stages(bool) {}  // outside of elements and point paths nobody counts
+inline void note_stages(bool) {}  // counted in elements and point paths only
 
 /// Count the lanes among those that were asked.
 inline void count_stages(LaneMask asked) {

@@ -1,4 +1,4 @@
-// A user subroutine with the interface UMAT of Abaqus, three-dimensional, for small strains: it is asked in logarithmic space, in the
+// A user subroutine with the interface UMAT of Abaqus, three-dimensional, for small strains: it is evaluated in logarithmic space, in the
 // axes of the sheet. docs/theory, 3.15
 #pragma once
 
@@ -29,7 +29,7 @@ struct UmatState {
     }
 };
 
-/// One point. False where it asks for a smaller increment (PNEWDT below 1). eqs. (3.126)-(3.128)
+/// One point. False if it requests a smaller increment (PNEWDT below 1). eqs. (3.126)-(3.128)
 class Umat {
   public:
     Umat(UmatFunction* function, const ForeignTraits& traits) : function_(function), traits_(traits) {
@@ -49,7 +49,7 @@ class Umat {
             strain[p] = state[UmatState::strain + from];
             change[p] = at.E[q][from] - strain[p];
         }
-        // A converged state is asked with next to no time: rates of nothing stay finite, and nothing relaxes.
+        // A converged state is evaluated with a tiny time increment: zero rates stay finite, and nothing relaxes.
         const double before = state[UmatState::time], step = at.step > 0.0 ? at.step : 1e-30;
         const std::array<double, 2> time{before, before};
         const std::array<int, 4> jstep{1, 1, 0, 0};

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "storage.hpp"
 #include "umform/assembly/threads.hpp"
 
 namespace umform {
@@ -23,29 +24,8 @@ struct Blas {
     Trsm trsm_ = nullptr;
     Gemv gemv_ = nullptr;
     Trsv trsv_ = nullptr;
-    /// Numbers that OpenBLAS maps for a thread at its first large product, at most; it waits for ever where it gets none.
-    static constexpr std::size_t buffer = (std::size_t{160} << 20) / sizeof(double);
-    SetThreads set_threads = nullptr;  // none where the library has no threads of its own, or does not say
+    SetThreads set_threads = nullptr;  // none if the library has no threads, or no function to set them
     GetThreads get_threads = nullptr;
-
-    /// How many of the threads have not had that buffer yet.
-    int cold(int threads) const { return std::max(0, threads - warm_); }
-
-    /// Makes a large product on each thread of a team that has not made one, all at the same time.
-    void warm(int threads) {
-        if (cold(threads) == 0) return;
-        constexpr int n = 160;
-        constexpr std::size_t size = std::size_t{n} * n;
-        const std::vector<double> a(size, 1.0);
-        std::vector<double> c(size * threads);
-#pragma omp parallel num_threads(threads) if (threads > 1)
-        {
-            double* own = c.data() + size * thread_index();
-#pragma omp barrier
-            gemm('N', 'T', n, n, n, 1.0, a.data(), n, a.data(), n, 0.0, own, n);
-        }
-        warm_ = threads;
-    }
 
     /// C = beta C + alpha op(A) op(B), C of m x n, k products a sum.
     void gemm(char ta, char tb, int m, int n, int k, double alpha, const double* a, int lda, const double* b, int ldb,
@@ -85,9 +65,6 @@ struct Blas {
         else
             trsm('L', triangle, transposed, unit, n, columns, t, ldt, x, ldx);
     }
-
-  private:
-    int warm_ = 0;
 };
 
 /// The BLAS of the process; empty until Python has handed it over.
@@ -122,6 +99,57 @@ class OneBlasThread {
     static State& state() {
         static State shared;
         return shared;
+    }
+};
+
+/// Threads that make products together; while one lives, they have their buffers. OpenBLAS maps one for each large product that
+/// is under way, and waits for ever where it gets no memory: all are mapped before the first product of the factors. Several
+/// factorisations may run at a time, each in a thread of Python.
+class Buffers {
+  public:
+    /// Takes, as a trial, the memory of new buffers and of as many numbers more, or throws.
+    Buffers(int threads, std::size_t numbers) : threads_(threads) {
+        const std::lock_guard lock(state().mutex);
+        const int busy = state().busy + threads, missing = std::max(0, busy - state().mapped);
+        {
+            const Block room(numbers + static_cast<std::size_t>(missing) * size);
+        }
+        if (missing > 0) map(busy);
+        state().busy = busy;
+        state().mapped = std::max(busy, state().mapped);
+    }
+    ~Buffers() {
+        const std::lock_guard lock(state().mutex);
+        state().busy -= threads_;
+    }
+    Buffers(const Buffers&) = delete;
+    Buffers& operator=(const Buffers&) = delete;
+
+  private:
+    struct State {
+        std::mutex mutex;
+        int busy = 0, mapped = 0;  // threads of all that live, and the largest number so far
+    };
+    static constexpr std::size_t size = (std::size_t{160} << 20) / sizeof(double);  // of a buffer, at most
+    int threads_;
+
+    static State& state() {
+        static State shared;
+        return shared;
+    }
+
+    /// A large product on each of so many threads, all at the same time.
+    static void map(int threads) {
+        constexpr int n = 160;
+        constexpr std::size_t entries = std::size_t{n} * n;
+        const std::vector<double> a(entries, 1.0);
+        std::vector<double> c(entries * threads);
+#pragma omp parallel num_threads(threads) if (threads > 1)
+        {
+            double* own = c.data() + entries * thread_index();
+#pragma omp barrier
+            blas().gemm('N', 'T', n, n, n, 1.0, a.data(), n, a.data(), n, 0.0, own, n);
+        }
     }
 };
 

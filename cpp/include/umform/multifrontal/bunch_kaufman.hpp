@@ -35,7 +35,7 @@ struct BunchKaufman {
     double entry[panel_width][panel_width];  // [column][row]: L below ones, which are not stored
     double diagonal[panel_width], below[panel_width];
     int exchange[panel_width];  // column that each has changed places with, before its elimination
-    int done = 0;               // columns eliminated; less than all if nothing but zeros is left
+    int done = 0;               // columns eliminated; less than all if only zeros remain
 
     BunchKaufman(const double* a, int ld, int size) {
         for (int j = 0; j < size; ++j) {

@@ -12,7 +12,7 @@
 
 namespace umform {
 
-/// Supernodes of a pattern whose quotient graph is given. Sheets are parted by nested dissection. Of solids and stacks that
+/// Supernodes of a pattern whose quotient graph is given. Sheets are ordered by nested dissection. Of solids and stacks that
 /// does best where they are flat, minimum degree where they are small or without a shape: both are tried and their
 /// multiplications counted. Equations that hardly share their neighbours are left to minimum degree.
 inline Supernodes eliminate(const Quotient& quotient) {

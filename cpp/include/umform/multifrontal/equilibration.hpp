@@ -16,7 +16,7 @@ namespace umform {
 
 /// What a matrix is multiplied with before its elimination, R A C: exact, since these are powers of two.
 struct Scaling {
-    std::vector<double> row, column;  // of each equation; empty if the matrix stays as it is
+    std::vector<double> row, column;  // of each equation; empty if the matrix is not scaled
     std::vector<double> size;         // largest entry of each column of what is eliminated
 
     bool active() const { return !row.empty(); }
@@ -43,7 +43,7 @@ class Most {
     void add(int i, int e) { most_[i] = std::max(most_[i], e); }
     bool any(int i) const { return most_[i] > no_exponent; }
     int operator[](int i) const { return most_[i]; }
-    /// Changes exponents by half of what is there; false if nothing changes.
+    /// Halves the exponents; false if nothing changes.
     bool halve(std::vector<int>& scale) const {
         bool changed = false;
         for (std::size_t i = 0; i < scale.size(); ++i) {
@@ -310,7 +310,7 @@ struct Sizes {
 /// nothing, and the tangents of sheets stay below, with contact too.
 inline constexpr double alike = 1 << 12;
 
-/// How a matrix is scaled; of a symmetric one the upper triangle is given.
+/// Scaling of a matrix; of a symmetric one the upper triangle is stored.
 inline Scaling equilibrated(const Rows& rows, bool symmetric, const double* values) {
     Scaling scaling;
     detail::Sizes sizes(rows, symmetric, values, scaling);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -28,7 +29,7 @@ struct Outcome {
 };
 
 /// What a front has become. Rows and columns that could not be eliminated here, since no pivot among them was stable, are
-/// eliminated in the front of the parent: they follow the pivots of its own.
+/// eliminated in the front of the parent: they follow its own pivots.
 struct Eliminated {
     int pivots = 0, size = 0, done = 0;  // with those that the children have left; of them eliminated
     double* a = nullptr;                 // columns of the factor, `size` rows each; rows of the other one follow
@@ -55,7 +56,7 @@ class Factors {
     Outcome factor(Kind kind, const double* values, Scaling scaling, int threads) {
         kind_ = kind, values_ = values, scaling_ = std::move(scaling), state_ = Outcome::Done, equation_ = -1;
         const OneBlasThread alone;
-        reserve(threads);
+        const std::optional<Buffers> buffers = reserve(threads);
         schedule_.run(
             plan_, threads,
             [&](const Schedule::Unit& unit, int thread) {
@@ -114,17 +115,14 @@ class Factors {
     static constexpr int kLarge = 256;  // rows of an update that is shared among threads
 
     /// Takes all memory that is planned, or throws: before any product is made, since BLAS may not come back where none is left.
-    void reserve(int threads) {
+    std::optional<Buffers> reserve(int threads) {
         const int team = schedule_.worth_a_team ? threads : 1;
         storage_.grow(plan_.factor_size);
         if (static_cast<int>(workers_.size()) < threads) workers_ = std::vector<Worker>(threads);
         for (int t = 0; t < team; ++t) workers_[t].stacks.reserve(schedule_.even, schedule_.odd);
-        if (!schedule_.worth_a_team) return;
+        if (!schedule_.worth_a_team) return {};
         const std::size_t above = schedule_.peak > pool_.held() ? schedule_.peak - pool_.held() : 0;
-        {
-            const Block room(above + static_cast<std::size_t>(blas().cold(team)) * Blas::buffer);
-        }
-        blas().warm(team);
+        return std::optional<Buffers>(std::in_place, team, above);
     }
 
     void process(int f, Worker& worker, bool stack) {

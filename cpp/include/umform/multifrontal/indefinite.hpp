@@ -46,7 +46,7 @@ class Indefinite : ByHalves<Indefinite> {
 
   private:
     double* a_;
-    int rows_, columns_, done_ = 0, next_ = 0;  // where the search goes on
+    int rows_, columns_, done_ = 0, next_ = 0;  // where the search continues
     bool exchanged_ = false;
     std::vector<double>& below_;
     std::vector<std::int32_t>& order_;

@@ -19,7 +19,7 @@ struct SmallTriangle {
 namespace detail {
 
 using Vector [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-inline constexpr int deep = 8;  // rows that are worked on at once
+inline constexpr int deep = 8;  // rows that are processed together
 
 /// Copies up to eight numbers; all of them by registers, which a loop of the compiler's own choice does not do.
 inline void copy_rows(const double* from, int count, double* to) {
@@ -34,7 +34,7 @@ inline void copy_rows(const double* from, int count, double* to) {
 }  // namespace detail
 
 /// X := X L^-T for rows of X in the columns of a matrix: each row goes through the columns of L one after the other. Eight
-/// rows at once, four columns in registers.
+/// rows together, four columns in registers.
 inline void solve_rows(const SmallTriangle& lower, int width, double* x, int ld, int rows) {
     using detail::Vector;
     constexpr int deep = detail::deep;

@@ -35,7 +35,7 @@ class Block {
     std::size_t size_ = 0;
 };
 
-/// Blocks that are given back and taken again, by several threads. Where none fits, smaller ones make room for a new one:
+/// Blocks that are released and reused, by several threads. Where none fits, smaller ones make room for a new one:
 /// updates grow towards the root, and what is kept stays near to what is needed at one time.
 class Pool {
   public:
@@ -63,7 +63,7 @@ class Pool {
         free_.emplace(size, std::move(block));
     }
 
-    /// Numbers in the blocks that nobody has.
+    /// Numbers in the free blocks.
     std::size_t held() {
         const std::lock_guard lock(mutex_);
         std::size_t sum = 0;

@@ -1,4 +1,4 @@
-// The pattern of a sparse matrix as the factorisation sees it: symmetric, whatever the values are.
+// The pattern of a sparse matrix as the factorisation sees it: symmetric, for any values.
 #pragma once
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 
 namespace umform {
 
-/// Solves K X = B for a few columns at once: R K C Y = R B, X = C Y with the scales of rows and columns. The right-hand side of a front is changed by its children only, in their order:
+/// Solves K X = B for a few columns together: R K C Y = R B, X = C Y with the scales of rows and columns. The right-hand side of a front is changed by its children only, in their order:
 /// the same bits for any number of threads.
 class Substitution {
   public:

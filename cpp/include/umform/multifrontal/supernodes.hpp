@@ -14,7 +14,7 @@ namespace umform {
 /// Tree of supernodes of a graph and its order of elimination. (J. W. H. Liu, The multifrontal method for sparse matrix
 /// solution, SIAM Review 34 (1992) 82-109)
 ///
-/// A vertex joins its child if nothing but itself is missing from the structure of its own column. A supernode joins its
+/// A vertex joins its child if only itself is missing from the structure of its column. A supernode joins its
 /// parent where few entries that are zero are added by that, since large dense blocks are worked on faster than small ones.
 struct Supernodes {
     struct Node {

@@ -42,7 +42,7 @@ class Unsymmetric : ByHalves<Unsymmetric> {
 
   private:
     double *a_, *b_;
-    int rows_, columns_, beyond_, done_ = 0, next_ = 0;  // where the search goes on
+    int rows_, columns_, beyond_, done_ = 0, next_ = 0;  // where the search continues
     bool exchanged_ = false;
     std::vector<std::int32_t>&row_order_, &column_order_;
     std::vector<double> kept_;

@@ -27,7 +27,7 @@ class Dissection {
         std::iota(order_.begin(), order_.end(), 0);
     }
 
-    /// The vertices in their order of elimination; none if the graph is not that of a sheet, or of a solid if that is asked for.
+    /// The vertices in their order of elimination; none if the graph is not that of a sheet, or of a solid if requested.
     std::vector<std::int32_t> run() {
         todo_.emplace_back(0, graph_.size());
         while (!todo_.empty()) {
@@ -42,7 +42,7 @@ class Dissection {
     }
 
   private:
-    static constexpr int kSmall = 4;         // parts up to this size are left as they are
+    static constexpr int kSmall = 4;         // parts up to this size are not divided
     static constexpr double kMiddle = 0.35;  // share of the vertices among which the separator is sought
     static constexpr double kGood = 1.05;  // a separator is good enough at so many times the mean number at a distance
     static constexpr double kWide = 2.0;   // so many times what parts a square or a cube, and the graph is none

@@ -105,7 +105,7 @@ class MinimumDegree {
         }
     }
 
-    /// Eliminates a vertex and those that nothing but its element is left of; returns the number of their equations.
+    /// Eliminates a vertex and those whose only neighbour is its element; returns the number of their equations.
     int eliminate(int pivot) {
         remove(pivot);
         put(pivot);

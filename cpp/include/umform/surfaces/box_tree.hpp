@@ -1,4 +1,4 @@
-// Tree of boxes around things in space, four to a node: those that may lie nearest to a point, the near ones first.
+// Tree of boxes around items in space, four to a node: finds the items that may be nearest to a point, near ones first.
 #pragma once
 
 #include <algorithm>
@@ -33,22 +33,28 @@ struct Box {
     }
 };
 
+/// Brings what a search reads soon from memory: it would wait for each of these otherwise.
+template <class T>
+void prefetch(const T& thing) {
+    for (std::size_t line = 0; line < sizeof(T); line += 64) __builtin_prefetch(reinterpret_cast<const char*>(&thing) + line);
+}
+
 class BoxTree {
   public:
-    /// Quarters the things by medians of their middles along the longest sides, until each has a box of its own.
+    /// Divides the items in quarters by medians of their centres along the longest sides, until each box has one item.
     explicit BoxTree(const std::vector<Box>& boxes) : order_(boxes.size()) {
         std::iota(order_.begin(), order_.end(), 0);
         nodes_.reserve(boxes.size());
         if (!boxes.empty()) split(boxes, {0, static_cast<int>(boxes.size())});
     }
 
-    /// The things in the order of the leaves.
+    /// The items in the order of the leaves.
     const std::vector<int>& order() const { return order_; }
 
     /// Calls visit(place in the order) for each thing whose box is no farther than the square of a distance, which visit
-    /// returns and which may only fall.
-    template <class Visit>
-    void near_first(const Vec3& x, double square, const Visit& visit) const {
+    /// returns and which may only fall; ahead(place in the order) for each that may be visited soon.
+    template <class Visit, class Ahead>
+    void near_first(const Vec3& x, double square, const Visit& visit, const Ahead& ahead) const {
         std::array<Waiting, 3 * deepest + 1> stack;
         int waiting = 0;
         stack[waiting++] = {0, 0.0};
@@ -69,14 +75,18 @@ class BoxTree {
                 int at = waiting++;  // the nearest one on top
                 for (; at > first && stack[at - 1].square < own; --at) stack[at] = stack[at - 1];
                 stack[at] = {node.child[i], own};
+                if (node.child[i] < 0)
+                    ahead(~node.child[i]);
+                else
+                    prefetch(nodes_[node.child[i]]);
             }
         }
     }
 
   private:
-    static constexpr int width = lane_count, deepest = 32;  // more than 4^31 things do not exist
+    static constexpr int width = lane_count, deepest = 32;  // enough for 4^31 items
 
-    /// A node, or a thing by the complement of its place; the square of the distance of its box.
+    /// A node, or an item by the complement of its place; the square of the distance of its box.
     struct Waiting {
         int child;
         double square;
@@ -133,7 +143,7 @@ class BoxTree {
         return at;
     }
 
-    /// Brings the things of a range on both sides of the median of their middles along the longest side.
+    /// Partitions a range of items at the median of their centres along the longest side.
     int halve(const std::vector<Box>& boxes, Range range) {
         Box middles = Box::empty();
         for (int i = range.first; i < range.last; ++i) middles.take_in(middle(boxes[order_[i]]));

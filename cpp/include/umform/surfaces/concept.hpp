@@ -54,7 +54,7 @@ class SurfaceOf final : public Surface {
     Shape shape_;
 };
 
-/// A surface from any function of arrays, a user's own for instance: it may be scaled, and is asked once for all points.
+/// A surface from any function of arrays, a user's own for instance: it may be scaled, and is evaluated once for all points.
 class SurfaceFromFunction final : public Surface {
   public:
     using Function = std::function<void(int, const double*, double*, double*, double*)>;

@@ -15,7 +15,7 @@ class Placed final : public Surface {
     bool is_distance() const override { return tool_->is_distance(); }
     bool is_concurrent() const override { return tool_->is_concurrent(); }
 
-    /// g = g_local, n = Q n_local, H = Q H_local Q^T; the tool is asked once for all points. eq. (4.18)
+    /// g = g_local, n = Q n_local, H = Q H_local Q^T; the tool is evaluated once for all points. eq. (4.18)
     void gap(int count, const double* x, double* g, double* n, double* H) const override {
         std::vector<double> local(3 * static_cast<std::size_t>(count));
         for (int q = 0; q < count; ++q)

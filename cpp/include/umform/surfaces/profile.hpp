@@ -25,7 +25,7 @@ struct Segment {
     int turn;
 };
 
-/// What the first and the last segment do: meet each other, go on for ever, or end on an axis of revolution x = 0.
+/// Type of the first and the last segment: they meet, extend to infinity, or end on an axis of revolution x = 0.
 enum class ProfileEnd { Joined, Endless, OnAxis };
 
 inline Vec2 minus(const Vec2& a, const Vec2& b) { return {a[0] - b[0], a[1] - b[1]}; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "umform/algebra/lanes.hpp"
 #include "umform/algebra/tensor.hpp"
 
 namespace umform {
@@ -25,37 +26,39 @@ struct QuarticPatch {
 
     static constexpr int a = 0, b = 4, c = 14;
 
-    /// Two steps of de Casteljau's algorithm leave the six points that second derivatives need.
+    /// Two steps of de Casteljau's algorithm leave the six points that second derivatives need. The coordinates are lanes.
     PatchPoint at(const PatchParameter& p) const {
-        std::array<Vec3, 10> cubic;
-        std::array<Vec3, 6> q;
-        reduce<4>(control.data(), p, cubic.data());
-        reduce<3>(cubic.data(), p, q.data());
-        const double r = 1.0 - p.u - p.v;
-        PatchPoint at;
-        for (int k = 0; k < 3; ++k) {
-            const double A = r * q[0][k] + p.u * q[1][k] + p.v * q[3][k];
-            const double B = r * q[1][k] + p.u * q[2][k] + p.v * q[4][k];
-            const double C = r * q[3][k] + p.u * q[4][k] + p.v * q[5][k];
-            at.S[k] = r * A + p.u * B + p.v * C;
-            at.Su[k] = 4.0 * (B - A);
-            at.Sv[k] = 4.0 * (C - A);
-            at.Suu[k] = 12.0 * (q[2][k] - 2.0 * q[1][k] + q[0][k]);
-            at.Suv[k] = 12.0 * (q[4][k] - q[1][k] - q[3][k] + q[0][k]);
-            at.Svv[k] = 12.0 * (q[5][k] - 2.0 * q[3][k] + q[0][k]);
+        static_assert(lane_count >= 3);
+        const Lanes r = 1.0 - p.u - p.v, u = p.u, v = p.v;
+        std::array<Lanes, 15> quartic;
+        std::array<Lanes, 10> cubic;
+        std::array<Lanes, 6> q;
+        for (std::size_t i = 0; i < control.size(); ++i) {
+            quartic[i] = 0.0;
+            for (int k = 0; k < 3; ++k) quartic[i].set(k, control[i][k]);
         }
-        return at;
+        reduce<4>(quartic.data(), r, u, v, cubic.data());
+        reduce<3>(cubic.data(), r, u, v, q.data());
+        const Lanes A = r * q[0] + u * q[1] + v * q[3];
+        const Lanes B = r * q[1] + u * q[2] + v * q[4];
+        const Lanes C = r * q[3] + u * q[4] + v * q[5];
+        return {vector(r * A + u * B + v * C),
+                vector(4.0 * (B - A)),
+                vector(4.0 * (C - A)),
+                vector(12.0 * (q[2] - 2.0 * q[1] + q[0])),
+                vector(12.0 * (q[4] - q[1] - q[3] + q[0])),
+                vector(12.0 * (q[5] - 2.0 * q[3] + q[0]))};
     }
 
   private:
+    static Vec3 vector(Lanes x) { return {x[0], x[1], x[2]}; }
+
     /// From the points of degree Degree to those of one less.
     template <int Degree>
-    static void reduce(const Vec3* from, const PatchParameter& p, Vec3* to) {
-        const double r = 1.0 - p.u - p.v;
+    static void reduce(const Lanes* from, Lanes r, Lanes u, Lanes v, Lanes* to) {
         for (int row = 0; row < Degree; ++row) {
             const int width = Degree + 1 - row;
-            for (int i = 0; i < width - 1; ++i, ++to)
-                for (int k = 0; k < 3; ++k) (*to)[k] = r * from[i][k] + p.u * from[i + 1][k] + p.v * from[width + i][k];
+            for (int i = 0; i < width - 1; ++i, ++to) *to = r * from[i] + u * from[i + 1] + v * from[width + i];
             from += width;
         }
     }

@@ -7,7 +7,7 @@
 
 namespace umform {
 
-/// What the surface does across the edge of a triangle: goes on with one tangent plane, has an edge, or ends.
+/// The surface across the edge of a triangle: it has one tangent plane, a sharp edge, or a rim.
 enum class Across : std::uint8_t { Smooth, Sharp, Rim };
 
 /// A third of a triangle: the edge a b lies on that of the triangle, c inside of it.
@@ -112,13 +112,17 @@ class Triangulated final : public Surface {
             if (least > bound) return;
             if (count == candidates.size()) settle(x, candidates, count, bound, best);
             candidates[count++] = {i, least, foot.p};
+            prefetch(thirds_[i].patch);
             bound = std::min(bound, (distance + flat.lift) * (1.0 + 1e-9));
         };
         look_at(last);
-        tree_.near_first(x, bound * bound, [&](int i) {
-            if (i != last) look_at(i);
-            return bound * bound;
-        });
+        tree_.near_first(
+            x, bound * bound,
+            [&](int i) {
+                if (i != last) look_at(i);
+                return bound * bound;
+            },
+            [&](int i) { prefetch(flats_[i]); });
         settle(x, candidates, count, bound, best);
         return best;
     }
@@ -154,7 +158,7 @@ class Triangulated final : public Surface {
         return third.face < 0 ? smooth : exact(x, *exact_.surfaces[third.face], smooth);
     }
 
-    /// The exact surface goes on beyond its face: it is taken where the patch says the same. eq. (4.173)
+    /// The exact surface extends beyond its face: it is used where the patch agrees. eq. (4.173)
     Gap exact(const Vec3& x, const Surface& surface, const Gap& smooth) const {
         Gap gap;
         surface.gap(1, x.data(), &gap.g, gap.n.data(), gap.H.a.data());

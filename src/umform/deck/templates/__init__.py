@@ -1,4 +1,4 @@
-"""Decks to start from: templates with the files that they need, and the decks of ready processes."""
+"""Templates of decks with their files, and the decks of ready processes."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ def template(name: str) -> str:
     Raises
     ------
     InvalidValue
-        If there is none of this name.
+        If the name is unknown.
     """
     return template_file(name).read_text(encoding="utf-8")
 
 
 def template_file(name: str) -> Path:
-    """File of a template; what it reads lies beside it."""
+    """File of a template; its other files lie beside it."""
     known = templates()
     if name not in known:
         raise InvalidValue(
@@ -49,7 +49,7 @@ def template_file(name: str) -> Path:
 
 
 def write_template(name: str, path: str | Path) -> list[Path]:
-    """Write a template, and beside it the files that it reads.
+    """Write a template, and the files that it reads beside it.
 
     Parameters
     ----------
@@ -61,12 +61,12 @@ def write_template(name: str, path: str | Path) -> list[Path]:
     Returns
     -------
     list of Path
-        What was written.
+        The written files.
 
     Raises
     ------
     InvalidValue
-        If there is no such template, or one of the files is there.
+        If there is no such template, or one of the files exists.
     FileProblem
         If a file cannot be written.
     """
@@ -102,7 +102,7 @@ def deck_of(case: FreeBending | AirBending) -> str:
     Returns
     -------
     str
-        What it builds gives the same numbers as :func:`umform.processes.free_bending` and
+        It gives the same numbers as :func:`umform.processes.free_bending` and
         :func:`umform.processes.air_bending.air_bending`.
     """
     from umform.processes.air_bending import deck as air_bending

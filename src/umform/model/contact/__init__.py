@@ -1,4 +1,4 @@
-"""Contact of the sheet with rigid tools: pairs, what they are set to, and what is found at their points."""
+"""Contact of the sheet with rigid tools: pairs, their settings, and results at their points."""
 
 from umform.model.contact.found import ContactFound, ContactPoints
 from umform.model.contact.pair import Contact

@@ -1,4 +1,4 @@
-"""An equivalent draw bead: forces per length of a line on a tool, in place of a bead of real geometry."""
+"""An equivalent draw bead: forces per length of a line on a tool, in place of a modelled bead."""
 
 from __future__ import annotations
 
@@ -25,28 +25,28 @@ log = logging.getLogger("umform.contact")
 
 Floats = NDArray[np.float64]
 
-#: Allowed elastic slip by default, and the gap at which a bead ends, in thicknesses.
+#: Default elastic slip allowed, and the gap at which a bead ends, in thicknesses.
 _SLIP, _OFF = 1.0 / 200.0, 0.5
-#: Points within half a band for an error of the resultant below 1e-3, and below which it is some per cent or more.
+#: Points within half a band for an error of the resultant below 1e-3, and for one of some per cent.
 _WANTED, _FEWEST, _MOST = 4.5, 1.5, 10
 
 
 @dataclass(frozen=True)
 class BeadLine:
-    """What an equivalent draw bead is.
+    """Parameters of an equivalent draw bead.
 
     Attributes
     ----------
     curve : ndarray, shape (k, 3)
-        Corners of a polyline on the tool, in its frame: where it stood when the model was made.
+        Corners of a polyline on the tool, in its frame: the initial position.
     restraint, uplift : float
-        Largest force across the line, and force off the tool, per length.
+        Largest force across the line, and force off the tool, both per length of the line.
     width : float
-        Of the band that they act in.
+        Width of the band.
     slip : float
         Elastic slip.
     off : float
-        Gap at which the bead does nothing any more.
+        Gap from which on the bead has no effect.
     closed : bool
         Whether the last point is joined to the first.
     """
@@ -60,13 +60,13 @@ class BeadLine:
     closed: bool
 
     def law(self) -> _core.ContactLaw:
-        """As the kernels take it."""
+        """In the form of the kernels."""
         line = self.curve.tolist(), self.closed, 0.5 * self.width
         return _core.bead_law(*line, self.restraint, self.uplift, self.slip, self.off)
 
     @property
     def length(self) -> float:
-        """Of the polyline."""
+        """Length of the polyline."""
         corners = np.concatenate([self.curve, self.curve[:1]]) if self.closed else self.curve
         return float(np.linalg.norm(np.diff(corners, axis=0), axis=1).sum())
 
@@ -81,11 +81,11 @@ class Bead(Contact):
     faces : Selector
         Lower or upper faces.
     tool : Tool
-        The tool that the line lies on.
+        The tool with the line.
     line : BeadLine
         Line, forces, band.
     points : int, optional
-        Gauss points per direction and facet; by default as many as the band asks for.
+        Gauss points per direction and facet; default: as many as the band needs.
     name : str
         For the history.
     """
@@ -101,14 +101,14 @@ class Bead(Contact):
 
     @property
     def rubs(self) -> bool:
-        """It holds the sheet along the tool."""
+        """Whether it holds the sheet along the tool."""
         return True
 
     def _law(self) -> _core.ContactLaw:
         return self.line.law()
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
-        """Sums of the forces that hold the sheet back and that lift it, points in the band, those that slip, work."""
+        """Sums of restraint and lift, points in the band, slipping points, work."""
         assert isinstance(found, ContactFound)
         area, pressure = found.held.area, found.held.pressure
         across = found.held.traction - pressure[:, None] * found.held.normal
@@ -143,12 +143,12 @@ def bead_line(
     closed: bool,
     where: str,
 ) -> BeadLine:
-    """The bead from what is given, checked.
+    """Make a checked bead.
 
     Raises
     ------
     InvalidBead
-        If a number is out of range, or the line is none or lies beside its tool.
+        If a number is out of range, or the line is invalid or not on its tool.
     """
     for name, value in (("restraint", restraint), ("uplift", uplift)):
         if not (_is_number(value) and value >= 0.0):
@@ -216,7 +216,7 @@ def _corners(curve: ArrayLike | Sequence[ArrayLike], closed: bool, where: str) -
 
 
 def _refuse_beside(line: BeadLine, tool: Tool, where: str) -> None:
-    """Reject a line that is farther from its tool than the band is wide to one side, at corners or between them."""
+    """Reject a line that is farther from its tool than half the width of the band, at corners or between them."""
     following = np.roll(line.curve, -1, axis=0)
     middles = 0.5 * (line.curve + following)
     places = np.concatenate([line.curve, middles if line.closed else middles[:-1]])
@@ -233,7 +233,7 @@ def _refuse_beside(line: BeadLine, tool: Tool, where: str) -> None:
 
 
 def _points(mesh: Mesh, faces: Selector, half_width: float, points: int | None, where: str) -> int:
-    """Points per direction of a facet, so that the band holds enough of them. eq. (4.105)"""
+    """Points per direction of a facet, so that the band contains enough of them. eq. (4.105)"""
     corners = mesh.points[mesh.facets(faces)[:, :4]]
     size = float(np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=-1).max())
     if points is None:

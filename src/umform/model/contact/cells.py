@@ -1,4 +1,4 @@
-"""How many cells a face is divided into, and how large the ripple of the force is that they leave. docs/cells.md"""
+"""Number of contact cells of a face, and the expected ripple of the force. docs/cells.md"""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from umform.model.contact.encounter import Encounter
 
 #: Default of the allowed ripple of the force.
 RIPPLE = 1e-3
-#: Fewest and most cells per direction of a face.
+#: Smallest and largest number of cells per direction of a face.
 FEWEST, MOST = 3, 20
 
 
 def checked_cells(cells: int | str | None, ripple: float | None, where: str) -> int | str | None:
-    """The number of cells that is given, "auto", or None for points.
+    """The given number of cells, "auto", or None for points.
 
     Raises
     ------
     InvalidValue
-        If the number is invalid, or a ripple is given with a number of cells.
+        If the number is invalid, or given together with a ripple.
     """
     if ripple is not None and cells != "auto":
         raise InvalidValue(
@@ -44,7 +44,7 @@ def checked_cells(cells: int | str | None, ripple: float | None, where: str) -> 
 
 
 def ripple_of(met: Encounter, cells: int, allowed: float) -> float:
-    """Ripple of the force to expect, as a part of it. eqs. (4.120), (4.121)
+    """Expected relative ripple of the force. eqs. (4.120), (4.121)
 
     Parameters
     ----------
@@ -53,13 +53,15 @@ def ripple_of(met: Encounter, cells: int, allowed: float) -> float:
     cells : int
         Cells along a face.
     allowed : float
-        Penetration; an edge counts as that round.
+        Penetration; it is also the radius assumed for an edge.
     """
     return (met.length / cells) ** 2 / (12.0 * max(met.radius, allowed) * met.thickness)
 
 
 def cells_for(met: Encounter, ripple: float, touching: float, allowed: float) -> int:
-    """Fewest cells that keep the ripple below its limit and are shorter than the contact. eq. (4.122)"""
+    """Smallest number of cells that keeps the ripple below its limit and the cells shorter than the contact. eq.
+    (4.122)
+    """
     by_ripple = math.sqrt(ripple_of(met, 1, allowed) / ripple)
     by_length = met.length / touching if touching > 0.0 else MOST
     return min(max(math.ceil(by_ripple), math.ceil(by_length), FEWEST), MOST)

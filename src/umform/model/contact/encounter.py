@@ -1,6 +1,6 @@
-"""What meets in a contact: how thick the sheet is, how round the tool, and which line force to expect between them.
+"""Estimates for a contact: thickness of the sheet, radius of the tool, line force between them.
 
-Nothing here needs to be exact: a penalty may be wrong by a factor of two, and what it leaves is in the history.
+Estimates suffice: a penalty may be wrong by a factor of two, and the history reports the resulting penetration.
 """
 
 from __future__ import annotations
@@ -19,28 +19,28 @@ from umform.mesh.numbers import common, median, unique
 
 Floats = NDArray[np.float64]
 
-#: Shortest lever arm of the contact force in thicknesses: that of the narrowest die, whose radii shorten it in bending.
+#: Shortest lever arm of the contact force in thicknesses: that of the narrowest die, shortened by its radii.
 _ARM = 2.0
 #: Largest radius that a sheet is bent to, in thicknesses: a strain of one per cent at its faces.
 _FLATTEST = 50.0
-#: Largest strain that the stress of bending is asked for.
+#: Largest strain at which the bending stress is evaluated.
 _LARGEST_STRAIN = 0.25
 
 
 @dataclass(frozen=True)
 class Encounter:
-    """Sheet and tool where the tool is sharpest.
+    """Sheet and tool where the tool has its smallest radius.
 
     Attributes
     ----------
     thickness : float
-        That of the sheet, all layers together.
+        Thickness of the sheet, all layers together.
     radius : float
-        Least radius of the tool, 0 for an edge; at most 50 thicknesses, for the sheet is round too.
+        Smallest radius of the tool, 0 for an edge; at most 50 thicknesses, because the sheet is curved too.
     length : float
-        Length of a facet in the direction that the tool is round in.
+        Length of a facet in the direction of the curvature of the tool.
     line_force : float
-        Force per width to expect. eq. (4.28)
+        Expected force per width. eq. (4.28)
     stiffness : float
         E / (1 - nu^2) of the sheet.
     """
@@ -53,12 +53,12 @@ class Encounter:
 
     @property
     def flat(self) -> bool:
-        """Whether the tool is flat all over."""
+        """Whether the tool is flat everywhere."""
         return self.radius >= _FLATTEST * self.thickness
 
     @classmethod
     def of(cls, mesh: Mesh, facets: Ids, tool: _core.Surface, material: Material, where: str) -> Encounter:
-        """Measure mesh and tool where they stand, and ask the law."""
+        """Evaluate mesh and tool in their present position, and the law."""
         h = sheet_thickness(mesh)
         radius, length = _sharpest(mesh.points[facets[:, :4]], tool, _FLATTEST * h)
         strain = min(h / (2.0 * radius + h), _LARGEST_STRAIN)
@@ -67,24 +67,24 @@ class Encounter:
 
 
 def sheet_thickness(mesh: Mesh) -> float:
-    """Thickness of the sheet: the median over its cells, times the layers that lie on each other."""
+    """Thickness of the sheet: the median over its cells, times the number of stacked layers."""
     half = mesh.connectivity.shape[1] // 2
     lower, upper = mesh.connectivity[:, :half], mesh.connectivity[:, half:]
     cell = median(np.linalg.norm(mesh.points[upper] - mesh.points[lower], axis=-1))
     layers, above = 1, unique(upper)
-    while len(above := common(above, lower)):  # nodes with one more cell on top
+    while len(above := common(above, lower)):  # nodes with another cell above
         layers += 1
         above = unique(upper[np.isin(lower, above).all(axis=1)])
     return layers * cell
 
 
 def bending_stress(material: Material, strain: float, where: str) -> float:
-    """Kirchhoff stress of a law in its virgin state at E11 = strain, E22 = 0 and S33 = 0: at the face of a wide bend.
+    """Kirchhoff stress of a law in its virgin state at E11 = strain, E22 = 0 and S33 = 0: outer fibre of a wide bend.
 
     Raises
     ------
     InvalidPenalty
-        If the law does not answer at such strains.
+        If the law fails at such strains.
     """
     law = material.law()
     E, state = np.array([[strain, 0.0, -0.5 * strain, 0.0, 0.0, 0.0]]), law.initial()[None]
@@ -109,14 +109,15 @@ def bending_stress(material: Material, strain: float, where: str) -> float:
 
 
 def _sharpest(corners: Floats, tool: _core.Surface, flattest: float) -> tuple[float, float]:
-    """Least radius of the tool next to some facets (facets, 4, 3), and the length of the facets across it.
+    """Smallest radius of the tool next to some facets (facets, 4, 3), and the length of the facets across it.
 
-    The largest eigenvalue of H at a distance g is 1 / (R + g), eq. (4.3); its direction is the one that is round.
+    The largest eigenvalue of H at a distance g is 1 / (R + g), eq. (4.3); its eigenvector is the direction of
+    curvature.
     """
     grid = np.array([(r, s) for r in (-1.0, 0.0, 1.0) for s in (-1.0, 0.0, 1.0)])
     N = 0.25 * np.stack([(1 + a * grid[:, 0]) * (1 + b * grid[:, 1]) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
     gap, _, H = tool.gap(np.ascontiguousarray(np.einsum("aq,eak->eqk", N, corners).reshape(-1, 3)))
-    defined = np.isfinite(gap) & np.isfinite(H).all(axis=(1, 2))  # not so on the axis of a tool
+    defined = np.isfinite(gap) & np.isfinite(H).all(axis=(1, 2))  # violated on the axis of a tool
     gap, H = np.where(defined, gap, 0.0), np.where(defined[:, None, None], H, 0.0)
     values, directions = np.linalg.eigh(H)
     reach = flattest + np.maximum(gap, 0.0)
@@ -126,7 +127,7 @@ def _sharpest(corners: Floats, tool: _core.Surface, flattest: float) -> tuple[fl
     along = directions[:, :, 2].reshape(*radii.shape, 3)
     edges = np.roll(corners, -1, axis=1) - corners
     radius = float(radii.min())
-    if radius == flattest:  # flat all over: no direction is better than another
+    if radius == flattest:  # flat everywhere: no direction is preferred
         return radius, float(np.linalg.norm(edges, axis=-1).max())
     facet, point = np.nonzero(radii <= 2.0 * radius)
     return radius, float(np.abs(np.einsum("nak,nk->na", edges[facet], along[facet, point])).max())

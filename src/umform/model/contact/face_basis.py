@@ -1,6 +1,6 @@
-"""Values at the contact points of a face as its shape functions can have them. docs/theory, 4.16
+"""Projection of values at contact points onto the shape functions of the face. docs/theory, 4.16
 
-Multipliers at more points than a face has nodes hold more than the face can do, and oscillate.
+With more points than nodes, multipliers at the points have more modes than the face, and oscillate.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ Floats = NDArray[np.float64]
 
 
 def in_face_basis(values: Floats, held: NDArray[np.bool_], area: Floats, N: Floats) -> Floats:
-    """Least-squares fit of values by the shape functions of each face, over the points that are held.
+    """Least-squares fit of values by the shape functions of each face, over the held points.
 
     Parameters
     ----------
     values : ndarray, shape (faces * points,) or (faces * points, k)
         Values at the contact points.
     held : ndarray of bool, shape (faces * points,)
-        Which points count.
+        Points in the fit.
     area : ndarray, shape (faces * points,)
         Their weights.
     N : ndarray, shape (1 or faces, points, nodes)
@@ -28,8 +28,7 @@ def in_face_basis(values: Floats, held: NDArray[np.bool_], area: Floats, N: Floa
     Returns
     -------
     ndarray, as values
-        The fit at the points that are held, zero elsewhere; the values themselves where there are no more points than
-        nodes.
+        The fit at the held points, zero elsewhere; the values themselves if there are at most as many points as nodes.
     """
     points, nodes = N.shape[1:]
     flat = np.where(held[:, None], values.reshape(len(values), -1), 0.0)

@@ -1,4 +1,4 @@
-"""What the evaluation of a contact has found at its points."""
+"""Results of the evaluation of a contact at its points."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ContactPoints:
-    """What is known at the contact points of a pair.
+    """Results at the contact points of a pair.
 
     Attributes
     ----------
@@ -30,13 +30,13 @@ class ContactPoints:
     normal : ndarray, shape (n, 3)
         Unit normal out of the tool.
     area : ndarray, shape (n,)
-        Reference area that belongs to the point.
+        Reference area of the point.
     friction : ndarray, shape (n, 3), optional
         Tangential traction of the tool on the sheet, on the reference area; None without friction.
     slip : ndarray, shape (n,), optional
-        Distance slid so far by points that are held.
+        Distance slid so far by held points.
     status : ndarray of uint8, shape (n,), optional
-        0 for points that are open, 1 for those that stick, 2 for those that slip.
+        0 for open points, 1 for sticking ones, 2 for slipping ones.
     """
 
     x: Floats
@@ -49,34 +49,33 @@ class ContactPoints:
     status: NDArray[np.uint8] | None = None
 
     def known(self) -> dict[str, Any]:
-        """The arrays that there are, by their names."""
+        """The available arrays by name."""
         return {name: values for name, values in vars(self).items() if values is not None}
 
 
 @dataclass(frozen=True)
 class ContactFound(Found):
-    """What the evaluation of a contact has found; it stays what it is when the model is evaluated again.
+    """Results of the evaluation of a contact; later evaluations of the model do not change them.
 
-    What belongs to the points that the tool holds is copied. Positions, gaps and normals of all points follow from the
-    displacement and the pose of the tool, and are measured on demand: most facets of a large sheet are far
-    from the tool.
+    The results at held points are copied. Positions, gaps and normals of all points follow from the displacement and
+    the pose of the tool and are computed on demand, because most facets of a large sheet are far from the tool.
 
     Attributes
     ----------
     held : umform._core.ContactFound
-        What was found at the points that are held.
+        Results at the held points.
     measure : callable
         Returns positions (n, 3), gaps (n,) and normals (n, 3) of all points at the same displacement and pose.
     area : ndarray, shape (n,)
         Reference areas of all points.
     multiplier : ndarray, shape (n,)
-        Pressures that are there without a penetration.
+        Pressures at zero penetration.
     penalty : float
         Pressure per penetration.
     rubs : bool
         Whether there is friction.
     has_potential : bool
-        Whether the energy follows from the pressures; that of cells is measured along the way.
+        Whether the energy follows from the pressures; that of cells is integrated along the path.
     """
 
     held: Any = None
@@ -108,17 +107,17 @@ class ContactFound(Found):
 
     @cached_property
     def active(self) -> NDArray[np.bool_]:
-        """Which points are held by the tool."""
+        """Mask of the points held by the tool."""
         return self.status > 0
 
     @cached_property
     def status(self) -> NDArray[np.uint8]:
-        """0 for points that are open, 1 for those that the tool holds, 2 for those that slip along it as well."""
+        """0 for open points, 1 for points that the tool holds, 2 for those that also slip along it."""
         return np.asarray(self.held.active)
 
     @cached_property
     def slipping(self) -> NDArray[np.bool_]:
-        """Which points slip along the tool, at the bound of friction."""
+        """Mask of the points that slip, at the friction limit."""
         slipping: NDArray[np.bool_] = self.status == 2
         return slipping
 
@@ -128,7 +127,7 @@ class ContactFound(Found):
         return float(self.held.friction_work)
 
     def _spread(self, values: Floats) -> Floats:
-        """Values at all points from those at the points that are held, zero elsewhere."""
+        """Expand values at the held points to all points, zero elsewhere."""
         full = np.zeros((self.area.size, *values.shape[1:]))
         full[self.held.points] = values
         return full
@@ -155,7 +154,7 @@ class ContactFound(Found):
 
     @cached_property
     def share(self) -> Floats:
-        """Part of the area of each point that is held: 0 or 1, and of a cell in between, shape (n,)."""
+        """Part of the area of each point in contact: 0 or 1, for cells also between."""
         return self._spread(self.held.share)
 
     @cached_property
@@ -169,7 +168,7 @@ class ContactFound(Found):
         return float(self.held.penetration)
 
     def points(self) -> ContactPoints:
-        """Positions, gap, pressure, normal and area of all points; with friction what it does there."""
+        """Positions, gap, pressure, normal and area of all points; with friction also traction, slip and status."""
         plain = ContactPoints(self.x, self.gap, self.pressure, self.normal, self.area)
         if not self.rubs:
             return plain
@@ -187,12 +186,12 @@ class ContactFound(Found):
 
     @cached_property
     def tangential_stiffness(self) -> Floats:
-        """Traction per elastic slip of the points that are held, zero elsewhere, shape (n,). eq. (4.174)"""
+        """Traction per elastic slip of the held points, zero elsewhere, shape (n,). eq. (4.174)"""
         return self._spread(self.held.tangential_stiffness)
 
     @cached_property
     def slip(self) -> Floats:
-        """Distances slid so far by the points that are held, zero elsewhere, shape (n,)."""
+        """Distances slid so far by the held points, zero elsewhere, shape (n,)."""
         return self._spread(self.held.slip)
 
     def resultant(self, about: Floats | None = None) -> tuple[Floats, Floats]:
@@ -201,12 +200,12 @@ class ContactFound(Found):
         Parameters
         ----------
         about : array_like, shape (3,), optional
-            Point that the moment is about; default the origin.
+            Reference point of the moment; default the origin.
 
         Returns
         -------
         force, moment : ndarray, shape (3,)
-            Of the sheet on the tool.
+            Acting from the sheet on the tool.
         """
         arm = self.held.x if about is None else self.held.x - np.asarray(about, dtype=float)
         return self.held.force.sum(axis=0), moment(arm, self.held.force)
@@ -219,11 +218,11 @@ class ContactFound(Found):
     def energy(self) -> float:
         """Potential of penalty and multipliers, (p^2 - lambda^2) / (2 penalty) over the reference area. eq. (4.32)
 
-        Of cells the work of the pressure so far, eq. (4.89). With friction that of the elastic slip as well.
+        For cells the work of the pressure so far, eq. (4.89). With friction also the energy of the elastic slip.
         """
         if not self.has_potential:
             return float(self.held.contact_work + self.held.stored)
-        # (p - lambda)(p + lambda): a point that its multiplier alone holds has no energy, to the last digit.
+        # (p - lambda)(p + lambda): exactly zero for a point that is held by its multiplier alone.
         difference, total = self.pressure - self.multiplier, self.pressure + self.multiplier
         return 0.5 / self.penalty * float((difference * self.area) @ total) + float(self.held.stored)
 

@@ -1,4 +1,4 @@
-"""Laws of friction: the largest tangential traction that a tool can bear, from the pressure there."""
+"""Friction laws: the largest tangential traction as a function of pressure and slip."""
 
 from __future__ import annotations
 
@@ -12,33 +12,33 @@ from numpy.typing import ArrayLike, NDArray
 from umform import _core
 from umform.errors import InvalidFriction, NotFinite
 
-#: (pressure, distance slid, place in the frame of the tool) -> largest tangential traction.
+#: (pressure, distance slid, position in the frame of the tool) -> largest tangential traction.
 FrictionFunction = Callable[[float, float, NDArray[np.float64]], float]
 
-#: A larger coefficient is a mistake of units or of sign more often than a rough tool.
+#: A larger coefficient is more often a mistake of units or sign than a rough tool.
 _ROUGHEST = 2.0
 
 
 @dataclass(frozen=True)
 class Friction:
-    """Coulomb's law, with what forming asks of it: t <= min(mu p, cap). eq. (4.48)
+    """Coulomb's law with options for forming: t <= min(mu p, cap). eq. (4.48)
 
     Parameters
     ----------
     mu : float or sequence of (float, float)
         Coefficient, or a table of pairs (pressure, coefficient), linear in between and constant beyond its ends.
     kinetic : float, optional
-        Coefficient of a place that slides, which mu falls to with the distance slid; with a table the part of it, over
-        its first entry. Default: mu.
+        Coefficient of a sliding point, approached from mu with the distance slid; with a table its ratio to the first
+        entry. Default: mu.
     decay : float, optional
-        Distance slid after which 1 / e of the difference is left; needed with ``kinetic``.
+        Distance slid after which 1 / e of the difference remains; required with ``kinetic``.
     cap : float, optional
-        Largest tangential traction, the shear strength of the sheet or its coating for instance; default none.
+        Largest tangential traction, for instance the shear strength of the sheet or its coating; default: no limit.
 
     Raises
     ------
     InvalidFriction
-        If a coefficient is negative, above 2 or not finite, or the numbers do not fit each other.
+        If a coefficient is negative, above 2 or not finite, or the numbers are inconsistent.
 
     Examples
     --------
@@ -110,14 +110,14 @@ class Friction:
 
 @dataclass(frozen=True)
 class Region:
-    """Another friction within a box in the frame of the tool.
+    """Another friction law within a box in the frame of the tool.
 
     Attributes
     ----------
     lower, upper : array_like, shape (3,)
         Corners; infinite where the box has no end.
     friction : float, Friction or callable
-        What holds there.
+        Law inside the box.
 
     Examples
     --------
@@ -144,14 +144,14 @@ class Region:
 
 @dataclass(frozen=True)
 class FrictionByRegion:
-    """Friction that differs over a tool: the first region that a place is in counts.
+    """Friction that varies over a tool: the first region that contains a point applies.
 
     Parameters
     ----------
     elsewhere : float, Friction or callable
-        Outside of all regions.
+        Law outside of all regions.
     regions : sequence of Region
-        Boxes in the frame of the tool, that is where it stood when the model was made.
+        Boxes in the frame of the tool, its initial position.
 
     Examples
     --------
@@ -182,7 +182,7 @@ AnyFriction = float | Friction | FrictionByRegion | FrictionFunction
 
 
 def friction_kernel(friction: AnyFriction) -> _core.FrictionLaw:
-    """A law of friction as the kernels take it.
+    """A friction law in the form of the kernels.
 
     Parameters
     ----------
@@ -192,7 +192,7 @@ def friction_kernel(friction: AnyFriction) -> _core.FrictionLaw:
     Raises
     ------
     InvalidFriction
-        If it is none.
+        If it is invalid.
     """
     if isinstance(friction, Friction | FrictionByRegion):
         return friction.kernel()
@@ -202,7 +202,7 @@ def friction_kernel(friction: AnyFriction) -> _core.FrictionLaw:
 
 
 def _guarded(function: FrictionFunction) -> Callable[[float, float, Sequence[float]], float]:
-    """The function with a clear message where its answer is none."""
+    """The function with a clear error for invalid results."""
 
     def bound(pressure: float, slip: float, z: Sequence[float]) -> float:
         answer = function(pressure, slip, np.array(z))

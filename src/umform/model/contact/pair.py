@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 
 
 class Contact(PairPoints):
-    """Contact of faces with one tool by a penalty and optional multipliers; with or without friction.
+    """Contact of faces with one tool by a penalty and optional multipliers, with or without friction.
 
     docs/theory, chapter 4. Made by :meth:`umform.Model.contact`.
 
@@ -36,14 +36,14 @@ class Contact(PairPoints):
     tool : Tool
         The tool.
     settings : ContactSettings
-        Penalty, points, allowed penetration, multipliers or not; they are attributes of the pair.
+        Penalty, points, allowed penetration, multipliers; they are attributes of the pair.
     name : str
         For the history.
     """
 
     timed_as = "contact"
     within_bodies = True
-    #: Whether a pass of the multipliers has failed in the last increment, so that they stayed what they were.
+    #: Whether an augmentation failed in the last increment, so that the multipliers kept their values.
     multipliers_stay = False
 
     # Term ----------------------------------------------------------------------------------------------------
@@ -53,11 +53,11 @@ class Contact(PairPoints):
         return (self.block.connectivity,)
 
     def moves_with(self, rates: Mapping[Control, float]) -> bool:
-        """Whether its tool does."""
+        """Whether the tool has a rate."""
         return self.tool.moved_by(rates)
 
     def evaluate(self, at: At, into: Into) -> ContactFound:
-        """Add the forces and tangents of all facets that the tool holds. eqs. (4.9), (4.10)"""
+        """Add the forces and tangents of all facets in contact. eqs. (4.9), (4.10)"""
         pose = self.tool.pose(at.values, at.time)
         self.block.set_pose(*pose)
         way = self._relative_way(at, into, pose)
@@ -73,7 +73,9 @@ class Contact(PairPoints):
         return found
 
     def _relative_way(self, at: At, into: Into, pose: Pose) -> Floats | None:
-        """Way of the nodes less that of the tool at their places, shape (3 n,), for the predictor. eq. (4.37)"""
+        """Displacement of the nodes minus that of the tool at their positions, shape (3 n,), for the predictor. eq.
+        (4.37)
+        """
         if at.du is None:
             return None
         way = at.du.reshape(-1, 3) - self.tool.shift_rate(at.rates)
@@ -84,18 +86,18 @@ class Contact(PairPoints):
         return np.ascontiguousarray(way).ravel()
 
     def _carried(self, x: Floats, at: At, pose: Pose) -> Floats:
-        """Way of places (n, 3) of the tool by its motion, from where it stands to where it will be. eq. (4.37)"""
+        """Displacement of points (n, 3) that move with the tool, from its present to its next pose. eq. (4.37)"""
         if self.tool.motion is None or at.until is None:
             return np.zeros_like(x)
         (rotation, shift), (rotation_then, shift_then) = pose, self.tool.pose(at.values, at.until)
         return (x - shift) @ rotation @ rotation_then.T + shift_then - x
 
     def stand(self, found: ContactFound) -> None:
-        """Keep what was found at the converged state."""
+        """Store the results of the converged state."""
         self._last = found
 
     def commit(self, found: Found) -> None:
-        """Accept trial history, multipliers and results as those of the converged state."""
+        """Accept trial history, multipliers and results as converged."""
         self._commit()
         assert isinstance(found, ContactFound)
         self.stand(found)
@@ -106,16 +108,16 @@ class Contact(PairPoints):
         self.block.commit()
 
     def begin(self) -> None:
-        """Let friction and cells begin at the last evaluation, where they have no history yet."""
+        """Initialise the history of friction and cells from the last evaluation, if there is none yet."""
         if self.remembers and not self.block.begun:
             self._commit()
 
     def go_back(self, before: Floats) -> None:
-        """Take the history that the evaluation of the converged state had read."""
+        """Restore the history that the evaluation of the converged state used as input."""
         self.block.restore(np.ascontiguousarray(before).reshape(-1, before.shape[-1]))
 
     def revert(self) -> None:
-        """Go back to the converged history."""
+        """Return to the converged history."""
         self.block.revert()
 
     def state(self) -> Tree:
@@ -127,13 +129,13 @@ class Contact(PairPoints):
         return history.reshape(len(self.facets), -1, history.shape[1])
 
     def restore(self, tree: Tree) -> None:
-        """Put a history back."""
+        """Restore a history."""
         history = np.ascontiguousarray(tree["history"], dtype=float)
         self.block.restore(history.reshape(-1, history.shape[-1]))
         self._last = None
 
     def columns(self, found: Found, ranks: Ranks) -> dict[str, float]:
-        """Largest penetration and number of points that are held; those that slip, and how far; works along the way."""
+        """Largest penetration and number of held points; slipping points and their slip; work along the path."""
         assert isinstance(found, ContactFound)
         columns = {
             f"{self.name}_penetration": ranks.max(self._depth(found)),
@@ -153,14 +155,14 @@ class Contact(PairPoints):
         return columns
 
     def column_names(self) -> Iterable[str]:
-        """Largest penetration, number of points that are held; of friction and cells what they add."""
+        """Largest penetration, number of held points, and the columns of friction and cells."""
         of_friction = [] if self.friction is None else ["slipping", "elastic_slip", "friction_work"]
         of_multipliers = ["multipliers_stay"] if self.augmented else []
         of_cells = [] if self.cells is None else ["contact_work"]
         return [f"{self.name}_{what}" for what in ["penetration", "active", *of_friction, *of_multipliers, *of_cells]]
 
     def energies(self, found: Found, u: Floats) -> Energies:
-        """What penalty and multipliers hold, and the work of friction. eqs. (4.32), (4.49)"""
+        """Energy of penalty and multipliers, and the work of friction. eqs. (4.32), (4.49)"""
         assert isinstance(found, ContactFound)
         return Energies(0.0, 0.0, found.energy(), found.friction_work)
 
@@ -168,13 +170,13 @@ class Contact(PairPoints):
 
     @property
     def found(self) -> ContactFound:
-        """What was found at the converged state.
+        """Results at the converged state.
 
         Raises
         ------
         ModelError
-            If the model has not been solved yet; ask ``model.evaluate(u).found[contact]`` then. If it was solved on
-            many ranks: each had the points of its own facets.
+            If the model has not been solved yet; use ``model.evaluate(u).found[contact]`` then. If it was solved on
+            many ranks, which hold the points of their facets.
         """
         if self.elsewhere:
             raise self._not_here()
@@ -187,7 +189,7 @@ class Contact(PairPoints):
         return self._last
 
     def active(self) -> NDArray[np.bool_]:
-        """Which points are active in the converged state."""
+        """Mask of the active points in the converged state."""
         return self.found.active
 
     def at_points(self) -> ContactPoints:
@@ -201,7 +203,7 @@ class Contact(PairPoints):
     # Multipliers and penalties -------------------------------------------------------------------------------
 
     def loose(self, found: ContactFound) -> bool:
-        """Whether multipliers are on and a gap or an elastic slip exceeds its limit."""
+        """Whether multipliers are active and a gap or an elastic slip exceeds its limit."""
         if not self.augmented or self.allowed is None:
             return False
         if (np.abs(self._in_basis(found.held_gap, found)) > self.allowed).any():
@@ -210,30 +212,30 @@ class Contact(PairPoints):
         return bool(np.any(slides > self.slip))
 
     def _depth(self, found: ContactFound) -> float:
-        """Largest penetration; with multipliers the part of it that the face could take away."""
+        """Largest penetration; with multipliers the part of it that the face can remove."""
         if not self.augmented or not found.active.any():
             return found.penetration
         return float(-min(self._in_basis(found.held_gap, found).min(), 0.0))
 
     def augment(self, found: ContactFound, change: Floats) -> None:
-        """Let the multipliers carry the pressure that was found, and add what that changes in the residual.
+        """Augmentation: set the multipliers to the present pressure, and add the change of the residual.
 
-        The points that are held now stay so to first order, and close their gaps: where the tool goes back, new
+        To first order the held points keep their pressure and close their gaps. Where the tool retreats, new
         multipliers on old gaps would open points under pressure. eqs. (4.34), (4.35)
         """
         self._close(found, found.share * self._in_basis(found.held_gap, found), change)
         self.block.multipliers = np.maximum(self._in_basis(found.pressure, found), 0.0)
-        if self.friction is not None:  # points that stick keep their traction, and go back by their elastic slip
+        if self.friction is not None:  # sticking points keep their traction and recover their elastic slip
             stiffness = found.tangential_stiffness * found.area * (found.status == 1)
             self._spread(stiffness[:, None] * self._in_basis(found.elastic_slip, found), change)
             self.block.augment(self._in_basis(found.friction, found))
 
     def _in_basis(self, values: Floats, found: ContactFound) -> Floats:
-        """Values at the points that are held as the shape functions of the faces can have them."""
+        """Values at the held points, projected onto the shape functions of the faces."""
         return in_face_basis(values, found.active, found.share * found.area, self.block.shape_values)
 
     def stiffen(self, found: ContactFound, penalty: float, change: Floats) -> None:
-        """Take another penalty, and add to the residual what lets the points that are held keep their pressure.
+        """Change the penalty, and add to the residual the change that keeps the pressure of the held points.
 
         Parameters
         ----------
@@ -242,13 +244,13 @@ class Contact(PairPoints):
         penalty : float
             The new penalty.
         change : ndarray, shape (3 n,)
-            Gets what the first increment with the tangent of before has to answer. eq. (4.39)
+            Receives the residual for the first increment with the previous tangent. eq. (4.39)
         """
         self._close(found, (1.0 - self.penalty / penalty) * found.held_gap, change)
         self.penalty = penalty
 
     def _close(self, found: ContactFound, way: Floats, change: Floats) -> None:
-        """Add the forces by which the points that are held now go a way (points,) against their gaps."""
+        """Add the forces that move the held points by a distance (points,) against their gaps."""
         weight = self.penalty * np.where(found.active, way, 0.0) * found.area
         self._spread(weight[:, None] * found.held_normal, change)
 
@@ -285,7 +287,7 @@ class Contact(PairPoints):
         return mean[:, :3], mean[:, 3]
 
     def _mean_at_nodes(self, values: Floats, areas: Floats, count: int, add: Callable[[Floats], Floats]) -> Floats:
-        """Averages (count, k) of values (points, k), weighted by areas and hat functions; zero off the facets."""
+        """Averages (count, k) of values (points, k), weighted by areas and hat functions; zero outside the facets."""
         hats = hat_functions(self.block.shape_values)
         places = len(self.facets), self.block.per_facet
         weight = hats * areas.reshape(*places, 1)  # [facet][point][node]

@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 
 
 class PairPoints(Term):
-    """Facets, their points in the kernel, and what is measured at them; see :class:`umform.model.contact.Contact`."""
+    """Facets, their points in the kernel, and their geometry; see :class:`umform.model.contact.Contact`."""
 
     fixed: ClassVar[tuple[str, ...]] = ("tool", "name")
 
@@ -45,7 +45,7 @@ class PairPoints(Term):
         #: Rows (cell, number of the face), and the nodes of these facets.
         self.faces: Ids = faces
         self.facets: Ids = mesh.facets_of(faces)
-        #: Nodes of all cells that bear a facet, those of the far face too.
+        #: Nodes of all cells with such a facet, including the opposite face.
         self.nodes: Ids = unique(mesh.connectivity[faces[:, 0]])
         self._mesh_points = mesh.points
 
@@ -62,17 +62,17 @@ class PairPoints(Term):
 
     @property
     def cells(self) -> int | None:
-        """Cells per direction and facet that the pressure is integrated over; None at points."""
+        """Cells per direction and facet over which the pressure is integrated; None for points."""
         return self._settings.cells
 
     @property
     def ripple(self) -> float | None:
-        """Ripple of the force to expect of cells, as a part of it; None at points. eq. (4.121)"""
+        """Expected relative ripple of the force with cells; None for points. eq. (4.121)"""
         return self._settings.ripple
 
     @property
     def allowed(self) -> float | None:
-        """Allowed penetration; None where only a penalty was given."""
+        """Allowed penetration; None if only a penalty was given."""
         return self._settings.allowed
 
     @allowed.setter
@@ -81,7 +81,7 @@ class PairPoints(Term):
 
     @property
     def augmented(self) -> bool:
-        """Whether multipliers take the penetration away that is not allowed."""
+        """Whether multipliers reduce the penetration to the allowed one."""
         return self._settings.augmented
 
     @property
@@ -97,12 +97,12 @@ class PairPoints(Term):
 
     @cached_property
     def block(self) -> _core.ContactBlock:
-        """The contact points: made when first asked for.
+        """The contact points, built on demand.
 
         Raises
         ------
         ModelError
-            If the model was solved on many ranks: each had the points of its own facets.
+            If the model was solved on many ranks, which hold the points of their facets.
         """
         if self.elsewhere:
             raise self._not_here()
@@ -125,18 +125,18 @@ class PairPoints(Term):
     def _law(self) -> _core.ContactLaw:
         if self.friction is None:
             return _core.penalty_law(self.penalty)
-        # Multipliers take the elastic slip away and need no stiffness that follows the pressure. eq. (4.174)
+        # Multipliers remove the elastic slip, so the stiffness need not follow the pressure. eq. (4.174)
         slip = np.inf if self.augmented else self.slip
         return _core.coulomb_law(self.penalty, self._settings.ratio, slip, friction_kernel(self.friction))
 
     @property
     def friction(self) -> AnyFriction | None:
-        """Law of friction; None without."""
+        """Friction law; None without friction."""
         return self._settings.friction
 
     @property
     def rubs(self) -> bool:
-        """Whether it has a history of what slides along the tool."""
+        """Whether it has a slip history."""
         return self.friction is not None
 
     @property
@@ -146,12 +146,12 @@ class PairPoints(Term):
 
     @property
     def symmetric(self) -> bool:  # type: ignore[override]
-        """Whether the tangents of its law and its rule are."""
+        """Whether the tangents of its law and its rule are symmetric."""
         return not self.rubs and self.cells is None
 
     @property
     def remembers(self) -> bool:
-        """Whether an evaluation writes more history than multipliers."""
+        """Whether an evaluation writes history other than multipliers."""
         return self.rubs or self.cells is not None
 
     @property
@@ -160,7 +160,7 @@ class PairPoints(Term):
         return self.block.state[:, 0]
 
     def forget_multipliers(self) -> None:
-        """Let no point have a pressure without a penetration any more."""
+        """Remove pressures of points without penetration."""
         state = self.block.state
         state[:, 0] = 0.0
         self.block.restore(state)
@@ -168,24 +168,24 @@ class PairPoints(Term):
     def _not_here(self) -> ModelError:
         return not_here(f"the state of contact {self.name}")
 
-    # Where the points are ------------------------------------------------------------------------------------------
+    # Geometry ------------------------------------------------------------------------------------------------------
 
     @property
     def pose(self) -> Pose:
-        """Where its tool stands now: rotation and shift."""
+        """Present pose of its tool: rotation and shift."""
         return self.tool.pose_now
 
     def gap(self, x: Floats, pose: Pose | None = None) -> Floats:
-        """Signed distance of positions (n, 3) to the tool, where it stands now or in a pose; shape (n,)."""
+        """Signed distance of positions (n, 3) to the tool, in its present or a given pose; shape (n,)."""
         rotation, shift = self.pose if pose is None else pose
         return self.tool.kernel.gap(np.ascontiguousarray((x - shift) @ rotation))[0]
 
     def gap_now(self, u: Floats) -> Floats:
-        """Signed distances of the contact points to the tool where it stands now, shape (n,)."""
+        """Signed distances of the contact points to the tool in its present pose, shape (n,)."""
         return self._measured(u, self.pose)[1]
 
     def _found(self, scale: float, u: Floats, pose: Pose) -> ContactFound:
-        """What the kernel knows now of the points that are held, copied; the rest is measured when it is asked for."""
+        """Copy of the kernel's results at held points; the rest is computed on demand."""
         block = self.block
         held = block.found()
         multiplier = block.multipliers if self.augmented else self._no_multipliers
@@ -217,7 +217,7 @@ class PairPoints(Term):
         return self.block.positions, self.block.gaps, self.block.normals
 
     def locate(self, u: Floats, pose: Pose) -> ContactFound:
-        """What would be found at a displacement, with the tool in a pose; no force and no tangent."""
+        """Results at a displacement, with the tool in a pose; without force and tangent."""
         self.block.set_pose(*pose)
         self.block.locate(u)
         return self._found(0.0, u, pose)
@@ -231,21 +231,21 @@ class PairPoints(Term):
     # Ranks ---------------------------------------------------------------------------------------------------
 
     def strip(self, bare: Self, twins: Twins) -> None:
-        """Without faces and points, of the twin of its tool."""
+        """Without faces and points, for the twin of its tool."""
         for made in ("block", "_areas", "_no_multipliers", "faces", "facets", "nodes", "_mesh_points", "_last"):
             bare.__dict__.pop(made, None)
         bare.__dict__["tool"] = twins.of(self.tool)
         bare.before = np.empty(0)
 
     def piece(self, cut: Cut) -> tuple[Ids, NDArray[np.int64], Tree | None]:
-        """Faces of the rank, which rows of this contact they are, and their history if there is any yet."""
+        """Faces of the rank, their rows in this contact, and their history if any."""
         faces, rows = cut.faces_of(self.faces)
         begun = "block" in vars(self) and self.block.begun
         history = {name: values[rows] for name, values in self.state().items()} if begun else None
         return faces, rows, history
 
     def fill(self, piece: tuple[Ids, NDArray[np.int64], Tree | None], mesh: Any) -> None:
-        """Take faces and history."""
+        """Set faces and history."""
         faces, self.rows, history = piece
         self._last = None
         self._meet(mesh, faces)
@@ -254,7 +254,7 @@ class PairPoints(Term):
 
 
 def hat_functions(N: Floats) -> Floats:
-    """Piecewise bilinear functions between the nodes of a face at the places where its shape functions are N.
+    """Piecewise bilinear functions between the nodes of a face, evaluated at the points of N.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a contact is set to: its penalty from the penetration that is allowed, and its number of points."""
+"""Settings of a contact: the penalty from the allowed penetration, and the number of points."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from umform.surfaces import Surface
 
 log = logging.getLogger("umform.contact")
 
-#: Allowed penetration by default, in thicknesses.
+#: Default allowed penetration, in thicknesses.
 _PENETRATION = 1.0 / 200.0
-#: Length that a flat tool, a blank holder for instance, spreads the line force on, in thicknesses.
+#: Length over which a flat tool, a blank holder for instance, spreads the line force, in thicknesses.
 _FLAT = 20.0
-#: Allowed elastic slip by default, in thicknesses.
+#: Default allowed elastic slip, in thicknesses.
 _SLIP = 1.0 / 200.0
-#: Largest penalty over stiffness / thickness: beyond it the sheet is squeezed ten times as much as it penetrates.
+#: Largest penalty over stiffness / thickness: beyond it the compression of the sheet exceeds ten times the penetration.
 _STIFFEST = 10.0
-#: Contact points that the expected contact length should hold, and the most points per direction. Where the force is a
-#: third of what is expected, as late in air bending, the contact is 0.7 times as long and still holds four.
+#: Contact points that the expected contact length should contain, and the most points per direction. At a third of the
+#: expected force, as late in air bending, the contact is 0.7 times as long and still contains four.
 _WITHIN, _MOST = 6.0, 10
 #: Default of the points per direction.
 _POINTS = 2
@@ -38,7 +38,7 @@ _POINTS = 2
 
 @dataclass(frozen=True)
 class ContactSettings:
-    """What a contact is set to.
+    """Settings of a contact.
 
     Attributes
     ----------
@@ -47,20 +47,20 @@ class ContactSettings:
     points : int or "nodes"
         Gauss points per direction and facet, or cells, or the nodes.
     allowed : float, optional
-        Allowed penetration; None where only a penalty was given.
+        Allowed penetration; None if only a penalty was given.
     augmented : bool
-        Whether multipliers take the penetration away that is not allowed, and the elastic slip.
+        Whether multipliers reduce the penetration to the allowed one, and the elastic slip.
     friction : float, Friction, FrictionByRegion or callable, optional
-        Law of friction; None without.
+        Friction law; None without friction.
     slip : float
         Allowed elastic slip.
     ratio : float
-        Tangential stiffness over the penalty at first touch, so that the pressure that is expected slips at that
-        elastic slip.
+        Tangential stiffness over the penalty at first contact, such that a point at the expected pressure slips at the
+        allowed elastic slip.
     cells : int, optional
         Cells per direction and facet; None at points.
     ripple : float, optional
-        Ripple of the force to expect of cells, as a part of it; None at points, and where the law tells nothing.
+        Expected relative ripple of the force with cells; None for points, and if the law gives no estimate.
     """
 
     penalty: float
@@ -90,12 +90,12 @@ def contact_settings(
     slip: float | None = None,
     where: str = "contact",
 ) -> ContactSettings:
-    """Settings from what is given, the rest from mesh, tool and law. eqs. (4.29), (4.31), (4.122)
+    """Settings from the given values, the rest from mesh, tool and law. eqs. (4.29), (4.31), (4.122)
 
     Raises
     ------
     InvalidPenalty, InvalidValue
-        If a number is out of range, or two say the same thing.
+        If a number is out of range, or two settings exclude each other.
     """
     _check(penalty, penetration, augmented, tool, where)
     cells = checked_cells(cells, ripple, where)
@@ -139,7 +139,7 @@ def contact_settings(
 
 
 def _friction_law(friction: AnyFriction | None, slip: float | None, where: str) -> _core.FrictionLaw | None:
-    """The law of friction, checked; None for none."""
+    """The checked friction law; None without friction."""
     if slip is not None and not (np.isfinite(slip) and slip > 0):
         raise InvalidValue(
             "the elastic slip that is allowed must be positive",
@@ -160,10 +160,10 @@ def _friction_law(friction: AnyFriction | None, slip: float | None, where: str) 
 def _pressure(
     mesh: Mesh, faces: Selector, tool: Surface, material: Material, penalty: float, points: int | str
 ) -> float:
-    """Pressure to expect with a penalty. eqs. (4.28), (4.15)"""
+    """Expected pressure for a penalty. eqs. (4.28), (4.15)"""
     try:
         met = Encounter.of(mesh, mesh.facets(faces), tool.kernel(), material, "")
-    except InvalidPenalty:  # the law has no bending stress: the penalty is taken for that of the default penetration
+    except InvalidPenalty:  # no estimate: assume the penalty of the default penetration
         return penalty * _PENETRATION * sheet_thickness(mesh)
     spacing = met.length if isinstance(points, str) else met.length / points
     length = max(contact_length(met.radius, met.line_force, penalty), spacing)
@@ -171,23 +171,23 @@ def _pressure(
 
 
 def _tangential_stiffness(law: _core.FrictionLaw, pressure: float, slip: float) -> float:
-    """Traction per elastic slip, so that a place at the pressure slips at that elastic slip. eq. (4.51)"""
+    """Traction per elastic slip, such that a point at the pressure slips at the allowed elastic slip. eq. (4.51)"""
     bound = law.bound(pressure)[0]
     return (bound if bound > 0.0 else pressure) / slip
 
 
 def contact_length(radius: float, line_force: float, penalty: float) -> float:
-    """Length on which a round tool touches a flat sheet. eq. (4.15)"""
+    """Length of the contact of a round tool with a flat sheet. eq. (4.15)"""
     return 2.0 * math.cbrt(1.5 * radius * line_force / penalty)
 
 
 def _length_at(met: Encounter, allowed: float) -> float:
-    """Length on which the tool touches when it penetrates as far as allowed; an edge counts as that round."""
+    """Length of the contact at the allowed penetration, which is also the radius assumed for an edge."""
     return 2.0 * math.sqrt(2.0 * max(met.radius, allowed) * allowed)
 
 
 def _penalty(met: Encounter, allowed: float, points: int | str) -> float:
-    """Penalty that carries the line force at the penetration that is allowed. eq. (4.29)"""
+    """Penalty that carries the line force at the allowed penetration. eq. (4.29)"""
     spacing = met.length if isinstance(points, str) else met.length / points
     touching = _FLAT * met.thickness if met.flat else 2.0 / 3.0 * _length_at(met, allowed)
     length = max(touching, spacing)
@@ -195,14 +195,14 @@ def _penalty(met: Encounter, allowed: float, points: int | str) -> float:
 
 
 def _points(met: Encounter, penalty: float | None, allowed: float | None, least: int) -> int:
-    """Points per direction, so that four lie within the length that touches, in wide dies too. eq. (4.31)"""
+    """Points per direction, such that the contact length contains four, in wide dies too. eq. (4.31)"""
     length = _length(met, penalty, allowed)
     wanted = _WITHIN * met.length / length if length > 0.0 else _MOST
     return min(max(math.ceil(wanted), least), _MOST)
 
 
 def _length(met: Encounter, penalty: float | None, allowed: float | None) -> float:
-    """Length that touches, by the penalty or at the penetration that is allowed."""
+    """Contact length, from the penalty or at the allowed penetration."""
     if penalty is not None:
         return contact_length(met.radius, met.line_force, penalty)
     assert allowed is not None
@@ -210,7 +210,7 @@ def _length(met: Encounter, penalty: float | None, allowed: float | None) -> flo
 
 
 def _ripple(met: Encounter | None, meet: Callable[[], Encounter], cells: int, allowed: float | None) -> float | None:
-    """Ripple of the force to expect of cells; None where the law tells nothing. eq. (4.121)"""
+    """Expected relative ripple of the force with cells; None if the law gives no estimate. eq. (4.121)"""
     try:
         met = meet() if met is None else met
     except InvalidPenalty:
@@ -225,12 +225,12 @@ def _cells(met: Encounter, penalty: float | None, allowed: float | None, ripple:
 
 
 def _default(met: Encounter) -> float:
-    """Allowed penetration by default."""
+    """Default allowed penetration."""
     return _PENETRATION * met.thickness
 
 
 def _places(points: int | str | None, cells: int | str | None, where: str) -> int | str:
-    """Points or cells per direction, checked."""
+    """Checked number of points or cells per direction."""
     if cells is None:
         points = _POINTS if points is None else points
         if points not in ("auto", "nodes") and (isinstance(points, str) or points not in range(1, _MOST + 1)):

@@ -1,7 +1,7 @@
 """Air bending: a sheet in a V-die, bent by a punch and unloaded.
 
-`air_bending` runs one bend of given stroke, `find_stroke` looks for the stroke of a wanted angle, `bending_table` gives
-the angles of a row of strokes; `AirBending` are the parameters.
+`air_bending` runs one bend with a given stroke, `find_stroke` finds the stroke for an angle, `bending_table` gives the
+angles for several strokes; `AirBending` holds the parameters.
 """
 
 from umform.processes.air_bending.bend import AirBend

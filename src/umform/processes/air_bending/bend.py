@@ -1,4 +1,4 @@
-"""What comes out of a bend: measures, curve, sections, and the run that they are of."""
+"""Result of a bend: measures, curve, sections, and the run."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from umform.processes.air_bending.section import Section
 from umform.run import Result
 
 Floats = NDArray[np.float64]
-#: Penetration, in thicknesses, that is worth a word.
+#: Penetration, relative to the thickness, that is reported.
 _DEEP = 0.02
 
 
@@ -27,11 +27,11 @@ class Loaded:
     Attributes
     ----------
     stroke, force, largest_force : float
-        Way of the punch in mm, its force in N for each mm of the bend, and the largest force up to there.
+        Stroke of the punch in mm, its force per length of bend in N/mm, and the largest force so far.
     section : Section
         The bent section.
     against : str
-        Tool against whose flank the sheet lies: "die", "punch" or none.
+        Tool whose flank touches the sheet: "die", "punch" or none.
     """
 
     stroke: float
@@ -63,13 +63,13 @@ class AirBend:
     step : ndarray of int, shape (n,)
         1 loading, 2 unloading; 0 the start.
     stroke, force : ndarray, shape (n,)
-        Way of the punch in mm and its force in N for each mm of the bend, all converged increments.
+        Stroke of the punch in mm and its force per length of bend in N/mm, all converged increments.
     loaded, released : Section
         The section under load and after unloading.
     path : ndarray, shape (m, 2)
         Stroke and angle under load.
     against : str
-        Tool against whose flank the sheet lies at the stroke: "die", "punch" or none; then it is no air bending.
+        Tool whose flank touches the sheet at the stroke: "die", "punch" or none. With a contact it is no air bending.
     result : Result
         History, frames and iterations.
     """
@@ -118,7 +118,9 @@ class AirBend:
 
     @property
     def force_balance(self) -> float:
-        """Force of the punch less that of the die over that of the punch, at the stroke; NaN without a force."""
+        """Force of the punch minus that of the die, relative to that of the punch, at the stroke; NaN without a
+        force.
+        """
         at = int(np.flatnonzero(self.step == 1)[-1])
         punch, die = self.result["punch_fz"][at], self.result["die_fz"][at]
         return float(abs(punch + die) / abs(punch)) if punch else math.nan
@@ -130,7 +132,7 @@ class AirBend:
 
     @property
     def warnings(self) -> list[str]:
-        """What to look at."""
+        """Warnings."""
         lying = f"the sheet lies against a flank of the {self.against}: this is no air bending any more"
         hollow = "the sheet does not lie on the flanks of the die: this is no bottoming yet"
         deep = (

@@ -1,4 +1,4 @@
-"""The press brake: a model of sheet, die and punch, the steps down to a stroke and back, forces and flanks."""
+"""The press brake: a model of sheet, die and punch, the loading and unloading steps, forces and contact on flanks."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from umform.processes.air_bending.sheet import half_sheet
 from umform.solution.options import NewtonOptions
 from umform.steps.release import Release
 
-#: Towards zero force the sheet rests on single rows of contact points, and plain Newton jumps between two rows. Angles
-#: are those of tight tolerances to 1e-6 degrees. The parabola saves a fourth of the evaluations.
+#: Near zero force the sheet rests on single rows of contact points, and plain Newton jumps between two rows. Tight
+#: tolerances give angles to 1e-6 degrees. The quadratic predictor saves a fourth of the evaluations.
 OPTIONS = NewtonOptions(residual=1e-6, increment=1e-4, line_search=True, extrapolate=2)
-#: Increments of a part of the loading.
+#: Increments of one step of the loading.
 INCREMENTS = 5
-#: Force that counts as zero, as a part of the force before unloading: the angle is then off by about 0.001 degrees.
+#: Force that counts as zero, relative to the force before unloading: an error of the angle of about 0.001 degrees.
 _ZERO_FORCE = 2e-3
-#: First increment of the way back in thicknesses.
+#: First increment of unloading in thicknesses.
 _FIRST_BACK = 0.02
 
 
@@ -49,9 +49,9 @@ def build(case: AirBending) -> tuple[Model, Control]:
 
 
 def loading(case: AirBending, stroke: float) -> list[tuple[float, int]]:
-    """Where the steps down to a stroke end, and the increments of each: parts of equal increments, then what is left.
+    """Strokes at the ends of the loading steps, and the increments of each: steps of equal increments, then the rest.
 
-    The parts are the same for all strokes, so that a search and a table go the way of a single bend.
+    The steps are the same for all strokes, so that a search and a table follow the path of a single bend.
     """
     part = INCREMENTS * case.way
     whole = max(0, math.ceil(stroke / part - 1e-9) - 1)
@@ -60,12 +60,12 @@ def loading(case: AirBending, stroke: float) -> list[tuple[float, int]]:
 
 
 def part_end(case: AirBending, number: int) -> float:
-    """Stroke at the end of a part of the loading, counted from 1."""
+    """Stroke at the end of a loading step, counted from 1."""
     return number * (INCREMENTS * case.way)
 
 
 def increments(case: AirBending, way: float) -> int:
-    """Increments that a way of the punch takes."""
+    """Number of increments for a travel of the punch."""
     return max(1, math.ceil(way / case.way - 1e-9))
 
 
@@ -75,18 +75,18 @@ def unloading(case: AirBending, punch: Control) -> Release:
 
 
 def unloading_keys(case: AirBending) -> dict[str, float]:
-    """First increment and tolerance of the way back."""
+    """First increment and tolerance of unloading."""
     return {"increment": _FIRST_BACK * case.thickness, "tolerance": _ZERO_FORCE}
 
 
 def force_per_width(case: AirBending, force: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Force on the whole sheet for each mm of the bend, from the force on the modelled part."""
+    """Force per length of bend on the whole sheet, from the force on the modelled part."""
     modelled = case.thickness if case.width is None else 0.5 * case.width
     return 2.0 / modelled * force
 
 
 def against_flank(case: AirBending, contacts: Mapping[str, ContactPoints]) -> str:
-    """Tool, "die" or "punch", that the sheet touches on its flank, a quarter of a thickness beyond the radius."""
+    """Tool, "die" or "punch", whose flank the sheet touches, a quarter of a thickness beyond the radius."""
     beyond = 0.25 * case.thickness
     die, punch = (0.5 * math.radians(180.0 - angle) for angle in (case.die_angle, case.punch_angle))
     x_die = np.abs(contacts["die"].x[contacts["die"].gap <= 0.0, 0])

@@ -34,7 +34,7 @@ FRAMES = 60
 
 
 class Brake:
-    """A sheet between die and punch that remembers the states under load it has been in.
+    """A sheet between die and punch that keeps its states under load.
 
     Parameters
     ----------
@@ -43,12 +43,12 @@ class Brake:
     solver : str
         Sparse solver.
     frames : int
-        About how many states are kept for pictures on the largest stroke; the ends of steps are kept with any but 0.
+        Approximate number of states kept for pictures on the largest stroke; 0 also drops the ends of steps.
 
     Attributes
     ----------
     run : OpenRun
-        The run: loaded, or unloaded after that.
+        The run: loaded, or loaded and unloaded.
     """
 
     def __init__(self, case: AirBending, solver: str = "auto", frames: int = 0) -> None:
@@ -57,7 +57,7 @@ class Brake:
         share = frames * INCREMENTS * case.way / case.largest_stroke
         self.run = OpenRun(self.model, solver=solver, options=OPTIONS, frames=min(frames, max(1, round(share))))
         self._parts: list[Mark] = [self.run.mark()]
-        self._done: int | None = 0  # parts that the run has behind it, if it stands at the end of one
+        self._done: int | None = 0  # completed steps of the run, if it is at the end of one
         self._loaded: Loaded | None = None
 
     def build(self) -> tuple[Model, Control]:
@@ -73,12 +73,12 @@ class Brake:
         return force_per_width(self.case, -self.run.result["stroke_force"])
 
     def load(self, stroke: float, tick: Tick = silent) -> Loaded:
-        """Load to a stroke, from the nearest remembered state below it.
+        """Load to a stroke, from the nearest kept state below it.
 
         Raises
         ------
         NoConvergence
-            If the sheet cannot be bent so far.
+            If the sheet cannot be bent to the stroke.
         """
         parts = loading(self.case, stroke)
         rest = [] if parts[-1] == (part_end(self.case, len(parts)), INCREMENTS) else [parts.pop()]
@@ -102,12 +102,12 @@ class Brake:
         tick("loading", stroke / self.case.largest_stroke, f"stroke {stroke:.4g}")
 
     def unload(self) -> Measures:
-        """Measures after unloading from the state under load, which `load` has reached.
+        """Measures after unloading from the state that `load` has reached.
 
         Raises
         ------
         NoConvergence
-            If the punch cannot be taken back.
+            If unloading does not converge.
         """
         assert self._loaded is not None
         self._done = None
@@ -115,10 +115,10 @@ class Brake:
         return self._loaded.measured(self.section())
 
     def bend(self, stroke: float, tick: Tick = silent) -> AirBend:
-        """Load to a stroke, and unload: the run ends there."""
+        """Load to a stroke and unload; the run ends there."""
         loaded = self.load(stroke, tick)
         return self.end(loaded, self.unload())
 
     def end(self, loaded: Loaded, measures: Measures) -> AirBend:
-        """The bend that was loaded and unloaded last; the run ends there."""
+        """The last bend that was loaded and unloaded; the run ends there."""
         return AirBend.of(replace(self.case, stroke=loaded.stroke), self.run.close(), loaded, measures)

@@ -1,4 +1,4 @@
-"""Error budget: how far each measure moves when mesh, points or increments are refined, one at a time."""
+"""Error budget: change of each measure when mesh, contact points or increments are refined, one at a time."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.rules import MOST_LAYERS, MOST_POINTS, RULES
 from umform.progress import progress_bar
 
-#: Element of the stack that the layers are judged by, and its points through the thickness of each of them.
+#: Element of the reference stack for the layers, and its points through the thickness of each element.
 _STACK, _STACK_POINTS = element("EAS3DEAS", thickness_order=2, tie_E33=True), 4
 
 
@@ -29,9 +29,9 @@ class Budget:
     base : Measures
         The measures of the case as it stands.
     changes : dict of str to dict of str to float
-        For each refinement, the change of each measure. NaN where the refined run has failed.
+        For each refinement, the change of each measure. NaN if the refined run failed.
     failures : dict of str to str
-        Why a refined run has failed.
+        Cause of the failure of refined runs.
     """
 
     base: Measures
@@ -39,16 +39,16 @@ class Budget:
     failures: dict[str, str]
 
     def total(self, name: str) -> float:
-        """Root of the sum of squares of the changes of a measure: its uncertainty from the discretisation."""
+        """Square root of the sum of squares of the changes of a measure: its uncertainty from the discretisation."""
         return math.sqrt(sum(change[name] ** 2 for change in self.changes.values()))
 
 
 def refinements(case: AirBending) -> dict[str, AirBending]:
-    """The case refined in one way at a time; t-pts are those through the thickness, c-pts of contact.
+    """The case with one refinement at a time; t-pts are points through the thickness, c-pts contact points.
 
-    What is automatic is refined from what it comes to. A parameter that is as fine as it may be is made coarser: the
-    change tells as much. depth is the allowed penetration. The layers are judged by a stack of eight: a layer
-    more tells little of the error of two, which falls neither fast nor steadily (docs/verification/air-bend-mesh.md).
+    Automatic values are refined from the value that they take. A parameter at its upper limit is made coarser instead.
+    ``depth`` is the allowed penetration. The reference for the layers is a stack of eight: one layer more tells little
+    about the error of two, which falls neither fast nor monotonically (docs/verification/air-bend-mesh.md).
     """
     elements, points = case.elements_per_thickness, case.thickness_points
     return {
@@ -61,17 +61,17 @@ def refinements(case: AirBending) -> dict[str, AirBending]:
 
 
 def _refined(case: AirBending, name: str, values: dict[str, float]) -> dict[str, AirBending]:
-    """The case with the first of some values that a parameter may have."""
+    """The case with the first valid one of some values of a parameter."""
     label = next(label for label, value in values.items() if RULES[name].fits(value))
     changed: dict[str, Any] = {name: values[label]}
     return {label: replace(case, **changed)}
 
 
 def _layers(case: AirBending) -> dict[str, AirBending]:
-    """The case as a stack of as many layers as may be, on the same lines of nodes along the sheet."""
+    """The case as a stack of as many layers as allowed, on the same lines of nodes along the sheet."""
     if case.layers == MOST_LAYERS:
         return {"layers-1": replace(case, layers=case.layers - 1)}
-    finer = 2.0 if element(case.element).cell == "hex18" else 1.0  # their nodes in the middle become borders
+    finer = 2.0 if element(case.element).cell == "hex18" else 1.0  # their mid-side nodes become corner nodes
     along = finer * case.elements_per_thickness
     stack = replace(
         case,
@@ -79,13 +79,13 @@ def _layers(case: AirBending) -> dict[str, AirBending]:
         layers=MOST_LAYERS,
         thickness_points=_STACK_POINTS,
         elements_per_thickness=along if RULES["elements_per_thickness"].fits(along) else case.elements_per_thickness,
-        width_elements=max(2, case.width_elements),  # one over the width would collapse
+        width_elements=max(2, case.width_elements),  # a single element over the width would collapse
     )
     return {"stack": stack}
 
 
 def _contacts(case: AirBending) -> dict[str, AirBending]:
-    """The case with other contact points, and with a harder contact."""
+    """The case with other contact points, and with a larger penalty."""
     contacts = build(case)[0].contacts
     points = [int(contact.points) for contact in contacts]
     if min(points) < MOST_POINTS:
@@ -95,7 +95,7 @@ def _contacts(case: AirBending) -> dict[str, AirBending]:
     if case.penalty is not None:
         return cases | {"penalty*2": replace(case, penalty=2.0 * case.penalty)}
     allowed = contacts[0].allowed
-    assert allowed is not None  # where there is no penalty
+    assert allowed is not None  # contact without a penalty has no such refinement
     return cases | {"depth/2": replace(case, penetration=0.5 * allowed)}
 
 
@@ -146,5 +146,5 @@ def _run(case: AirBending) -> Measures | str:
 
 
 def _cost(case: AirBending) -> float:
-    """About how long a case takes, in any unit."""
+    """Estimated cost of a case, in any unit."""
     return case.elements_per_thickness * case.layers * case.thickness_points / case.increment

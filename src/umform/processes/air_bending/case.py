@@ -24,13 +24,13 @@ def air_bending(
     case : AirBending
         The parameters, with a stroke.
     frames : int
-        About how many states are kept for pictures and for the angle under load, in loading and in unloading.
+        Approximate number of states kept for pictures and for the angle under load, in loading and in unloading.
     solver : str
         Sparse solver.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
     brake : Brake, optional
-        A sheet of the same case that has been loaded already, instead of a new one.
+        A sheet of the same case that is already loaded, instead of a new one.
 
     Returns
     -------
@@ -42,7 +42,7 @@ def air_bending(
     InvalidValue
         If the case has no stroke.
     NoConvergence
-        If it cannot be continued; the attribute ``result`` holds what was reached.
+        If it does not converge; the attribute ``result`` holds the run up to the failure.
     """
     stroke = needed_stroke(case)
     with progress_bar(progress) as tick:

@@ -1,4 +1,4 @@
-"""What the parameters of air bending may be; what does not fit is refused with its likely cause and remedy."""
+"""Checks of the parameters of air bending; errors name the likely cause and remedy."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from umform.errors import InvalidValue
 from umform.processes.air_bending.rules import RULES, angle_rule
 from umform.processes.rules import Rule, check_rolling, check_rules, number
 
-#: Openings over the thickness between which a sheet is bent in the air; press brakes take 5 to 16.
+#: Range of opening over thickness for air bending; press brakes use 5 to 16.
 _NARROWEST, _WIDEST = 1.0, 500.0
-#: Penalty over E / thickness beyond which Newton's method creeps.
+#: Penalty times thickness over E beyond which Newton's method converges slowly.
 _STIFFEST = 1e3
 
 
 class Geometry(Protocol):
-    """What is looked at of :class:`umform.processes.air_bending.AirBending`."""
+    """Parameters of :class:`umform.processes.air_bending.AirBending` that the checks use."""
 
     @property
     def thickness(self) -> float:
@@ -64,7 +64,7 @@ class Geometry(Protocol):
         """Way of the punch."""
 
     def free_length(self, slope: float) -> float:
-        """Length of the sheet between the tools at a slope."""
+        """Free length of the leg at a slope."""
 
     @property
     def bottoming(self) -> bool:
@@ -76,7 +76,7 @@ class Geometry(Protocol):
 
     @property
     def largest_stroke(self) -> float:
-        """Way at which the punch has bent the sheet into the die."""
+        """Stroke at which the sheet touches a flank."""
 
     @property
     def stroke_limit(self) -> float:
@@ -84,10 +84,10 @@ class Geometry(Protocol):
 
     @property
     def steepest(self) -> float:
-        """Smallest angle of bending that the tools allow."""
+        """Smallest angle that the tools allow."""
 
 
-#: The force that counts as zero after unloading leaves about the smallest of these open; see `brake`.
+#: The force that counts as zero after unloading leaves about the smallest of these as error; see `brake`.
 _FINEST, _COARSEST = 0.001, 10.0
 _TOLERANCE = Rule(
     lambda value: number(value) and _FINEST <= value <= _COARSEST,
@@ -101,7 +101,7 @@ _WANTED = angle_rule(
 
 
 def check_parameters(values: Mapping[str, Any]) -> None:
-    """Refuse parameters that do not fit, each by itself, and a penalty beside the penetration that it follows from.
+    """Refuse invalid parameters one by one, and a penalty given together with the allowed penetration.
 
     Raises
     ------
@@ -120,12 +120,12 @@ def check_parameters(values: Mapping[str, Any]) -> None:
 
 
 def check_geometry(case: Geometry) -> None:
-    """Refuse tools between which the sheet finds no room, and strokes beyond the end of air bending.
+    """Refuse tools that leave no room for the sheet, and strokes beyond the end of air bending.
 
     Raises
     ------
     InvalidValue
-        ``where`` is the name of the parameter that is the likeliest to be wrong.
+        ``where`` is the parameter that is most likely wrong.
     """
     _check_proportions(case)
     _check_room(case)
@@ -164,7 +164,7 @@ def _check_bottoming(case: Geometry) -> None:
 
 
 def _check_rolling(case: Geometry) -> None:
-    """Refuse a law with directions without its rolling direction, and one that breaks the symmetry of a half width."""
+    """Refuse an anisotropic law without rolling direction, and one that breaks the symmetry of a half width."""
     check_rolling(case.material, case.rolling)
     anisotropic = getattr(case.material, "directional", False)
     if anisotropic and case.width is not None and (case.rolling or 0.0) % 90.0 != 0.0:
@@ -178,12 +178,12 @@ def _check_rolling(case: Geometry) -> None:
 
 
 def _unfit(case: Geometry, name: str, what: str, cause: str, remedy: str) -> InvalidValue:
-    """Error for a parameter that does not fit the others."""
+    """Error for a parameter that does not agree with the others."""
     return InvalidValue(what, where=name, value=getattr(case, name), cause=cause, remedy=remedy)
 
 
 def _check_proportions(case: Geometry) -> None:
-    """Refuse an opening and a penalty of another size than the sheet's."""
+    """Refuse an opening and a penalty of an unlikely order of magnitude."""
     if not _NARROWEST <= case.opening / case.thickness <= _WIDEST:
         raise _unfit(
             case,
@@ -203,7 +203,7 @@ def _check_proportions(case: Geometry) -> None:
 
 
 def _check_room(case: Geometry) -> None:
-    """Refuse a tip that is wider than the die, shoulders without flanks, and a sheet that would be drawn."""
+    """Refuse a tip that is wider than the die, shoulders without flanks, and a sheet that would be drawn in."""
     tip = 2.0 * case.punch_radius * math.cos(math.radians(0.5 * case.punch_angle))
     if tip >= case.opening:
         raise _unfit(
@@ -213,7 +213,7 @@ def _check_room(case: Geometry) -> None:
             f"the tip is round on a width of {tip:.4g}, the opening is {case.opening:.4g}",
             "a smaller punch_radius, or a wider opening",
         )
-    flank = 0.5 * case.opening / math.sin(math.radians(0.5 * case.die_angle))  # from the top to the point of the V
+    flank = 0.5 * case.opening / math.sin(math.radians(0.5 * case.die_angle))  # from the top to the apex of the V
     setback = case.die_radius * math.tan(math.radians(0.25 * (180.0 - case.die_angle)))
     if setback >= flank:
         raise _unfit(
@@ -251,7 +251,7 @@ def needed_stroke(case: Geometry) -> float:
 
 
 def check_tolerance(tolerance: float) -> None:
-    """Refuse a tolerance of the angle that cannot be met, or that says nothing.
+    """Refuse a tolerance of the angle that is too small or too large.
 
     Raises
     ------
@@ -266,7 +266,7 @@ def check_angle(case: Geometry, angle: float) -> None:
     Raises
     ------
     InvalidValue
-        If the angle is no angle of a bend, or not above those of punch and die.
+        If the angle is not between 0 and 180 degrees, or not above those of punch and die.
     """
     _WANTED.check("angle", angle)
     least = max(case.die_angle, case.punch_angle)
@@ -275,7 +275,7 @@ def check_angle(case: Geometry, angle: float) -> None:
 
 
 def unreachable(angle: float, cause: str) -> InvalidValue:
-    """Error for an angle that the sheet does not take before it lies against a flank."""
+    """Error for an angle that is not reached before the sheet touches a flank."""
     return InvalidValue(
         "the angle cannot be reached before the sheet lies against a flank",
         where="angle",

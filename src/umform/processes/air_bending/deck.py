@@ -18,7 +18,7 @@ from umform.surfaces.segments import Arc, Segment
 
 
 def deck_of(case: AirBending) -> str:
-    """Deck of a bend; what it builds gives the same history as `air_bending`, to the last bit.
+    """Deck of a bend; it gives the same history as `air_bending`, to the last bit.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def deck_of(case: AirBending) -> str:
     Raises
     ------
     InvalidValue
-        If the case has no stroke, or a deck has no words for its hardening or its element.
+        If the case has no stroke, or if a deck cannot express its hardening or its element.
     """
     stroke = needed_stroke(case)
     if case.width is None:
@@ -105,7 +105,7 @@ def _element_name(case: AirBending) -> str:
 
 
 def _across(case: AirBending) -> dict[str, Any]:
-    """What holds the sheet along the bend."""
+    """Supports along the bend."""
     if case.width is None:
         everywhere = {"min": [-float("inf")] * 3}
         return {"kind": "fix", "nodes": everywhere, "directions": "y"}

@@ -1,4 +1,4 @@
-"""The drawing that says what is measured: legs, angle, inside radius, neutral fibre, setback."""
+"""Drawing of the measures: legs, angle, inside radius, neutral fibre, setback."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from umform.processes.air_bending.section import Section
 Floats = NDArray[np.float64]
 
 _BLUE, _VERMILION, _GREEN = COLOURS[:3]
-#: Where the axes lie in the figure: to find room for the labels takes matplotlib as long as to draw them.
+#: Fixed axes: an automatic layout would double the time of the drawing.
 _PLACE = (0.02, 0.02, 0.96, 0.96)
 _THIN: dict[str, Any] = {"color": "#777777", "linewidth": 0.7, "linestyle": (0, (6, 3))}
 
 
 def drawing(bend: AirBend) -> Figure:
-    """The released section with what is measured of it; of a flat one there is nothing to measure."""
+    """The released section with its measures; none for a flat one."""
     section = bend.released
     with house_style():
         figure = Picture(figsize=(7.2, 5.0))
@@ -74,7 +74,7 @@ def _draw_radius(axes: Axes, section: Section) -> None:
 
 
 def _draw_legs(axes: Axes, section: Section) -> None:
-    """Outer faces drawn on to the apex, with setback and leg on the right side, and the angle."""
+    """Outer faces extended to the apex, with setback and leg on the right side, and the angle."""
     point, along = section.leg(0.0)
     apex = point - along * (point[0] / along[0])
     end = section.fibre(0.0)[-1]

@@ -1,4 +1,4 @@
-"""The files of a bend: tables, pictures, fields, report; all of them get their names together."""
+"""The files of a bend: tables, pictures, fields, report; they appear together or not at all."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from umform.report.versions import versions
 
 _DATA = ("curve.csv", "table.csv", "bend.json", "bend.vtkhdf", "bend.toml")
 _PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "drawing.png", "drawing.svg", "report.html")
-#: Files of a bend; and what marks a folder as that of one, with what is written of a run that was ended early.
+#: Files of a bend; they also mark a folder as that of a bend, with the files of a run that ended early.
 FILES = (*_DATA, *_PAGE)
 RESULTS = (*FILES, "history.csv")
 
@@ -37,14 +37,13 @@ def write_files(
     *,
     note: str = "",
 ) -> list[Path]:
-    """Write all that is known of a bend.
+    """Write all files of a bend.
 
     Parameters
     ----------
     out : str or Path
-        Folder for curve.csv, bend.json, bend.vtkhdf, bend.toml (the deck; not for a hardening curve of your own),
-        curve, shape and drawing as .png and .svg, report.html, and table.csv if there is a table; made if it is
-        missing.
+        Folder for curve.csv, bend.json, bend.vtkhdf, bend.toml (the deck; not for your own hardening curve), curve,
+        shape and drawing as .png and .svg, report.html, and table.csv if there is a table; made if it is missing.
     bend : AirBend
         The bend.
     table : sequence of Measures
@@ -52,7 +51,7 @@ def write_files(
     budget : Budget, optional
         Error budget.
     note : str, optional
-        Where the material comes from, for the report.
+        Source of the material data, for the report.
 
     Returns
     -------
@@ -72,10 +71,10 @@ def write_files(
         write_json(here / "bend.json", record(bend, table, budget))
         bend.result.write(here / "bend.vtkhdf")
         deck = ""
-        with suppress(InvalidValue):  # a curve or an element of the user has no words in a deck
+        with suppress(InvalidValue):  # a deck cannot express a curve or an element of the user
             deck = deck_of(bend.case)
             (here / "bend.toml").write_text(deck, encoding="utf-8")
-        files = stage.commit(_DATA)  # a picture that fails does not take the numbers along
+        files = stage.commit(_DATA)  # a failure of a picture must not lose the numbers
         figures = {"curve": curves(bend, table), "shape": shapes(bend), "drawing": drawing(bend)}
         for name, figure in figures.items():
             for ending in (".png", ".svg"):
@@ -85,7 +84,7 @@ def write_files(
 
 
 def record(bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None = None) -> dict[str, Any]:
-    """Parameters, measures, table and budget in a form that JSON can hold; None for unknown values."""
+    """Parameters, measures, table and budget as JSON data; None for unknown values."""
     content: dict[str, Any] = {
         "parameters": parameters(bend.case),
         "measures": _told(asdict(bend.measures)),
@@ -108,12 +107,12 @@ def record(bend: AirBend, table: Sequence[Measures] = (), budget: Budget | None 
 
 
 def _told(numbers: Mapping[str, float]) -> dict[str, float | None]:
-    """Numbers by name, None for one that cannot be told."""
+    """Numbers by name, None for NaN."""
     return {name: None if math.isnan(number) else number for name, number in numbers.items()}
 
 
 def parameters(case: AirBending) -> dict[str, Any]:
-    """Parameters in a form that JSON can hold; the material in words."""
+    """Parameters as JSON data; the material as text."""
     words = {"element": element(case.element).name, "material": repr(case.material)}
     drawn = {"punch_section": case.punch_section, "die_section": case.die_section}
     return case.record() | words | {name: None if tool is None else tool.words for name, tool in drawn.items()}

@@ -1,4 +1,4 @@
-"""Rules of the shop that results are held against, and what they ask of a material."""
+"""Workshop formulas for comparison, and the material data that they need."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ FORCE_FACTORS = (1.33, 1.42)
 
 
 def tensile_strength(material: J2 | Metal, angle: float = 0.0) -> float:
-    """Tensile strength Rm: of J2 the largest y(e) exp(-e), y the true yield stress (Considère); else of a bar.
+    """Tensile strength Rm: for J2 the maximum of y(e) exp(-e), y the true yield stress (Considère); else from a bar.
 
-    Of J2, elastic strains are neglected, and strains up to 2 are looked at. ``angle``: degrees from the rolling
-    direction to the bar.
+    For J2, elastic strains are neglected, and the maximum is sought up to a strain of 2. ``angle``: degrees from the
+    rolling direction to the bar.
     """
     if isinstance(material, Metal):
         return tension_test(material, angle).tensile_strength
@@ -26,11 +26,11 @@ def tensile_strength(material: J2 | Metal, angle: float = 0.0) -> float:
 
 
 def strength(case: AirBending) -> float:
-    """Tensile strength of a bar that lies across the bend line."""
+    """Tensile strength of a bar across the bend line."""
     return tensile_strength(case.material, 0.0 if case.rolling is None else 90.0 - case.rolling)
 
 
 def shop_forces(case: AirBending) -> tuple[float, float]:
-    """Largest force of air bending by the rule of the shop, F = 1.33 ... 1.42 Rm t² / V in N/mm, V the opening."""
+    """Largest force of air bending by the workshop formula F = 1.33 ... 1.42 Rm t² / V in N/mm, V the opening."""
     base = strength(case) * case.thickness**2 / case.opening
     return FORCE_FACTORS[0] * base, FORCE_FACTORS[1] * base

@@ -1,4 +1,4 @@
-"""What is measured of a bend: each quantity with its name, its unit and what it means."""
+"""The measures of a bend: name, unit and meaning."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from umform.processes.air_bending.section import Floats, Section
 
 @dataclass(frozen=True)
 class Quantity:
-    """How a measure is shown: label, unit, decimals."""
+    """Presentation of a measure: label, unit, decimals."""
 
     label: str
     unit: str
     decimals: int
 
 
-#: The measures, in the order of tables; docs/air-bending.md defines each.
+#: The measures in the order of tables, defined in docs/air-bending.md.
 QUANTITIES = {
     "stroke": Quantity("stroke", "mm", 3),
     "force": Quantity("force", "N/mm", 1),
@@ -44,32 +44,32 @@ QUANTITIES = {
 
 @dataclass(frozen=True)
 class Measures:
-    """Measures of one bend, under load and after unloading; NaN for what a sheet that springs back flat does not tell.
+    """Measures of one bend, under load and after unloading; NaN where a flat sheet does not define them.
 
     Attributes
     ----------
     stroke : float
-        Way of the punch from where it touches the sheet.
+        Travel of the punch from first contact with the sheet.
     force, largest_force : float
-        Force of the punch at the stroke, and the largest one up to there, for each mm of the bend.
+        Force of the punch per length of bend at the stroke, and its largest value up to there.
     loaded_angle, angle : float
         Angle between the legs in degrees under load, and after unloading.
     springback, springback_ratio : float
         Their difference; bend angle (180 degrees less the angle) after unloading over that under load.
     radius, smallest_radius : float
-        Inside radius after unloading: of the best circle, and of the sharpest place.
+        Inside radius after unloading: of the best-fit circle, and the smallest local one.
     neutral_fibre : float
-        Distance from the inner face, in the flat sheet and over its thickness, of the fibre that keeps its length.
+        Distance of the fibre that keeps its length from the inner face, in the flat sheet, relative to the thickness.
     k_factor : float
         K in bend allowance = bend angle (radius + K thickness).
     bend_allowance, bend_deduction, setback, leg : float
         Flat length = 2 legs + bend allowance = 2 (leg + setback) - bend deduction; setback is that of the outer faces.
     length_balance : float
-        2 legs + length of the neutral fibre between them - flat length: how much a leg is not straight.
+        2 legs + length of the neutral fibre between them - flat length: a measure of the curvature of the legs.
     outer_strain : float
         Largest logarithmic strain of the outer face along the sheet.
     thinning : float
-        Smallest thickness over that of the flat sheet.
+        Smallest thickness relative to that of the flat sheet.
     """
 
     stroke: float
@@ -92,7 +92,7 @@ class Measures:
     thinning: float
 
 
-#: What only a bent section tells, `Section.is_bent`: all that rests on its radius or its neutral fibre.
+#: Measures that only a bent section defines (`Section.is_bent`): they need its radius or its neutral fibre.
 _OF_BENDS = (
     "radius",
     "smallest_radius",
@@ -133,7 +133,7 @@ def measure(stroke: float, force: float, largest_force: float, loaded: Section, 
 
 
 def _of_bend(section: Section) -> dict[str, float]:
-    """What only a bent section tells."""
+    """Measures that only a bent section defines."""
     return {
         "radius": section.radius,
         "smallest_radius": section.smallest_radius,
@@ -143,9 +143,9 @@ def _of_bend(section: Section) -> dict[str, float]:
 
 
 def developed(section: Section) -> dict[str, float]:
-    """What the flat length is made of: allowance, deduction, setback, leg, balance, and K."""
+    """Parts of the flat length: allowance, deduction, setback, leg, balance, and K."""
     point, along = section.leg(0.0)
-    apex = point - along * (point[0] / along[0])  # the two outer faces, drawn on, meet in the symmetry plane
+    apex = point - along * (point[0] / along[0])  # the extended outer faces meet in the symmetry plane
     outside = float((section.fibre(0.5)[-1] - apex) @ along)
     setback = (section.radius + section.thickness) * math.tan(section.slope)
     leg = outside - setback

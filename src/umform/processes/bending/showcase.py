@@ -1,4 +1,4 @@
-"""The whole example: which runs there are, running them side by side, and the files that come of it."""
+"""The whole example: its runs, in parallel, and their files."""
 
 from __future__ import annotations
 

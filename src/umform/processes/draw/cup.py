@@ -48,14 +48,14 @@ class Cup:
     punch_radius, punch_edge, die_radius, die_edge : float
         Radii of the punch and of the opening of the die, and of their edges.
     holder_force : float, optional
-        Force on the whole holder, which rests on its distance blocks unless the sheet pushes harder; without it the
+        Force on the whole holder, which rests on its distance blocks unless the sheet pushes harder. Without it the
         holder keeps its distance.
     holder_gap : float, optional
         Distance of the holder on its blocks from the die; default 1.04 thicknesses.
     friction : float
         Coefficient of friction on all tools.
     stroke : float, optional
-        Way of the punch; default so far that the rim has left the edge of the die.
+        Travel of the punch; default: until the rim has left the edge of the die.
     element : str
         Name in the catalogue.
     turn : float
@@ -63,7 +63,7 @@ class Cup:
     around : int
         Elements on a quarter of the rim; an even number.
     layers, thickness_points : int
-        Layers of elements, and points through the thickness of one; default as the law has it.
+        Layers of elements, and points through the thickness of each; default: that of the law.
     contact_points : int
         Contact points per direction and facet.
     penalty : float
@@ -148,7 +148,7 @@ class Cup:
 
     @property
     def constant_thickness_height(self) -> float:
-        """Height of the cup if its thickness stays the same: the blank has the area of the middle of the cup."""
+        """Height of the cup for constant thickness: the blank has the area of the mid-surface of the cup."""
         t, r = self.thickness, self.punch_edge + 0.5 * self.thickness
         flat, wall = self.punch_radius - self.punch_edge, self.punch_radius + 0.5 * t
         edge = 2.0 * math.pi * (0.5 * math.pi * flat * r + r * r)
@@ -157,7 +157,7 @@ class Cup:
 
     @property
     def way(self) -> float:
-        """Way of the punch."""
+        """Travel of the punch."""
         full = self.constant_thickness_height + self.die_edge + _BEYOND * self.thickness
         return full if self.stroke is None else self.stroke
 
@@ -193,7 +193,7 @@ class Cup:
         )
 
     def build(self) -> tuple[Model, Press]:
-        """Model of a quarter, and what the press does."""
+        """Model of a quarter, and the press with its steps."""
         t, far = self.thickness, 2.0 * self.blank_radius
         deep = self.way + self.constant_thickness_height
         points = {} if self.thickness_points is None else {"thickness_points": self.thickness_points}
@@ -223,12 +223,12 @@ class Cup:
         model.contact("upper", ram, name="under_punch", **rule)
         stroke = model.drive(ram, "-z", name="stroke")
         gauge = model.hold_rigid(name="gauge")
-        # On the punch a wall that the die has ironed cannot buckle while the forces of the die fade, see theory 4.18.
+        # On the punch, an ironed wall cannot buckle while the forces of the die decrease, see theory 4.18.
         return model, Press(hold, stroke, self.way, gauge, (("die", "holder"), ("punch",)))
 
-    #: The whole cup over what is computed.
+    #: Ratio of the whole cup to the computed part.
     parts: ClassVar[float] = 4.0
-    #: Normals of the planes of symmetry at which the computed part is mirrored.
+    #: Normals of the planes of symmetry of the computed part.
     mirrored: ClassVar[tuple[int, ...]] = (0, 1)
     #: Node set of the edge of the blank.
     edge: ClassVar[str] = "rim"

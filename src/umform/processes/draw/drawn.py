@@ -1,4 +1,4 @@
-"""What comes out of a drawing operation: forces, shapes, ears or angles, before and after the tools open."""
+"""Result of a drawing operation: forces, shapes, ears or angles, before and after the tools open."""
 
 from __future__ import annotations
 
@@ -47,9 +47,9 @@ class Drawn:
     u : ndarray, shape (3 n,)
         Displacement at the end of the stroke.
     released : Result, optional
-        The opening of the tools; none if the run ended before.
+        The opening of the tools; None if the run ended earlier.
     ending : Ending, optional
-        What went wrong.
+        What went wrong; None if nothing did.
     """
 
     case: Cup | UBend
@@ -61,17 +61,17 @@ class Drawn:
 
     @property
     def u_free(self) -> Floats:
-        """Displacement of the part out of its tools; at the end of the stroke if it was not released."""
+        """Displacement of the released part; at the end of the stroke if it was not released."""
         return self.u if self.released is None else self.released.model.u
 
     @cached_property
     def stroke(self) -> Floats:
-        """Way of the punch, increment by increment."""
+        """Travel of the punch in each increment."""
         return self.result["stroke"]
 
     @cached_property
     def forces(self) -> dict[str, Floats]:
-        """Force along the stroke on punch, holder and die of the whole part, increment by increment."""
+        """Force along the stroke on punch, holder and die of the whole part, in each increment."""
         parts = self.case.parts
         return {name: parts * np.abs(self.result[f"{name}_fz"]) for name in ("punch", "holder", "die")}
 
@@ -82,7 +82,7 @@ class Drawn:
 
     @cached_property
     def outline(self) -> Outline:
-        """The edge of the blank before and at the end of the stroke."""
+        """The edge of the blank before drawing and at the end of the stroke."""
         return draw_in(self.result.model.mesh, self.u, self.case.edge)
 
     @cached_property
@@ -94,13 +94,13 @@ class Drawn:
 
     @cached_property
     def sections(self) -> dict[str, Section]:
-        """Section at y = 0 at the end of the stroke and out of the tools."""
+        """Section at y = 0 at the end of the stroke and after release."""
         mesh = self.result.model.mesh
         return {"drawn": section(mesh, self.u), "released": section(mesh, self.u_free)}
 
     @cached_property
     def angles(self) -> UBendAngles | None:
-        """Angles and radius of a U-bend; None where its wall is too short."""
+        """Angles and radius of a U-bend; None if its wall is too short."""
         if not isinstance(self.case, UBend) or self.case.heights is None:
             return None
         line = self.sections["released"].middle[:, [0, 2]]
@@ -122,9 +122,9 @@ class Drawn:
 
     @cached_property
     def springback(self) -> Laid:
-        """The whole part, laid by the best fit into the shape that it had at the end of the stroke.
+        """The whole part, in the best fit to its shape at the end of the stroke.
 
-        The quarter or half that is computed cannot turn: its mirror images are fitted with it.
+        The mirror images are fitted with the computed quarter or half, so that it cannot rotate.
         """
         X = self.result.model.mesh.points
         part, places = X + self.u_free.reshape(-1, 3), X + self.u.reshape(-1, 3)
@@ -135,29 +135,29 @@ class Drawn:
 
     @property
     def friction_share(self) -> float:
-        """Work of friction over the external work, in per cent."""
+        """Work of friction relative to the external work, in per cent."""
         return 100.0 * float(self.result["friction_work"][-1] / self.result["external_work"][-1])
 
     @property
     def iterations(self) -> int:
-        """Newton iterations of both stages."""
+        """Newton iterations of drawing and release."""
         stages = [self.result] if self.released is None else [self.result, self.released]
         return int(sum(stage["iterations"].sum() for stage in stages))
 
     @property
     def seconds(self) -> float:
-        """Time of both stages."""
+        """Wall time of drawing and release."""
         return self.result.seconds + (0.0 if self.released is None else self.released.seconds)
 
     @property
     def warnings(self) -> list[str]:
-        """What to look at."""
+        """Warnings."""
         own = [] if self.ending is None else [self.ending.text]
         more = [] if self.released is None else self.released.warnings
         return list(dict.fromkeys([*own, *self.result.warnings, *more]))
 
     def measures(self) -> dict[str, tuple[float, str]]:
-        """Numbers of the part with their units, by name."""
+        """Measures of the part by name, with units."""
         found = self.fields
         rows: dict[str, tuple[float, str]] = {
             "largest punch force": (float(self.forces["punch"].max()) / 1000.0, "kN"),

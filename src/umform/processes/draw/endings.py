@@ -1,4 +1,4 @@
-"""How a drawing operation ended: tears, wrinkles, a holder that is too strong, a punch that bottoms."""
+"""How a drawing operation ends: tears, wrinkles, a holder force that is too large, a bottoming punch."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from umform.errors import NoConvergence
-from umform.results.bottoming import bottoming
+from umform.results.bottoming import bottoming, bottoms
 from umform.results.forming import FormingLimit, distance_from, forming_fields
 from umform.run import Result
 
@@ -16,22 +16,22 @@ if TYPE_CHECKING:
     from umform.processes.draw.cup import Cup
     from umform.processes.draw.u_bend import UBend
 
-#: Thinning in per cent beyond which a sheet that has not converged is taken for torn.
+#: Thinning in per cent beyond which a sheet counts as torn if Newton's method has not converged.
 _TORN = 30.0
-#: Air in thicknesses between the sheet and both the die and the holder, beyond that at the start, that is a wrinkle.
+#: Distance in thicknesses from both die and holder, beyond the initial one, that counts as a wrinkle.
 _WRINKLED = 0.5
 
 
 @dataclass(frozen=True)
 class Ending:
-    """Why an operation ended before its time, or what is wrong with the part.
+    """Cause of an early end, or a defect of the part.
 
     Attributes
     ----------
     kind : str
         "torn", "wrinkled", "held", "bottomed", "release" or "solver".
     text : str
-        In words.
+        Explanation.
     early : bool
         Whether the run ended before the end of the stroke.
     """
@@ -42,18 +42,18 @@ class Ending:
 
 
 def ending_of(case: Cup | UBend, result: Result, limit: FormingLimit, failure: NoConvergence | None) -> Ending | None:
-    """What an operation ended with; None where all is well.
+    """The ending of an operation; None without a failure or defect.
 
     Parameters
     ----------
     case : Cup or UBend
         The parameters.
     result : Result
-        What was reached.
+        The run so far.
     limit : callable
         Forming limit.
     failure : NoConvergence, optional
-        What ended it early.
+        The error that ended it early.
     """
     model = result.model
     found = forming_fields(model.mesh, model.u, limit)
@@ -76,7 +76,8 @@ def ending_of(case: Cup | UBend, result: Result, limit: FormingLimit, failure: N
         text = f"the sheet wrinkles under the holder{reached}: it stands off both tools by {air:.3g}; a stronger holder"
         return Ending("wrinkled", text, early)
     bottom = bottoming(result["stroke"], result["punch_fz"])
-    if bottom is not None:
+    punch = next(tool for tool in model.tools if tool.name == "punch")
+    if bottom is not None and bottoms(model, punch, {pair: pair.found for pair in model.contacts}):
         text = f"the punch bottoms at a stroke of {abs(bottom.at):.4g}{reached}: its force rises from"
         remedy = "a shorter stroke, or more clearance"
         return Ending("bottomed", f"{text} {bottom.before:.4g} to {bottom.largest:.4g}; {remedy}", early)
@@ -86,14 +87,14 @@ def ending_of(case: Cup | UBend, result: Result, limit: FormingLimit, failure: N
 
 
 def wrinkle(result: Result, thickness: float) -> float:
-    """Largest distance of the flange from both die and holder: where it stands off both of them, it wrinkles.
+    """Largest distance of the flange from both die and holder; where it touches neither, it wrinkles.
 
     Parameters
     ----------
     result : Result
-        A run with tools called die and holder; its last state counts.
+        A run with tools named die and holder; its last state is used.
     thickness : float
-        Of the sheet: the flange is where the holder is no more than three times as far from the flat of the die.
+        Thickness of the sheet. The flange is where the holder is at most three thicknesses from the flat of the die.
     """
     model = result.model
     tools = {tool.name: tool for tool in model.tools}
@@ -112,7 +113,7 @@ def wrinkle(result: Result, thickness: float) -> float:
 
 
 def _drawn_in(case: Cup | UBend, result: Result) -> float:
-    """Mean way of the edge of the blank towards the inside."""
+    """Mean inward travel of the edge of the blank."""
     model = result.model
     ids = model.mesh.nodes(case.edge)
     X, u = model.mesh.points[ids, :2], model.u.reshape(-1, 3)[ids, :2]

@@ -22,12 +22,12 @@ _DATA = (
     "curve.csv", "fields.csv", "outline.csv", "section.csv", "ears.csv", "part.json", "draw.vtkhdf", "release.vtkhdf",
 )  # fmt: skip
 _PAGE = (*(f"{name}.png" for name in _PICTURES), "report.html")
-#: Files of a part, which also mark a folder as that of one.
+#: Files of a part; they also mark a folder as that of a part.
 FILES = (*_DATA, *_PAGE)
 
 
 def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
-    """Write all that is known of a part.
+    """Write all files of a part.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
     drawn : Drawn
         The part.
     note : str, optional
-        Where the material comes from, for the report.
+        Source of the material data, for the report.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
         drawn.result.write(here / "draw.vtkhdf")
         if drawn.released is not None:
             drawn.released.write(here / "release.vtkhdf")
-        files = stage.commit(_DATA)  # a picture that fails does not take the numbers along
+        files = stage.commit(_DATA)  # a failure of a picture must not lose the numbers
         figures = pictures(drawn)
         for name, figure in figures.items():
             save(figure, here / f"{name}.png", dpi=120)
@@ -83,7 +83,7 @@ def _write_tables(here: Path, drawn: Drawn) -> None:
 
 
 def record(drawn: Drawn) -> dict[str, Any]:
-    """Parameters and measures in a form that JSON can hold."""
+    """Parameters and measures as JSON data."""
     return {
         "parameters": parameters(drawn.case),
         "measures": {name: value for name, (value, _) in drawn.measures().items()},

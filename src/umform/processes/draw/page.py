@@ -41,7 +41,7 @@ def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: st
     figures : mapping of str to Figure
         Pictures by their names.
     note : str
-        Where the material comes from; may be empty.
+        Source of the material data; may be empty.
     """
     elements = len(drawn.result.model.mesh.connectivity)
     lead = f"{elements} elements; {drawn.iterations} Newton iterations in {drawn.seconds:.1f} s"

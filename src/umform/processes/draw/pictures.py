@@ -19,7 +19,7 @@ from umform.results.shape import Shape, outer_quads
 Floats = NDArray[np.float64]
 
 _SIZE = (6.6, 4.2)
-#: Fields that get a picture of their own, with what is written beside the colours.
+#: Fields with their own picture, and the label of the colour bar.
 FIELDS: Mapping[str, str] = {
     "thinning": "thinning in %",
     "major_middle": "major strain, logarithmic",
@@ -30,7 +30,7 @@ FIELDS: Mapping[str, str] = {
 
 
 def pictures(drawn: Drawn) -> dict[str, Figure]:
-    """All pictures by their names, in the order of the report."""
+    """All pictures by name, in the order of the report."""
     made = {"curve": curve(drawn)}
     shape = part(drawn)
     made |= {name: coloured(shape, name, label) for name, label in FIELDS.items()}
@@ -53,7 +53,7 @@ def curve(drawn: Drawn) -> Figure:
 
 
 def part(drawn: Drawn) -> Shape:
-    """The whole part out of its tools, with the fields of forming on its faces."""
+    """The released part, with the fields of forming on its faces."""
     mesh = drawn.result.model.mesh
     quads, owners = outer_quads(mesh.connectivity.astype(np.int64))
     values = {name: drawn.fields[name][owners] for name in FIELDS if name in drawn.fields}
@@ -62,7 +62,7 @@ def part(drawn: Drawn) -> Shape:
 
 
 def _whole(drawn: Drawn, shape: Shape) -> Shape:
-    """The whole of the half or quarter that is computed."""
+    """The whole part from the computed half or quarter."""
     if not isinstance(drawn.case, Cup):
         stretched = shape.points * np.array([1.0, 0.5 * drawn.case.width, 1.0])
         shape = replace(shape, points=stretched)
@@ -72,7 +72,7 @@ def _whole(drawn: Drawn, shape: Shape) -> Shape:
 
 
 def in_gauge(drawn: Drawn, free: Shape) -> Figure:
-    """The whole part in a gauge of the shape at the end of the stroke: by the best fit, and on three points."""
+    """The whole part in a gauge of the shape at the end of the stroke: best fit, and on three points."""
     gauge = _whole(drawn, Shape.displaced(drawn.result.model.mesh, drawn.u.reshape(-1, 3)))
     part, places = free.points, gauge.points
     laid = {
@@ -93,7 +93,7 @@ def in_gauge(drawn: Drawn, free: Shape) -> Figure:
 
 
 def _far_apart(points: Floats) -> list[int]:
-    """Three points that span a large triangle: the one farthest from the middle, from it, and from their line."""
+    """Three points of a large triangle: the farthest from the middle, then from that point, then from their line."""
     first = int(np.linalg.norm(points - points.mean(axis=0), axis=1).argmax())
     second = int(np.linalg.norm(points - points[first], axis=1).argmax())
     areas = np.linalg.norm(np.cross(points - points[first], points[second] - points[first]), axis=1)
@@ -112,7 +112,7 @@ def coloured(shape: Shape, name: str, label: str) -> Figure:
 
 
 def limits(drawn: Drawn) -> Figure:
-    """Forming limit diagram: strains of all elements on both skins and in the middle, and the limit."""
+    """Forming limit diagram: strains of all elements on both skins and in the middle, and the limit curve."""
     found = drawn.fields
     with house_style():
         figure, axes = _axes("minor strain, logarithmic", "major strain, logarithmic")
@@ -127,7 +127,7 @@ def limits(drawn: Drawn) -> Figure:
 
 
 def outline(drawn: Drawn) -> Figure:
-    """Edge of the blank before and at the end of the stroke."""
+    """Edge of the blank before drawing and at the end of the stroke."""
     edge = drawn.outline
     with house_style():
         figure, axes = _axes("x in mm", "y in mm")
@@ -140,7 +140,7 @@ def outline(drawn: Drawn) -> Figure:
 
 
 def sections(drawn: Drawn) -> Figure:
-    """Section of the part at the end of the stroke and out of its tools."""
+    """Section of the part at the end of the stroke and after release."""
     with house_style():
         figure, axes = _axes("x in mm", "z in mm")
         for (name, cut), colour, line in zip(drawn.sections.items(), COLOURS, ("--", "-"), strict=False):

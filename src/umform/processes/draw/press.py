@@ -10,24 +10,24 @@ from umform.model.support import Support
 from umform.model.tool_controls import ToolForce, ToolMotion
 from umform.steps import Close, Free, Move, Step
 
-#: Stiffness of the distance blocks over the force on them, per mm.
+#: Stiffness of the distance blocks relative to the force on them, per mm.
 _BLOCKS = 200.0
-#: Way of the holder at which the blocks begin to carry, mm: at once.
+#: Travel of the holder at which the blocks begin to carry load, mm.
 _AT_ONCE = 1e-5
 
 
 @dataclass(frozen=True)
 class Hold:
-    """A holder that a force presses.
+    """A holder under a force.
 
     Attributes
     ----------
     control : ToolForce
-        What presses it.
+        Control of the force.
     force : float
-        With how much.
+        The force.
     on_blocks : bool
-        Whether it lies on distance blocks at the start, or has to be closed.
+        Whether it rests on distance blocks at the start, or has to be closed.
     """
 
     control: ToolForce
@@ -35,7 +35,7 @@ class Hold:
     on_blocks: bool
 
     def step(self) -> Step:
-        """The step that puts the force on."""
+        """The step that applies the force."""
         if self.on_blocks:
             return Move(self.control, to=-self.force, steps=1)
         return Close(self.control, force=-self.force)
@@ -43,20 +43,20 @@ class Hold:
 
 @dataclass(frozen=True)
 class Press:
-    """What a press does: hold, draw, open.
+    """The operations of a press: hold, draw, open.
 
     Attributes
     ----------
     hold : Hold, optional
-        How the holder is pressed; none for one that keeps its distance.
+        Holder force; None for a holder at a fixed distance.
     stroke : ToolMotion
-        The way of the punch.
+        Motion of the punch.
     way : float
-        Its length.
+        Its stroke.
     gauge : Support
-        What holds the part when the tools have opened.
+        Support of the part after the tools have opened.
     order : tuple of tuples of str
-        Names of the tools that open, those of one step together.
+        Names of the tools that open; those of one tuple open in one step.
     """
 
     hold: Hold | None
@@ -70,14 +70,14 @@ class Press:
         return [*([] if self.hold is None else [self.hold.step()]), Move(self.stroke, to=self.way)]
 
     def opening(self, model: Model) -> list[Step]:
-        """Steps that open the tools, so that the part springs back; the gauge holds it from the first one on."""
+        """Steps that open the tools, so that the part springs back; the gauge holds it from the first of them."""
         tools = {tool.name: tool for tool in model.tools}
         first, *rest = ([tools[name] for name in names] for names in self.order)
         return [Free(first, steps=6, on=self.gauge), *(Free(group, steps=6) for group in rest)]
 
 
 def held_by(model: Model, holder: Tool, force: float | None, *, blocks: bool = True) -> Hold | None:
-    """Press a holder with a force; on distance blocks it cannot come nearer than it stands now."""
+    """Press a holder with a force; distance blocks keep it from coming nearer than it is now."""
     if force is None:
         return None
     if not force > 0.0:

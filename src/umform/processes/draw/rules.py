@@ -1,10 +1,10 @@
-"""What the parameters of drawing may be."""
+"""Valid ranges of the parameters of drawing."""
 
 from __future__ import annotations
 
 from umform.processes.rules import FRICTION, Rule, contact_points, length, number, plastic_material, positive, whole
 
-#: Rules that cups and U-bends share.
+#: Rules for both cups and U-bends.
 COMMON: dict[str, Rule] = {
     "thickness": length("the thickness of the sheet", "in mm, such as 1"),
     "material": plastic_material("drawing"),

@@ -52,7 +52,7 @@ class UBend:
     friction : float
         Coefficient of friction on all tools.
     stroke : float, optional
-        Way of the punch; default a fifth of the length of the blank.
+        Travel of the punch; default: a fifth of the length of the blank.
     element : str
         Name in the catalogue.
     turn : float
@@ -110,12 +110,12 @@ class UBend:
 
     @property
     def way(self) -> float:
-        """Way of the punch."""
+        """Travel of the punch."""
         return 0.2 * self.length if self.stroke is None else self.stroke
 
     @property
     def heights(self) -> tuple[float, float, float] | None:
-        """Heights at which the wall is measured: those of NUMISHEET 93 where it is long enough; None without a wall."""
+        """Heights at which the wall is measured: those of NUMISHEET 93 if it is long enough; None without a wall."""
         low, high = self.punch_edge + self.thickness, self.way - self.die_edge - self.thickness
         if low < HEIGHTS[0] and HEIGHTS[2] < high:
             return HEIGHTS
@@ -137,12 +137,12 @@ class UBend:
         return bending_sizes(0.0, 0.5 * self.length, bent, turn=self.turn, largest=largest)
 
     def blank(self) -> Mesh:
-        """Half of a strip of the width one, its lower face at z = 0."""
+        """Half of a strip of unit width, its lower face at z = 0."""
         heights = np.linspace(0.0, self.thickness, self.layers + 1)
         return grid(self.sizes.ends, (0.0, 1.0), heights, element(self.element).cell)
 
     def build(self) -> tuple[Model, Press]:
-        """Model of half of the blank, and what the press does."""
+        """Model of half of the blank, and the press with its steps."""
         t = self.thickness
         points = {} if self.thickness_points is None else {"thickness_points": self.thickness_points}
         rolling = {"rolling": (1.0, 0.0, 0.0)} if getattr(self.material, "directional", False) else {}
@@ -165,10 +165,10 @@ class UBend:
 
     @property
     def parts(self) -> float:
-        """The whole blank over what is computed: both halves, and its width."""
+        """Ratio of the whole blank to the computed part: both halves, and the width."""
         return 2.0 * self.width
 
-    #: Normal of the plane of symmetry at which the computed half is mirrored.
+    #: Normal of the plane of symmetry of the computed half.
     mirrored: ClassVar[tuple[int, ...]] = (0,)
     #: Node set of the edge of the blank.
     edge: ClassVar[str] = "x1"

@@ -1,4 +1,4 @@
-"""Parameters and measures of a drawn part in words: for the terminal, the report and files."""
+"""Parameters and measures of a drawn part as text: for the terminal, the report and files."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from umform.processes.draw.u_bend import UBend
 
 
 def parameters(case: Cup | UBend) -> dict[str, Any]:
-    """Parameters with what follows where they were left out; the material in words."""
+    """Parameters with their defaults; the material as text."""
     found: dict[str, Any] = {"stroke": case.way}
     if isinstance(case, Cup):
         found["holder_gap"] = case.gap

@@ -1,7 +1,7 @@
-"""A draw bead of real geometry: a strip is closed between bead and groove, and drawn through.
+"""A draw bead modelled in full: a strip is closed between bead and groove, and drawn through.
 
-`drawn_through` runs one bead, `extrapolated` two meshes of it; `DrawBead` are its parameters, `Drawn` is what comes
-out: restraint, uplift, thinning.
+`drawn_through` runs one bead, `extrapolated` several meshes of it; `DrawBead` holds the parameters, `Drawn` the
+results: restraint, uplift, thinning.
 """
 
 from umform.processes.draw_bead.case import drawn_through, extrapolated

@@ -13,26 +13,30 @@ from umform.processes.draw_bead.parameters import DrawBead
 from umform.run import solve
 from umform.steps import Move, Step
 
-#: Elements of a mesh over those of the next coarser one.
+#: Ratio of the element counts of successive meshes.
 _FINER = math.sqrt(2.0)
+#: Margin of the penalty that follows from a coarser mesh.
+_MARGIN = 1.2
 #: States that each step keeps for pictures.
 FRAMES = 12
 
 
 def build(case: DrawBead) -> tuple[Model, list[Step]]:
-    """Model of a case, and its steps: the upper tool goes down while the right end is held, then this end is drawn.
+    """Model of a case, and its steps: the upper tool closes while the right end is held, then this end is drawn.
 
-    The sheet flows in from the left only, where its end is free.
+    The sheet flows in from the left, where its end is free.
     """
     direction = None if case.rolling is None else rolling_at(case.rolling)
     model = Model(case.sheet(), case.element, material=case.material, rolling=direction)
     model.fix(lambda x, y, z: y > -1.0, "y")
     pull = model.prescribe("x1", "x", "way")
-    given = {"points": case.contact_points, "friction": case.friction}
+    given = {"points": case.contact_points, "friction": case.friction, "penalty": case.penalty}
     lower, upper = model.tool("lower_tool", case.lower_tool), model.tool("upper_tool", case.upper_tool)
     down = model.drive(upper, "-z", name="closing")
     model.contact("lower", lower, name="below", **given)  # type: ignore[arg-type]
     model.contact("upper", upper, name="above", **given)  # type: ignore[arg-type]
+    for pair in model.contacts:
+        pair.allowed = case.allowed
     return model, [Move(down, to=case.closing), Move(pull, to=case.way)]
 
 
@@ -47,22 +51,31 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
     Returns
     -------
     Drawn
-        That of the finest mesh, with its limits and their errors.
+        Results on the finest mesh, with extrapolated forces and their errors.
     """
-    coarser = [
-        drawn_through(replace(case, elements=case.elements * part), frames=0, solver=solver, progress=progress)
-        for part in (_FINER**-2, 1.0 / _FINER)
-    ]
-    fine = drawn_through(case, frames=frames, solver=solver, progress=progress)
-    every = [*coarser, fine]
+    every: list[Drawn] = []
+    for part in (_FINER**-2, 1.0 / _FINER, 1.0):
+        mesh = replace(case, elements=case.elements * part)
+        if every and case.penalty is None:
+            mesh = replace(mesh, penalty=penalty_by(every[-1], mesh))
+        every.append(drawn_through(mesh, frames=frames if part == 1.0 else 0, solver=solver, progress=progress))
+    fine = every[-1]
     limits = Limits(
         Limit.of_three([one.restraint for one in every], _FINER), Limit.of_three([one.uplift for one in every], _FINER)
     )
     return replace(fine, limits=limits)
 
 
+def penalty_by(coarser: Drawn, case: DrawBead) -> float:
+    """Penalty with which a mesh keeps its allowed penetration, by what a coarser one has reached. eq. (4.191)"""
+    pairs, result = coarser.result.model.contacts, coarser.result
+    deepest = max(float(result[f"{pair.name}_penetration"].max()) for pair in pairs)
+    excess = deepest * coarser.case.elements / case.elements / case.allowed
+    return max(1.0, _MARGIN * excess**2) * max(pair.penalty for pair in pairs)
+
+
 def limits_of(coarse: Drawn, fine: Drawn) -> Limits:
-    """Both forces extrapolated to elements of zero length, from two meshes."""
+    """Both forces extrapolated to zero element size, from several meshes."""
     refined = fine.case.elements / coarse.case.elements
     return Limits(Limit.of(coarse.restraint, fine.restraint, refined), Limit.of(coarse.uplift, fine.uplift, refined))
 
@@ -89,7 +102,7 @@ def drawn_through(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto",
     Raises
     ------
     NoConvergence
-        If it cannot be continued; the attribute ``result`` holds what was reached.
+        If it does not converge; the attribute ``result`` holds the run up to the failure.
     """
     model, steps = build(case)
     return Drawn.of(case, solve(model, steps, frames=frames, solver=solver, progress=progress))

@@ -1,4 +1,4 @@
-"""What the parameters of a draw bead may be; what does not fit is refused with its likely cause and remedy."""
+"""Checks of the parameters of a draw bead; errors name the likely cause and remedy."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from umform.processes.rules import (
     positive,
 )
 
-#: Sharper radii, in thicknesses, crush the sheet; rounder ones are no bead.
+#: Range of the radii in thicknesses: sharper ones crush the sheet, larger ones are no bead.
 _SHARPEST, _ROUNDEST = 1.0, 200.0
 
 RULES: dict[str, Rule] = {
@@ -45,11 +45,17 @@ RULES: dict[str, Rule] = {
         "20 is usual, 10 with 18 nodes",
     ),
     "contact_points": contact_points("such as 4"),
+    "penalty": Rule(
+        positive,
+        "the penalty must be positive",
+        "a sign or a missing value",
+        "in MPa/mm, such as 1e5; omit it",
+    ).optional(),
 }
 
 
 class Geometry(Protocol):
-    """What is looked at of :class:`umform.processes.draw_bead.DrawBead`."""
+    """Parameters of :class:`umform.processes.draw_bead.DrawBead` that the checks use."""
 
     @property
     def thickness(self) -> float:
@@ -65,7 +71,7 @@ class Geometry(Protocol):
 
     @property
     def draw(self) -> float | None:
-        """Way of the strip."""
+        """Travel of the strip."""
 
     @property
     def half_bead(self) -> float:
@@ -77,11 +83,11 @@ class Geometry(Protocol):
 
     @property
     def through(self) -> float:
-        """Way of the strip through the bead."""
+        """Length of the path of the strip through the bead."""
 
 
 def check_parameters(values: Mapping[str, Any]) -> None:
-    """Reject parameters that do not fit, each by itself.
+    """Reject invalid parameters one by one.
 
     Raises
     ------
@@ -93,12 +99,12 @@ def check_parameters(values: Mapping[str, Any]) -> None:
 
 
 def check_geometry(case: Geometry) -> None:
-    """Reject tools between which the sheet finds no room, and a way that ends before the force is steady.
+    """Reject tools that leave no room for the sheet, and a travel that ends before the force is steady.
 
     Raises
     ------
     InvalidValue
-        ``where`` is the name of the parameter that is the likeliest to be wrong.
+        ``where`` is the parameter that is most likely wrong.
     """
     for name in ("radius", "groove_radius"):
         ratio = getattr(case, name) / case.thickness

@@ -1,4 +1,4 @@
-"""The equivalent bead that stands for a real one, as lines for Python and for a deck."""
+"""The equivalent bead for a modelled one, as Python code and as a deck table."""
 
 from __future__ import annotations
 
@@ -21,5 +21,5 @@ def in_deck(drawn: Drawn) -> str:
 
 
 def width(drawn: Drawn) -> float:
-    """Width of the band: what the bead takes of the flat, edges of the groove included."""
+    """Width of the band: the extent of the bead on the flat, including the edges of the groove."""
     return 2.0 * drawn.case.reach

@@ -15,13 +15,13 @@ from umform.report.versions import versions
 
 _DATA = ("curve.csv", "bead.json", "bead.vtkhdf", "equivalent.toml")
 _PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "report.html")
-#: Files of a bead; and what marks a folder as that of one, with what is written of a run that was ended early.
+#: Files of a bead; they also mark a folder as that of a bead, with the files of a run that ended early.
 FILES = (*_DATA, *_PAGE)
 RESULTS = (*FILES, "history.csv")
 
 
 def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
-    """Write all that is known of a bead.
+    """Write all files of a bead.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
     drawn : Drawn
         The bead.
     note : str, optional
-        Where the material comes from, for the report.
+        Source of the material data, for the report.
 
     Returns
     -------
@@ -48,7 +48,7 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
         write_json(here / "bead.json", record(drawn))
         drawn.result.write(here / "bead.vtkhdf")
         (here / "equivalent.toml").write_text(in_deck(drawn), encoding="utf-8")
-        files = stage.commit(_DATA)  # a picture that fails does not take the numbers along
+        files = stage.commit(_DATA)  # a failure of a picture must not lose the numbers
         figures = {"curve": curve(drawn), "shape": shape(drawn)}
         for name, figure in figures.items():
             for ending in (".png", ".svg"):
@@ -58,7 +58,7 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
 
 
 def record(drawn: Drawn) -> dict[str, Any]:
-    """Parameters and measures in a form that JSON can hold."""
+    """Parameters and measures as JSON data."""
     return {
         "parameters": parameters(drawn),
         "measures": {name: getattr(drawn, name) for name in QUANTITIES},

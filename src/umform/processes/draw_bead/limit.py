@@ -1,4 +1,4 @@
-"""Forces of two or three meshes extrapolated to elements of zero length, and the errors of mesh and limit."""
+"""Richardson extrapolation of forces to zero element size from two or three meshes, and its error."""
 
 from __future__ import annotations
 
@@ -6,23 +6,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self
 
-#: Two limits may agree by chance: no error is taken as smaller than this part of what was extrapolated.
+#: Two limits may agree by chance: the error is at least this part of the extrapolated difference.
 _LEAST = 0.2
 
 
 @dataclass(frozen=True)
 class Limit:
-    """A number extrapolated to elements of zero length; its error falls with the square of their length.
+    """A number extrapolated to zero element size; its error falls with the square of the element size.
 
     Attributes
     ----------
     value : float
         The limit.
     off : float
-        Distance of the finer mesh from it, over the limit: the estimate of the error of that mesh.
+        Distance of the finer mesh from the limit, relative to the limit: estimated error of that mesh.
     error : float, optional
-        Estimate of its own error: the distance from the limit of the two coarser ones of three meshes, or a fifth of
-        what was extrapolated if that is more.
+        Estimated error of the limit: the distance from the limit of the two coarser meshes of three, or a fifth of the
+        extrapolated difference if that is larger.
     """
 
     value: float
@@ -31,20 +31,20 @@ class Limit:
 
     @classmethod
     def of(cls, coarse: float, fine: float, refined: float) -> Self:
-        """From the numbers of two meshes and the ratio of the lengths of their elements, above 1."""
+        """From the numbers on two meshes and the ratio of their element sizes, above 1."""
         value = fine + (fine - coarse) / (refined**2 - 1.0)
         return cls(value, fine / value - 1.0)
 
     @classmethod
     def of_three(cls, numbers: Sequence[float], refined: float) -> Self:
-        """From the numbers of three meshes, each finer by the same ratio, and how far the first two miss it."""
+        """From the numbers on three meshes with one ratio of element sizes; the coarser two give the error."""
         before, last = cls.of(numbers[0], numbers[1], refined), cls.of(numbers[1], numbers[2], refined)
         return cls(last.value, last.off, max(abs(last.value - before.value), _LEAST * abs(numbers[2] - last.value)))
 
 
 @dataclass(frozen=True)
 class Limits:
-    """Both forces of a bead, extrapolated to elements of zero length."""
+    """Both forces of a bead, extrapolated to zero element size."""
 
     restraint: Limit
     uplift: Limit

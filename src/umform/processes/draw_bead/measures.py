@@ -1,4 +1,4 @@
-"""What is measured of a sheet that was drawn through a bead."""
+"""Measures of a sheet that was drawn through a bead."""
 
 from __future__ import annotations
 
@@ -26,36 +26,36 @@ QUANTITIES = {
     "friction_share": ("share of friction in the work", "%", 1),
     "balance": ("work less energies, over the work", "%", 2),
 }
-#: What the work of the drawing force goes into.
+#: Parts of the work of the drawing force.
 _ENERGIES = ("elastic_energy", "plastic_work", "contact_energy", "friction_work")
 
 
 @dataclass(frozen=True)
 class Drawn:
-    """A strip that was drawn through a bead; forces are those on each mm of the bead's length.
+    """A strip that was drawn through a bead; forces are per length of bead in N/mm.
 
     Attributes
     ----------
     case : DrawBead
         The parameters.
     way, restraint_curve, uplift_curve : ndarray, shape (n,)
-        Way of the strip in mm, force that draws it, and force that pushes the tools apart, increment by increment.
+        Travel of the strip in mm, drawing force, and force that separates the tools, in each increment.
     restraint, uplift : float
-        Means over the steady part of the way: from where the sheet that comes out has passed the whole bead.
+        Means over the steady part of the travel, which begins when the exiting sheet has passed the whole bead.
     restraint_spread, uplift_spread : float
-        Half of the largest less the smallest force there: what the mesh makes of a force that is steady.
+        Half of the range of the force over this part: ripple due to the mesh.
     closing_force : float
         Largest force to close the tools.
     thinning : float
-        Loss of thickness of the sheet that has passed the whole bead, in per cent.
+        Relative loss of thickness of the sheet that has passed the whole bead, in per cent.
     friction_share : float
-        Work of friction over that of the force, on the steady part, in per cent.
+        Work of friction relative to that of the force, on the steady part, in per cent.
     balance : float
-        Work of the force less what plastic flow, friction and elastic strains took of it, over the work, in per cent.
+        Work of the force minus plastic, friction and elastic work, relative to the work of the force, in per cent.
     result : Result
         History, frames and iterations.
     limits : Limits, optional
-        Both forces extrapolated to elements of zero length, if several meshes were run.
+        Both forces extrapolated to zero element size, if several meshes were run.
     """
 
     case: DrawBead
@@ -99,29 +99,29 @@ class Drawn:
 
     @property
     def forces(self) -> tuple[float, float]:
-        """Restraint and uplift, extrapolated to elements of zero length if several meshes were run."""
+        """Restraint and uplift, extrapolated to zero element size if several meshes were run."""
         if self.limits is None:
             return self.restraint, self.uplift
         return self.limits.restraint.value, self.limits.uplift.value
 
     @property
     def warnings(self) -> list[str]:
-        """What to look at."""
+        """Warnings."""
         return self.result.warnings
 
 
 def _growth(values: Floats) -> float:
-    """Last less first value."""
+    """Last minus first value."""
     return float(values[-1] - values[0])
 
 
 def _mean(way: Floats, values: Floats) -> float:
-    """Mean over the way."""
+    """Mean over the travel."""
     return float(np.trapezoid(values, way) / (way[-1] - way[0]))
 
 
 def _change_of_thickness(case: DrawBead, result: Result) -> float:
-    """Relative change where the sheet has gone from before the one edge to behind the other, at the end."""
+    """Relative change at the end, where the sheet has moved from before one edge to behind the other."""
     model = result.model
     before = model.mesh.points[:, 0]
     now = before + model.u.reshape(-1, 3)[:, 0]

@@ -28,7 +28,7 @@ def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: st
     figures : mapping of str to Figure
         Curve and shape.
     note : str
-        Where the material comes from; may be empty.
+        Source of the material data; may be empty.
     """
     case, result = drawn.case, drawn.result
     title = f"Draw bead: {case.thickness:g} mm sheet, {drawn.forces[0]:.1f} N/mm"

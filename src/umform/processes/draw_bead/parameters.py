@@ -34,26 +34,28 @@ class DrawBead:
     material : J2 or Metal
         Law of the sheet.
     radius, height : float
-        Radius of the tip of the bead, and how far it stands out of its flat. A bead higher than its radius has upright
-        sides.
+        Radius of the tip of the bead, and its height above the flat. A bead higher than its radius has vertical sides.
     groove_radius : float
         Radius of both edges of the groove.
     groove : float, optional
-        Width of the groove between its walls; default: bead, two thicknesses and a tenth of them.
+        Width of the groove between its walls; default: that of the bead plus 2.1 thicknesses.
     gap : float, optional
-        Air between the flats of the closed tools beside the sheet; default 5 % of the thickness.
+        Clearance beside the sheet between the flats of the closed tools; default 5 % of the thickness.
     friction : float
         Coefficient of friction on both tools.
     draw : float, optional
-        Way of the strip; default 1.5 times the way through the bead.
+        Travel of the strip; default: 1.5 times the length of the path through the bead.
     element : str or Element
         Name in the catalogue, or an element of your own.
     elements : float
         Elements along the sheet on a quarter turn of the sharper radius.
     contact_points : int
         Contact points per direction and facet.
+    penalty : float, optional
+        Pressure per penetration on both tools; default as for any contact, and on finer meshes by the penetration of
+        the coarser ones.
     rolling : float, optional
-        Degrees from the line of the bead to the rolling direction, 90 across it; a law with directions needs it.
+        Degrees from the line of the bead to the rolling direction, 90 across it; required by an anisotropic law.
     """
 
     thickness: float
@@ -68,6 +70,7 @@ class DrawBead:
     element: str | Element = "BEND8"
     elements: float = 14.0
     contact_points: int = 4
+    penalty: float | None = None
     rolling: float | None = None
 
     def __post_init__(self) -> None:
@@ -91,7 +94,7 @@ class DrawBead:
 
     @property
     def air(self) -> float:
-        """Air between the flats beside the sheet."""
+        """Clearance beside the sheet between the flats."""
         return 0.05 * self.thickness if self.gap is None else self.gap
 
     @property
@@ -101,17 +104,19 @@ class DrawBead:
 
     @property
     def through(self) -> float:
-        """No less than the length of the sheet between both edges: what goes in there and comes out has passed all."""
+        """Upper bound of the length of the sheet between both edges: sheet that enters and leaves has passed the whole
+        bead.
+        """
         return 2.0 * (self.reach + self.height)
 
     @property
     def way(self) -> float:
-        """Way of the strip."""
+        """Travel of the strip."""
         return 1.5 * self.through if self.draw is None else self.draw
 
     @property
     def closing(self) -> float:
-        """Way of the upper tool from where it touches the sheet to where the flats have closed."""
+        """Travel of the upper tool from first contact with the sheet until the flats are closed."""
         return self.height - self.air
 
     @property
@@ -137,12 +142,21 @@ class DrawBead:
         """The bead, whose tip touches the sheet."""
         return Extruded(self.profile, origin=(0.0, 0.0, self.thickness + self.height))
 
+    @property
+    def size(self) -> float:
+        """Length of an element."""
+        return 0.5 * math.pi * min(self.radius, self.groove_radius) / self.elements
+
+    @property
+    def allowed(self) -> float:
+        """Allowed penetration: half the rise of an arc over an element, 1/200 of the thickness at least. eq. (4.190)"""
+        return max(self.size**2 / (16.0 * min(self.radius, self.groove_radius)), self.thickness / 200.0)
+
     def sheet(self) -> Mesh:
         """A strip of the width one; its right end lies beside the groove, its left end is drawn up to there."""
-        size = 0.5 * math.pi * min(self.radius, self.groove_radius) / self.elements
         right = self.reach + 6.0 * self.thickness
         left = -(self.reach + 4.0 * self.thickness + self.way + 2.0 * self.height)
         flat = strip(
-            right - left, 1.0, self.thickness, (round((right - left) / size), 1), cell=element(self.element).cell
+            right - left, 1.0, self.thickness, (round((right - left) / self.size), 1), cell=element(self.element).cell
         )
         return flat.transformed(lambda x: x + np.array([left, 0.0, 0.5 * self.thickness]))

@@ -1,4 +1,4 @@
-"""Pictures of a draw bead: forces over the way of the strip, and the sheet between its tools."""
+"""Pictures of a draw bead: forces over the travel of the strip, and the sheet between its tools."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _FIELD = "plastic_strain_mean"
 
 
 def curve(drawn: Drawn) -> Figure:
-    """Restraining force and uplift over the way, with their means over the steady part."""
+    """Restraining force and uplift over the travel, with their means over the steady part."""
     with house_style():
         figure = Picture(figsize=(7.2, 4.0))
         axes = figure.subplots(gridspec_kw={"left": 0.1, "right": 0.98, "bottom": 0.13, "top": 0.96})

@@ -1,4 +1,4 @@
-"""Parameters and measures of a draw bead in words: for the terminal, the report and files."""
+"""Parameters and measures of a draw bead as text: for the terminal, the report and files."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from umform.processes.draw_bead.measures import QUANTITIES, Drawn
 
 
 def parameters(drawn: Drawn) -> dict[str, Any]:
-    """Parameters with what follows where they were left out; the material in words."""
+    """Parameters with their defaults; the material as text."""
     case = drawn.case
     found = {"groove": case.width, "gap": case.air, "draw": case.way}
     return case.record() | found | {"element": element(case.element).name, "material": repr(case.material)}
 
 
 def summary(drawn: Drawn) -> list[list[str]]:
-    """Rows of all measures: label, value, unit; the forces first, without the error of the mesh if that is known."""
+    """Rows of all measures: label, value, unit; forces first, extrapolated if possible."""
     of_mesh = "" if drawn.limits is None else ", finest mesh"
     rows = []
     if drawn.limits is not None:

@@ -27,6 +27,8 @@ from umform.surfaces import Box, Plane
 _PARTS = 12
 #: Radius of the edge of the insert over its thickness.
 _ROUND = 0.49
+#: Contact points per direction and facet: plates are flat.
+_POINTS = 5
 #: Gap that counts as touching, over the thickness.
 _TOUCHES = -0.01
 
@@ -87,10 +89,7 @@ def in_press(case: Hemming, first: Part) -> tuple[Model, Control, float]:
     model.fix(np.arange(len(x)), "y", here=True)
     model.fix("x1", "x", here=True, name="stop")
     single = build(sheet)[0].contacts
-    how: dict[str, Any] = {
-        "penalty": max(contact.penalty for contact in single),
-        "points": max(int(contact.points) for contact in single),
-    }
+    how: dict[str, Any] = {"penalty": max(contact.penalty for contact in single), "points": _POINTS}
     top = float(x[:, 2].max())
     model.contact("lower", Plane((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)), name="table", **how)
     plate = model.contact("lower", Plane((0.0, 0.0, top), (0.0, 0.0, -1.0)), name="plate", **how)

@@ -1,1 +1,1 @@
-"""Path following by arc length: the load parameter is one more unknown, the arc length one more equation."""
+"""Arc-length continuation: the load parameter is an additional unknown, the arc length an additional equation."""

@@ -1,4 +1,4 @@
-"""Follow the path of equilibria through limit points: the load is one more unknown, the arc length one more equation.
+"""Arc-length continuation through limit points: the load parameter is an unknown, the arc length an equation.
 
 docs/theory, 5.12
 """
@@ -31,18 +31,18 @@ _KINDS = ("cylindrical", "spherical")
 
 @dataclass(frozen=True)
 class Arc:
-    """Follow the path of equilibria while controls go along straight lines, through maxima and minima of the load.
+    """Follow the equilibrium path while controls move along straight lines, through maxima and minima of the load.
 
-    The load parameter goes from 0, where the controls stand, to 1, where they are at ``to``, and is an unknown: it
-    turns back where the load does (snap-through) and the displacements turn back where they do (snap-back). The step
-    ends when the load parameter reaches 1, exactly; or after ``most`` increments, or when ``until`` says so. The time
-    goes on with the length of the path, by ``increment * time`` in the first increment. Limit points and bifurcation
-    points are listed in ``result.events``.
+    The load parameter is an unknown. It goes from 0, at the present values of the controls, to 1 at ``to``. It
+    decreases where the load does (snap-through), and displacements decrease where they must (snap-back). The step ends
+    exactly at the load parameter 1; or after ``most`` increments, or when ``until`` returns True. Time is proportional
+    to the length of the path, with ``increment * time`` in the first increment. Limit points and bifurcation points are
+    listed in ``result.events``.
 
     Parameters
     ----------
     control : Control or sequence of Control
-        What is moved: loads, pressures, prescribed displacements, tools, alone or together.
+        Loads, pressures, prescribed displacements or tools to move, one or several.
     to : float or sequence of float
         End value for each control.
     increment : float
@@ -51,24 +51,24 @@ class Arc:
         Length of an increment: of the displacements, or of displacements and load parameter (which weighs as much as
         the displacements in the first increment). eq. (5.22)
     iterations : int
-        Number that the arc length is adapted to.
+        Number of iterations to which the arc length is adapted.
     grow : float
-        Largest arc length over the first.
+        Ratio of the largest arc length to the first.
     cuts : int
-        How often the first arc length may be halved before the run is given up.
+        How often the first arc length may be halved before the run fails.
     most : int
         Number of increments at which the step ends with a warning.
     until : callable, optional
-        Asked with the model after each converged increment; True ends the step.
+        Called with the model after each converged increment; True ends the step.
     time : float
-        What the way to ``to`` takes at the pace of the first increment, for metals with a rate: the path is followed
-        at a constant speed, that of its arc length. Near a limit point a control slows down, and goes back behind it.
+        Time for the path to ``to`` at the rate of the first increment, for rate-dependent metals: the path is followed
+        at constant arc-length speed. Near a limit point a control slows down, and moves back behind it.
 
     Notes
     -----
-    The first increment goes towards ``to``, each other one on in the direction of the one before: a step that starts
-    beyond a limit point may lead back over it. The line search of :class:`umform.NewtonOptions` is off duty, since on
-    an arc the residual does not judge an increment.
+    The first increment moves towards ``to``, each later one continues the previous direction: a step that starts beyond
+    a limit point may lead back over it. The line search of :class:`umform.NewtonOptions` is not used, because on an arc
+    the residual is no measure of an increment.
 
     Examples
     --------
@@ -130,16 +130,16 @@ class Arc:
 
 @dataclass
 class Following:
-    """Follows the path with arc lengths that adapt to the iterations. eq. (5.26)
+    """Follow the path with arc lengths that adapt to the iterations. eq. (5.26)
 
     Attributes
     ----------
     path : Path
         Line of the controls, and the last state on the path.
     critical : CriticalPoints
-        What it has seen of the states.
+        Detected limit and bifurcation points.
     length : float
-        The arc length that comes next.
+        The next arc length.
     count : int
         Increments so far.
     done : bool
@@ -162,7 +162,7 @@ class Following:
 
     @classmethod
     def recall(cls, run: Run, step: Arc, memory: dict[str, Any]) -> Self:
-        """The loop as it stood."""
+        """The restored loop."""
         line = Line(step.moved(), memory["path"]["starts"], step.targets())
         path = Path.recall(run, line, step.increment, step.time, memory["path"])
         critical = CriticalPoints(run.result, path.line.text, f"step {run.number}")
@@ -170,7 +170,7 @@ class Following:
         return cls(path, critical, memory["length"], memory["count"], memory["done"])
 
     def memory(self) -> dict[str, Any]:
-        """All that the loop remembers."""
+        """State of the loop, for checkpoints."""
         return {
             "path": self.path.memory(),
             "critical": self.critical.memory(),
@@ -194,7 +194,7 @@ class Following:
         ended = True
         try:
             ended = step.until is not None and step.until(run.model)
-        finally:  # the state counts, whatever becomes of the user's function
+        finally:  # the state counts even if the user's function fails
             self.done = fraction == 1.0 or ended or self.count == step.most
             every = max(1, step.most // run.frames) if run.frames > 0 else 0
             frame = bool(every) and (self.count % every == 0 or self.done)
@@ -207,7 +207,7 @@ class Following:
         self.length = min(adapted, step.grow * path.first)
 
     def _cut(self, run: Run, step: Arc, failure: Failed, tried: float) -> None:
-        """Halve an arc length that failed, or give up."""
+        """Halve an arc length that failed, or end the run."""
         number, path = run.number, self.path
         self.length = 0.5 * tried
         if failure.cause is Cause.CYCLE:

@@ -1,4 +1,4 @@
-"""What an arc cannot follow."""
+"""Checks of a model for arc-length continuation."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from umform.model import Model
 
 
 def refuse_on_an_arc(model: Model, where: str) -> None:
-    """Reject multipliers where the load is an unknown: they are found at fixed loads.
+    """Reject multipliers if the load is an unknown: augmentation needs fixed loads.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """Limit points and bifurcation points between the converged states of a path.
 
-At both a pivot of the tangent changes its sign. At a limit point the load turns back too, at a bifurcation point it
-does not. docs/theory, 5.12
+At both a pivot of the tangent changes its sign. At a limit point the load also has an extremum, at a bifurcation point
+it does not. docs/theory, 5.12
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class PathState:
     Attributes
     ----------
     fraction : float
-        Load parameter lambda, the fraction of the way from the first to the last load.
+        Load parameter lambda, from 0 to 1.
     arc : float
         Length of the path so far.
     tangent : ndarray, shape (3 n + k,)
@@ -33,9 +33,9 @@ class PathState:
     slope : float
         Rate of the load parameter with the length of the path; negative where the load goes back.
     pivots : int or None
-        Negative pivots of the tangent, where the solver tells.
+        Negative pivots of the tangent, if the solver reports them.
     odd : bool or None
-        Whether the determinant of the tangent is negative, where the solver tells.
+        Whether the determinant of the tangent is negative, if the solver reports it.
     """
 
     fraction: float
@@ -47,11 +47,11 @@ class PathState:
 
     @property
     def known(self) -> bool:
-        """Whether the solver tells anything of the signs of the pivots."""
+        """Whether the solver reports the signs of the pivots."""
         return self.pivots is not None or self.odd is not None
 
     def changes(self, before: PathState) -> int:
-        """How many pivots have changed their sign since another state, or whether an odd number of them have."""
+        """How many pivots have changed their sign since another state, or whether their number is odd."""
         if self.pivots is not None and before.pivots is not None:
             return abs(self.pivots - before.pivots)
         return int(self.negative != before.negative)
@@ -63,14 +63,14 @@ class PathState:
 
 
 class CriticalPoints:
-    """Looks between the states of a path, one after the other, and tells the result what lies there.
+    """Detects critical points between successive states of a path, and reports them to the result.
 
     Parameters
     ----------
     result : History
         Takes the events and warnings.
     loads : callable
-        Text that says the loads at a load parameter.
+        Text of the loads at a load parameter.
     where : str
         Name of the step.
     """
@@ -78,23 +78,23 @@ class CriticalPoints:
     def __init__(self, result: History, loads: Callable[[float], str], where: str) -> None:
         self.result, self.loads, self.where = result, loads, where
         self._last: PathState | None = None
-        self._counted: PathState | None = None  # the last state of which signs of pivots are known
+        self._counted: PathState | None = None  # the last state with known signs of pivots
         self._turns = 0  # limit points since then
         self._silent = False
 
     def memory(self) -> dict[str, Any]:
-        """All that it remembers of the states before the last one."""
+        """State before the last one, for checkpoints."""
         counted = None if self._counted is None else vars(self._counted)
         return {"counted": counted, "turns": self._turns, "silent": self._silent}
 
     def recall(self, last: PathState, memory: Mapping[str, Any]) -> None:
-        """Go on from the last state of a path that was kept."""
+        """Continue from the last state of a restored path."""
         counted = memory["counted"]
         self._last, self._counted = last, None if counted is None else PathState(**counted)
         self._turns, self._silent = memory["turns"], memory["silent"]
 
     def advance(self, state: PathState) -> None:
-        """Go on to the next converged state."""
+        """Process the next converged state."""
         last, self._last = self._last, state
         if last is not None and last.slope * state.slope < 0.0:
             self._turns += 1
@@ -112,7 +112,7 @@ class CriticalPoints:
         self._counted, self._turns = state, 0
 
     def _look_for_bifurcation(self, before: PathState, state: PathState) -> None:
-        """Each limit point changes the sign of one pivot; what else has changed is a bifurcation."""
+        """Each limit point changes the sign of one pivot; further changes are bifurcations."""
         change = state.changes(before)
         if change <= self._turns and (change + self._turns) % 2 == 0:
             return
@@ -143,7 +143,7 @@ class CriticalPoints:
 
 
 def extremum(one: PathState, other: PathState) -> float:
-    """Load parameter where it turns back between two states: a cubic with their slopes. eq. (5.27)"""
+    """Load parameter at its extremum between two states: a cubic with their slopes. eq. (5.27)"""
     length = other.arc - one.arc
     rise, m, n = other.fraction - one.fraction, length * one.slope, length * other.slope
     cubic = np.polynomial.Polynomial([one.fraction, m, 3.0 * rise - 2.0 * m - n, m + n - 2.0 * rise])

@@ -19,12 +19,12 @@ Floats = NDArray[np.float64]
 
 
 class Line(Global):
-    """Straight line of the controls; its value, the load parameter, says where on it they stand. eq. (5.20)
+    """Straight line of the controls, parametrised by the load parameter. eq. (5.20)
 
     Parameters
     ----------
     controls : sequence of Control
-        What is moved.
+        Controls to move.
     starts, targets : sequence of float
         Their values at the load parameters 0 and 1.
 
@@ -43,17 +43,17 @@ class Line(Global):
             )
 
     def at(self, fraction: float) -> dict[Control, float]:
-        """Values of the controls; at 1 they are the targets to the last bit."""
+        """Values of the controls; at 1 they equal the targets to the last bit."""
         return {
             c: start + fraction * (end - start) if fraction != 1.0 else end for c, (start, end) in self.ends.items()
         }
 
     def move(self, values: dict[Control, float], value: float) -> None:
-        """Write the values that the controls have at a load parameter."""
+        """Write the values of the controls at a load parameter."""
         values.update(self.at(value))
 
     def text(self, fraction: float) -> str:
-        """The loads in words."""
+        """The loads as text."""
         return ", ".join(f"{control.name} = {value:.6g}" for control, value in self.at(fraction).items())
 
 
@@ -68,7 +68,7 @@ class ArcLength(Term):
     Attributes
     ----------
     load_weight : float
-        Weight of the load parameter in the arc length, psi^2; zero makes the arc cylindrical.
+        Weight of the load parameter in the arc length, psi^2; zero for a cylindrical arc.
     """
 
     name = "arc length"
@@ -78,11 +78,11 @@ class ArcLength(Term):
         self.hold(line.value)
 
     def hold(self, fraction: float) -> None:
-        """Ask for a load parameter."""
+        """Prescribe a load parameter."""
         self._fraction, self._length, self._start = fraction, 0.0, np.empty(0)
 
     def ask(self, length: float, start: Floats) -> None:
-        """Ask for an arc length from the converged state, whose displacement (3 n,) is given."""
+        """Prescribe an arc length from the converged state, whose displacement (3 n,) is given."""
         self._length, self._start = length, start
 
     def evaluate(self, at: At, into: Into) -> Found:

@@ -1,4 +1,4 @@
-"""The path of equilibria along a line of controls: increments of a given arc length, and the end of the line.
+"""The equilibrium path along a line of controls: increments of a given arc length, and the end of the line.
 
 docs/theory, 5.12
 """
@@ -28,14 +28,14 @@ Floats = NDArray[np.float64]
 
 @dataclass
 class Path:
-    """The path from the present state: its last converged state, its first arc length, and how to go on.
+    """The path from the present state: its last converged state, its first arc length, and the next increments.
 
-    The load parameter is an unknown of the model while the path is corrected, and at no other time.
+    The load parameter is an unknown of the model only while an increment is corrected.
 
     Attributes
     ----------
     model, newton
-        What is solved, and how.
+        The model and the method.
     equation : ArcLength
         Equation of the load parameter.
     increment : float
@@ -43,7 +43,7 @@ class Path:
     start_time : float
         Time at the beginning of the step.
     time : float
-        What the way to the end of the line takes at the pace of the first increment.
+        Time for the path to the end of the line at the rate of the first increment.
     first : float
         First arc length.
     state : PathState
@@ -72,7 +72,7 @@ class Path:
         increment : float
             First increment of the load parameter along the tangent.
         time : float
-            What the way to the end of the line takes at the pace of the first increment.
+            Time for the path to the end of the line at the rate of the first increment.
         spherical : bool
             Whether the load parameter counts in the arc length. eq. (5.22)
         """
@@ -98,7 +98,7 @@ class Path:
 
     @classmethod
     def recall(cls, run: Run, line: Line, increment: float, time: float, memory: dict[str, Any]) -> Self:
-        """The path as it stood."""
+        """The restored path."""
         state = PathState(**memory["state"])
         line.value = state.fraction
         starts = memory["start_time"], time, memory["first"]
@@ -107,7 +107,7 @@ class Path:
         return path
 
     def memory(self) -> dict[str, Any]:
-        """All that the path remembers."""
+        """State of the path, for checkpoints."""
         return {
             "starts": [start for start, _ in self.line.ends.values()],
             "load_weight": self.equation.load_weight,
@@ -122,19 +122,19 @@ class Path:
         return self.equation.line
 
     def shortened(self, length: float) -> float:
-        """Length that does not lead far beyond the end of the line."""
+        """Arc length limited to a little beyond the end of the line."""
         to_end = (1.0 - self.state.fraction) / self.state.slope
         return min(length, 1.05 * to_end) if to_end > 0.0 else length
 
     def advance(self, length: float) -> Converged:
-        """Make an increment of this length and commit it; on failure everything stands as before."""
+        """Make an increment of this length and commit it; after a failure the previous state is restored."""
         model, time_before = self.model, self.model.time
         try:
             with model.with_term(self.equation):
                 with self.newton.timing.attempts.trying("arc"):
                     converged, state = self.newton.guarded(lambda: self._correct(length))
                 model.commit(converged.evaluation)
-        except BaseException:  # no convergence, Ctrl-C, a user's function: the last converged state stands
+        except BaseException:  # no convergence, Ctrl-C, an error of a user's function: restore the last converged state
             model.time = time_before
             model.revert()
             model.prepare()
@@ -177,7 +177,7 @@ class Path:
         return Converged(landed.evaluation, beyond.iterations + landed.iterations)
 
     def _tangent(self, evaluation: Evaluation) -> tuple[Floats, Factorisation]:
-        """A vector along the path, the load parameter last, and what the factors tell. eq. (5.25)"""
+        """Tangent of the path, the load parameter last, and the signs of the pivots. eq. (5.25)"""
         self.newton.check_domain(evaluation, [])
         solver, along = self.newton.ready_solver(), np.zeros_like(evaluation.x)
         found = solver.factor(evaluation)
@@ -185,13 +185,13 @@ class Path:
         return self.model.extend(solver.solve(self.model.restrict(along))), found
 
     def _product(self, one: Floats, other: Floats) -> float:
-        """Product of displacements and load parameters that the arc length is measured with. eq. (5.22)"""
+        """Inner product of displacements and load parameters that defines the arc length. eq. (5.22)"""
         dofs = self.model.u.size
         return float(one[:dofs] @ other[:dofs]) + self.equation.load_weight * float(one[-1] * other[-1])
 
     @property
     def _manner(self) -> Manner:
-        """Near a limit point the residual judges no increment, and the tangent changes by more than it tells."""
+        """Near a limit point the residual is no measure of an increment, and the tangent changes strongly."""
         return Manner(line_search=False, reuses=False, mixed=self.newton.mixed)
 
     def _set_time(self, arc: float) -> None:

@@ -1,4 +1,4 @@
-"""Tools from STEP and IGES files, by OpenCASCADE: faces, their triangles, and how far these are from them."""
+"""Tools from STEP and IGES files, by OpenCASCADE: faces, their triangles, and the deviation between them."""
 
 from umform.surfaces.cad.tool import CadTool
 

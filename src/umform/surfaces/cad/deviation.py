@@ -1,4 +1,4 @@
-"""Distance of points from a free-form face, near places that are known."""
+"""Distance of points from a free-form face, from known places nearby."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _STEPS = 5
 
 
 def distances(face: Face, x: Floats, uv: Floats) -> Floats:
-    """Distances of points to the surface of a face, from first guesses of the parameters of their feet.
+    """Distances of points to the surface of a face, from initial parameters of their feet.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ def distances(face: Face, x: Floats, uv: Floats) -> Floats:
     Returns
     -------
     ndarray, shape (n,)
-        Shortest of the distances that steps of Gauss and Newton come to.
+        Shortest of the distances at which Gauss-Newton and Newton iterations arrive.
     """
     best = np.full(len(x), np.inf)
     low, high = face.uv.min(axis=0), face.uv.max(axis=0)

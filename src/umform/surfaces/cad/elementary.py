@@ -18,7 +18,7 @@ from umform.surfaces.tool import Tool
 
 
 def elementary(face: Face) -> Tool | None:
-    """The endless surface of a face with its solid on the side of the face's; None of a free form."""
+    """The infinite surface of a face, oriented like the face; None for a free form."""
     if face.kind not in _MAKERS:
         return None
     tool = _MAKERS[face.kind](getattr(face.formula, face.kind)(), face)
@@ -44,14 +44,14 @@ def _sphere(sphere: Any, face: Face) -> Tool:
 
 
 def _torus(torus: Any, face: Face) -> Tool | None:
-    """None where the tube reaches over the axis."""
+    """None where the tube crosses the axis."""
     del face
     major, minor = torus.MajorRadius(), torus.MinorRadius()
     return Torus(_xyz(torus.Location()), _xyz(torus.Axis().Direction()), major, minor) if minor < major else None
 
 
 def _cone(cone: Any, face: Face) -> Tool:
-    """The half on which the face lies."""
+    """The half that contains the face."""
     apex, axis = np.array(_xyz(cone.Apex())), np.array(_xyz(cone.Axis().Direction()))
     side = math.copysign(1.0, float(((face.points - apex) @ axis).sum()))
     angle = abs(cone.SemiAngle())

@@ -17,7 +17,7 @@ from umform.surfaces.triangles import Floats, Ids
 
 #: Part of the size of a shape within which the faces of an IGES file are sewn together.
 _SEWN = 1e-5
-#: Part of the size of a shape within which a spline is taken for a plane, a cylinder, ...
+#: Part of the size of a shape within which a spline counts as a plane, a cylinder, ...
 _RECOGNISED = 1e-7
 #: Part of the way to the middle of a triangle at which the normal of a pole is taken.
 _BESIDE = 1e-3
@@ -43,7 +43,8 @@ class Face:
     surface : object
         The surface with its derivatives, of OpenCASCADE.
     formula : object
-        The same as a plane, a cylinder, ... if it is one, also where the file has it as a spline or a turned curve.
+        The same as a plane, a cylinder, ... if it is one, also where the file stores a spline or a surface of
+        revolution.
     """
 
     number: int
@@ -70,7 +71,7 @@ class Face:
         return rows[:, :3], rows[:, 3:6], rows[:, 6:]
 
     def normals(self) -> Floats:
-        """Unit normals out of the solid at the points; at a pole of the parameters that of a place beside it."""
+        """Unit normals out of the solid at the points; at a pole of the parametrisation that of a place beside it."""
         n, regular = self._crosses(self.uv)
         if not regular.all():
             ids = self.triangles.ravel()
@@ -81,7 +82,7 @@ class Face:
         return _unit(n)
 
     def _crosses(self, uv: Floats) -> tuple[Floats, NDArray[np.bool_]]:
-        """Cross products of the derivatives, and where these are not about zero."""
+        """Cross products of the derivatives, and where these are not nearly zero."""
         _, du, dv = self.derivatives(uv)
         n = np.cross(dv, du) if self.reversed else np.cross(du, dv)
         largest = np.linalg.norm(du, axis=1).max() * np.linalg.norm(dv, axis=1).max()
@@ -116,7 +117,7 @@ class Shape:
             self._shape = _sewn(self._shape, _SEWN * self.size)
 
     def faces(self, arrow: float, angle: float) -> list[Face]:
-        """Its faces with triangles that turn by no more than an angle and leave the faces by no more than an arrow.
+        """Its faces with triangles that turn by at most an angle and deviate from the faces by at most a distance.
 
         Raises
         ------

@@ -20,11 +20,11 @@ from umform.surfaces.tool import Tool
 from umform.surfaces.triangles import Floats, Ids, Triangles
 from umform.surfaces.triangulated import Triangulated
 
-#: Angle in radians by which triangles turn at first, the least part of it that the next attempt takes, how often.
+#: Initial angle in radians by which triangles turn, smallest factor of the next attempt, number of attempts.
 _ANGLE, _LEAST_SHARE, _ROUNDS = 0.35, 0.5, 8
 #: More triangles are not tried.
 _MOST = 100_000
-#: Part of the size of a shape by which triangles leave its faces at first, and within which points are one.
+#: Initial deviation of the triangles and distance of coincident points, relative to the size of the shape.
 _ARROW, _WELD = 5e-3, 1e-7
 #: Weights of the corners of a triangle at which the distance from a free form is measured.
 _PLACES = np.array([(4, 1, 1), (1, 4, 1), (1, 1, 4), (2, 2, 2), (3, 3, 0), (0, 3, 3), (3, 0, 3)]) / 6.0
@@ -32,7 +32,7 @@ _PLACES = np.array([(4, 1, 1), (1, 4, 1), (1, 1, 4), (2, 2, 2), (3, 3, 0), (0, 3
 
 @dataclass(frozen=True, eq=False)
 class CadTool(Tool):
-    """A tool of the faces of a drawing.
+    """A tool made of the faces of a CAD file.
 
     Planes, cylinders, cones, spheres and tori are exact; free-form faces are triangulated with their own normals and
     lie within :attr:`deviation` of the drawing.
@@ -77,7 +77,7 @@ class CadTool(Tool):
         path : str or Path
             A file that ends in .step, .stp, .iges or .igs.
         tolerance : float
-            Largest :attr:`deviation`; triangles become finer until it is kept.
+            Largest :attr:`deviation`; triangles are refined until it is met.
         open : bool
             The faces may have rims, as a die face without its block. A point whose nearest point is on a rim is
             outside of the tool.
@@ -91,7 +91,7 @@ class CadTool(Tool):
         FileProblem
             If the file cannot be read.
         DrawingError
-            If the faces are no surface, or the tolerance is not reached; the message names places.
+            If the faces are no surface, or the tolerance is not met; the message names places.
         """
         positive(tolerance, "CadTool.read", "tolerance")
         shape = Shape(path, positive(scale, "CadTool.read", "scale"))
@@ -158,7 +158,7 @@ class CadTool(Tool):
 
 
 def _tool(shape: Shape, arrow: float, angle: float, sharp: float, rims: bool) -> CadTool:
-    """Triangles of one size, their normals, and how far they are from the faces."""
+    """Triangles of one size, their normals, and their distance from the faces."""
     faces = shape.faces(arrow, angle)
     tools = [elementary(face) for face in faces]
     first = np.cumsum([0] + [len(face.points) for face in faces])

@@ -1,4 +1,4 @@
-"""From triangles to a smooth surface: how they hang together, normals at their corners, curved patches."""
+"""From triangles to a smooth surface: connectivity, normals at the corners, curved patches."""
 
 from umform.surfaces.smooth.edges import Edges, connected
 from umform.surfaces.smooth.net import control_points

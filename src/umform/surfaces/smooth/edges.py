@@ -1,4 +1,4 @@
-"""How triangles hang together: what lies on the other side of each edge; holes and turned triangles are refused."""
+"""Connectivity of triangles: the neighbour across each edge; holes and flipped triangles are refused."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from umform.errors import HoleInSurface, TurnedNormals, UnfitTriangles
 from umform.surfaces.joined import groups
 from umform.surfaces.triangles import Floats, Ids, Triangles
 
-#: How many places a message names.
+#: Number of places that a message names.
 _PLACES = 4
-#: A triangle that is lower than this part of its longest edge is a line.
+#: A triangle whose height is below this part of its longest edge is degenerate.
 _FLAT = 1e-9
+#: Cosine between the normals of two triangles beside each other from which one lies folded on the other.
+_FOLDED = -0.985
 
 
 @dataclass(frozen=True)
@@ -48,7 +50,7 @@ def connected(surface: Triangles, where: str, *, rims: bool = False) -> Edges:
     Raises
     ------
     UnfitTriangles
-        If a triangle has no area, or more than two meet in an edge.
+        If a triangle has no area, more than two meet in an edge, or the surface is folded on itself.
     TurnedNormals
         If two neighbours have their normals on different sides.
     HoleInSurface
@@ -83,6 +85,7 @@ def connected(surface: Triangles, where: str, *, rims: bool = False) -> Edges:
         )
     mate = np.full(len(start), -1)
     mate[one], mate[other] = other, one
+    _refuse_folds(surface, one // 3, other // 3, middles[one], where)
     if not rims and (mate < 0).any():
         _refuse_holes(surface.points, start[mate < 0], end[mate < 0], where)
     return Edges(start, end, mate)
@@ -100,6 +103,21 @@ def _refuse_lines(surface: Triangles, where: str) -> None:
             value=_places(corners[flat].mean(axis=1), "triangle"),
             cause="needles of a tessellation, or points that coincide",
             remedy="export again with a smaller chord error, or repair the triangles",
+        )
+
+
+def _refuse_folds(surface: Triangles, one: Ids, other: Ids, middles: Floats, where: str) -> None:
+    """Reject triangles that lie on their neighbour: beyond the fold the surface faces away from the sheet."""
+    n = surface.area_vectors
+    n = n / np.linalg.norm(n, axis=1, keepdims=True)
+    folded = np.einsum("ei,ei->e", n[one], n[other]) < _FOLDED
+    if folded.any():
+        raise UnfitTriangles(
+            "the surface is folded: triangles lie on their neighbours and face the other way",
+            where=where,
+            value=_places(middles[folded], "edge"),
+            cause="a section swept along a curve, or an offset, that is wider than the radius of the curve",
+            remedy="make the surface narrower on the inner side of the curve, or remove the folded part",
         )
 
 
@@ -124,7 +142,7 @@ def _refuse_holes(points: Floats, start: Ids, end: Ids, where: str) -> None:
 
 
 def _places(at: Floats, what: str) -> str:
-    """The first places of a list, and how many there are."""
+    """The first places of a list, and their number."""
     named = ", ".join(_point(x) for x in at[:_PLACES])
     return f"{len(at)} {what}{'s' if len(at) > 1 else ''}, at {named}{', ...' if len(at) > _PLACES else ''}"
 

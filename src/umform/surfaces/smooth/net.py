@@ -50,7 +50,7 @@ def _after(values: Floats) -> Floats:
 
 
 def _tangents(points: Floats, edges: Edges, normals: Normals) -> tuple[Floats, Floats]:
-    """Derivatives of the edges at their starts and ends; seen from the mate they are turned. eqs. (4.160), (4.161)"""
+    """Derivatives of the edges at their starts and ends; the mate sees them reversed. eqs. (4.160), (4.161)"""
     chord = points[edges.end] - points[edges.start]
     corner = normals.corner
     n0, n1 = corner.reshape(-1, 3), _after(corner).reshape(-1, 3)
@@ -64,7 +64,7 @@ def _tangents(points: Floats, edges: Edges, normals: Normals) -> tuple[Floats, F
 
 
 def _tangent(chord: Floats, n: Floats, other: Floats, sharp: np.ndarray) -> Floats:
-    """In the tangent plane, or in both of them; as long as makes an arc of a circle a good cubic."""
+    """In the tangent plane, or in both; its length makes the cubic approximate a circular arc."""
     length = np.linalg.norm(chord, axis=1)
     t = chord - np.einsum("ei,ei->e", chord, n)[:, None] * n
     line = np.cross(n, other)
@@ -79,7 +79,7 @@ def _tangent(chord: Floats, n: Floats, other: Floats, sharp: np.ndarray) -> Floa
 
 
 def _second_row(P: Floats, inner: Floats, hodograph: tuple[Floats, Floats, Floats], n: Floats) -> Floats:
-    """Points beside the edge, which give it tangent planes that follow from its ends alone. eqs. (4.162), (4.163)"""
+    """Points beside the edge; the tangent planes along it depend on its ends only. eqs. (4.162), (4.163)"""
     q0, q1, q2 = hodograph
     inner_j, n_j = _after(inner), _after(n)
     A0, A1 = (np.cross(m, q / np.linalg.norm(q, axis=2, keepdims=True)) for m, q in ((n, q0), (n_j, q2)))
@@ -98,7 +98,7 @@ def _dot(a: Floats, b: Floats) -> Floats:
 
 
 def _of_cubic(V: Floats, b1: Floats, b2: Floats) -> Floats:
-    """The free point of each third, that of the cubic patch with the same edges, cut at its middle. eq. (4.165)"""
+    """The free point of each third, from the cubic patch with the same edges, split at its middle. eq. (4.165)"""
     E, M = 0.5 * (b1 + b2).mean(axis=1, keepdims=True), V.mean(axis=1, keepdims=True)
     centre = 1.5 * E - 0.5 * M
     toward_i = (V + b2 + _before(b1) + 2.0 * b1 + 2.0 * _before(b2) + 2.0 * centre) / 9.0  # at corner, middle, middle

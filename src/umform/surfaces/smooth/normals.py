@@ -12,7 +12,7 @@ from umform.surfaces.joined import groups
 from umform.surfaces.smooth.edges import Edges
 from umform.surfaces.triangles import Floats, Ids, Triangles
 
-#: Triangles whose unit normals differ by less belong to one face; a face below this part of another one is small.
+#: Triangles with closer unit normals belong to one face; a face below this part of another's size is small.
 _LEVEL, _SMALL = 1e-3, 0.25
 #: Least cosine between a triangle and a normal at its corners: beyond 72 degrees a patch folds.
 _LEAST_COSINE = 0.3
@@ -38,7 +38,7 @@ class Normals:
 
 
 def from_facets(surface: Triangles, edges: Edges, sharp: float, where: str) -> Normals:
-    """Normals from the triangles around a point, those beyond an edge left out. eq. (4.171)
+    """Normals from the triangles around a point, without those beyond an edge. eq. (4.171)
 
     Parameters
     ----------
@@ -68,10 +68,10 @@ def from_facets(surface: Triangles, edges: Edges, sharp: float, where: str) -> N
 
 
 def _small(surface: Triangles, edges: Edges, level: Bools, label: Ids) -> Bools:
-    """Corners, shape (m, 3), of faces that are small beside another one at the same point.
+    """Corners, shape (m, 3), of faces that are much smaller than another one at the same point.
 
-    Where a flange goes over into a fillet, or a long cylinder into a small torus, the normal is that of the larger
-    face: a tessellation makes triangles of one size where the curvature goes on.
+    Where a flange joins a fillet, or a long cylinder a small torus, the normal is that of the larger face: where the
+    curvature is continuous, a tessellation makes triangles of one size.
     """
     triangle = np.flatnonzero(level) // 3
     count, face = groups(triangle, edges.mate[level] // 3, len(label) // 3)
@@ -82,7 +82,7 @@ def _small(surface: Triangles, edges: Edges, level: Bools, label: Ids) -> Bools:
 
 
 def from_drawing(surface: Triangles, edges: Edges, corner: Floats, sharp: float, where: str) -> Normals:
-    """Normals of the true surface at the corners of triangles; those that differ by less than ``sharp`` made one."""
+    """Given normals at the corners of triangles; those that differ by less than ``sharp`` are merged."""
     n = corner.reshape(-1, 3)
     number = np.arange(len(n))
     end = np.where(number % 3 == 2, number - 2, number + 1)
@@ -95,7 +95,7 @@ def from_drawing(surface: Triangles, edges: Edges, corner: Floats, sharp: float,
 
 
 def _groups(edges: Edges, joined: Bools) -> Ids:
-    """Numbers of the groups of corners around a point that joined edges connect, shape (3 m,)."""
+    """Group of each corner around a point, connected by smooth edges, shape (3 m,)."""
     number = np.arange(len(edges.mate))
     end = np.where(number % 3 == 2, number - 2, number + 1)
     j, mate = number[joined], edges.mate[joined]
@@ -124,7 +124,7 @@ def _same(label: Ids, edges: Edges, end: Ids) -> Bools:
 
 
 def _refuse_folds(surface: Triangles, corner: Floats, where: str) -> None:
-    """Reject normals that look away from their triangles."""
+    """Reject normals that point away from their triangles."""
     cosine = np.einsum("tci,ti->tc", corner, _unit(surface.area_vectors))
     if not (cosine > _LEAST_COSINE).all():
         t, c = np.argwhere(~(cosine > _LEAST_COSINE))[0]

@@ -1,4 +1,4 @@
-"""Curved patches over triangles, as the kernels take them."""
+"""Curved patches over triangles, in the form of the kernels."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ class Patches:
     neighbour : ndarray of int, shape (3 m,)
         Third on the other side, -1 at a rim.
     ends : ndarray of int, shape (3 m, 2)
-        Points of the edge.
+        End points of the edge.
     normals : ndarray, shape (n, 3)
         Sum of the normals of the triangles around a point, by their angles there.
     corner : ndarray of int, shape (n,)
-        The largest of ``across`` of the edges that meet in a point.
+        The largest ``across`` of the edges that meet in a point.
     """
 
     control: Floats
@@ -55,9 +55,10 @@ class Patches:
         faces : sequence of Surface, optional
             Exact surfaces.
         face : ndarray of int, shape (3 m,), optional
-            That of each third, -1 for none.
+            Exact surface of each third, -1 for none.
         trust : float
-            Largest difference between the distances to a third and to its exact surface; the latter counts.
+            Largest difference between the distances to a third and to its exact surface for which the exact one is
+            used.
         """
         face = np.full(len(self.across), -1) if face is None else face
         across, neighbour, ends, of, corner = (
@@ -75,19 +76,19 @@ class Patches:
 
     def at_triangles(self, weights: Floats) -> Floats:
         """Points on all triangles, shape (m, k, 3), at some weights of their corners, shape (k, 3)."""
-        edge = (weights.argmin(axis=1) + 1) % 3  # the third without the corner of the least weight
+        edge = (weights.argmin(axis=1) + 1) % 3  # the third opposite the corner of the least weight
         least = weights.min(axis=1)
         a, b = (np.take_along_axis(weights, ((edge + k) % 3)[:, None], axis=1)[:, 0] - least for k in (0, 1))
         points = self.at(np.stack([a, b, 3.0 * least], axis=1)).reshape(-1, 3, len(weights), 3)
         return points[:, edge, np.arange(len(weights))]
 
     def bulge(self) -> Floats:
-        """Bound of the distances of the patches to the flat triangles of their corners, shape (3 m,)."""
+        """Bound of the distances of the patches from the flat triangles of their corners, shape (3 m,)."""
         flat = np.einsum("cw,pwi->pci", _POWERS / 4.0, self.control[:, [0, 4, 14]])
         return np.asarray(np.linalg.norm(self.control - flat, axis=2).max(axis=1))
 
     def facets(self, parts: int) -> Triangles:
-        """Flat triangles, each edge of a third cut into so many parts."""
+        """Flat triangles, each edge of a third divided into equal parts."""
         rows = [[(parts - j - i, i, j) for i in range(parts + 1 - j)] for j in range(parts + 1)]
         first = np.cumsum([0] + [len(row) for row in rows])
         triangles = []
