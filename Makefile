@@ -30,7 +30,7 @@ unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-stubs lint-format lint-cpp stubs \
+.PHONY: help env dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
         format docs wheel bench dome robust ubend cup s-rail compare peers clean
 
 help:  ## show this help
@@ -211,7 +211,7 @@ wheel: env $(VENV)/.wheel  ## a wheel in dist, repaired, and tested in an enviro
 
 # ---- style ----
 
-lint: lint-python lint-imports lint-types lint-stubs lint-format lint-cpp  ## style, types and names, in Python and in C++
+lint: lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp  ## style, types and names, in Python and in C++
 
 lint-python: $(VENV)/.dev
 	$(SAY) 'ruff'
@@ -225,6 +225,14 @@ lint-imports: $(VENV)/.dev
 lint-types: $(VENV)/.dev
 	$(SAY) 'mypy'
 	@$(BIN)/mypy --no-error-summary
+
+# The types of the page stand in comments; TypeScript comes from npm, where there is one.
+TSC := npx --yes -p typescript@5.9 tsc
+
+lint-page:
+	$(SAY) 'types of the page'
+	@if ! $(TSC) --version > /dev/null 2>&1; then echo 'no npx, or TypeScript cannot be fetched: the types of the page are not checked'; \
+	else $(TSC) -p src/umform/bench/page/jsconfig.json; fi
 
 STUBGEN := $(BIN)/python -m nanobind.stubgen -q -m umform._core -p cpp/bindings/stub_pattern.txt
 
