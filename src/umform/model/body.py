@@ -63,7 +63,7 @@ class Body(Term):
         Points through the thickness, 2 to 20, at least thickness_order + 1. Default: 2 with an elastic law, 12 with a
         plastic one; the elements without an enhanced thickness strain have 5.
     thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
-        Where they lie; default gauss, but graded where the 12 points are the default.
+        Where they lie; default gauss, but graded where the 18 points are the default.
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional
         Rolling direction of the sheet, or that of each cell, or a function of the coordinates x, y, z of the centres of
         the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of the local axes is its projection onto
