@@ -47,7 +47,7 @@ class FibreSection(Bending):
         unit = np.eye(degree)
         self.slopes = np.asarray(legendre.legvander(t, degree - 1), dtype=np.float64)
         places = [legendre.legval(t, legendre.legint(row, lbnd=-1.0 if j else 0.0)) for j, row in enumerate(unit)]
-        self.places: Floats = 0.5 * np.array(places).T
+        self.places: Floats = 0.5 * np.array(places, dtype=np.float64).T
         self.free = np.asarray(null_space((self.slopes * w[:, None]).T), dtype=np.float64)
         self.history: Floats = np.tile(self.law.initial(), (len(t), 1))
         self.unknowns: Floats = np.concatenate([[1.0, 1.0], np.zeros(degree - 1 + self.free.shape[1])])
