@@ -5,18 +5,19 @@ from __future__ import annotations
 import math
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
-from umform.plotting import COLOURS, INK, Picture, house_style
 from umform.processes.air_bending.files import parameters
 from umform.processes.air_bending.measures import Quantity
 from umform.processes.hemming.measures import Hem, HemMeasures
 from umform.report.versions import versions
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _DATA = ("hem.json", "curve.csv", "profile.csv", "hem.vtkhdf")
 _PICTURES = ("hem.png", "hem.svg")
@@ -24,7 +25,7 @@ _PICTURES = ("hem.png", "hem.svg")
 FILES = (*_DATA, *_PICTURES)
 RESULTS = FILES
 
-#: The measures, in the order of tables; docs/bending-operations.md defines each.
+#: The measures, in the order of tables, defined in docs/bending-operations.md.
 QUANTITIES = {
     "force": Quantity("force", "N/mm", 1),
     "largest_force": Quantity("largest force", "N/mm", 1),
@@ -40,7 +41,7 @@ QUANTITIES = {
 
 
 def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
-    """Write all that is known of a hem.
+    """Write all files of a hem.
 
     Parameters
     ----------
@@ -49,7 +50,7 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
     hem : Hem
         The hem.
     note : str
-        Where the material comes from; may be empty.
+        Source of the material data; may be empty.
     """
     from umform.plotting import save
 
@@ -67,7 +68,7 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
 
 
 def record(hem: Hem) -> dict[str, Any]:
-    """Parameters and results in a form that JSON can hold; ``profile`` is a list of [x, z], the base on z = 0."""
+    """Parameters and results as JSON data; ``profile`` is a list of [x, z], the base on z = 0."""
     case, first = hem.case, hem.first.bends[0]
     given = {name: getattr(case, name) for name in ("gap", "flange", "base", "insert", "insert_edge", "angle")}
     return {
@@ -90,7 +91,9 @@ def rows(measures: HemMeasures) -> list[list[str]]:
 
 
 def picture(hem: Hem) -> Figure:
-    """Force over the way of the plate, and the hem after unloading."""
+    """Force over the travel of the plate, and the hem after unloading."""
+    from umform.plotting import COLOURS, INK, Picture, house_style
+
     with house_style():
         figure = Picture(figsize=(9.0, 3.6))
         left, right = figure.subplots(1, 2)
