@@ -31,7 +31,7 @@ unexport PYTHONPATH PYTHONHOME
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
 .PHONY: help env dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
-        format docs wheel bench dome robust ubend cup compare peers clean
+        format docs wheel bench dome robust ubend cup s-rail compare peers clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -90,6 +90,10 @@ ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter
 cup: env  ## the cup of the ESAFORM benchmark 2021 on four meshes (some five minutes)
 	$(SAY) 'Drawing the cup'
 	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json --page docs/performance-increments.md $(ARGS)
+
+s-rail: env  ## the S-rail of the verification book with up to 6 000 elements, three penalties (an hour)
+	$(SAY) 'Drawing the S-rail'
+	@$(BIN)/python benchmarks/s_rail.py --json build/s_rail.json $(ARGS)
 
 compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)

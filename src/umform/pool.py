@@ -183,9 +183,8 @@ def _prepare(level: int) -> None:
     """
     threading.Thread(target=_end_with_parent, daemon=True).start()
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    signal.signal(
-        signal.SIGTERM, lambda number, frame: os._exit(128 + number)
-    )  # a run would first finish its increment
+    # a run would first finish its increment
+    signal.signal(signal.SIGTERM, lambda number, frame: os._exit(128 + number))
     _core.set_threads(1)
     if level < logging.WARNING:
         log_to_stderr(level)

@@ -251,6 +251,38 @@ def volume(mesh):
     return float((J @ np.einsum("i,j,k->ijk", w, w, w).ravel()).sum())
 
 
+#: A strip that is held at one end and pulled at the other.
+PULLED_STRIP = """
+[mesh]
+generator = "strip"
+length = 10.0
+width = 2.0
+thickness = 1.0
+cells = [4, 2]
+[material]
+law = "SVK"
+E = 210e3
+nu = 0.3
+[[supports]]
+kind = "fix"
+nodes = "x0"
+[controls.pull]
+kind = "displacement"
+nodes = "x1"
+direction = "x"
+[[steps]]
+kind = "move"
+to = { pull = 0.1 }
+increments = 2
+"""
+
+
+@pytest.fixture(name="strip", scope="session")
+def pulled_strip():
+    """A small deck that solves in no time."""
+    return PULLED_STRIP
+
+
 @pytest.fixture
 def materials():
     return MATERIALS

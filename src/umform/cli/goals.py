@@ -1,4 +1,4 @@
-"""What ``umform bend`` is asked for: an angle, a stroke, a force, a table of strokes."""
+"""The goal of ``umform bend``: an angle, a stroke, a force, or a table of strokes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import math
 from umform.cli.metal import numbers
 from umform.errors import InvalidValue
 
-#: Each row of a table is an unloading.
+#: Largest number of rows of a table: each row is an unloading.
 _MOST_ROWS = 1000
 
 
@@ -29,7 +29,7 @@ def check_goal(angle: float | None, stroke: float | None, force: float | None, t
 
 
 def check_no_goal(option: str, *goals: object) -> None:
-    """Refuse a goal of a single bend beside an option that has goals of its own."""
+    """Refuse a goal of a single bend together with an option that defines goals."""
     if any(goal is not None for goal in goals):
         raise InvalidValue(
             "the bends of a file have angles and strokes of their own",
@@ -47,7 +47,7 @@ def check_press(
     force: float | None,
     travel: float | None,
 ) -> None:
-    """Refuse bottoming without one goal, and what it does not have."""
+    """Refuse bottoming without exactly one goal, or with options that it does not support."""
     if [stroke, force, travel].count(None) != 2:
         raise InvalidValue(
             "give the force of bottoming, the way beyond the bottom, or the stroke: one of them",
@@ -64,7 +64,7 @@ def check_press(
 
 
 def strokes_of(text: str) -> list[float]:
-    """Strokes of first:last:step, the last one included."""
+    """Strokes of first:last:step, including the last one."""
     first, last, step = numbers(text, ":", 3, "--table", "first:last:step as 4:6:0.5")
     if not 0.0 < first <= last < math.inf or not 0.0 < step < math.inf:
         raise InvalidValue(

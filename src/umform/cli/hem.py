@@ -84,7 +84,7 @@ def hem(
             with printing(f"the files of the hem are in {place}"):
                 _show(rows(done.measures), note)
                 echo_warnings(list(done.warnings))
-        finally:  # also if nobody reads the table
+        finally:  # even if the table cannot be printed
             files = write_files(place, done, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
 

@@ -22,7 +22,7 @@ _COLUMNS = ("stroke", "loaded_angle", "angle", "springback", "largest_force", "r
 def run_sequence(
     file: Path, sheet: AirBending, note: str, out: str | None, *, tolerance: float, overwrite: bool
 ) -> None:
-    """Bend the part of a file, show and write it."""
+    """Bend the part of a file, print the results and write them."""
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.bend_sequence import bend_sequence
@@ -38,7 +38,7 @@ def run_sequence(
         try:
             with printing(f"the files of the part are in {place}"):
                 _show(part, note)
-        finally:  # also if nobody reads the table
+        finally:  # even if the table cannot be printed
             files = write_files(place, part, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
 

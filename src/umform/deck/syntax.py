@@ -9,7 +9,7 @@ from umform.deck.errors import DeckSyntax, shortened, written
 from umform.deck.lines import repeated
 
 #: Numbers written with a decimal comma, as values of a key, or within an inline table.
-_COMMA = re.compile(r"([A-Za-z0-9_-]+)\s*=\s*([-+]?\d[\d.]*),(\d+(?:[eE][-+]?\d+)?)\s*(?=$|#|\}|,)")
+_COMMA = re.compile(r"(?<![A-Za-z0-9_-])([A-Za-z0-9_-]+)\s*=\s*([-+]?\d[\d.]*),(\d+(?:[eE][-+]?\d+)?)\s*(?=$|#|\}|,)")
 #: Numbers without digits on one side of the point.
 _BARE_POINT = re.compile(r"=\s*([-+]?)(?:\.(\d+)|(\d+)\.)(?=\s*(?:$|#|\}|,))")
 #: Unquoted text before the equals sign or within the brackets of a header.

@@ -22,6 +22,15 @@ class Tying:
     The covariant component is sampled on the grid ``r`` x ``s`` and interpolated with the Lagrange polynomials of the
     abscissae, at the mid-surface (t = 0) or, with ``at_layer``, at the t of the Gauss point.
 
+    Parameters
+    ----------
+    component : str
+        One of :data:`COMPONENTS`.
+    r, s : tuple of float
+        Natural coordinates of the grid.
+    at_layer : bool
+        Sample at the t of the Gauss point instead of the mid-surface.
+
     Examples
     --------
     >>> import umform as uf
@@ -38,6 +47,17 @@ class Tying:
 @dataclass(frozen=True)
 class Term:
     """The term ``factor * r**a * s**b * P_c(t)`` of an enhanced mode in one covariant component (P_c: Legendre).
+
+    Parameters
+    ----------
+    component : str
+        One of :data:`COMPONENTS`.
+    a, b : int
+        Powers of r and s.
+    c : int
+        Degree of the Legendre polynomial in t.
+    factor : float
+        Factor of the term.
 
     Examples
     --------

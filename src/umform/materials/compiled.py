@@ -40,6 +40,8 @@ class CompiledLaw:
         strain. They begin at ``initial``, by default at zero.
     properties : sequence of float
         Constants of the law, passed on unchanged.
+    initial : sequence of float
+        State of the virgin material; default: zeros.
     energy : str, int or object, optional
         A function ``int energy(int points, const double* strain, const double* state, const double* properties, double*
         energies)`` that fills elastic energy and plastic work (2) of each point, for a strain and the converged state
@@ -54,6 +56,8 @@ class CompiledLaw:
         Whether it uses axes and length of the cell; else they are null and 0.
     directional : bool
         Whether it is anisotropic, so that a model needs the rolling direction.
+    thickness_points : int
+        Default number of points through the thickness.
     name : str
         For messages and fingerprints of runs; without a library, give each function its own name.
 

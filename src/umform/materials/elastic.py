@@ -86,6 +86,11 @@ class Elastic:
 class SVK(Elastic):
     """Saint Venant-Kirchhoff: S = lambda tr(E) 1 + 2 mu E. For small strains; it softens in strong compression.
 
+    Parameters
+    ----------
+    E, nu, kappa, mu : float
+        Elastic constants, see :class:`Elastic`.
+
     Examples
     --------
     >>> import umform as uf
@@ -104,6 +109,11 @@ class SVK(Elastic):
 class NeoHooke(Elastic):
     """Compressible neo-Hooke, logarithmic form: W = mu/2 (I1 - 3) - mu ln J + lambda/2 ln² J.
 
+    Parameters
+    ----------
+    E, nu, kappa, mu : float
+        Elastic constants, see :class:`Elastic`.
+
     Examples
     --------
     >>> import umform as uf
@@ -121,6 +131,11 @@ class NeoHooke(Elastic):
 
 class NeoHookePower(Elastic):
     """Compressible neo-Hooke, power form: W = c (I1 - 3) + c/beta (I3^-beta - 1), c = mu/2, beta = nu/(1 - 2 nu).
+
+    Parameters
+    ----------
+    E, nu, kappa, mu : float
+        Elastic constants, see :class:`Elastic`.
 
     Examples
     --------

@@ -78,6 +78,15 @@ class LinearVoce:
 def Perfect(yield_stress: float) -> LinearVoce:
     """Perfect plasticity: y = y0.
 
+    Parameters
+    ----------
+    yield_stress : float
+        y0, a stress.
+
+    Returns
+    -------
+    LinearVoce
+
     Examples
     --------
     >>> import umform as uf
@@ -89,6 +98,17 @@ def Perfect(yield_stress: float) -> LinearVoce:
 def Linear(yield_stress: float, modulus: float) -> LinearVoce:
     """Linear hardening: y = y0 + H e.
 
+    Parameters
+    ----------
+    yield_stress : float
+        y0, a stress.
+    modulus : float
+        H, a stress, not negative.
+
+    Returns
+    -------
+    LinearVoce
+
     Examples
     --------
     >>> import umform as uf
@@ -99,6 +119,19 @@ def Linear(yield_stress: float, modulus: float) -> LinearVoce:
 
 def Voce(yield_stress: float, saturation: float, rate: float) -> LinearVoce:
     """Voce hardening: y = y_inf - (y_inf - y0) exp(-d e).
+
+    Parameters
+    ----------
+    yield_stress : float
+        y0, a stress.
+    saturation : float
+        y_inf, a stress, not below y0.
+    rate : float
+        d, dimensionless, not negative.
+
+    Returns
+    -------
+    LinearVoce
 
     Examples
     --------

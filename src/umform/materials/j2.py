@@ -50,6 +50,13 @@ class Plastic(Elastic):
 class J2(Plastic):
     """Finite-strain J2 plasticity in logarithmic elastic strains, multiplicative split (docs/theory, chapter 3).
 
+    Parameters
+    ----------
+    E, nu, kappa, mu : float
+        Elastic constants, see :class:`Elastic`.
+    hardening : Hardening
+        Perfect, Linear, Voce, LinearVoce, Swift or Table.
+
     Examples
     --------
     >>> import umform as uf

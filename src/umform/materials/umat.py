@@ -33,6 +33,8 @@ class Umat:
         accumulated plastic strain. They begin at ``initial``, by default at zero.
     properties : sequence of float
         PROPS.
+    initial : sequence of float
+        State of the virgin material; default: zeros.
     symmetric : bool
         Whether DDSDDE is symmetric at any strain; an asymmetric one then raises an error.
     energies : bool
@@ -41,6 +43,8 @@ class Umat:
         Whether several threads may call it at the same time: no SAVE, no COMMON, no files. MPI ranks always do.
     directional : bool
         Whether it is anisotropic, so that a model needs the rolling direction; False for an isotropic one.
+    thickness_points : int
+        Default number of points through the thickness.
     symbol : str, optional
         Name of the function; default: the usual names that compilers give to UMAT.
     name : str

@@ -64,7 +64,7 @@ class UserLaw:
         differences. A function of three arguments gets the :class:`Points` too: axes, size, step.
     initial : tuple of float
         History of the virgin material; its length is the size of the history.
-    Default number of points through the thickness.
+    thickness_points : int
         Default number of points through the thickness.
     name : str
         For messages.

@@ -45,10 +45,10 @@ def disc(
         Cell type.
     layers : int
         Elements stacked through the thickness.
-    Ratio of the last to the first element size, from the core to the rim.
-        Size of the last element over that of the first one, from the core to the rim.
-    Half-width of the core, relative to the radius.
-        Half of the side of the core, over the radius.
+    grading : float
+        Ratio of the last to the first element size, from the core to the rim.
+    core : float
+        Half-width of the core, relative to the radius.
     radii : sequence of float, optional
         Radii of the rings in place of the second number of cells and the grading: from ``core * radius`` to ``radius``.
 

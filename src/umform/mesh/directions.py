@@ -51,8 +51,8 @@ def through_the_sheet(X: Floats, cells: Whole, wanted: Floats | NDArray[np.bool_
         Positions.
     cells : ndarray of int, shape (m, 8)
         Corners of the hexahedra.
-    A unit vector to the upper side, shape (3,); a mask of the nodes of the lower face, shape (n,); or None
-        A unit vector to the upper side, shape (3,); a mask over the nodes that has the lower face, shape (n,); or None
+    wanted : ndarray or None
+        A unit vector to the upper side, shape (3,); a mask of the nodes of the lower face, shape (n,); or None
         for the thinnest direction.
 
     Returns

@@ -32,6 +32,14 @@ def read(path: str | Path, through: str | ArrayLike | None = None) -> Mesh:
     Returns
     -------
     Mesh
+        With face sets ``lower`` and ``upper``.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read.
+    MeshError
+        If its cells make no sheet.
     """
     from umform.io import meshes  # meshio is slow to import
 
@@ -75,6 +83,14 @@ def read_shell(
     Returns
     -------
     Mesh
+        With face sets ``lower`` and ``upper``.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read.
+    MeshError
+        If its cells make no sheet.
     """
     from umform.io import meshes  # meshio is slow to import
 

@@ -25,6 +25,7 @@ def graded(length: float, cells: int, ratio: float = 1.0) -> Floats:
     Returns
     -------
     ndarray, shape (cells + 1,)
+        Positions of the lines.
     """
     if not isinstance(cells, int) or cells < 1 or not 0 < length < np.inf or not 0 < ratio < np.inf:
         raise InvalidValue(

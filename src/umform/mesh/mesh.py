@@ -192,6 +192,7 @@ class Mesh:
         Returns
         -------
         ndarray of int32, shape (k, 2)
+            Rows (cell, face).
 
         Raises
         ------

@@ -70,6 +70,16 @@ class Assembled(Supported, Loaded, Beaded, Embodied, Whole):
     def add(self, term: Term) -> Term:
         """Add a term of another kind to the residual: a foundation, a spring, your own term.
 
+        Parameters
+        ----------
+        term : Term
+            The term; its nodes are those of the mesh.
+
+        Returns
+        -------
+        Term
+            The same term.
+
         Raises
         ------
         InvalidValue

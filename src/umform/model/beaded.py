@@ -75,8 +75,8 @@ class Beaded(Touched):
 
         Returns
         -------
-        The bead; its forces are part of those of the tool.
-            The bead; its forces are among those of the tool.
+        Bead
+            The bead; its forces are part of those of the tool.
 
         Raises
         ------

@@ -102,6 +102,7 @@ class Held(Controlled):
         Returns
         -------
         ndarray, shape (3 n,)
+            Displacement.
         """
         return self._displacement(values, self.controls, self.groups)
 

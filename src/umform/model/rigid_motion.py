@@ -1,4 +1,4 @@
-"""A rigid motion of a part with its state: into other tools, or turned over."""
+"""Rigid motion of a part with its state: into other tools, or turned over."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ Floats = NDArray[np.float64]
 class RigidMotion:
     """Positions x become Q x + c.
 
-    History and enhanced parameters are values of the undeformed body: they stay as they are, the stress turns with the
-    part, and the internal forces are Q times what they were. eq. (5.91)
+    History and enhanced parameters refer to the undeformed body and do not change, the stress rotates with the part,
+    and the internal forces are multiplied by Q. eq. (5.91)
 
     Attributes
     ----------
@@ -32,7 +32,7 @@ class RigidMotion:
 
     @classmethod
     def in_section(cls, angle: float, start: Floats, end: Floats) -> Self:
-        """Turn in the xz-plane by an angle in radians, from x to z, that takes a point (x, z) to another one."""
+        """Rotation in the xz-plane by an angle in radians, from x to z, that moves a point (x, z) to another one."""
         c, s = math.cos(angle), math.sin(angle)
         rotation = np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]])
         x, z = np.asarray(end) - rotation[::2, ::2] @ np.asarray(start)

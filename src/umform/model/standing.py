@@ -81,7 +81,13 @@ class Standing(Evaluated):
         )
 
     def restore(self, snapshot: Snapshot) -> None:
-        """Restore a snapshot."""
+        """Return to an earlier converged state.
+
+        Parameters
+        ----------
+        snapshot : Snapshot
+            Return value of :meth:`snapshot`.
+        """
         removal.put_supports(self, snapshot.supports)
         self.u, self.time, self._converged_time = snapshot.u.copy(), snapshot.time, snapshot.time
         self._began = snapshot.began

@@ -41,8 +41,8 @@ class Checkpoints:
     ----------
     path : str or PathLike
         The file.
-    Least seconds between two of them; 0: one after each increment.
-        Seconds between two of them, at least; 0: one after each increment.
+    every : float
+        Least seconds between two of them; 0: one after each increment.
     fingerprint : dict of str to str
         Fingerprint of the run.
     note : dict, optional

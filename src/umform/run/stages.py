@@ -114,6 +114,7 @@ def solve_stages(
     Returns
     -------
     StagedResult
+        Results by stage.
 
     Raises
     ------

@@ -41,21 +41,39 @@ def fit_hardening(
 
 
 def fit_swift(eqps: ArrayLike, stress: ArrayLike) -> Fit[Hardening]:
-    """Swift's curve from plastic strains and true stresses."""
+    """Swift's curve from plastic strains and true stresses.
+
+    Parameters
+    ----------
+    eqps, stress : array_like, shape (n,)
+        Plastic strain and true stress.
+    """
     top = float(np.max(np.asarray(stress, dtype=float)))
     start = {"strength": 1.5 * top, "offset": 0.005, "exponent": 0.2}
     return fit_hardening(eqps, stress, lambda c: Swift(**c), start)
 
 
 def fit_voce(eqps: ArrayLike, stress: ArrayLike) -> Fit[Hardening]:
-    """Voce's curve from plastic strains and true stresses."""
+    """Voce's curve from plastic strains and true stresses.
+
+    Parameters
+    ----------
+    eqps, stress : array_like, shape (n,)
+        Plastic strain and true stress.
+    """
     values = np.asarray(stress, dtype=float)
     start = {"yield_stress": float(values.min()), "saturation": 1.05 * float(values.max()), "rate": 10.0}
     return fit_hardening(eqps, stress, lambda c: Voce(**c), start)
 
 
 def fit_linear_voce(eqps: ArrayLike, stress: ArrayLike) -> Fit[Hardening]:
-    """Voce's curve with a linear part, from plastic strains and true stresses."""
+    """Voce's curve with a linear part, from plastic strains and true stresses.
+
+    Parameters
+    ----------
+    eqps, stress : array_like, shape (n,)
+        Plastic strain and true stress.
+    """
     strains, stresses = pairs(eqps, stress)
     first, top = float(stresses.min()), float(stresses.max())
     slope = max(float(np.ptp(stresses[-3:]) / max(np.ptp(strains[-3:]), 1e-12)), 0.01 * top)
@@ -69,21 +87,39 @@ def fit_linear_voce(eqps: ArrayLike, stress: ArrayLike) -> Fit[Hardening]:
 
 
 def fit_linear(eqps: ArrayLike, stress: ArrayLike) -> Fit[Hardening]:
-    """A straight line, from plastic strains and true stresses."""
+    """A straight line, from plastic strains and true stresses.
+
+    Parameters
+    ----------
+    eqps, stress : array_like, shape (n,)
+        Plastic strain and true stress.
+    """
     values = np.asarray(stress, dtype=float)
     start = {"yield_stress": float(values.min()), "modulus": float(np.ptp(values)) + 1e-3 * float(values.max())}
     return fit_hardening(eqps, stress, lambda c: Linear(**c), start)
 
 
 def fit_perfect(eqps: ArrayLike, stress: ArrayLike) -> Fit[Hardening]:
-    """A constant yield stress, from plastic strains and true stresses."""
+    """A constant yield stress, from plastic strains and true stresses.
+
+    Parameters
+    ----------
+    eqps, stress : array_like, shape (n,)
+        Plastic strain and true stress.
+    """
     return fit_hardening(
         eqps, stress, lambda c: Perfect(**c), {"yield_stress": float(np.mean(np.asarray(stress, dtype=float)))}
     )
 
 
 def fit_table(eqps: ArrayLike, stress: ArrayLike) -> Fit[Hardening]:
-    """An increasing table of at most 25 points, means over equal numbers of measurements, without other smoothing."""
+    """An increasing table of at most 25 points, means over equal numbers of measurements, without other smoothing.
+
+    Parameters
+    ----------
+    eqps, stress : array_like, shape (n,)
+        Plastic strain and true stress.
+    """
     strains, stresses = pairs(eqps, stress)
     order = np.argsort(strains, kind="stable")
     parts = np.array_split(order, min(_POINTS, len(order)))

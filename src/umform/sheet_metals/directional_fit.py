@@ -58,20 +58,50 @@ class Directions:
 
 
 def uniaxial(function: YieldFunction, angle: float) -> tuple[float, float]:
-    """Yield stress relative to that of the curve, and r-value, in tension at an angle in degrees, eq. (3.140)."""
+    """Tension at an angle to the rolling direction. eq. (3.140)
+
+    Parameters
+    ----------
+    function : YieldFunction
+        The yield function.
+    angle : float
+        Degrees from the rolling direction.
+
+    Returns
+    -------
+    stress, r : float
+        Yield stress relative to that of the curve, and r-value.
+    """
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     phi, n = function.function()(np.array([c * c, s * s, 0.0, c * s, 0.0, 0.0]))
     return 1.0 / phi, float(s * s * n[0] + c * c * n[1] - c * s * n[3]) / float(n[2])
 
 
 def balanced(function: YieldFunction) -> tuple[float, float]:
-    """Equibiaxial yield stress relative to that of the curve, and ratio of the strains across and along."""
+    """Equibiaxial tension.
+
+    Parameters
+    ----------
+    function : YieldFunction
+        The yield function.
+
+    Returns
+    -------
+    stress, r : float
+        Yield stress relative to that of the curve, and ratio of the strains across and along the rolling direction.
+    """
     phi, n = function.function()(np.array([1.0, 1.0, 0.0, 0.0, 0.0, 0.0]))
     return 1.0 / phi, float(n[1] / n[0])
 
 
 def fit_hill48(measured: Directions) -> Fit[Hill48]:
-    """Hill (1948) by least squares from stresses and r-values, which its four constants cannot all meet."""
+    """Hill (1948) by least squares from stresses and r-values, which its four constants cannot all meet.
+
+    Parameters
+    ----------
+    measured : Directions
+        Stresses and r-values over the angle, and the biaxial point.
+    """
 
     def build(constants: Mapping[str, float]) -> Hill48:
         return Hill48(constants["r0"], constants["r45"], constants["r90"])

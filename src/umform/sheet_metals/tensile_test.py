@@ -78,6 +78,7 @@ def swift_from_tensile_test(
     Returns
     -------
     Swift
+        The curve; stresses in the unit of `young`.
 
     Raises
     ------

@@ -25,8 +25,8 @@ def follows(model: Model, last: Evaluation, converged: Converged) -> Converged:
     ----------
     model : Model
         At ``converged``, not yet committed.
-    Evaluation at the last converged state.
-        Of the last converged state.
+    last : Evaluation
+        Evaluation at the last converged state.
     converged : Converged
         The increment.
 

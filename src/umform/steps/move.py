@@ -114,7 +114,20 @@ class Move:
         return list(self.to) if isinstance(self.to, Sequence) else [self.to]
 
     def values(self, fraction: float, starts: Sequence[float]) -> list[float]:
-        """Values of the controls at a fraction of the step that began at ``starts``."""
+        """Values of the controls within the step.
+
+        Parameters
+        ----------
+        fraction : float
+            Completed fraction of the step, 0 to 1.
+        starts : sequence of float
+            Values at its beginning.
+
+        Returns
+        -------
+        list of float
+            One value for each control, followers included.
+        """
         values = [
             float(target(fraction)) if callable(target) else start + fraction * (target - start)
             for start, target in zip(starts, self.targets(), strict=False)

@@ -17,8 +17,8 @@ def write_tool(tool: Tool, path: str | Path, box: Box3, chord: float = 0.0) -> P
 
     Parameters
     ----------
-    Any tool; one that is known by its distance only is sampled, and its edges are cut off.
-        Any tool; one that knows only its distance is sampled, its edges are then cut off.
+    tool : Tool
+        Any tool; one that is known by its distance only is sampled, and its edges are cut off.
     path : str or Path
         A file that ends in .stl, .vtk, .vtu, .ply or .obj.
     box : tuple of two points

@@ -147,10 +147,9 @@ def sweep(
     Raises
     ------
     InvalidValue
-        A key or a measure that is unknown or ambiguous.
-    An unknown or ambiguous key or measure.
-        No job has a deck that can be read.
-    No job has a valid deck.
+        An unknown or ambiguous key or measure.
+    DeckError
+        No job has a valid deck.
 
     Examples
     --------

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
+from pathlib import Path
+
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -11,45 +14,21 @@ from umform import cli
 from umform.deck import load
 from umform.errors import UmformError
 
-FIRST = """
-[mesh]
-generator = "strip"
-length = 10.0
-width = 2.0
-thickness = 1.0
-cells = [5, 1]
-
-[material]
-law = "J2"
-E = 210e3
-nu = 0.3
-hardening = { curve = "Linear", yield_stress = 160.0, modulus = 500.0 }
-
+FIXED = """
 [[supports]]
-kind = "symmetry"
+kind = "fix"
 nodes = "x0"
-normal = "x"
-
+"""
+SLIDING = "".join(
+    f"""
 [[supports]]
 kind = "symmetry"
-nodes = "y0"
-normal = "y"
-
-[[supports]]
-kind = "symmetry"
-nodes = "lower"
-normal = "z"
-
-[controls.pull]
-kind = "displacement"
-nodes = "x1"
-direction = "x"
-
-[[steps]]
-kind = "move"
-to = { pull = 0.04 }
-increments = 3
-
+nodes = "{nodes}"
+normal = "{normal}"
+"""
+    for nodes, normal in (("x0", "x"), ("y0", "y"), ("lower", "z"))
+)
+OUTPUT = """
 [output]
 state = true
 report = false
@@ -74,27 +53,44 @@ name = "gauge"
 kind = "move"
 to = { cut = 0.0 }
 increments = 2
-
-[output]
-state = true
-report = false
-pictures = false
-vtkhdf = false
 """
+
+
+def first(strip):
+    """The strip of a metal that flows, whose state is kept."""
+    changes = {
+        FIXED: SLIDING,
+        "[4, 2]": "[5, 1]",
+        '"SVK"': '"J2"',
+        "nu = 0.3": 'nu = 0.3\nhardening = { curve = "Linear", yield_stress = 160.0, modulus = 500.0 }',
+        "to = { pull = 0.1 }\nincrements = 2": "to = { pull = 0.04 }\nincrements = 3",
+    }
+    for old, new in changes.items():
+        assert old in strip
+        strip = strip.replace(old, new)
+    return strip + OUTPUT
 
 
 def umform(*words):
     return CliRunner().invoke(cli.app, [str(word) for word in words])
 
 
-@pytest.fixture
-def drawn(tmp_path):
-    (tmp_path / "draw.toml").write_text(FIRST)
-    (tmp_path / "trim.toml").write_text(SECOND)
-    answer = umform("run", tmp_path / "draw.toml", "--out", tmp_path / "draw")
+@pytest.fixture(scope="module")
+def finished(strip, tmp_path_factory):
+    """Folder with both decks, and what a run of the first one has written."""
+    folder = tmp_path_factory.mktemp("operations")
+    (folder / "draw.toml").write_text(first(strip))
+    (folder / "trim.toml").write_text(SECOND + OUTPUT)
+    answer = umform("run", folder / "draw.toml", "--out", folder / "draw")
     assert answer.exit_code == 0, answer.output
-    assert (tmp_path / "draw" / "state.h5").exists()
-    return tmp_path
+    assert (folder / "draw" / "state.h5").exists()
+    return folder
+
+
+@pytest.fixture
+def drawn(finished, tmp_path):
+    """A copy of it, to be changed."""
+    return Path(shutil.copytree(finished, tmp_path, dirs_exist_ok=True))
 
 
 def test_a_deck_goes_on_where_another_has_ended(drawn):
@@ -124,7 +120,7 @@ def test_what_was_cut_off_is_said_of_a_run_that_ends_early_too(drawn):
 
 def test_a_third_operation_and_a_run_that_was_stopped(drawn):
     assert umform("run", drawn / "trim.toml", "--out", drawn / "trim").exit_code == 0
-    third = SECOND.replace('"draw.toml"', '"trim.toml"').replace('"draw/', '"trim/')
+    third = (SECOND + OUTPUT).replace('"draw.toml"', '"trim.toml"').replace('"draw/', '"trim/')
     third = third.replace("[4.0, -1.0], [4.0, 3.0]", "[2.0, -1.0], [2.0, 3.0]")
     (drawn / "again.toml").write_text(third)
     deck = load(drawn / "again.toml")

@@ -1,18 +1,12 @@
 import pytest
 
-#: Half of a strip, pulled along x and released: plane strain, uniaxial, without lateral strain.
-STRIP = """
-title = "pull"
-[mesh]
-generator = "strip"
-length = 10.0
-width = 2.0
-thickness = 1.0
-cells = [4, 1]
-[material]
-law = "SVK"
-E = 210e3
-nu = 0.0
+FIXED = """
+[[supports]]
+kind = "fix"
+nodes = "x0"
+"""
+#: Half of a strip without lateral strain.
+SLIDING = """
 [[supports]]
 kind = "symmetry"
 nodes = "x0"
@@ -25,14 +19,8 @@ directions = "y"
 kind = "fix"
 nodes = "lower"
 directions = "z"
-[controls.pull]
-kind = "displacement"
-nodes = "x1"
-direction = "x"
-[[steps]]
-kind = "move"
-to = { pull = 0.1 }
-increments = 2
+"""
+RELEASE = """
 [[steps]]
 kind = "release"
 control = "pull"
@@ -40,9 +28,11 @@ control = "pull"
 
 
 @pytest.fixture
-def deck(tmp_path, monkeypatch):
-    """A deck that runs in no time, in a folder of its own."""
+def deck(strip, tmp_path, monkeypatch):
+    """A strip that is pulled along x and released, in a folder of its own: plane strain, uniaxial."""
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "pull.toml"
-    path.write_text(STRIP)
+    assert FIXED in strip
+    text = strip.replace(FIXED, SLIDING).replace("nu = 0.3", "nu = 0.0").replace("[4, 2]", "[4, 1]")
+    path.write_text('title = "pull"' + text + RELEASE)
     return path

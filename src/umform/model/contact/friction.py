@@ -104,7 +104,15 @@ class Friction:
         return _core.coulomb_friction(pressures.tolist(), coefficients.tolist(), kinetic, self.decay or 0.0, cap)
 
     def bound(self, pressure: float, slip: float = 0.0) -> float:
-        """Largest tangential traction at a pressure after a distance slid."""
+        """Largest tangential traction.
+
+        Parameters
+        ----------
+        pressure : float
+            Contact pressure.
+        slip : float
+            Distance slid so far.
+        """
         return self.kernel().bound(pressure, slip)[0]
 
 

@@ -73,9 +73,7 @@ class Contact(PairPoints):
         return found
 
     def _relative_way(self, at: At, into: Into, pose: Pose) -> Floats | None:
-        """Displacement of the nodes minus that of the tool at their positions, shape (3 n,), for the predictor. eq.
-        (4.37)
-        """
+        """Displacement of the nodes relative to the tool, shape (3 n,), for the predictor. eq. (4.37)"""
         if at.du is None:
             return None
         way = at.du.reshape(-1, 3) - self.tool.shift_rate(at.rates)

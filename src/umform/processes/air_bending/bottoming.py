@@ -1,4 +1,4 @@
-"""Bottoming: press the sheet onto the flanks of the die with a wanted force."""
+"""Bottoming: press the sheet onto the flanks of the die with a given force."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from umform.processes.air_bending.search import Found
 from umform.processes.rules import length
 from umform.progress import Tick, progress_bar
 
-#: Part of the force that may be left open, and trials for it.
+#: Relative tolerance of the force, and number of trials.
 _TOLERANCE, _MOST_TRIALS = 0.005, 30
 _FORCE = length("the force of bottoming", "in kN/m: 3 to 5 times that of air bending")
 
@@ -36,17 +36,17 @@ def press_to_force(
     case : AirBending
         The parameters, with ``bottoming=True``; the stroke is not used.
     force_per_metre : float
-        Force of the punch in kN/m, the same number as N for each mm of the bend.
+        Force of the punch in kN/m, which equals N/mm.
     tolerance : float
-        Largest deviation of the force, over the force.
+        Largest relative deviation of the force.
     frames : int
-        About how many states are kept for pictures, as in `air_bending`.
+        Approximate number of states kept for pictures, as in `air_bending`.
     solver : str
         Sparse solver.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
     brake : Brake, optional
-        A sheet of the same case that has been loaded already, instead of a new one.
+        A sheet of the same case that is already loaded, instead of a new one.
 
     Returns
     -------
@@ -56,10 +56,10 @@ def press_to_force(
     Raises
     ------
     InvalidValue
-        If the case does not bottom, air bending needs a larger force already, or the force squeezes the sheet by more
+        If the case does not bottom, air bending already needs a larger force, or the force compresses the sheet by more
         than half of its thickness.
     NoConvergence
-        If the sheet cannot be pressed so far.
+        If the sheet cannot be pressed to this force.
     """
     force = force_per_metre
     _FORCE.check("force_per_metre", force)
@@ -79,7 +79,7 @@ def press_to_force(
 
 
 def _bracket(brake: Brake, force: float, tick: Tick) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Strokes and forces of two increments, one after the other, between which the force is reached."""
+    """Strokes and forces of two successive increments between which the force is reached."""
     case, limit = brake.case, brake.case.stroke_limit
     number, in_the_air = 0, 0.0
     while True:
@@ -114,7 +114,7 @@ def _bracket(brake: Brake, force: float, tick: Tick) -> tuple[tuple[float, float
 def _closed_in(
     brake: Brake, force: float, tolerance: float, low: tuple[float, float], high: tuple[float, float]
 ) -> Loaded:
-    """The state under the force: secants of the logarithm of the force, bisection where they creep."""
+    """The state under the force: secants of the logarithm of the force, bisection if they converge slowly."""
     for trial in range(_MOST_TRIALS):
         part = 0.5
         if trial % 3 < 2 and low[1] > 0.0:
@@ -127,11 +127,11 @@ def _closed_in(
 
 
 def with_travel(case: AirBending, travel: float) -> AirBending:
-    """The case with the stroke that ends a way beyond where flanks and tip are one thickness from the die.
+    """The case with the stroke that ends at a distance beyond contact of the sheet with flanks and tip.
 
     Raises
     ------
     InvalidValue
-        If that squeezes the sheet by more than half of its thickness.
+        If it compresses the sheet by more than half of its thickness.
     """
     return replace(case, bottoming=True, stroke=case.bottom_stroke + travel)

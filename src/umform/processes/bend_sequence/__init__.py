@@ -1,4 +1,4 @@
-"""Several bends in one part, each from the state that the bend before has left.
+"""Several bends in one part, each from the state after the previous bend.
 
 `bend_sequence` runs a `BendSequence` of `Bend`; the result is a `Part`.
 """

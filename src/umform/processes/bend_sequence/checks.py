@@ -1,4 +1,4 @@
-"""What bends and sequences may be; what does not fit is refused with its likely cause and remedy."""
+"""Checks of bends and sequences; errors name the likely cause and remedy."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from umform.processes.rules import length
 
 
 class Bend(Protocol):
-    """What is looked at of :class:`umform.processes.bend_sequence.Bend`."""
+    """Parameters of :class:`umform.processes.bend_sequence.Bend` that the checks use."""
 
     @property
     def position(self) -> float:
@@ -25,7 +25,7 @@ class Bend(Protocol):
 
     @property
     def stroke(self) -> float | None:
-        """Stroke in its place."""
+        """Stroke instead of the angle."""
 
     @property
     def direction(self) -> str:
@@ -33,11 +33,11 @@ class Bend(Protocol):
 
     @property
     def tools(self) -> Mapping[str, float]:
-        """Tools of its own."""
+        """Tools of this bend."""
 
 
 class BendSequence(Protocol):
-    """What is looked at of :class:`umform.processes.bend_sequence.BendSequence`."""
+    """Parameters of :class:`umform.processes.bend_sequence.BendSequence` that the checks use."""
 
     @property
     def length(self) -> float:
@@ -62,7 +62,7 @@ class BendSequence(Protocol):
         """Length on each side of a bend line that touches the tools."""
 
 
-#: More bends than any part of a press brake has.
+#: Largest number of bends.
 _MOST_BENDS = 50
 _LENGTH = length("the length of the flat strip", "in mm, such as 80")
 _POSITION = length("the position of a bend line", "in mm from the left end of the flat strip")
@@ -70,7 +70,7 @@ _BODY = length("a size of the bodies of the tools", "in mm")
 
 
 def check_bend(bend: Bend, tools: Iterable[str]) -> None:
-    """Refuse a bend without a goal, with two, or with tools that are none.
+    """Refuse a bend without a goal or with two, or with unknown tools.
 
     Raises
     ------
@@ -93,7 +93,7 @@ def check_bend(bend: Bend, tools: Iterable[str]) -> None:
 
 
 def check_sequence(sequence: BendSequence) -> None:
-    """Refuse bends outside the strip, at one place, or so near that their dies do not find a flat sheet.
+    """Refuse bends outside the strip, at the same place, or so near that their dies lack flat sheet.
 
     Raises
     ------
@@ -120,7 +120,7 @@ def check_sequence(sequence: BendSequence) -> None:
 
 
 def _check_place(sequence: BendSequence, bend: Bend, count: int) -> None:
-    """Refuse a bend whose shoulders do not carry flat sheet."""
+    """Refuse a bend whose shoulders do not support flat sheet."""
     case = sequence.case(bend)
     if bend.angle is not None:
         check_angle(case, bend.angle)

@@ -1,4 +1,4 @@
-"""Where a part touches bodies of the tools that its bend does not need: the punch above its flanks, ram, die, table."""
+"""Collisions of a part with parts of the press: the punch above its flanks, ram, die, table."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from umform.surfaces import Extruded, Profile
 
 Floats = NDArray[np.float64]
 
-#: Depth that counts, over the thickness; less is the penetration of contact and the unevenness of a laid strip.
+#: Depth of a collision relative to the thickness; less is the penetration of contact and the unevenness of the strip.
 _TOUCHES = 0.05
 
 
 @dataclass(frozen=True)
 class Collision:
-    """A body of the tools that the part would go through.
+    """A collision of the part with a body of the tools.
 
     Attributes
     ----------
     tool : str
         "punch" or "die".
     stroke : float
-        Stroke at which it touches first; 0 if it does not even find room between the tools.
+        Stroke of first contact; 0 if the part does not fit between the tools.
     distance : float
-        Where it touches first: distance from the bend line on the flat strip; to the right of the tools it is positive.
+        Place of first contact: distance from the bend line on the flat strip, positive to the right of the tools.
     """
 
     tool: str
@@ -39,18 +39,18 @@ class Collision:
 
 
 def collisions(case: AirBending, zone: float, bodies: Bodies, states: Iterable[tuple[float, Strip]]) -> list[Collision]:
-    """Bodies that the part touches beyond the zone of its bend.
+    """Bodies that the part touches outside of the zone of its bend.
 
     Parameters
     ----------
     case : AirBending
         Sheet and tools of the bend.
     zone : float
-        Length on each side of the bend line that the tools are to touch.
+        Length on each side of the bend line where contact with the tools is intended.
     bodies : Bodies
         Sizes of the bodies.
     states : iterable of (float, Strip)
-        Stroke, and the strip at it in the frame of the tools, in the order of the strokes.
+        Strokes, and the strip at each in the frame of the tools, in ascending order.
     """
     die, punch = Extruded(die_body(case, bodies)), Extruded(punch_body(case, bodies))
     found: dict[str, Collision] = {}
@@ -69,7 +69,7 @@ def collisions(case: AirBending, zone: float, bodies: Bodies, states: Iterable[t
 
 
 def punch_body(case: AirBending, bodies: Bodies) -> Profile:
-    """Section of punch and ram; the lowest line of the tip is the origin."""
+    """Section of punch and ram; the origin is the lowest line of the tip."""
     flank, radius = np.tan(np.radians(0.5 * case.punch_angle)), case.punch_radius
     tip = radius - radius / np.sin(np.radians(0.5 * case.punch_angle))
     half, wide, high = 0.5 * (case.punch_width or bodies.punch_width), 0.5 * bodies.ram_width, bodies.punch_height
@@ -82,7 +82,7 @@ def punch_body(case: AirBending, bodies: Bodies) -> Profile:
 
 
 def die_body(case: AirBending, bodies: Bodies) -> Profile:
-    """Section of die and table; the middle of the V at the height of the top is the origin."""
+    """Section of die and table; the origin is the middle of the V at the height of the top."""
     half, deep = 0.5 * case.opening, bodies.die_height
     wide, table = half + 0.5 * bodies.die_width, max(0.5 * bodies.table_width, half + 0.5 * bodies.die_width + 1.0)
     bottom = half / np.tan(np.radians(0.5 * case.die_angle))

@@ -24,7 +24,7 @@ RESULTS = FILES
 
 
 def write_files(out: str | Path, part: Part, note: str = "") -> list[Path]:
-    """Write all that is known of a part.
+    """Write all files of a part.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def write_files(out: str | Path, part: Part, note: str = "") -> list[Path]:
     part : Part
         The part.
     note : str
-        Where the material comes from; may be empty.
+        Source of the material data; may be empty.
     """
     from umform.plotting import save
     from umform.processes.bend_sequence.pictures import picture
@@ -54,7 +54,7 @@ def write_files(out: str | Path, part: Part, note: str = "") -> list[Path]:
 
 
 def record(part: Part) -> dict[str, Any]:
-    """Parameters and results in a form that JSON can hold; None for what cannot be told.
+    """Parameters and results as JSON data; None for unknown values.
 
     ``profile`` and ``outline`` are lists of [x, z]: the part with its first leg on x, and the part in the tools of a
     bend (die at z = 0, bend line at x = 0, punch tip at thickness - stroke) with stroke 0 and with the largest one.

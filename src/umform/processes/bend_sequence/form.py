@@ -21,7 +21,7 @@ class _Form(BaseModel):
 
 
 class BendForm(_Form):
-    """One bend: `Bend`, with the sizes of its own tools beside the others."""
+    """One bend: `Bend`, with the sizes of its tools as further keys."""
 
     position: _Size
     angle: _Degrees | None = None
@@ -51,14 +51,14 @@ class BodiesForm(_Form):
 
 
 class SequenceForm(_Form):
-    """Length of the flat strip, its bends in their order, bodies of the tools."""
+    """Length of the flat strip, its bends in order, bodies of the tools."""
 
     length: _Size
     bends: Annotated[list[BendForm], Field(min_length=1, max_length=50)]
     bodies: BodiesForm = BodiesForm()
 
     def sequence(self, sheet: AirBending) -> BendSequence:
-        """The sequence with thickness, material, mesh and the tools that bends do not have of their own.
+        """The sequence with thickness, material, mesh and the default tools.
 
         Raises
         ------
@@ -76,7 +76,7 @@ def read_sequence(path: Path) -> SequenceForm:
     Raises
     ------
     FileProblem, InvalidValue
-        If it cannot be read, or says what no sequence is.
+        If it cannot be read, or is no valid sequence.
     """
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -91,12 +91,12 @@ def read_sequence(path: Path) -> SequenceForm:
 
 
 def sequence_form(data: Any, where: str = "sequence") -> SequenceForm:
-    """The form of data.
+    """The form from data.
 
     Raises
     ------
     InvalidValue
-        With the key that is wrong.
+        With the invalid key.
     """
     try:
         return SequenceForm.model_validate(data)

@@ -1,4 +1,4 @@
-"""Several bends in one part: where, in which direction, how far, in which tools."""
+"""Several bends in one part: position, direction, goal, tools."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from types import MappingProxyType
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.bend_sequence.checks import check_bend, check_sequence
 
-#: Parameters of the tools that a bend may have of its own.
+#: Parameters of the tools that may differ between bends.
 TOOLS = ("opening", "die_angle", "die_radius", "punch_angle", "punch_radius")
 
 
@@ -26,7 +26,7 @@ class Bend:
     stroke : float, optional
         the stroke in mm.
     direction : {"up", "down"}
-        Where the legs go: "down" is bent with the part turned over.
+        Direction of the legs: for "down" the part is turned over.
     tools : mapping of str to float
         Tools of this bend that differ from those of the sequence: `TOOLS`.
     """
@@ -43,24 +43,24 @@ class Bend:
 
     @property
     def over(self) -> bool:
-        """Whether the part is turned over for it."""
+        """Whether the part is turned over for this bend."""
         return self.direction == "down"
 
 
 @dataclass(frozen=True)
 class Bodies:
-    """What a part may collide with beside the tips and the V: bodies of punch and die, ram and table, in mm.
+    """Bodies for the detection of collisions, besides tips and V: punch and die, ram and table, in mm.
 
     Parameters
     ----------
     punch_width, punch_height : float
         Width of the punch above its flanks, and height from the tip to the ram.
     ram_width : float
-        Width of what holds the punch.
+        Width of the punch holder.
     die_width, die_height : float
-        Width of the die beyond the opening, on both sides together, and height from its top to the table.
+        Width of the die in excess of the opening, both sides together, and height from its top to the table.
     table_width : float
-        Width of what carries the die.
+        Width of the die support.
     """
 
     punch_width: float = 16.0
@@ -73,18 +73,18 @@ class Bodies:
 
 @dataclass(frozen=True)
 class BendSequence:
-    """A strip that is bent several times, in the order of the bends.
+    """A strip with several bends, in order.
 
     Parameters
     ----------
     length : float
         Length of the flat strip in mm.
     bends : sequence of Bend
-        The bends in their order.
+        The bends, in order.
     sheet : AirBending
-        Thickness, material, mesh, and the tools of all bends that have none of their own; in plane strain.
+        Thickness, material, mesh, and the default tools; in plane strain.
     bodies : Bodies
-        What the part may collide with.
+        Bodies for the detection of collisions.
     """
 
     length: float
@@ -103,12 +103,12 @@ class BendSequence:
     def zone(self, bend: Bend) -> float:
         """Length on each side of a bend line that touches the tools and is measured.
 
-        Half of the sheet of a single bend; less where the bent metal of another bend is nearer.
+        Half of the sheet of a single bend; less if the metal of another bend is nearer.
         """
         here = bend.position
         others = [abs(other.position - here) - self.bent(other) for other in self.bends if other.position != here]
         return min([self.case(bend).half_length, *others])
 
     def bent(self, bend: Bend) -> float:
-        """Length on each side of a bend line, at most, that is not straight after the bend."""
+        """Largest length on each side of a bend line that is not straight after the bend."""
         return max(0.25 * self.case(bend).opening, 2.0 * self.sheet.thickness)

@@ -1,4 +1,4 @@
-"""A part after all of its bends: each bend, flanges, profile."""
+"""A part after all of its bends: bends, flanges, profile."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ class BendDone:
     Attributes
     ----------
     bend : Bend
-        What was wanted.
+        The bend.
     measures : Measures
-        What is measured of it, as of a single bend; where both sides differ, their mean.
+        Measures as of a single bend; means of both sides where they differ.
     stroke, force : ndarray, shape (n,)
-        Way of the punch in mm and its force in N for each mm of the bend, all converged increments.
+        Stroke of the punch in mm and its force per length of bend in N/mm, all converged increments.
     states : tuple of (float, Strip)
-        Stroke, and the strip in the frame of the tools: some states, the last one after unloading.
+        Stroke, and the strip in the frame of the tools, for some states; the last one is after unloading.
     collisions : tuple of Collision
-        Bodies of the tools that the part would go through.
+        Collisions with bodies of the tools.
     trials : tuple of tuple of float
-        Stroke and angle of each trial, where an angle was wanted.
+        Stroke and angle of each trial, if an angle is the goal.
     warnings : tuple of str
-        What to look at.
+        Warnings.
     result : Result
         History, frames and iterations.
     """
@@ -110,7 +110,7 @@ class Part:
 
     @property
     def warnings(self) -> list[str]:
-        """What to look at, with the number of the bend."""
+        """Warnings, with the number of the bend."""
         found = []
         for number, done in enumerate(self.bends, start=1):
             for hit in done.collisions:

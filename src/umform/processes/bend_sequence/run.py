@@ -1,4 +1,4 @@
-"""All bends of a part, one after the other, each from the state that the bend before has left."""
+"""All bends of a part, one after the other, each from the state after the previous bend."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from umform.processes.bend_sequence.strip_brake import StripBrake
 from umform.progress import Tick, progress_bar
 from umform.run import Result
 
-#: About how many states of a bend are kept for pictures and for collisions.
+#: Approximate number of states of a bend that are kept for pictures and for collisions.
 FRAMES = 30
 
 
 def bend_sequence(
     sequence: BendSequence, *, tolerance: float = 0.02, frames: int = FRAMES, progress: bool | None = None
 ) -> Part:
-    """Bend a strip several times, each bend from the state before: displacements, stresses, plastic strains.
+    """Bend a strip several times; each bend starts from the previous state: displacements, stresses, plastic strains.
 
     Parameters
     ----------
     sequence : BendSequence
         The parameters.
     tolerance : float
-        Largest deviation of a wanted angle in degrees.
+        Largest deviation of an angle in degrees.
     frames : int
-        About how many states of each bend are kept: collisions are looked for in them.
+        Approximate number of states of each bend that are kept; collisions are detected in these.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
 
@@ -43,9 +43,9 @@ def bend_sequence(
     Raises
     ------
     InvalidValue
-        If an angle is out of reach of its tools.
+        If an angle cannot be reached with its tools.
     NoConvergence
-        If the strip cannot be bent so far. The exception has the bends before as its attribute ``bends``.
+        If the strip cannot be bent so far. The exception has the previous bends as its attribute ``bends``.
     """
     mesh, before, done = flat_strip(sequence), None, list[BendDone]()
     with progress_bar(progress) as tick:
@@ -96,7 +96,7 @@ def _bent(
 
 
 def _warnings(brake: StripBrake, state: Loaded, measures: Measures) -> tuple[str, ...]:
-    """What to look at in a bend."""
+    """Warnings of a bend."""
     found = []
     if state.against:
         found.append(f"the sheet lies against a flank of the {state.against}: this is no air bending any more")

@@ -38,7 +38,7 @@ class Strip:
         return cls(section.reference, section.current, section.order)
 
     def at(self, position: float, *, over: bool) -> Strip:
-        """The strip with its flat coordinates counted from a bend line; turned over, what was above is below."""
+        """The strip with flat coordinates relative to a bend line; turned over, above and below are exchanged."""
         reference = self.reference - np.array([position, 0.0])
         if not over:
             return Strip(reference, self.current, self.order)
@@ -63,9 +63,9 @@ class Strip:
         return around
 
     def laid(self, reach: float) -> RigidMotion:
-        """Motion that lays the strip as far as ``reach`` on both sides of x = 0 flat on the plane z = 0, mid at x = 0.
+        """Motion that places the strip within ``reach`` of x = 0 on the plane z = 0, its middle at x = 0.
 
-        The straight line is the best one (least squares) through the mid-surface there.
+        The straight line is the least-squares fit of the mid-surface there.
         """
         s = self.reference[:, 0, 0]
         near = np.abs(s) <= reach
@@ -93,7 +93,7 @@ class Strip:
         return Sides(sections[0], sections[1], legs[0], legs[1])
 
     def _lines(self, chosen: NDArray[np.bool_]) -> NDArray[np.int64]:
-        """Numbers of the lines of whole elements among those that are chosen; the bend line is a border of elements."""
+        """Indices of the lines of whole elements in a selection; the bend line is a border of elements."""
         numbers = np.flatnonzero(chosen)
         inner = slice(0, len(numbers) - (len(numbers) - 1) % self.order)
         ends_in_the_middle = abs(self.reference[numbers[0], 0, 0]) > 1e-9  # the left side ends with the bend line
@@ -108,7 +108,7 @@ class Strip:
 
 @dataclass(frozen=True)
 class Leg:
-    """Straight line of a leg on its outer face, where the strip stands.
+    """Straight line of a leg on its outer face, in the present position of the strip.
 
     Attributes
     ----------
@@ -121,7 +121,9 @@ class Leg:
 
     @classmethod
     def of(cls, section: Section, face: Floats) -> Leg:
-        """The best line through the outermost two thicknesses of the outer face (lines, 2), from the bend outwards."""
+        """The best-fit line through the outermost two thicknesses of the outer face (lines, 2), from the bend
+        outwards.
+        """
         X = section.reference[:, 0, 0]
         x = face[min(section.half_length - 2.0 * section.thickness, X[-1 - section.order]) - 1e-9 < X]
         direction = np.linalg.svd(x - x.mean(axis=0))[2][0]
@@ -137,7 +139,7 @@ class Sides:
     right, left : Section
         Sections in a frame in which both legs have the same slope; the left one is mirrored.
     right_leg, left_leg : Leg
-        Lines of the legs where the strip stands.
+        Lines of the legs in the present position of the strip.
     """
 
     right: Section
@@ -152,7 +154,7 @@ class Sides:
 
     @property
     def apex(self) -> Floats:
-        """Where the lines of the outer faces meet."""
+        """Intersection of the lines of the outer faces."""
         a, b = self.right_leg, self.left_leg
         way = np.linalg.solve(np.stack([a.direction, -b.direction], axis=1), b.point - a.point)
         corner: Floats = a.point + way[0] * a.direction
@@ -163,6 +165,6 @@ _MIRROR = np.array([-1.0, 1.0])
 
 
 def _turn(angle: float) -> Floats:
-    """Matrix that turns rows (x, z) by an angle, from x to z."""
+    """Matrix that rotates rows (x, z) by an angle, from x to z."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c, s], [-s, c]])

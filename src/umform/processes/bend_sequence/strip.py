@@ -1,4 +1,4 @@
-"""Mesh of the flat strip: about each bend line that of a single bend, coarse between them."""
+"""Mesh of the flat strip: at each bend line that of a single bend, coarse between them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.sheet import lines_along
 from umform.processes.bend_sequence.parameters import BendSequence
 
-#: Two lines are not nearer than this part of the smaller element beside them.
+#: Smallest distance of two lines relative to the smaller adjacent element.
 _NEAR = 0.5
 
 
@@ -30,7 +30,8 @@ def flat_strip(sequence: BendSequence) -> Mesh:
 def strip_lines(sequence: BendSequence) -> Floats:
     """Element borders along the strip, shape (n,).
 
-    About a bend line they are the mirrored ones of half a sheet, up to its end or half of the way to the next bend.
+    Near a bend line they are those of half a sheet and its mirror image, up to its end or half of the way to the next
+    bend.
     """
     placed = sorted(((bend.position, sequence.case(bend)) for bend in sequence.bends), key=lambda pair: pair[0])
     positions = [position for position, _ in placed]

@@ -1,4 +1,4 @@
-"""A strip in the tools of one bend: laid there with its state, bent and unloaded like a single sheet."""
+"""A strip in the tools of one bend: placed with its state, bent and unloaded like a single sheet."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ class StripBrake(Brake):
     mesh : Mesh
         Mesh of the flat strip.
     before : Result, optional
-        Run of the bend before; None for the flat strip.
+        Run of the previous bend; None for the flat strip.
     frames : int
-        About how many states are kept for pictures.
+        Approximate number of states kept for pictures.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class StripBrake(Brake):
         super().__init__(sequence.case(bend), frames=frames)
 
     def build(self) -> tuple[Model, Control]:
-        """Model of the strip laid into the tools, and the control that moves the punch down."""
+        """Model of the strip in the tools, and the control that moves the punch down."""
         case, bend = self.case, self.bend_line
         model = Model(
             self.mesh,
@@ -70,12 +70,12 @@ class StripBrake(Brake):
         model.contact(self._faces(lower), case.die, name="die", **die)
         pushed = model.contact(self._faces(upper), case.punch, name="punch", **punch)
         stroke = model.drive(pushed, "-z", name="stroke")
-        if self.before is not None:  # a bent strip is not so flat that it touches both shoulders at first
+        if self.before is not None:  # a bent strip is not flat enough to touch both shoulders at first
             model.rest()
         return model, stroke
 
     def _settings(self) -> list[dict[str, Any]]:
-        """Penalty and points of die and punch: those of a single bend, where sheet and tools are as they were made."""
+        """Penalty and points of die and punch: those of a single bend with undeformed sheet."""
         single = build(self.case)[0].contacts
         self.allowed = {contact.name: contact.allowed for contact in single}
         return [{"penalty": contact.penalty, "points": contact.points} for contact in single]
@@ -101,18 +101,18 @@ class StripBrake(Brake):
         return self._sides.right
 
     def forces(self) -> Floats:
-        """Force of the punch in N for each mm of the bend, all increments up to now."""
+        """Force of the punch per length of bend in N/mm, all increments so far."""
         found: Floats = -self.run.result["stroke_force"] / self.case.thickness
         return found
 
     def load(self, stroke: float, tick: Tick = silent) -> Loaded:
-        """Load to a stroke, from the nearest remembered state below it."""
+        """Load to a stroke, from the nearest kept state below it."""
         state = super().load(stroke, tick)
         self._loaded_sides = self._sides
         return state
 
     def unload(self) -> Measures:
-        """Measures after unloading: means of both sides, but for the largest strain and the smallest thickness."""
+        """Measures after unloading: means of both sides, except the largest strain and the smallest thickness."""
         right = super().unload()
         loaded, released = self._loaded_sides, self._sides
         assert loaded is not None and released is not None

@@ -1,4 +1,4 @@
-"""What the parameters of hemming may be."""
+"""Checks of the parameters of hemming."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from umform.processes.rules import Rule, length, whole
 
 
 class Hemming(Protocol):
-    """What is looked at of :class:`umform.processes.hemming.Hemming`."""
+    """Parameters of :class:`umform.processes.hemming.Hemming` that the checks use."""
 
     @property
     def angle(self) -> float:
@@ -28,7 +28,7 @@ class Hemming(Protocol):
         """The first bend."""
 
 
-#: Angles of the first bend: more cannot be flattened between plates.
+#: Range of angles of the first bend: larger ones cannot be flattened between plates.
 _SHARPEST, _BLUNTEST = 20.0, 70.0
 _RULES = {
     "gap": length("the gap of a hem", "in mm, such as the thickness of the sheet"),
@@ -42,7 +42,7 @@ _RULES = {
 
 
 def check_hemming(hem: Hemming) -> None:
-    """Refuse lengths that do not fit, and a first bend that is no acute one; the first bend checks its own.
+    """Refuse lengths that do not fit, and a first bend that is not acute; the first bend has its own checks.
 
     Raises
     ------

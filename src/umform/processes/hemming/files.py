@@ -25,7 +25,7 @@ _PICTURES = ("hem.png", "hem.svg")
 FILES = (*_DATA, *_PICTURES)
 RESULTS = FILES
 
-#: The measures, in the order of tables; docs/bending-operations.md defines each.
+#: The measures, in the order of tables, defined in docs/bending-operations.md.
 QUANTITIES = {
     "force": Quantity("force", "N/mm", 1),
     "largest_force": Quantity("largest force", "N/mm", 1),
@@ -41,7 +41,7 @@ QUANTITIES = {
 
 
 def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
-    """Write all that is known of a hem.
+    """Write all files of a hem.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
     hem : Hem
         The hem.
     note : str
-        Where the material comes from; may be empty.
+        Source of the material data; may be empty.
     """
     from umform.plotting import save
 
@@ -68,7 +68,7 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
 
 
 def record(hem: Hem) -> dict[str, Any]:
-    """Parameters and results in a form that JSON can hold; ``profile`` is a list of [x, z], the base on z = 0."""
+    """Parameters and results as JSON data; ``profile`` is a list of [x, z], the base on z = 0."""
     case, first = hem.case, hem.first.bends[0]
     given = {name: getattr(case, name) for name in ("gap", "flange", "base", "insert", "insert_edge", "angle")}
     return {
@@ -91,7 +91,7 @@ def rows(measures: HemMeasures) -> list[list[str]]:
 
 
 def picture(hem: Hem) -> Figure:
-    """Force over the way of the plate, and the hem after unloading."""
+    """Force over the travel of the plate, and the hem after unloading."""
     from umform.plotting import COLOURS, INK, Picture, house_style
 
     with house_style():

@@ -1,4 +1,4 @@
-"""What comes out of a hem."""
+"""Result of hemming."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class HemMeasures:
-    """Measures of a hem; lengths in mm, forces in N for each mm of the hem.
+    """Measures of a hem; lengths in mm, forces per length of hem in N/mm.
 
     Attributes
     ----------
     force, largest_force : float
-        Force of the plate at the end of its way, and the largest one.
+        Force of the plate at the end of its travel, and the largest one.
     loaded_height, height : float
         Outer height of the hem with the plate on it, and after unloading.
     springback : float
@@ -36,7 +36,7 @@ class HemMeasures:
     outer_strain : float
         Largest mean logarithmic strain of an element along the outer face.
     thinning : float
-        Smallest thickness over that of the flat sheet.
+        Smallest thickness relative to that of the flat sheet.
     """
 
     force: float
@@ -62,13 +62,13 @@ class Hem:
     first : Part
         The first bend.
     measures : HemMeasures
-        What is measured.
+        The measures.
     stroke, force : ndarray, shape (n,)
-        Way of the plate and its force in N for each mm of the hem, all converged increments.
+        Travel of the plate and its force per length of hem in N/mm, all converged increments.
     strip : Strip
         The section after unloading, the base on z = 0.
     warnings : tuple of str
-        What to look at.
+        Warnings.
     result : Result
         History and frames of the flattening.
     """

@@ -25,12 +25,12 @@ class Hemming:
     Parameters
     ----------
     gap : float
-        Distance of flange and base in the end: the plate stops at two thicknesses and the gap above the table.
+        Final distance of flange and base: the plate stops at two thicknesses and the gap above the table.
     flange, base : float
         Lengths of the flat strip from the bend line to its ends.
     insert : bool
-        Whether a rigid plate of the thickness gap lies on the base. Without it the hem is open, and an error where the
-        flange would touch the base: the sheet has no contact with itself.
+        Whether a rigid plate of the thickness gap lies on the base. Without it the hem is open; it is an error if the
+        flange would touch the base, because the sheet has no contact with itself.
     insert_from : float, optional
         Where the insert begins: distance from the inner face at the bend line; default three thicknesses.
     angle : float
@@ -38,7 +38,7 @@ class Hemming:
     sheet : AirBending
         Thickness, material, mesh, and tools of the first bend; in plane strain.
     increments : int
-        Increments of the way of the plate.
+        Increments of the travel of the plate.
     """
 
     gap: float = 1.0
@@ -55,7 +55,7 @@ class Hemming:
 
     @property
     def height(self) -> float:
-        """Distance of plate and table in the end."""
+        """Final distance of plate and table."""
         return 2.0 * self.sheet.thickness + self.gap
 
     @property

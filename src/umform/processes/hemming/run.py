@@ -1,4 +1,4 @@
-"""Bend acutely, lay the base on a table, move a plate down, unload."""
+"""Bend acutely, place the base on a table, move a plate down, unload."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from umform.run.stages import continued
 from umform.steps import Move, Release
 from umform.surfaces import Box, Plane
 
-#: Parts of the way of the plate, after each of which the flange is looked at.
+#: Parts of the travel of the plate, after each of which the flange is checked.
 _PARTS = 12
-#: Radius of the edge of the insert over its thickness.
+#: Radius of the edge of the insert relative to its thickness.
 _ROUND = 0.49
 #: Contact points per direction and facet: plates are flat.
 _POINTS = 5
-#: Gap that counts as touching, over the thickness.
+#: Gap that counts as contact, relative to the thickness.
 _TOUCHES = -0.01
 
 
@@ -43,7 +43,7 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
     tolerance : float
         Largest deviation of the angle of the first bend in degrees.
     frames : int
-        About how many states are kept of each operation.
+        Approximate number of states kept of each operation.
     progress : bool, optional
         Show a progress bar; default: only on a terminal.
 
@@ -52,7 +52,7 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
     InvalidValue
         If the flange of an open hem would touch the base, or the first bend is out of reach.
     NoConvergence
-        If the run cannot be continued.
+        If the run does not converge.
     """
     first = bend_sequence(case.first, tolerance=tolerance, frames=frames, progress=progress)
     model, plate, way = in_press(case, first)
@@ -74,7 +74,7 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
 
 
 def in_press(case: Hemming, first: Part) -> tuple[Model, Control, float]:
-    """Model of the bent strip on the table, the control that moves the plate down, and its way."""
+    """Model of the bent strip on the table, the control that moves the plate down, and its travel."""
     sheet, before = case.sheet, first.bends[0].result
     mesh = before.model.mesh
     model = Model(
@@ -101,7 +101,7 @@ def in_press(case: Hemming, first: Part) -> tuple[Model, Control, float]:
 
 
 def _on_the_table(case: Hemming, first: Part) -> RigidMotion:
-    """Motion that lays the outer face of the base on z = 0, its middle at the same x as in the flat strip."""
+    """Motion that places the outer face of the base on z = 0, its middle at the same x as in the flat strip."""
     bent = first.bends[0]
     u = bent.result.model.u
     leg = Strip.of(bent.result.model.mesh, u).at(case.flange, over=False).sides(case.first.zone(bent.bend)).right_leg
@@ -119,7 +119,7 @@ def _insert(case: Hemming, strip: Strip) -> Box:
 
 
 def _refuse_touch(case: Hemming, strip: Strip, left: float) -> None:
-    """Refuse a flange that has gone through the base."""
+    """Refuse a flange that has passed through the base."""
     if clearances(case, strip).min() < _TOUCHES * case.sheet.thickness:
         raise InvalidValue(
             "the flange of an open hem touches the base, and the sheet has no contact with itself",
