@@ -30,8 +30,8 @@ unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
-.PHONY: help env dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-stubs lint-format lint-cpp stubs \
-        format docs wheel bench dome robust ubend cup compare peers clean
+.PHONY: help env dev demo test test-cpp test-python test-long test-clang sanitize test-pardiso pardiso test-mpi mpi instructions verification lint lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp stubs \
+        format docs wheel bench dome robust ubend cup s-rail compare peers clean
 
 help:  ## show this help
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -90,6 +90,10 @@ ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter
 cup: env  ## the cup of the ESAFORM benchmark 2021 on four meshes (some five minutes)
 	$(SAY) 'Drawing the cup'
 	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json --page docs/performance-increments.md $(ARGS)
+
+s-rail: env  ## the S-rail of the verification book with up to 6 000 elements, three penalties (an hour)
+	$(SAY) 'Drawing the S-rail'
+	@$(BIN)/python benchmarks/s_rail.py --json build/s_rail.json $(ARGS)
 
 compare: env  ## compare the speed of two commits: make compare ARGS="main HEAD"
 	@$(BIN)/python benchmarks/compare.py $(ARGS)
@@ -207,7 +211,7 @@ wheel: env $(VENV)/.wheel  ## a wheel in dist, repaired, and tested in an enviro
 
 # ---- style ----
 
-lint: lint-python lint-imports lint-types lint-stubs lint-format lint-cpp  ## style, types and names, in Python and in C++
+lint: lint-python lint-imports lint-types lint-page lint-stubs lint-format lint-cpp  ## style, types and names, in Python and in C++
 
 lint-python: $(VENV)/.dev
 	$(SAY) 'ruff'
@@ -221,6 +225,14 @@ lint-imports: $(VENV)/.dev
 lint-types: $(VENV)/.dev
 	$(SAY) 'mypy'
 	@$(BIN)/mypy --no-error-summary
+
+# The types of the page stand in comments; TypeScript comes from npm, where there is one.
+TSC := npx --yes -p typescript@5.9 tsc
+
+lint-page:
+	$(SAY) 'types of the page'
+	@if ! $(TSC) --version > /dev/null 2>&1; then echo 'no npx, or TypeScript cannot be fetched: the types of the page are not checked'; \
+	else $(TSC) -p src/umform/bench/page/jsconfig.json; fi
 
 STUBGEN := $(BIN)/python -m nanobind.stubgen -q -m umform._core -p cpp/bindings/stub_pattern.txt
 

@@ -77,7 +77,14 @@ void test_tree() {
     for (const Vec3 x : {Vec3{0.5, 0.5, 0.5}, {-1.0, 2.0, 0.0}, {0.1, 0.9, 0.4}}) {
         double least = 1e300, found = 1e300;
         for (const Box& box : boxes) least = std::min(least, box.square_to(x));
-        tree.near_first(x, 1e300, [&](int i) { return found = std::min(found, boxes[tree.order()[i]].square_to(x)); });
+        std::vector<int> announced(boxes.size(), 0);
+        tree.near_first(
+            x, 1e300,
+            [&](int i) {
+                CHECK(announced[i] == 1);
+                return found = std::min(found, boxes[tree.order()[i]].square_to(x));
+            },
+            [&](int i) { ++announced[i]; });
         CHECK_NEAR(found, least, 0.0);
     }
 }

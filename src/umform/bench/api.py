@@ -16,18 +16,20 @@ from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, R
 from starlette.routing import Route
 
 from umform.bench.decks import checked_deck, known_templates, schema_text, template_text, title_of
-from umform.bench.folders import RESULTS, SHAPE
+from umform.bench.folders import RESULTS, SCENE, SHAPE
 from umform.bench.index import Job
 from umform.bench.jobs import MOST_WAITING, Queue, result_file
 from umform.bench.library import library
-from umform.bench.look import look, said
+from umform.bench.look import look
+from umform.bench.refusals import said
+from umform.bench.strips import FILES as STRIP_FILES
 from umform.bench.wanted import Wanted, problems_of
 from umform.deck.results import FILES as DECK_FILES
 from umform.errors import InvalidValue, UmformError
 from umform.processes.air_bending.files import RESULTS as BEND_FILES
 from umform.processes.air_bending.measures import QUANTITIES
 
-_FILES = frozenset({*BEND_FILES, *DECK_FILES, SHAPE})
+_FILES = frozenset({*BEND_FILES, *DECK_FILES, *STRIP_FILES, SHAPE})
 #: Reports run their own programs: as a page of no origin, which cannot ask this server for anything.
 _SANDBOX = "sandbox allow-scripts allow-downloads allow-popups"
 _SHOWN = (".html", ".png", ".svg")
@@ -45,13 +47,17 @@ def routes(queue: Queue) -> list[Route]:
         "/api/jobs.csv": api.table,
         "/api/jobs/{name}": api.job,
         "/api/jobs/{name}/curve": api.curve,
+        "/api/jobs/{name}/scene": api.scene,
+        "/api/tools": lambda request: {"tools": queue.shelf.rows()},
         "/api/decks": lambda request: {"templates": known_templates()},
         "/api/decks/schema": lambda request: Response(schema_text(), media_type="application/json"),
         "/api/decks/template/{name}": lambda request: {"text": template_text(request.path_params["name"])},
         "/files/{name}/{file}": api.file,
     }
     post: dict[str, Callable[[Any, Request], _Json]] = {
-        "/api/look": lambda body, request: look(body),
+        "/api/look": lambda body, request: look(body, queue.shelf),
+        "/api/tools": api.add_tool,
+        "/api/tools/remove": api.remove_tool,
         "/api/jobs": api.add,
         "/api/decks/check": lambda body, request: checked_deck(_text(body), queue.folder),
         "/api/decks/jobs": api.add_deck,
@@ -99,11 +105,11 @@ def _no_constant(name: str) -> None:
     raise ValueError(name)
 
 
-def _text(body: Any) -> str:
-    """The text of a deck."""
-    if not isinstance(body, dict) or not isinstance(body.get("text"), str):
-        raise InvalidValue("a deck is a text", where="text")
-    return str(body["text"])
+def _text(body: Any, name: str = "text") -> str:
+    """A text of a question."""
+    if not isinstance(body, dict) or not isinstance(body.get(name), str):
+        raise InvalidValue("a text is missing in the question", where=name)
+    return str(body[name])
 
 
 class _Api:
@@ -115,7 +121,9 @@ class _Api:
     def jobs(self, request: Request) -> _Json:
         """All jobs, the latest first, and how far those are that run."""
         jobs = self.queue.index.jobs()
-        return {"jobs": [self._row(job) for job in reversed(jobs[-500:])]}
+        full = self.queue.disk.problem()
+        rows = [self._row(job) for job in reversed(jobs[-500:])]
+        return {"jobs": rows, "full": None if full is None else said(full)}
 
     def job(self, request: Request) -> _Json:
         """A job, with its numbers, what it tells of its run, and its files."""
@@ -145,19 +153,17 @@ class _Api:
         if not isinstance(forms, list) or not 1 <= len(forms) <= min(_MOST_AT_ONCE, MOST_WAITING):
             raise InvalidValue(f"1 to {_MOST_AT_ONCE} bends are ordered at once", where="forms")
         wanted = [Wanted.model_validate(form) for form in forms]
-        refused = []
+        good, refused = [], []
         for number, one in enumerate(wanted):
             try:
-                one.case()
+                good.append(one.with_sizes(one.case(self.queue.shelf)))
             except UmformError as error:
                 if len(wanted) == 1:
                     raise
                 refused.append({**said(error), "form": number, "title": one.title})
-                wanted[number] = None  # type: ignore[call-overload]
         series = str(body.get("series", ""))[:80]
-        names = [
-            self.queue.add("bend", one.title, one.model_dump(), series=series) for one in wanted if one is not None
-        ]
+        add = self.queue.add
+        names = [add("bend", one.title, one.model_dump(), series=series, tools=one.drawn) for one in good]
         return {"jobs": names, "refused": refused}
 
     def add_deck(self, body: Any, request: Request) -> _Json:
@@ -165,6 +171,19 @@ class _Api:
         text = _text(body)
         title = title_of(text)
         return {"jobs": [self.queue.add("deck", title, {}, deck=text)]}
+
+    def add_tool(self, body: Any, request: Request) -> _Json:
+        """Read the drawing of a tool, and keep it."""
+        kind, name, layer, drawing = (_text(body, part) for part in ("kind", "name", "layer", "drawing"))
+        full = self.queue.disk.problem()
+        if full is not None:
+            raise full
+        return self.queue.shelf.add(kind, name, layer, drawing)
+
+    def remove_tool(self, body: Any, request: Request) -> _Json:
+        """Take a drawn tool away."""
+        self.queue.shelf.remove(_text(body, "kind"), _text(body, "name"))
+        return {}
 
     def stop(self, body: Any, request: Request) -> _Json:
         """Stop a job."""
@@ -187,6 +206,13 @@ class _Api:
         with path.open(newline="") as text:
             rows = list(csv.DictReader(text))
         return {"x": [float(row["stroke"]) for row in rows], "y": [float(row["force"]) for row in rows]}
+
+    def scene(self, request: Request) -> Response:
+        """The present scene of a job, for a page of its shape that is shown."""
+        path = self.queue.place(self._known(request).id) / SCENE
+        if path.is_symlink() or not path.is_file():
+            raise InvalidValue("this job has no shape yet", where="scene")
+        return FileResponse(path, media_type="application/json")
 
     def file(self, request: Request) -> Response:
         """A file of a job."""

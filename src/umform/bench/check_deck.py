@@ -7,7 +7,7 @@ import sys
 from dataclasses import asdict
 from pathlib import Path
 
-from umform.bench.work import limit_memory
+from umform.bench.limits import limit_memory
 from umform.deck.check import check
 from umform.deck.deck import Deck
 from umform.deck.errors import DeckError

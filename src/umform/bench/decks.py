@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import json
-import subprocess
-import sys
 import tempfile
 import tomllib
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+from umform.bench.helpers import NoAnswer, answer_of
 from umform.bench.jobs import LONGEST_DECK
 from umform.deck import templates
 from umform.errors import InvalidValue
@@ -66,18 +64,10 @@ def checked_deck(text: str, folder: Path) -> dict[str, Any]:
     with tempfile.TemporaryDirectory(prefix="umform-bench-") as place:
         path = Path(place) / "deck.toml"
         path.write_text(text, encoding="utf-8")
-        command = [sys.executable, "-m", "umform.bench.check_deck", str(path), str(folder)]
         try:
-            done = subprocess.run(command, capture_output=True, timeout=_LONGEST_CHECK, stdin=subprocess.DEVNULL)
-            findings = json.loads(done.stdout)
-        except subprocess.TimeoutExpired:
-            findings = [
-                _error(f"the check has not ended within {_LONGEST_CHECK:g} s", "a smaller model, or umform check")
-            ]
-        except ValueError:
-            findings = [_error("the check has died", "a smaller mesh: it may need more memory than there is")]
+            arguments = ["umform.bench.check_deck", str(path), str(folder)]
+            findings = answer_of(arguments, _LONGEST_CHECK, "the check")
+        except NoAnswer as error:
+            text = "; ".join(part for part in (error.what, error.cause) if part)
+            findings = [{"level": "error", "about": "check", "text": text, "remedy": error.remedy}]
     return {"findings": findings}
-
-
-def _error(text: str, remedy: str) -> dict[str, str]:
-    return {"level": "error", "about": "check", "text": text, "remedy": remedy}

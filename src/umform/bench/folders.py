@@ -9,12 +9,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-#: What was ordered, what came of it, what it tells while it runs; the shape; the lock; a deck; the folder of results.
-ORDER, OUTCOME, LIVE, SHAPE, LOCK, DECK, RESULTS = (
+#: What was ordered, what came of it, what it tells while it runs; the shape, and its present scene; the lock; a deck;
+#: the folder of results.
+ORDER, OUTCOME, LIVE, SHAPE, SCENE, LOCK, DECK, RESULTS = (
     "job.json",
     "outcome.json",
     "live.json",
     "shape.html",
+    "scene.json",
     "lock",
     "deck.toml",
     "results",

@@ -11,8 +11,9 @@ from starlette.requests import cookie_parser
 from starlette.responses import JSONResponse, PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-#: Bytes of a request: a deck, and room.
-LONGEST_BODY = 1_000_000
+#: Bytes of a request: a deck, and room; of one with a drawing.
+LONGEST_BODY, LONGEST_UPLOAD = 1_000_000, 8_100_000
+_UPLOAD = "/api/tools"
 _OPEN = "/assets/"
 _POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
@@ -75,10 +76,10 @@ class Guard:
             await send(message)
 
         try:
-            await self.app(scope, _limited(receive), _with(watched, more.items()))
+            await self.app(scope, _limited(receive, _most(scope)), _with(watched, more.items()))
         except TooLong:
             if not began:
-                await _too_long()(scope, receive, _with(send, _HEADERS.items()))
+                await _too_long(_most(scope))(scope, receive, _with(send, _HEADERS.items()))
 
     def _refusal(self, scope: Scope, headers: Headers) -> Response | None:
         """Why a request is refused, as an answer; None if it is not."""
@@ -90,8 +91,8 @@ class Guard:
         if headers.get("sec-fetch-site", "none") not in ("none", "same-origin") and scope["path"] != "/":
             return PlainTextResponse("a page of another origin may not ask", 403)
         length = headers.get("content-length", "0")
-        if not (length.isdecimal() and len(length) < 12 and int(length) <= LONGEST_BODY):
-            return _too_long()
+        if not (length.isdecimal() and len(length) < 12 and int(length) <= _most(scope)):
+            return _too_long(_most(scope))
         if scope["path"].startswith(_OPEN) or self._in_link(scope) or self._in_cookie(headers):
             return None
         return PlainTextResponse("open the link with its token, which `umform bench` has printed", 401)
@@ -110,11 +111,15 @@ def _is_page(scope: Scope) -> bool:
     return bool(scope["path"] == "/" and scope["method"] == "GET")
 
 
-def _too_long() -> Response:
-    return JSONResponse({"what": f"a request has at most {LONGEST_BODY} bytes"}, 413)
+def _most(scope: Scope) -> int:
+    return LONGEST_UPLOAD if scope["path"] == _UPLOAD else LONGEST_BODY
 
 
-def _limited(receive: Receive) -> Receive:
+def _too_long(most: int) -> Response:
+    return JSONResponse({"what": f"a request has at most {most} bytes"}, 413)
+
+
+def _limited(receive: Receive, most: int) -> Receive:
     """Receive no more than a body may have, whatever its header says."""
     taken = 0
 
@@ -122,7 +127,7 @@ def _limited(receive: Receive) -> Receive:
         nonlocal taken
         message = await receive()
         taken += len(message.get("body", b""))
-        if taken > LONGEST_BODY:
+        if taken > most:
             raise TooLong
         return message
 

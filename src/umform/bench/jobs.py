@@ -19,6 +19,9 @@ from typing import Any
 
 from umform.bench.folders import DECK, LIVE, LOCK, NAME, ORDER, OUTCOME, RESULTS, SHAPE, is_owned
 from umform.bench.index import UNFINISHED, Index, Job
+from umform.bench.limits import Disk
+from umform.bench.ready import Ready
+from umform.bench.shelf import Shelf
 from umform.errors import InvalidValue, UmformError
 from umform.io.atomic import PendingFile
 
@@ -26,6 +29,8 @@ log = logging.getLogger("umform.bench")
 
 #: Jobs that may wait, bytes of a deck, and starts of a job that dies without a word.
 MOST_WAITING, LONGEST_DECK, MOST_STARTS = 200, 400_000, 3
+#: Bytes that a folder may have if nothing else is said.
+USUAL_DISK = 10e9
 #: Seconds between two looks at the processes, and those that a process has to end gently.
 _LOOK, _GENTLE = 0.05, 10.0
 
@@ -39,24 +44,30 @@ class Queue:
         Folder of the bench.
     at_once : int
         Jobs at a time.
+    disk : float
+        Bytes that all files of the folder may have.
 
     Attributes
     ----------
     index : Index
         The index.
-    command : list of str
-        Starts a process that reads the folder of its job.
+    disk : Disk
+        Room for more files.
+    shelf : Shelf
+        Drawn tools.
+    ready : Ready
+        The process that waits for the next job.
     """
 
-    def __init__(self, folder: Path, at_once: int = 1) -> None:
+    def __init__(self, folder: Path, at_once: int = 1, disk: float = USUAL_DISK) -> None:
         self.folder, self.at_once = folder, at_once
-        self.command = [sys.executable, "-m", "umform.bench.work"]
+        self.disk, self.shelf = Disk(folder, disk), Shelf(folder)
+        self.ready = Ready([sys.executable, "-m", "umform.bench.work"], folder / "jobs.log")
         (folder / "jobs").mkdir(parents=True, exist_ok=True)
         self.index = Index(folder)
         self._lock = threading.RLock()
         self._running: dict[str, subprocess.Popen[bytes] | None] = {}  # None: of a server before this one
         self._asked: dict[str, float] = {}  # jobs that were asked to stop, and until when they may do so gently
-        self._ready: subprocess.Popen[bytes] | None = None
         self._wake, self._over = threading.Event(), threading.Event()
         self._thread = threading.Thread(target=self._go, name="umform-bench-queue", daemon=True)
 
@@ -90,7 +101,7 @@ class Queue:
                 asked = name in self._asked
                 if job is not None and not self._settle(job, took_up=not asked):
                     self.index.change(name, "stopped" if asked else "waiting")
-            self._let_go()
+            self.ready.let_go()
             self.index.close()
 
     def place(self, name: str) -> Path:
@@ -99,14 +110,28 @@ class Queue:
             raise InvalidValue("there is no such job", where="job", value=name[:40])
         return self.folder / "jobs" / name
 
-    def add(self, kind: str, title: str, parameters: Mapping[str, Any], *, series: str = "", deck: str = "") -> str:
-        """Add a job, and return its name.
+    def add(
+        self,
+        kind: str,
+        title: str,
+        parameters: Mapping[str, Any],
+        *,
+        series: str = "",
+        deck: str = "",
+        tools: Mapping[str, str | None] | None = None,
+    ) -> str:
+        """Add a job, and return its name; ``tools``: drawn tools by kind, of which it gets copies.
 
         Raises
         ------
         InvalidValue
             If too many wait already, or the deck is too long.
+        DiskFull
+            If there is no room.
         """
+        full = self.disk.problem()
+        if full is not None:
+            raise full
         with self._lock:
             if len(self.index.jobs("waiting")) >= MOST_WAITING:
                 raise InvalidValue(
@@ -124,6 +149,7 @@ class Queue:
             folder.mkdir()
             if deck:
                 (folder / DECK).write_text(deck, encoding="utf-8")
+            self.shelf.copy_to(folder, tools or {})
             order = {"kind": kind, "title": title, "series": series, "parameters": dict(parameters)}
             with PendingFile(folder / ORDER) as waiting:
                 waiting.write_text(json.dumps(order | {"created": time.time()}), encoding="utf-8")
@@ -162,6 +188,7 @@ class Queue:
             place = self.place(name)
             (place / ORDER).unlink(missing_ok=True)  # first, lest it come back
             shutil.rmtree(place, ignore_errors=True)
+            self.disk.forget()
 
     def live(self, name: str) -> dict[str, Any]:
         """What a job tells while it runs."""
@@ -175,9 +202,14 @@ class Queue:
     def _go(self) -> None:
         while not self._over.is_set():
             try:
+                full = self.disk.problem()
                 with self._lock:
                     self._reap()
-                    self._begin()
+                    if full is None:
+                        self._begin()
+                    else:
+                        for name in self._running.keys() - self._asked.keys():
+                            self.stop(name)
                     idle = not self._running
             except Exception:  # the queue must outlive whatever one job does
                 log.exception("the queue of the bench")
@@ -209,8 +241,7 @@ class Queue:
     def _begin(self) -> None:
         """Start waiting jobs while there is room; keep a process ready where nothing runs, or more jobs wait."""
         for job in self.index.jobs("waiting")[: max(0, self.at_once - len(self._running))]:
-            process = self._ready_process()
-            self._ready = None
+            process = self.ready.take()
             self.index.change(job.id, "running", start=True)
             self._running[job.id] = process
             assert process.stdin is not None
@@ -218,30 +249,7 @@ class Queue:
                 process.stdin.write(f"{self.place(job.id).resolve()}\n".encode())
                 process.stdin.close()
         if not self._running or self.index.jobs("waiting"):
-            self._ready_process()
-
-    def _ready_process(self) -> subprocess.Popen[bytes]:
-        """A process that has loaded all it needs and waits for a folder; it ends if this one does."""
-        if self._ready is None or self._ready.poll() is not None:
-            self._let_go()
-            with (self.folder / "jobs.log").open("ab") as text:
-                self._ready = subprocess.Popen(
-                    self.command,
-                    stdin=subprocess.PIPE,
-                    stdout=text,
-                    stderr=text,
-                    start_new_session=True,
-                )
-        return self._ready
-
-    def _let_go(self) -> None:
-        """End the process that waits."""
-        if self._ready is not None:
-            self._ready.kill()  # it has no job
-            self._ready.wait()
-            if self._ready.stdin is not None:
-                self._ready.stdin.close()
-            self._ready = None
+            self.ready.keep()
 
     def _lives(self, name: str) -> bool:
         process = self._running[name]

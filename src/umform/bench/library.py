@@ -8,7 +8,7 @@ from importlib.resources import files
 from typing import Any
 
 from umform import sheet_metals
-from umform.bench.wanted import MESHES, Wanted
+from umform.bench.wanted import MESHES, WORKS, Wanted
 from umform.errors import UmformError
 from umform.processes.air_bending.measures import QUANTITIES
 
@@ -48,30 +48,32 @@ def library() -> dict[str, Any]:
         "metals": metals,
         "tools": tools(),
         "meshes": list(MESHES),
+        "works": list(WORKS),
         "quantities": quantities,
         "defaults": Wanted().model_dump(),
     }
 
 
-def tools_for(wanted: Wanted) -> dict[str, float] | None:
+def tools_for(wanted: Wanted) -> dict[str, float | None] | None:
     """Die and punch of the library, nearest to those at hand, with which the wanted angle can be reached.
 
     Returns
     -------
-    dict of str to float or None
-        The parameters to change; None if there are none, or if no angle is wanted.
+    dict of str to float, or None
+        The parameters to change, drawn tools are put away; None if there are none, or if no angle is wanted.
     """
-    if wanted.angle is None:
+    if wanted.work != "bend" or wanted.angle is None:
         return None
     most = wanted.angle - ROOM
     angles = [angle for angle in tools()["die_angles"] if angle <= most] or tools()["die_angles"][-1:]
     punches = [punch for punch in tools()["punches"] if punch["angle"] <= most] or tools()["punches"][-1:]
     for angle in angles:
         for punch in sorted(punches, key=lambda one: -float(one["angle"])):
-            change = {"die_angle": angle, "punch_angle": punch["angle"], "punch_radius": punch["radius"]}
+            sizes = {"die_angle": angle, "punch_angle": punch["angle"], "punch_radius": punch["radius"]}
+            change = {name: float(value) for name, value in sizes.items()} | {"punch": None, "die": None}
             try:
-                wanted.model_copy(update={name: float(value) for name, value in change.items()}).case()
+                wanted.model_copy(update=change).case()
             except UmformError:
                 continue
-            return {name: float(value) for name, value in change.items()}
+            return change
     return None

@@ -9,14 +9,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from umform.bench.folders import LIVE, SHAPE
-from umform.bench.shape import write_shape
+from umform.bench.folders import LIVE
 from umform.processes.air_bending.brake import force_per_width
 from umform.processes.air_bending.branches import Brake
 from umform.processes.air_bending.section import Section
 from umform.steps import Release
 
 if TYPE_CHECKING:
+    from umform.results.history import History
     from umform.steps.loop import Run
 
 #: Seconds between two files, at least.
@@ -67,8 +67,7 @@ class Watch:
             return
         self._take(run)
         if now > self._next_shape and len(run.result) > 1:
-            write_shape(self.folder / SHAPE, run.result, self.title)
-            self.content["shape"] += 1
+            self.shape(run.result)
             self._next_shape = time.monotonic() + (time.monotonic() - now) / _SHARE
         self.write()
         self._next = time.monotonic() + _OFTEN
@@ -81,6 +80,13 @@ class Watch:
             self._run = None
         self.content |= {"phase": name, "fraction": fraction}
         self.write()
+
+    def shape(self, result: History) -> None:
+        """Write the shape in space."""
+        from umform.bench.shape import write_shape  # loads the report and its pictures: after the first state is told
+
+        write_shape(self.folder, result, self.title)
+        self.content["shape"] += 1
 
     def _take(self, run: Run) -> None:
         content = {"increments": len(run.result) - 1, **self.tell(run)}

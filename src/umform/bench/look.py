@@ -9,12 +9,16 @@ import numpy as np
 from pydantic import ValidationError
 
 from umform.bench.library import ROOM, tools_for
+from umform.bench.refusals import said
+from umform.bench.shelf import Shelf
 from umform.bench.wanted import Wanted, problems_of
-from umform.deck.errors import DeckError
 from umform.errors import UmformError
 from umform.materials import J2, Metal
+from umform.processes.air_bending.drawn_tools import drawn_sizes
 from umform.processes.air_bending.formulas import FORCE_FACTORS, tensile_strength
 from umform.processes.air_bending.parameters import AirBending
+from umform.processes.bend_sequence.collisions import die_body, punch_body
+from umform.processes.bend_sequence.parameters import Bodies
 
 #: Openings over the thickness that are usual on a press brake.
 _NARROW, _WIDE = 5.0, 16.0
@@ -22,13 +26,15 @@ _NARROW, _WIDE = 5.0, 16.0
 _RADIUS = 0.16
 
 
-def look(values: object) -> dict[str, Any]:
+def look(values: object, shelf: Shelf | None = None) -> dict[str, Any]:
     """Look at the values of a form.
 
     Parameters
     ----------
     values : object
         What has come from the page; anything.
+    shelf : Shelf, optional
+        Drawn tools.
 
     Returns
     -------
@@ -41,13 +47,23 @@ def look(values: object) -> dict[str, Any]:
     except ValidationError as error:
         return {"problems": problems_of(error), "warnings": []}
     try:
-        case = wanted.at_tools()
+        case = wanted.at_tools(shelf)
     except UmformError as error:
         return {"problems": [said(error)], "warnings": [], "change": tools_for(wanted)}
-    found: dict[str, Any] = {"problems": [], "warnings": _warnings(wanted, case), "drawing": drawing(case)}
+    found: dict[str, Any] = {
+        "problems": [],
+        "warnings": _warnings(wanted, case),
+        "drawing": drawing(case, bodies=wanted.of_strip),
+    }
     found["expected"] = _expected(wanted, case)
+    angles = {"bottom": case.die_angle, "hem": wanted.first_angle}  # a bottomed sheet has the angle of the die
+    if wanted.work in angles:
+        found["shown"] = {"angle": angles[wanted.work], "stroke": None}
+    found["measured"] = {
+        name: round(value, 4) for name, value in drawn_sizes(case.punch_section, case.die_section).items()
+    }
     try:
-        wanted.case()
+        wanted.case(shelf)
     except UmformError as error:
         found |= {"problems": [said(error)], "change": tools_for(wanted)}
     else:
@@ -55,26 +71,25 @@ def look(values: object) -> dict[str, Any]:
     return found
 
 
-def said(error: UmformError) -> dict[str, Any]:
-    """An error in parts."""
-    if isinstance(error, DeckError) and len(error.errors) > 1:
-        return {**_parts(error), "all": [_parts(one) for one in error.errors[:50]]}
-    return _parts(error)
+def drawing(case: AirBending, *, bodies: bool = False) -> dict[str, Any]:
+    """Outlines of die and punch in mm, the punch where it touches the sheet; half of the sheet's length.
 
-
-def _parts(error: UmformError) -> dict[str, Any]:
-    value = "" if error.value is None else str(error.value)[:200]
-    parts = {"what": error.what, "where": error.where, "value": value, "cause": error.cause, "remedy": error.remedy}
-    return {"kind": "refused", **{name: str(text)[:2000] for name, text in parts.items()}}
-
-
-def drawing(case: AirBending) -> dict[str, Any]:
-    """Outlines of die and punch in mm, the punch where it touches the sheet; half of the sheet's length."""
+    ``bodies``: with the bodies that a part of several bends may collide with.
+    """
     far = 2.0 * case.half_length
     chord = 2e-3 * case.opening
+    die, punch = case.die.profile, case.punch.profile
+    if bodies and case.die_section is None:
+        die = die_body(case, Bodies())
+    if bodies and case.punch_section is None:
+        punch = punch_body(case, Bodies())
     return {
-        "die": case.die.profile.points(chord, far).tolist(),
-        "punch": np.add(case.punch.profile.points(chord, far), (0.0, case.thickness)).tolist(),
+        "die": die.points(chord, far).tolist(),
+        "punch": np.add(punch.points(chord, far), (0.0, case.thickness)).tolist(),
+        "closed": {"die": die.closed, "punch": punch.closed},
+        "depth": case.depth,
+        "opening": case.opening,
+        "punch_radius": case.punch_radius,
         "half_length": case.half_length,
         "largest_stroke": case.largest_stroke,
         "thickness": case.thickness,
@@ -109,7 +124,7 @@ def _warnings(wanted: Wanted, case: AirBending) -> list[dict[str, Any]]:
     if not _NARROW <= ratio <= _WIDE:
         found.append({"where": "opening", "kind": "ratio", "bounds": {"ratio": round(ratio, 1)}})
     sharpest = max(case.die_angle, case.punch_angle)
-    if wanted.angle is not None and sharpest < wanted.angle < sharpest + ROOM:
+    if wanted.work == "bend" and wanted.angle is not None and sharpest < wanted.angle < sharpest + ROOM:
         found.append({"where": "angle", "kind": "close", "bounds": {"angle": sharpest}})
     if wanted.whole and wanted.length > 20.0 * case.thickness:
         found.append({"where": "whole", "kind": "long", "bounds": {"ratio": round(wanted.length / case.thickness)}})

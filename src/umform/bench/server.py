@@ -36,6 +36,8 @@ _KINDS = {
 }
 #: Open files of the process: each request has one.
 _MOST_FILES = 8192
+#: Leads a browser to the page; its address, which other users of the machine can see, has no token.
+_DOOR = '<!DOCTYPE html><title>umform bench</title><meta http-equiv="refresh" content="0; url={link}">'
 _TOKEN = re.compile(r"[A-Za-z0-9_-]{20,}")
 
 
@@ -123,10 +125,15 @@ def token_of(folder: Path) -> str:
         if _TOKEN.fullmatch(known) and path.stat().st_mode & 0o077 == 0:
             return known
     token = secrets.token_urlsafe(24)
+    _for_owner(path, token)
+    return token
+
+
+def _for_owner(path: Path, content: str) -> None:
+    """Write a file that others cannot read."""
     path.unlink(missing_ok=True)
     with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as text:
-        text.write(token)
-    return token
+        text.write(content)
 
 
 def listening(port: int) -> socket.socket:
@@ -154,7 +161,7 @@ def listening(port: int) -> socket.socket:
     return listener
 
 
-def serve(folder: Path, port: int, at_once: int, ready: Callable[[str], None]) -> None:
+def serve(folder: Path, port: int, at_once: int, disk: float, ready: Callable[[str, Path], None]) -> None:
     """Serve the bench until Ctrl-C.
 
     Parameters
@@ -165,19 +172,27 @@ def serve(folder: Path, port: int, at_once: int, ready: Callable[[str], None]) -
         0: any that is free.
     at_once : int
         Jobs at a time.
+    disk : float
+        Bytes that the folder may have.
     ready : callable
-        Is called with the link.
+        Is called with the link, and with a page that leads there and that only its owner can read.
     """
     _allow_files()
     with owned(folder), listening(port) as listener:
         own = int(listener.getsockname()[1])
         token = token_of(folder)
-        app = application(Queue(folder, at_once), token, own)
+        app = application(Queue(folder, at_once, disk), token, own)
         config = uvicorn.Config(
             app, log_level="warning", access_log=False, ws="none", server_header=False, timeout_graceful_shutdown=2
         )
-        ready(f"http://{HOST}:{own}/?token={token}")
-        uvicorn.Server(config).run(sockets=[listener])
+        link = f"http://{HOST}:{own}/?token={token}"
+        door = folder / "open.html"
+        try:
+            _for_owner(door, _DOOR.format(link=link))
+            ready(link, door)
+            uvicorn.Server(config).run(sockets=[listener])
+        finally:
+            door.unlink(missing_ok=True)
 
 
 def _allow_files() -> None:

@@ -1,12 +1,17 @@
-"""The shape of a run in space as a page of its own: scene and curves of the report, without the rest of it."""
+"""The shape of a run in space: a page of its own with scene and curves of the report, and what renews it."""
 
 from __future__ import annotations
 
+import json
+import math
+from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from umform.bench.folders import SCENE, SHAPE
 from umform.report import parts
 from umform.report.live import Live, style
+from umform.report.scene import scene_of
 
 if TYPE_CHECKING:
     from umform.results.history import History
@@ -20,19 +25,34 @@ header, footer, .history { display: none; }
 """
 
 
-def write_shape(path: Path, result: History, title: str) -> Path:
-    """Write the page.
+def write_shape(folder: Path, result: History, title: str) -> None:
+    """Write the page, if it is not there, and the scene that renews it where it is shown.
 
     Parameters
     ----------
-    path : Path
-        Ending in .html.
+    folder : Path
+        Folder of the job.
     result : History
         A result, or what there is of it so far.
     title : str
         Of the page.
     """
-    live = Live.of(result, stills=False)
-    table = f'<div class="history">{live.table}</div>'
-    content = [live.shape, *map(parts.note, live.notes), live.curves, table]
-    return parts.write_html(path, title, "", content, style=style() + _STYLE, scripts=live.scripts)
+    path = folder / SHAPE
+    if not path.exists():
+        live = Live.of(result, stills=False)
+        table = f'<div class="history">{live.table}</div>'
+        content = [live.shape, *map(parts.note, live.notes), live.curves, table]
+        listen = files("umform.bench").joinpath("page", "renewed.js").read_text(encoding="utf-8")
+        scripts = f'{live.scripts}\n<script type="module">{listen}</script>'
+        parts.write_html(path, title, "", content, style=style() + _STYLE, scripts=scripts)
+    waiting = folder / f".{SCENE}"
+    waiting.write_text(json.dumps({"scene": scene_of(result).data, "table": _table(result)}), encoding="utf-8")
+    waiting.replace(folder / SCENE)
+
+
+def _table(result: History) -> dict[str, object]:
+    """The history by columns; None for what is no number."""
+    columns = {
+        name: [float(x) if math.isfinite(x) else None for x in column] for name, column in result.table().items()
+    }
+    return {"names": list(columns), "columns": columns, "length": len(result)}

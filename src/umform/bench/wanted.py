@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import Field, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
+from umform.bench.shelf import Shelf
+from umform.bench.wanted_strips import WantedStrip
 from umform.materials import J2, Metal
+from umform.processes.air_bending.bottoming import with_travel
 from umform.processes.air_bending.checks import check_angle
+from umform.processes.air_bending.drawn_tools import drawn_sizes
 from umform.processes.air_bending.parameters import AirBending
+from umform.processes.bend_sequence import BendSequence
+from umform.processes.hemming import Hemming
 
 #: Meshes by name: a quick look, the default of `umform bend`, and what docs/air-bending.md says is better.
 MESHES: dict[str, dict[str, Any]] = {
@@ -18,15 +25,21 @@ MESHES: dict[str, dict[str, Any]] = {
     "fine": {"layers": 4, "thickness_points": 5},
 }
 
+#: Kinds of work.
+WORKS = ("bend", "bottom", "sequence", "hem")
+
 _Degrees = Annotated[float, Field(ge=10.0, le=175.0)]
 _Radius = Annotated[float, Field(ge=0.05, le=200.0)]
 
 
-class Wanted(BaseModel):
-    """A bend in mm, degrees and MPa; the bounds are those of a press brake, with room on both sides.
+class Wanted(WantedStrip):
+    """A bend, or several, in mm, degrees and MPa; the bounds are those of a press brake, with room on both sides.
 
     Attributes
     ----------
+    work : str
+        "bend": one bend in the air; "bottom": pressed onto the flanks of the die; "sequence": several bends in one
+        part; "hem": an acute bend, flattened.
     material : str
         Metal of the library.
     yield_stress, tensile_strength, uniform_elongation : float or None
@@ -35,8 +48,13 @@ class Wanted(BaseModel):
         Degrees from the bend line to the rolling direction.
     thickness, opening, die_angle, die_radius, punch_angle, punch_radius : float
         See `AirBending`.
+    punch, die : str or None
+        Drawn tools by their names; the numbers of the tool are then those of its drawing.
     angle, stroke : float or None
-        What is wanted: one of them.
+        What is wanted of a bend in the air: one of them.
+    press_force, travel : float or None
+        What is wanted of bottoming, one of them: force in kN/m, or way in mm beyond where flanks and tip are one
+        thickness from the die.
     length : float
         Length of the bend, for the force in kN.
     whole : bool
@@ -47,8 +65,7 @@ class Wanted(BaseModel):
         Whether the error budget is wanted.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
-
+    work: Literal["bend", "bottom", "sequence", "hem"] = "bend"
     material: Annotated[str, Field(min_length=1, max_length=60)] = "DC04"
     yield_stress: Annotated[float, Field(ge=20.0, le=3000.0)] | None = None
     tensile_strength: Annotated[float, Field(ge=20.0, le=3000.0)] | None = None
@@ -60,8 +77,12 @@ class Wanted(BaseModel):
     die_radius: _Radius = 2.0
     punch_angle: _Degrees = 85.0
     punch_radius: _Radius = 1.5
+    punch: Annotated[str, Field(min_length=1, max_length=40)] | None = None
+    die: Annotated[str, Field(min_length=1, max_length=40)] | None = None
     angle: Annotated[float, Field(ge=20.0, le=179.0)] | None = 90.0
     stroke: Annotated[float, Field(ge=0.01, le=1000.0)] | None = None
+    press_force: Annotated[float, Field(ge=1.0, le=100000.0)] | None = None
+    travel: Annotated[float, Field(ge=-5.0, le=20.0)] | None = None
     length: Annotated[float, Field(ge=1.0, le=20000.0)] = 1000.0
     whole: bool = False
     mesh: Literal["quick", "usual", "fine"] = "usual"
@@ -69,7 +90,10 @@ class Wanted(BaseModel):
 
     @model_validator(mode="after")
     def _one_goal(self) -> Wanted:
-        if (self.angle is None) == (self.stroke is None):
+        if self.work == "bottom":
+            if (self.press_force is None) == (self.travel is None):
+                raise PydanticCustomError("bottom_goal", "give the force or the way beyond the bottom, one of them")
+        elif self.work == "bend" and (self.angle is None) == (self.stroke is None):
             raise PydanticCustomError("goal", "give the angle or the stroke, one of them")
         if (self.yield_stress is None) != (self.tensile_strength is None):
             raise PydanticCustomError("coil", "a coil has both, Re and Rm")
@@ -88,40 +112,80 @@ class Wanted(BaseModel):
             metal = of_certificate(self.material, self.yield_stress, self.tensile_strength, elongation)
         return metal.law, f"{metal.name}: {metal.source}; {metal.caveat}"
 
-    def case(self) -> AirBending:
+    def case(self, shelf: Shelf | None = None) -> AirBending:
         """Parameters of the bend; an angle that the tools cannot reach is refused.
+
+        Parameters
+        ----------
+        shelf : Shelf, optional
+            Where drawn tools are.
 
         Raises
         ------
         InvalidValue
             ``where`` is the name of the parameter.
         """
-        case = self.at_tools()
-        if self.angle is not None:
+        case = self.at_tools(shelf)
+        if self.of_strip:
+            self.strip(case)
+        elif self.work == "bend" and self.angle is not None:
             check_angle(case, self.angle)
         return case
 
-    def at_tools(self) -> AirBending:
+    def at_tools(self, shelf: Shelf | None = None) -> AirBending:
         """Parameters of the bend, whatever angle is wanted."""
-        return AirBending(
+        drawn: dict[str, Any] = {}
+        for kind, name in self.drawn.items():
+            if name is not None:
+                drawn[f"{kind}_section"] = (shelf or Shelf(Path())).tool(kind, name)
+        bottoms = self.work == "bottom"
+        case = AirBending(
             thickness=self.thickness,
             opening=self.opening,
             die_angle=self.die_angle,
             die_radius=self.die_radius,
             punch_angle=self.punch_angle,
             punch_radius=self.punch_radius,
-            width=self.length if self.whole else None,
-            stroke=self.stroke,
+            **drawn,
+            width=self.length if self.whole and not self.of_strip else None,
+            stroke=self.stroke if self.work == "bend" else None,
+            bottoming=bottoms,
             material=self.law()[0],
             rolling=self.rolling,
             **MESHES[self.mesh],
         )
+        return case if not bottoms or self.travel is None else with_travel(case, self.travel)
+
+    @property
+    def of_strip(self) -> bool:
+        """Whether a whole strip is modelled, in place of half of a bend."""
+        return self.work in ("sequence", "hem")
+
+    def strip(self, sheet: AirBending) -> BendSequence | Hemming:
+        """The bends of a part, or the hem."""
+        return self.hem(sheet) if self.work == "hem" else self.sequence(sheet)
+
+    @property
+    def drawn(self) -> dict[str, str | None]:
+        """Names of the drawn tools."""
+        return {"punch": self.punch, "die": self.die}
+
+    def with_sizes(self, case: AirBending) -> Wanted:
+        """The same with the sizes of its drawn tools."""
+        return self.model_copy(update=drawn_sizes(case.punch_section, case.die_section))
 
     @property
     def title(self) -> str:
         """A few words for lists."""
-        goal = f"{self.angle:g}°" if self.angle is not None else f"{self.stroke:g} mm"
-        return f"{self.material} {self.thickness:g} mm, V{self.opening:g}, {goal}"
+        if self.work == "sequence":
+            return f"{self.material} {self.thickness:g} mm, {' '.join(f'{one.angle:g}°' for one in self.bends)}"
+        if self.work == "hem":
+            return f"{self.material} {self.thickness:g} mm, hem {self.gap:g} mm"
+        if self.work == "bottom":
+            goal = f"{self.press_force:g} kN/m" if self.press_force is not None else f"{self.travel:+g} mm"
+        else:
+            goal = f"{self.angle:g}°" if self.angle is not None else f"{self.stroke:g} mm"
+        return f"{self.material} {self.thickness:g} mm, V{self.opening:.4g}, {goal}"
 
 
 def problems_of(error: ValidationError) -> list[dict[str, Any]]:
@@ -129,6 +193,7 @@ def problems_of(error: ValidationError) -> list[dict[str, Any]]:
     found = []
     for row in error.errors(include_url=False, include_input=False):
         where = ".".join(str(part) for part in row["loc"][:1]) or "goal"
+        row_number = next((part + 1 for part in row["loc"][1:2] if isinstance(part, int)), None)
         bounds = {key: value for key, value in row.get("ctx", {}).items() if isinstance(value, int | float | str)}
-        found.append({"where": where, "kind": row["type"], "bounds": bounds, "what": row["msg"]})
+        found.append({"where": where, "kind": row["type"], "bounds": bounds, "what": row["msg"], "row": row_number})
     return found[:20]

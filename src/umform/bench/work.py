@@ -5,18 +5,20 @@ It writes all that it knows into the folder of the job, and lives on where the s
 
 from __future__ import annotations
 
+import importlib
 import json
-import os
+import select
 import sys
 import traceback
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from umform.bench.folders import DECK, ORDER, OUTCOME, RESULTS, SHAPE, owned
+from umform.bench.folders import DECK, ORDER, OUTCOME, RESULTS, owned
+from umform.bench.limits import limit_memory
 from umform.bench.live import BendTold, DeckTold, Watch, write_live
-from umform.bench.look import said
-from umform.bench.shape import write_shape
+from umform.bench.refusals import said
+from umform.bench.shelf import Shelf
+from umform.bench.strips import run_strip
 from umform.bench.wanted import Wanted
 from umform.deck.findings import accept
 from umform.deck.plausible import of_model
@@ -24,6 +26,7 @@ from umform.errors import UmformError
 from umform.io.atomic import PendingFile
 from umform.io.staging import staging
 from umform.io.tables import write_csv
+from umform.processes.air_bending.bottoming import press_to_force
 from umform.processes.air_bending.branches import FRAMES, Brake
 from umform.processes.air_bending.budget import Budget, error_budget
 from umform.processes.air_bending.case import air_bending
@@ -31,13 +34,21 @@ from umform.processes.air_bending.files import FILES, record, write_files
 from umform.processes.air_bending.search import find_stroke
 from umform.run.watching import watching
 
-#: Part of the memory of the machine that a job may have: a mesh that cannot be meant then harms nobody.
-_MEMORY = 0.8
+#: What a run needs after its first increments: pictures, and the pages of the shape and of the report.
+_LATER = (
+    "matplotlib",
+    "matplotlib.transforms",
+    "matplotlib.text",
+    "matplotlib.figure",
+    "umform.bench.shape",
+    "umform.processes.air_bending.page",
+    "umform.processes.air_bending.pictures",
+)
 
 
 def main(arguments: list[str]) -> int:
     """Run the job of a folder; its outcome is a file there."""
-    text = arguments[0] if arguments else sys.stdin.readline().strip()
+    text = arguments[0] if arguments else _order()
     if not text:
         return 0  # the server that has kept this process ready is gone
     folder = Path(text)
@@ -51,13 +62,13 @@ def main(arguments: list[str]) -> int:
     return 0
 
 
-def limit_memory() -> None:
-    """Let a mesh that cannot be meant end in an error of this process."""
-    import resource
-
-    with suppress(ValueError, OSError):
-        most = int(_MEMORY * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
-        resource.setrlimit(resource.RLIMIT_AS, (most, resource.getrlimit(resource.RLIMIT_AS)[1]))
+def _order() -> str:
+    """The folder from standard input; what is needed later is loaded in pieces while nobody waits for this process."""
+    for name in _LATER:
+        if select.select([sys.stdin], [], [], 0.0)[0]:
+            break
+        importlib.import_module(name)
+    return sys.stdin.readline().strip()
 
 
 def _outcome(folder: Path) -> dict[str, Any]:
@@ -81,15 +92,22 @@ def _outcome(folder: Path) -> dict[str, Any]:
 def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
     """The work of `umform bend`: the same calls, so the same numbers."""
     wanted = Wanted.model_validate(order["parameters"])
-    case, note = wanted.case(), wanted.law()[1]
+    case, note = wanted.case(Shelf(folder)), wanted.law()[1]
+    if wanted.of_strip:
+        return run_strip(folder, order["title"], wanted, case, note) | {"length": wanted.length, "note": note}
     brake = Brake(case, frames=FRAMES)
     accept(of_model(brake.model, millimetres=True))
-    watch = Watch(folder, order["title"], BendTold(brake, wanted.angle, wanted.stroke))
+    bottom = case.bottom_stroke if wanted.work == "bottom" else None
+    watch = Watch(folder, order["title"], BendTold(brake, wanted.angle, bottom or wanted.stroke))
+
     with staging(folder / RESULTS, FILES), watching(watch):
         try:
-            if wanted.angle is None:
+            if wanted.work == "bottom" and wanted.press_force is not None:
+                done = press_to_force(case, wanted.press_force, brake=brake, progress=False).bend
+            elif case.stroke is not None:
                 done = air_bending(case, brake=brake, progress=False)
             else:
+                assert wanted.angle is not None
                 done = find_stroke(case, wanted.angle, brake=brake, progress=False).bend
         except (UmformError, KeyboardInterrupt):
             if len(brake.run.result) > 1:
@@ -100,7 +118,7 @@ def _bend(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
             watch.phase("budget", 0.75)
             budget = error_budget(done.case, done.measures, progress=False)
         watch.phase("files", 0.95)
-        write_shape(folder / SHAPE, done.result, order["title"])
+        watch.shape(done.result)
         write_files(folder / RESULTS, done, (), budget, note=note)
     summary = record(done, (), budget)
     summary["spread"] = {} if budget is None else {name: budget.total(name) for name in summary["measures"]}
@@ -133,7 +151,7 @@ def _deck(folder: Path, order: dict[str, Any]) -> dict[str, Any]:
             solver = deck.contents.solution.solver
             problem = running.prepared(deck, solver, lambda built: running.refuse_implausible(deck, built))
             outcome = running.run(deck, problem, results, every=every, progress=False, overwrite=True)
-    write_shape(folder / SHAPE, outcome.result, order["title"])
+    watch.shape(outcome.result)
     if outcome.ended_by is not None:
         raise outcome.ended_by
     watch.phase("end", 1.0)

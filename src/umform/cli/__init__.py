@@ -15,7 +15,7 @@ from typing import Any
 
 #: Exit codes for a program that is ended by SIGPIPE (128 + 13), and by Ctrl-C.
 CLOSED_PIPE, INTERRUPTED = 141, 130
-#: New objects between two searches for cycles; with Python's 700 they take a twelfth of a bend, most of it in imports.
+#: New objects between two searches for cycles: with Python's 700 they cost some per cent of a bend, mostly in imports.
 _COLLECT_AFTER = 20_000
 
 

@@ -17,6 +17,7 @@ def bench(
     ] = Path("results/bench"),
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port on 127.0.0.1; 0: any that is free.")] = 8765,
     processes: Annotated[int, typer.Option(min=1, max=64, help="Jobs at a time.")] = 1,
+    disk: Annotated[float, typer.Option(min=0.001, max=1e6, help="GB that the folder may have.")] = 10.0,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
     verbose: Verbose = 0,
     debug: Debug = False,
@@ -41,15 +42,15 @@ def bench(
             remedy='pip install "umform[bench]"',
         ) from error
 
-    def ready(link: str) -> None:
+    def ready(link: str, door: Path) -> None:
         typer.echo(f"The bench is open at {link}")
         typer.echo(f"Jobs are in {folder}; Ctrl-C ends the bench, jobs go on when it is started again.")
         if browser:
             import webbrowser
 
-            webbrowser.open(link)
+            webbrowser.open(door.resolve().as_uri())  # not the link: others can read the arguments of a program
 
     try:
-        serve(folder, port, processes, ready)
+        serve(folder, port, processes, 1e9 * disk, ready)
     except KeyboardInterrupt:
         typer.echo("The bench has ended.")

@@ -13,6 +13,7 @@ import typer
 
 from umform.cli.check import Force
 from umform.cli.drawing import without_help_texts
+from umform.cli.drawn_tools import drawn_tools
 from umform.cli.goals import check_goal, check_no_goal, check_press, strokes_of
 from umform.cli.metal import law_of
 from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
@@ -35,6 +36,7 @@ _GOAL, _TOOLS = "What to do", "Tools (mm, degrees)"
 
 @app.command()
 def bend(
+    context: typer.Context,
     out: Annotated[
         str | None,
         typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/bend."),
@@ -61,6 +63,10 @@ def bend(
     punch_width: Annotated[
         float | None, option("Width of the punch above its flanks; default: without end.", _TOOLS)
     ] = None,
+    punch_dxf: Annotated[Path | None, option("DXF drawing of the punch, in place of its numbers.", _TOOLS)] = None,
+    punch_layer: Annotated[str | None, option("Layer with its section; default: the whole drawing.", _TOOLS)] = None,
+    die_dxf: Annotated[Path | None, option("DXF drawing of the die, in place of its numbers.", _TOOLS)] = None,
+    die_layer: Annotated[str | None, option("Layer with its section; default: the whole drawing.", _TOOLS)] = None,
     thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 2.0,
     width: Annotated[float | None, option("Length of the bend; default: plane strain.", SHEET)] = None,
     material: Material = None,
@@ -127,6 +133,7 @@ def bend(
         die_radius=die_radius,
         punch_angle=punch_angle,
         punch_radius=punch_radius,
+        **drawn_tools(context, punch_dxf, punch_layer, die_dxf, die_layer),
         width=width,
         material=law,
         rolling=rolling,

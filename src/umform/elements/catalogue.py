@@ -193,9 +193,9 @@ def _check_thickness(name: str, cell: str, thickness: int, count: int, order: in
 
 _MITC9 = MITC9_MEMBRANE + MITC9_IN_PLANE_SHEAR + MITC9_SHEAR
 
-#: Points that resolve the permanent set of a mild bend (docs/theory, 2.10).
-_SPRINGBACK = (12, "graded")
-#: Thickness order for sharp bends, also with an elastic law.
+#: Points that find the permanent set of a mild bend (docs/theory, 2.10).
+_SPRINGBACK = (18, "graded")
+#: What sharp bends need, of an elastic law too.
 _BENDS: _Bends = {"order": 4, "tied": True}
 
 #: The catalogue: name -> factory.

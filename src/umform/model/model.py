@@ -42,10 +42,10 @@ class Model(Standing):
     bodies : sequence of Body, optional
         Several bodies instead of element and material; each cell belongs to one.
     thickness_points : int, optional
-        Points through the thickness, 2 to 20, at least thickness_order + 1. Default: 2 with an elastic law, 12 with a
+        Points through the thickness, 2 to 20, at least thickness_order + 1. Default: 2 with an elastic law, 18 with a
         plastic one; the elements without an enhanced thickness strain have 5.
     thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
-        Quadrature rule; default gauss, but graded if the default of 12 points applies.
+        Quadrature rule; default gauss, but graded if the default of 18 points applies.
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional
         Rolling direction of the sheet, or that of each cell, or a function of the coordinates x, y, z of the centres of
         the cells; :func:`umform.rolling_at` for an angle to a bend line. e_1 of the local axes is its projection onto

@@ -168,7 +168,7 @@ def continued(model: Model, before: Result, motion: RigidMotion | None = None) -
     before : Result
         Result of the stage before.
     motion : RigidMotion, optional
-        Rigid motion of the part before the stage, into other tools for instance.
+        Rigid motion of the part before the stage, into other tools for instance. eq. (5.91)
 
     Returns
     -------

@@ -55,16 +55,7 @@ def read_dxf(path: str | Path, layer: str | None, unit: str, curve_error: float)
             cause="another name of the unit",
             remedy="the unit of the model: unit='mm'",
         )
-    try:
-        drawing = ezdxf.readfile(str(path))
-    except (OSError, ezdxf.DXFError) as error:
-        missing = not path.exists()
-        raise FileProblem(
-            "there is no such file" if missing else "this is no DXF drawing that can be read",
-            where=str(path),
-            cause="another name or folder" if missing else " ".join(str(error).split()),
-            remedy="give the path of a DXF file" if missing else "save it as DXF (text or binary) again, not as DWG",
-        ) from error
+    drawing = _drawing(path)
     factor = ezdxf.units.conversion_factor(drawing.units, _UNITS[unit]) if drawing.units else 1.0
     chosen = [entity for entity in _flat(drawing.modelspace()) if _on(entity, layer)]
     if layer is not None and not chosen:
@@ -77,6 +68,34 @@ def read_dxf(path: str | Path, layer: str | None, unit: str, curve_error: float)
         )
     segments = [s for entity in chosen for s in _segments(entity, curve_error / factor, str(path))]
     return [_scaled(segment, factor) for segment in segments]
+
+
+def layers_and_unit(path: str | Path) -> tuple[list[str], str]:
+    """Layers of the model space of a drawing, and its unit: one of mm, cm, m, um, in, ft, "" if it does not say it.
+
+    Raises
+    ------
+    FileProblem
+        If the file cannot be read.
+    """
+    drawing = _drawing(Path(path))
+    units = {number: name for name, number in _UNITS.items()}
+    unit = units.get(drawing.units, f"number {drawing.units}") if drawing.units else ""
+    return sorted({str(entity.dxf.layer) for entity in drawing.modelspace()}), unit
+
+
+def _drawing(path: Path) -> Any:
+    ezdxf = _ezdxf()
+    try:
+        return ezdxf.readfile(str(path))
+    except Exception as error:  # ezdxf lets many kinds through on a broken file
+        missing = not path.exists()
+        raise FileProblem(
+            "there is no such file" if missing else "this is no DXF drawing that can be read",
+            where=str(path),
+            cause="another name or folder" if missing else " ".join(str(error).split()),
+            remedy="give the path of a DXF file" if missing else "save it as DXF (text or binary) again, not as DWG",
+        ) from error
 
 
 def _ezdxf() -> Any:

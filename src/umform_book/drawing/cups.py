@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from umform.errors import NoConvergence
 from umform.materials import Metal, Yld2004
 from umform.materials.j2 import Plastic
+from umform.mesh import Mesh
 from umform.processes.draw import Cup
 from umform.results.forming import EarProfile, ear_profile, forming_fields
 from umform.run import Result
@@ -62,6 +63,8 @@ class Made:
         Largest thinning in per cent.
     elements : int
         Of the quarter.
+    wall : tuple of float
+        Thickness of the wall: its mean, and that at the rim.
     """
 
     ears: EarProfile
@@ -69,17 +72,23 @@ class Made:
     force: float
     thinning: float
     elements: int
+    wall: tuple[float, float]
 
-    def row(self) -> tuple[int, float, float, float, float, float, float]:
+    def row(self) -> tuple[int | float, ...]:
         """What tables show of it."""
         low, high = float(self.ears.height.min()), float(self.ears.height.max())
-        return self.elements, self.ears.mean, low, high, fourth(self.ears)[0], self.force, self.thinning
+        return self.elements, self.ears.mean, low, high, fourth(self.ears)[0], self.force, self.thinning, *self.wall
 
 
 #: Stroke in mm at which the rim is still on the flat of the die.
 FLANGE = 20.0
 #: Columns of such a table.
-COLUMNS = ("", "elements", "mean height", "lowest", "highest", "fourth harmonic", "punch force, kN", "thinning, %")
+COLUMNS = (
+    *("", "elements", "mean height", "lowest", "highest", "fourth harmonic", "punch force, kN", "thinning, %"),
+    *("wall, mm", "its rim, mm"),
+)
+#: Height in mm above the bottom at which the wall begins, above the edge of the punch.
+WALL = 8.0
 
 
 def make(page: Page, label: str, case: Cup, increments: int | None = None) -> Made | None:
@@ -98,7 +107,25 @@ def make(page: Page, label: str, case: Cup, increments: int | None = None) -> Ma
         return None
     force = 4e-3 * float(np.abs(drawn["punch_fz"]).max())
     thinning = float(forming_fields(model.mesh, model.u)["thinning"].max())
-    return Made(ear_profile(model.mesh, model.u), _flange(drawn), force, thinning, len(model.mesh.connectivity))
+    ears, cells = ear_profile(model.mesh, model.u), len(model.mesh.connectivity)
+    return Made(ears, _flange(drawn), force, thinning, cells, _wall(model.mesh, model.u))
+
+
+def _wall(mesh: Mesh, u: Floats) -> tuple[float, float]:
+    """Mean thickness of the wall: its volume over its area; and that of the upper fifth of it."""
+    x = (mesh.points + u.reshape(-1, 3))[mesh.connectivity]
+    lower, upper = x[:, :4], x[:, 4:8]
+    middle = 0.5 * (lower + upper)
+    area = 0.5 * np.linalg.norm(np.cross(middle[:, 2] - middle[:, 0], middle[:, 3] - middle[:, 1]), axis=1)
+    volume = area * np.linalg.norm((upper - lower).mean(axis=1), axis=1)
+    height = middle[:, :, 2].mean(axis=1) - x[:, :, 2].min()
+    layers = len(mesh.connectivity) // len(mesh.faces["lower"])
+
+    def thickness(above: float) -> float:
+        there = height > above
+        return layers * float(volume[there].sum() / area[there].sum())
+
+    return thickness(WALL), thickness(height.max() - 0.2 * (height.max() - WALL))
 
 
 def _flange(drawn: Result) -> EarProfile:

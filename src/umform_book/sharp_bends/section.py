@@ -82,7 +82,7 @@ class BentSection(Bending):
         super().__init__(thickness=1.0)
         self.strain = strain
         self.law = steel(hardening).law()
-        t, w = _rule() if rule is None else rule
+        t, w = wide_rule() if rule is None else rule
         self.z, self.w = 0.5 * t, 0.5 * w
         self.P = strain.basis(t, w)
         #: Projection of the logarithm of the volume change: (points, points)
@@ -168,7 +168,7 @@ class BentSection(Bending):
         return S + pressure[:, None] / C, K
 
 
-def _rule() -> tuple[Floats, Floats]:
+def wide_rule() -> tuple[Floats, Floats]:
     """Gauss points in equal sections of [-1, 1]."""
     x, w = thickness_rule(15)
     middles = (2.0 * np.arange(_PARTS) + 1.0) / _PARTS - 1.0

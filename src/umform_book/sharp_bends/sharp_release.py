@@ -12,10 +12,12 @@ from umform_book.sharp_bends.arc_bending import ArcBending
 from umform_book.sharp_bends.bending import Bending
 from umform_book.sharp_bends.candidates import BEND8, BEND18, Candidate, stack
 from umform_book.sharp_bends.cantilever import HARDENING, THICKNESS, YIELD_CURVATURE, YIELD_MOMENT
+from umform_book.sharp_bends.fibre_positions import FibreSection
 from umform_book.sharp_bends.section import BentSection, ThicknessStrain
 
 #: Permanent curvature and springback that one layer may err by.
 _WITHIN = 0.03
+_CUBIC = "the same, fibres at a cubic in t"
 
 
 def to_one_thickness(page: Page) -> None:
@@ -24,9 +26,11 @@ def to_one_thickness(page: Page) -> None:
     strains = (0.05, 0.2, 0.5)
     exact = {strain: _released(_arc(stack("EAS3DEAS", 16, 2)), strain) for strain in strains}
     sheets: list[tuple[str, Callable[[], Bending]]] = [
-        (BEND8.label, lambda: _arc(BEND8)),
-        (BEND18.label, lambda: _arc(BEND18)),
+        (BEND8.label, lambda: _arc(_default(BEND8))),
+        (BEND18.label, lambda: _arc(_default(BEND18))),
         ("section of 60 points, E_33 free", lambda: BentSection(ThicknessStrain("", None), HARDENING)),
+        ("the same, fibres at a quadratic in t", lambda: FibreSection(2, HARDENING)),
+        (_CUBIC, lambda: FibreSection(3, HARDENING)),
         ("two layers of BEND8", lambda: _arc(replace(BEND8, layers=2))),
         ("four layers of EAS3DEAS, order 2", lambda: _arc(stack("EAS3DEAS", 4, 2))),
         ("eight layers", lambda: _arc(stack("EAS3DEAS", 8, 2))),
@@ -42,7 +46,7 @@ def to_one_thickness(page: Page) -> None:
                 page.check(f"{named}: permanent curvature", left, exact_left, _WITHIN)
                 if strain < 0.5:
                     page.check(f"{named}: springback of the curvature", springback, 1.0, 0.03)
-            elif label == "eight layers":
+            elif label in (_CUBIC, "eight layers"):
                 page.check(f"{named}: springback of the curvature", springback, 1.0, 0.01)
     columns = ("element", "moment", "permanent curvature", "springback")
     page.table("Error in %, against a stack of 16 elements", columns, rows)
@@ -50,9 +54,16 @@ def to_one_thickness(page: Page) -> None:
         "At R/h = 1 the springback of the curvature is 6 to 7 % too large in one layer. It is neither the points nor "
         "the order: a section of 60 points whose E_33 is free at each of them errs as much. The director of one layer "
         "is straight and stretches as one, whereas fibres outside thin and fibres inside thicken, which moves them "
-        "against each other. Springback is 1.5 % of the curvature, and the permanent curvature hardly feels it. Two "
+        "against each other: with fibres at places that are a cubic in t (a quadratic is too little) the section errs "
+        "by less than 1 %. Springback is 1.5 % of the curvature, and the permanent curvature hardly feels it. Two "
         "layers are no remedy, four err by 2 %, eight are converged."
     )
+
+
+def _default(candidate: Candidate) -> Candidate:
+    """The candidate with the points that its element takes with a plastic law."""
+    points, rule = candidate.variant.element.plastic_points
+    return replace(candidate, points=points, rule=rule)
 
 
 def _arc(candidate: Candidate) -> Bending:

@@ -116,6 +116,34 @@ void check_fading() {
     check_tangent(fading, {0.30, 0.10, 1.88}, held, true);
 }
 
+/// A level set (|x|^2 - R^2) / (2 R) in place of a distance: its slope scales the pressure that the bound is for.
+void check_level_set() {
+    const Coulomb rubbing = law();
+    const double R = 2.0;
+    const auto respond = [&](const Vec3& x, const double* state, double* trial) {
+        Vec3 n;
+        Mat3 H{};
+        for (int k = 0; k < 3; ++k) n[k] = x[k] / R, H(k, k) = 1.0 / R;
+        Reaction reaction{};
+        CHECK(rubbing.respond({(dot(x, x) - R * R) / (2.0 * R), x, n, H, Pose{}}, 1.0, state, trial, reaction));
+        reaction.tangential = reaction.traction(n);
+        return reaction;
+    };
+    double state[numbers]{}, held[numbers]{}, trial[numbers]{};
+    rubbing.leave({0.0, 0.0, 2.3}, state, state);
+    respond({0.04, 0.0, 1.9}, state, held);
+    for (const Vec3& x : {Vec3{0.05, 0.01, 1.7}, {0.30, 0.10, 1.7}}) {
+        const Reaction reaction = respond(x, held, trial);
+        CHECK(reaction.slipping == (x[0] > 0.2));
+        for (int j = 0; j < 3; ++j) {
+            Vec3 ahead = x, behind = x;
+            ahead[j] += 1e-6, behind[j] -= 1e-6;
+            const Vec3 t = respond(ahead, held, trial).tangential, s = respond(behind, held, trial).tangential;
+            for (int i = 0; i < 3; ++i) CHECK_NEAR(reaction.K[i][j], -(t[i] - s[i]) / 2e-6, 2e-7);
+        }
+    }
+}
+
 /// Whatever the direction of the slide, a state at the bound sticks at rest, and slips as soon as it slides on.
 void check_rest() {
     const Coulomb rubbing = law();
@@ -197,6 +225,7 @@ void check_laws() {
 int main() {
     check_states();
     check_fading();
+    check_level_set();
     check_rest();
     check_frame();
     check_transport();

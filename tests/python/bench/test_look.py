@@ -43,6 +43,14 @@ def test_angle_out_of_reach_is_refused_with_tools_that_do(angle):
     assert max(found["change"]["die_angle"], found["change"]["punch_angle"]) < angle
 
 
+@pytest.mark.parametrize("work", ["sequence", "hem", "bottom"])
+def test_other_work_is_looked_at_too(work):
+    tools = {"opening": 16.0, "die_angle": 30.0, "die_radius": 2.0, "punch_angle": 30.0, "punch_radius": 1.0}
+    form = {"flange": 24.0, "base": 60.0, "gap": 2.0, "travel": 0.0, "punch_angle": 88.0, "die_angle": 88.0}
+    found = look({"work": work, **form, **(tools if work == "hem" else {"angle": None})})
+    assert found["problems"] == [] and found["drawing"]["closed"]["punch"] == (work != "bottom")
+
+
 def test_angle_close_to_that_of_the_tools_is_a_warning():
     found = look({"angle": 87.0})
     assert found["problems"] == [] and [row["kind"] for row in found["warnings"]] == ["close"]
@@ -60,6 +68,14 @@ def test_angle_close_to_that_of_the_tools_is_a_warning():
         ({"stroke": 2.0}, "goal", "goal"),
         ({"angle": None}, "goal", "goal"),
         ({"tensile_strength": 300.0}, "goal", "coil"),
+        ({"work": "bottom"}, "goal", "bottom_goal"),
+        ({"work": "sequence", "bends": []}, "bends", "too_short"),
+        ({"work": "sequence", "bends": [{"position": 40.0, "angle": 5.0}]}, "bends", "greater_than_equal"),
+        ({"work": "sequence", "bends": [{"position": 40.0, "x": 5.0}]}, "bends", "extra_forbidden"),
+        ({"work": "sequence", "strip_length": 60.0, "bends": [{"position": 3.0}]}, "bend 1 at 3", "refused"),
+        ({"work": "hem", "first_angle": 40.0}, "angle", "refused"),
+        ({"work": "bottom", "travel": 0.0, "punch_angle": 88.0}, "punch_angle", "refused"),
+        ({"work": "bottom", "travel": 3.0}, "stroke", "refused"),
         ({"mesh": "../../etc"}, "mesh", "literal_error"),
         ({"__class__": 1}, "__class__", "extra_forbidden"),
         ({"opening": 1.0}, "opening", "refused"),

@@ -1,72 +1,19 @@
 """The page in Chromium: bend, stop, resume, compare, table, deck, phone, two tabs, keyboard, both languages."""
 
-import json
-import re
+import contextlib
 import shutil
-import subprocess
 import threading
 import time
-from importlib.resources import files
-from pathlib import Path
 
 import pytest
 import uvicorn
 
-import umform
 from umform.bench.jobs import Queue
 from umform.bench.server import application, listening
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 READY = "html[data-ready=yes]"
-PAGE = Path(str(files("umform.bench").joinpath("page")))
-
-
-@pytest.mark.skipif(shutil.which("node") is None, reason="no Node to parse JavaScript")
-def test_modules_can_be_parsed():
-    parse = "const vm = require('vm'), fs = require('fs');"
-    parse += "for (const file of process.argv.slice(1)) new vm.SourceTextModule(fs.readFileSync(file, 'utf8'));"
-    modules = [str(path) for path in PAGE.iterdir() if path.name.endswith(".js")]
-    assert len(modules) > 8
-    subprocess.run(
-        ["node", "--experimental-vm-modules", "--no-warnings", "-e", parse, *modules], check=True, timeout=60
-    )
-
-
-@pytest.mark.skipif(shutil.which("tsc") is None, reason="no TypeScript to check the types of JSDoc")
-def test_types_of_the_modules_fit():
-    subprocess.run(["tsc", "-p", str(PAGE / "jsconfig.json")], check=True, timeout=120)
-
-
-def test_both_languages_have_all_texts():
-    english, german = (json.loads(PAGE.joinpath(f"{name}.json").read_text(encoding="utf-8")) for name in ("en", "de"))
-    assert english.keys() <= german.keys()
-    assert all(key.startswith("refused.") for key in german.keys() - english.keys())
-    for key, text in english.items():
-        if not key.startswith("refused."):
-            assert set(re.findall(r"\{(\w+)\}", text)) == set(re.findall(r"\{(\w+)\}", german[key])), key
-
-
-def test_texts_that_the_page_asks_for_are_there():
-    english = json.loads(PAGE.joinpath("en.json").read_text(encoding="utf-8"))
-    sources = [path.read_text(encoding="utf-8") for path in PAGE.iterdir() if path.name.endswith((".js", ".html"))]
-    asked = {key for text in sources for key in re.findall(r"""(?:\bt\(|data-t(?:-label)?=)["']([\w.]+)["']""", text)}
-    assert len(asked) > 40 and asked <= english.keys()
-
-
-def test_translated_messages_are_those_of_the_code():
-    source = Path(umform.__file__).parent
-    rooms = [*source.glob("processes/**/*.py"), *source.glob("sheet_metals/*.py")]
-    code = "".join(path.read_text(encoding="utf-8") for path in rooms)
-    for name in ("en", "de"):
-        for key in json.loads((PAGE / f"{name}.json").read_text(encoding="utf-8")):
-            assert not key.startswith("refused.") or key.removeprefix("refused.") in code, key
-
-
-def test_page_names_no_other_server():
-    for path in PAGE.iterdir():
-        text = path.read_text(encoding="utf-8")
-        assert not re.findall(r"https?://(?!www\.w3\.org/)", text), path.name
 
 
 @pytest.fixture(scope="module")
@@ -223,4 +170,131 @@ def test_phone_dark_german_and_keyboard(browser, link):
         .map((one) => one.outerHTML)""")
     assert unnamed == []
     assert visit.complaints == []
+    visit.context.close()
+
+
+def test_table_orders_a_bend_for_each_pair(visit):
+    page = visit.page
+    quick(page, 1)
+    page.fill("#f-angle", "150")
+    page.click("#table")
+    page.fill("#table-angles", "160 165")
+    page.fill("#table-openings", "16")
+    page.click("#table-go")
+    page.wait_for_selector("#table-dialog", state="hidden")
+    page.wait_for_selector("#jobs .dot.waiting, #jobs .dot.running")
+    page.wait_for_function("() => !document.querySelector('#jobs .dot.running, #jobs .dot.waiting')")
+    page.click("nav [data-view=compare]")
+    rows = page.locator("#compare figure tbody tr")
+    rows.nth(1).wait_for()
+    assert [row.split("°")[0] for row in rows.all_inner_texts()] == ["160", "165"]
+    assert "/" in rows.first.inner_text()
+
+
+def test_shape_follows_the_run_in_its_frame(visit):
+    page = visit.page
+    page.fill("#f-angle", "140")
+    page.click("#run")
+    frame = page.locator("iframe")
+    frame.wait_for(state="attached")
+    frame.evaluate("(one) => { one.dataset.first = 'yes'; }")
+    page.wait_for_selector("[data-measure=stroke]")
+    assert frame.get_attribute("data-first") == "yes"  # it was not loaded again
+    time_of = page.frame_locator("iframe").locator("#shape-time")
+    job = page.evaluate("location.hash.split('/')[1]")
+    asked = "(job) => fetch(`/api/jobs/${job}`).then((answer) => answer.json()).then((one) => one.live.increments)"
+    increments = page.evaluate(asked, job)
+    time_of.filter(has_text=f"increment {increments} ").wait_for(state="attached")
+
+
+def test_job_goes_on_when_the_browser_is_killed(visit, browser, link):
+    other = browser.browser_type.launch(executable_path=BROWSER, args=SOFTWARE_GL)
+    doomed = Visit(other, link).page
+    doomed.fill("#f-angle", "150")
+    doomed.click("#run")
+    doomed.wait_for_selector("#do-stop")
+    name = doomed.evaluate("location.hash.split('/')[1]")
+    with contextlib.suppress(Exception):
+        other.new_browser_cdp_session().send("Browser.crash")
+    page = visit.page
+    page.wait_for_selector(f"#job-o-{name} .dot.done")
+    page.click(f"#job-o-{name}")
+    page.wait_for_selector("[data-measure=stroke]")
+    page.reload()
+    page.wait_for_selector("[data-measure=stroke]")
+
+
+def test_die_from_a_drawing_is_read_drawn_and_kept(visit, tmp_path):
+    ezdxf = pytest.importorskip("ezdxf")
+    document = ezdxf.new(units=ezdxf.units.MM)
+    section = document.modelspace()
+    flank = 1.0 / 2**0.5
+    for side in (1, -1):  # a V of 90 degrees and 20 mm with shoulders of 2 mm
+        edge, turn = 10 + 2 * (2**0.5 - 1), 2 * flank
+        section.add_line((30 * side, 0), (edge * side, 0))
+        section.add_arc((edge * side, -2), 2, *((90, 135) if side > 0 else (45, 90)))
+        section.add_line(((edge - turn) * side, turn - 2), (0, -10))
+        section.add_line((30 * side, 0), (30 * side, -30))
+    section.add_line((30, -30), (-30, -30))
+    document.saveas(tmp_path / "V20.dxf")
+    (tmp_path / "broken.dxf").write_text("0\nSECTION\n")
+    page = visit.page
+    page.locator("#fields details").first.locator("summary").click()
+    page.click("#tool-ask")
+    page.select_option("#tool-kind", "die")
+    page.set_input_files("#tool-file", tmp_path / "broken.dxf")
+    page.click("#tool-send")
+    page.wait_for_selector("#tool-said.bad")
+    page.set_input_files("#tool-file", tmp_path / "V20.dxf")
+    page.fill("#tool-name", "mine")
+    page.click("#tool-send")
+    page.wait_for_selector("#tool-said.good")
+    assert "20" in page.inner_text("#tool-said")
+    page.click("#tool-close")
+    page.wait_for_selector("#f-opening:disabled")
+    assert float(page.input_value("#f-opening")) == pytest.approx(20.0, abs=1e-3)
+    assert float(page.input_value("#f-die_angle")) == pytest.approx(90.0, abs=1e-3)
+    page.wait_for_selector("#f-angle[aria-invalid=true]")  # 90 degrees are out of reach of a die of 90 degrees
+    page.select_option("#language", "de")
+    page.locator("#n-angle", has_text="nicht erreichbar").wait_for()
+    page.click("#n-angle button")  # tools that would do
+    page.wait_for_selector("#run:enabled")
+    assert page.input_value("#f-die") == "" and page.locator("#f-opening").is_enabled()
+    visit.complaints.clear()  # a refused file is an answer with an error, which the browser writes down
+
+
+def test_kinds_of_work_have_their_own_fields(visit):
+    page = visit.page
+    page.select_option("#f-work", "bottom")
+    assert page.locator("#f-travel").is_visible() and page.locator("#f-angle").count() == 0
+    page.wait_for_selector("#run:enabled")
+    page.select_option("#f-work", "sequence")
+    page.click("#bends-add")
+    page.wait_for_selector("#f-bends .note:not(:empty)")  # no room for a third bend on 80 mm
+    page.fill("#f-strip_length", "110")
+    page.wait_for_selector("#run:enabled")
+    page.wait_for_function("() => document.querySelectorAll('#drawing .mark').length === 3")
+    page.fill("#b-1-angle", "5")
+    page.locator("#n-bends", has_text="Bend 2").wait_for()
+    assert page.locator("#run").is_disabled()
+    page.click("#b-1-remove")
+    page.wait_for_selector("#run:enabled")
+    page.select_option("#f-work", "hem")
+    page.wait_for_selector("#f-gap")
+    page.wait_for_selector("#run:enabled")
+    assert page.locator("#table").is_hidden()
+
+
+@pytest.mark.parametrize("view", ["bend", "compare", "deck"])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_serious(browser, link, view, scheme):
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="no axe").Axe()
+    visit = Visit(browser, link, color_scheme=scheme)
+    if view == "bend":
+        visit.page.select_option("#f-work", "sequence")
+        for group in visit.page.locator("#fields details summary").all():
+            group.click()
+    visit.page.goto(link.split("?")[0] + f"#{view}")
+    found = axe.run(visit.page).response["violations"]
+    assert [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in ("serious", "critical")] == []
     visit.context.close()

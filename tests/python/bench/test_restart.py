@@ -188,7 +188,7 @@ def test_deck_that_is_stopped_and_handed_on_ends_with_the_same_bits(tmp_path):
 
 def test_process_that_dies_without_a_word_is_started_again_but_not_for_ever(tmp_path):
     queue = Queue(tmp_path)
-    queue.command = [sys.executable, "-S", "-c", "import sys; sys.stdin.readline(); sys.exit(9)"]
+    queue.ready.command = [sys.executable, "-S", "-c", "import sys; sys.stdin.readline(); sys.exit(9)"]
     queue.start()
     name = queue.add("deck", "strip", {}, deck=DECK)
     wait(lambda: queue.index.job(name).state not in UNFINISHED)
@@ -213,7 +213,7 @@ time.sleep(600)
 def test_job_that_does_not_stop_is_killed_with_its_children(tmp_path, monkeypatch):
     monkeypatch.setattr(jobs, "_GENTLE", 0.2)
     queue = Queue(tmp_path)
-    queue.command = [sys.executable, "-S", "-c", _DEAF]
+    queue.ready.command = [sys.executable, "-S", "-c", _DEAF]
     queue.start()
     name = queue.add("deck", "strip", {}, deck=DECK)
     wait((queue.place(name) / "pids").is_file)
@@ -236,7 +236,7 @@ def _runs(pid):
 def test_job_that_was_stopped_while_the_server_ends_is_not_taken_up(tmp_path, monkeypatch):
     monkeypatch.setattr(jobs, "_GENTLE", 0.2)
     queue = Queue(tmp_path)
-    queue.command = [sys.executable, "-S", "-c", _DEAF]
+    queue.ready.command = [sys.executable, "-S", "-c", _DEAF]
     queue.start()
     name = queue.add("deck", "strip", {}, deck=DECK)
     wait((queue.place(name) / "pids").is_file)
@@ -255,9 +255,9 @@ def test_more_running_jobs_than_are_allowed_start_no_others(tmp_path):
     queue._running = dict.fromkeys(names[:3])  # of a server before this one, which ran three at a time
     for name in names[:3]:
         queue.index.change(name, "running")
-    queue.command = [sys.executable, "-S", "-c", "import sys; sys.stdin.readline()"]
+    queue.ready.command = [sys.executable, "-S", "-c", "import sys; sys.stdin.readline()"]
     queue._begin()
     assert [queue.index.job(name).state for name in names[3:]] == ["waiting"] * 3
     queue._running.clear()
-    queue._let_go()
+    queue.ready.let_go()
     queue.index.close()

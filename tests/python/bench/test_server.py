@@ -13,6 +13,9 @@ from umform.bench.wanted import Wanted
 from umform.deck.templates import template
 from umform.processes.air_bending import air_bending, find_stroke
 from umform.processes.air_bending.files import FILES, record
+from umform.processes.bend_sequence import bend_sequence
+from umform.processes.bend_sequence.files import FILES as PART_FILES
+from umform.processes.hemming import hemming
 
 JSON = {"content-type": "application/json"}
 HARMFUL = ["/etc/passwd", "../bench.sqlite", "..%2f..%2ftoken", "job.json", "deck.toml", "%00", "live.json", "a" * 5000]
@@ -37,6 +40,40 @@ def test_numbers_are_those_of_the_library_to_the_last_bit(bench, done):
     expected = json.loads(json.dumps(record(air_bending(wanted.case(), progress=False))))
     for name in ("measures", "shop_forces", "parameters", "increments", "force_balance"):
         assert done["summary"][name] == expected[name], name
+
+
+def test_bottoming_is_that_of_the_library(bench):
+    form = {"work": "bottom", "angle": None, "travel": 0.0, "mesh": "quick", "die_angle": 88.0, "punch_angle": 88.0}
+    wanted = Wanted.model_validate(form)
+    job = bench.ended(bench.order(**form, stroke=None))
+    assert job["state"] == "done", job["reason"]
+    assert job["summary"]["measures"]["angle"] == air_bending(wanted.case(), progress=False).measures.angle
+    assert wanted.case().bottoming and not any("flank" in text for text in job["summary"]["warnings"])
+
+
+def test_part_of_a_bend_is_that_of_the_library(bench):
+    form = {"work": "sequence", "mesh": "quick", "strip_length": 40.0}
+    form["bends"] = [{"position": 18.0, "angle": 165.0, "over": True}]
+    wanted = Wanted.model_validate(form)
+    name = bench.order(**form, stroke=None)
+    part = bend_sequence(wanted.sequence(wanted.case()), progress=False)
+    job = bench.ended(name)
+    assert job["state"] == "done", job["reason"]
+    [bend] = job["summary"]["bends"]
+    assert bend["stroke"] == part.bends[0].measures.stroke and bend["over"]
+    assert job["summary"]["flanges"] == part.flanges and len(job["summary"]["profile"]) > 20
+    assert set(job["files"]) == set(PART_FILES)
+    assert job["live"]["operation"] == job["live"]["operations"] == 1 and len(job["live"]["outline"]) > 20
+
+
+@pytest.mark.long
+def test_hem_is_that_of_the_library(bench):
+    tools = {"opening": 8.0, "die_angle": 30.0, "die_radius": 1.0, "punch_angle": 30.0, "punch_radius": 0.5}
+    form = {"work": "hem", "mesh": "quick", "thickness": 1.0, **tools}
+    wanted = Wanted.model_validate(form)
+    job = bench.ended(bench.order(**form, stroke=None), 300)
+    assert job["state"] == "done", job["reason"]
+    assert job["summary"]["hem"]["height"] == hemming(wanted.hem(wanted.case()), progress=False).measures.height
 
 
 def test_files_of_a_bend_can_be_taken(bench, done):
@@ -198,8 +235,9 @@ def test_body_that_is_too_long_is_refused(bench):
 
 
 def test_text_of_a_title_is_no_formula(bench, done):
-    bench.queue.index.add("feedfeedfeed", "bend", "=1+1", "", {"material": "@x"})
-    bench.queue.index.change("feedfeedfeed", "stopped", summary={"measures": {}})
+    with bench.queue._lock:  # lest it is started in between
+        bench.queue.index.add("feedfeedfeed", "bend", "=1+1", "", {"material": "@x"})
+        bench.queue.index.change("feedfeedfeed", "stopped", summary={"measures": {}})
     text = bench.client.get("/api/jobs.csv?ids=feedfeedfeed").text
     assert "'=1+1" in text and "'@x" in text
     bench.queue.index.remove("feedfeedfeed")

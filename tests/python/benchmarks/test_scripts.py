@@ -143,6 +143,13 @@ def test_dome(run, tmp_path):
     assert [line for line in lines if line.startswith("| 9 ")]  # the file is enough for the table
 
 
+def test_s_rail(run):
+    name = "45 degrees, 14 along"
+    lines, numbers = run("s_rail", "--stroke", "0.1", "--only", name, benchmark="s_rail")
+    assert [float(word) for word in lines[2].split("|")[2:4]] == [448, 0.1]
+    assert numbers[f"{name}: force"] == pytest.approx(float(lines[2].split("|")[4]), abs=0.006)
+
+
 def test_exponents_of_the_dome_are_slopes_of_the_large_sizes(script):
     rows = [{"elements": n, "s per iteration": 3.0 * n**1.25, "peak GB": 7.0 * n} for n in (10_000, 40_000, 160_000)]
     rows.insert(0, {"elements": 1000, "s per iteration": 1e9, "peak GB": 1e9})

@@ -27,6 +27,8 @@ from umform.cli import app
         (["--stroke", "6", "--contact-points", "²"], "or auto"),
         (["--stroke", "9"], "beyond air bending"),
         (["--angle", "80"], "cannot be reached"),
+        (["--stroke", "2", "--die-dxf", "no.dxf", "--opening", "20"], "follows from the drawing"),
+        (["--stroke", "2", "--punch-layer", "A"], "a layer without its drawing"),
     ],
 )
 def test_the_command_refuses(typed, message, tmp_path):

@@ -1,4 +1,4 @@
-// Tree of boxes around items in space, four to a node: finds the items that may be nearest to a point, near ones first.
+// Tree of boxes around items in space, eight to a node: finds the items that may be nearest to a point, near ones first.
 #pragma once
 
 #include <algorithm>
@@ -36,12 +36,13 @@ struct Box {
 /// Brings what a search reads soon from memory: it would wait for each of these otherwise.
 template <class T>
 void prefetch(const T& thing) {
-    for (std::size_t line = 0; line < sizeof(T); line += 64) __builtin_prefetch(reinterpret_cast<const char*>(&thing) + line);
+    for (std::size_t line = 0; line < sizeof(T); line += 64)
+        __builtin_prefetch(reinterpret_cast<const char*>(&thing) + line);
 }
 
 class BoxTree {
   public:
-    /// Divides the items in quarters by medians of their centres along the longest sides, until each box has one item.
+    /// Divides the items by medians of their centres along the longest sides, until each box has one item.
     explicit BoxTree(const std::vector<Box>& boxes) : order_(boxes.size()) {
         std::iota(order_.begin(), order_.end(), 0);
         nodes_.reserve(boxes.size());
@@ -51,11 +52,11 @@ class BoxTree {
     /// The items in the order of the leaves.
     const std::vector<int>& order() const { return order_; }
 
-    /// Calls visit(place in the order) for each thing whose box is no farther than the square of a distance, which visit
-    /// returns and which may only fall; ahead(place in the order) for each that may be visited soon.
+    /// Calls visit(place in the order) for each item whose box is no farther than the square of a distance, which visit
+    /// returns and which may only fall; ahead(place in the order) for each item that may be visited soon.
     template <class Visit, class Ahead>
     void near_first(const Vec3& x, double square, const Visit& visit, const Ahead& ahead) const {
-        std::array<Waiting, 3 * deepest + 1> stack;
+        std::array<Waiting, (width - 1) * deepest + 1> stack;
         int waiting = 0;
         stack[waiting++] = {0, 0.0};
         while (waiting > 0) {
@@ -66,12 +67,11 @@ class BoxTree {
                 continue;
             }
             const Node& node = nodes_[next.child];
-            const Lanes squares = node.squares_to(x);
-            const LaneMask beyond = squares > Lanes(square);
+            const Squares squares = node.squares_to(x);
             const int first = waiting;
             for (int i = 0; i < node.count; ++i) {
-                if (beyond[i]) continue;
                 const double own = squares[i];
+                if (own > square) continue;
                 int at = waiting++;  // the nearest one on top
                 for (; at > first && stack[at - 1].square < own; --at) stack[at] = stack[at - 1];
                 stack[at] = {node.child[i], own};
@@ -84,7 +84,7 @@ class BoxTree {
     }
 
   private:
-    static constexpr int width = lane_count, deepest = 32;  // enough for 4^31 items
+    static constexpr int registers = 2, width = registers * lane_count, deepest = 11;  // enough for 8^10 items
 
     /// A node, or an item by the complement of its place; the square of the distance of its box.
     struct Waiting {
@@ -97,21 +97,27 @@ class BoxTree {
         int count() const { return last - first; }
     };
 
-    /// The boxes of up to four children, one in each lane.
+    using Squares = std::array<double, width>;
+
+    /// The boxes of its children, one in each lane of some registers.
     struct Node {
-        std::array<Lanes, 3> low, high;
+        std::array<std::array<Lanes, registers>, 3> low, high;
         std::array<int, width> child;
         int count;
 
-        Lanes squares_to(const Vec3& x) const {
-            Lanes squares = 0.0;
-            for (int k = 0; k < 3; ++k) {
-                const Lanes below = low[k] - Lanes(x[k]), above = Lanes(x[k]) - high[k];
-                const Lanes farther = select(below < above, above, below);
-                const Lanes d = select(farther < Lanes(0.0), Lanes(0.0), farther);
-                squares += d * d;
+        Squares squares_to(const Vec3& x) const {
+            Squares all;
+            for (int r = 0; r < registers; ++r) {
+                Lanes squares = 0.0;
+                for (int k = 0; k < 3; ++k) {
+                    const Lanes below = low[k][r] - Lanes(x[k]), above = Lanes(x[k]) - high[k][r];
+                    const Lanes farther = select(below < above, above, below);
+                    const Lanes d = select(farther < Lanes(0.0), Lanes(0.0), farther);
+                    squares += d * d;
+                }
+                for (int i = 0; i < lane_count; ++i) all[r * lane_count + i] = squares[i];
             }
-            return squares;
+            return all;
         }
     };
 
@@ -135,8 +141,10 @@ class BoxTree {
             Box around = Box::empty();
             for (int j = parts[i].first; j < parts[i].last; ++j)
                 around.take_in(boxes[order_[j]].low), around.take_in(boxes[order_[j]].high);
-            for (int k = 0; k < 3; ++k)
-                nodes_[at].low[k].set(i, around.low[k]), nodes_[at].high[k].set(i, around.high[k]);
+            for (int k = 0; k < 3; ++k) {
+                nodes_[at].low[k][i / lane_count].set(i % lane_count, around.low[k]);
+                nodes_[at].high[k][i / lane_count].set(i % lane_count, around.high[k]);
+            }
             const int child = parts[i].count() == 1 ? ~parts[i].first : split(boxes, parts[i]);
             nodes_[at].child[i] = child;
         }

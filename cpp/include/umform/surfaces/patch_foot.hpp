@@ -26,6 +26,10 @@ class FootSearch {
             const Step step = admissible_step();
             const double size = std::abs(step.u) + std::abs(step.v);
             if (size == 0.0) break;
+            if (size < smallest_step && stays(step)) {
+                move_by(step);
+                break;
+            }
             const bool last = size < last_step;
             if (!descend(step, last) || last) break;
         }
@@ -37,12 +41,32 @@ class FootSearch {
     static constexpr int most_iterations = 40;
     /// Quadratic convergence: what is left after a step of this size is round-off, patches being nearly flat.
     static constexpr double last_step = 1e-6;
+    /// Square and cube of such a step are round-off.
+    static constexpr double smallest_step = 1e-8;
 
     void move_to(const PatchParameter& p) {
         foot_.p = p;
         foot_.at = patch_.at(p);
         d_ = difference(x_, foot_.at.S);
         foot_.square = dot(d_, d_);
+    }
+
+    /// A small step, by Taylor's series.
+    void move_by(const Step& step) {
+        PatchPoint& at = foot_.at;
+        for (int k = 0; k < 3; ++k) {
+            at.S[k] += step.u * at.Su[k] + step.v * at.Sv[k];
+            at.Su[k] += step.u * at.Suu[k] + step.v * at.Suv[k];
+            at.Sv[k] += step.u * at.Suv[k] + step.v * at.Svv[k];
+        }
+        foot_.p.u += step.u, foot_.p.v += step.v;
+        d_ = difference(x_, at.S);
+        foot_.square = dot(d_, d_);
+    }
+    /// Whether a step ends inside of the triangle, off its border.
+    bool stays(const Step& step) const {
+        const double u = foot_.p.u + step.u, v = foot_.p.v + step.v;
+        return foot_.p.u > 0.0 && foot_.p.v > 0.0 && u > 0.0 && v > 0.0 && u + v < 1.0;
     }
 
     /// Slope and matrix of half the square of the distance; without the second derivatives where it is not convex.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstring>
 
 #include "umform/algebra/lanes.hpp"
 #include "umform/algebra/tensor.hpp"
@@ -28,15 +29,15 @@ struct QuarticPatch {
 
     /// Two steps of de Casteljau's algorithm leave the six points that second derivatives need. The coordinates are lanes.
     PatchPoint at(const PatchParameter& p) const {
-        static_assert(lane_count >= 3);
+        static_assert(lane_count == 4 && sizeof(control) == 45 * sizeof(double));
         const Lanes r = 1.0 - p.u - p.v, u = p.u, v = p.v;
         std::array<Lanes, 15> quartic;
         std::array<Lanes, 10> cubic;
         std::array<Lanes, 6> q;
-        for (std::size_t i = 0; i < control.size(); ++i) {
-            quartic[i] = 0.0;
-            for (int k = 0; k < 3; ++k) quartic[i].set(k, control[i][k]);
-        }
+        const char* numbers = reinterpret_cast<const char*>(&control);
+        for (int i = 0; i < 14; ++i)  // the fourth lane is that of nobody
+            std::memcpy(&quartic[i], numbers + i * sizeof(Vec3), sizeof(Lanes));
+        quartic[14] = Lanes::Vector{control[14][0], control[14][1], control[14][2], 0.0};
         reduce<4>(quartic.data(), r, u, v, cubic.data());
         reduce<3>(cubic.data(), r, u, v, q.data());
         const Lanes A = r * q[0] + u * q[1] + v * q[3];

@@ -3,6 +3,7 @@
 
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
+import { message } from "./messages.js";
 import { problemText, t } from "./texts.js";
 
 export class Deck {
@@ -63,7 +64,7 @@ export class Deck {
       const { findings } = await post("/api/decks/check", { text });
       if (text !== this.text.value) return; // the deck has changed meanwhile
       element("deck-found").replaceChildren(...findings.map((/** @type {any} */ one) => make("li", { class: one.level },
-        make("b", {}, one.about), ` ${one.text}`, one.remedy ? make("em", {}, ` → ${one.remedy}`) : null)));
+        make("b", {}, one.about), ` ${message(one.text)}`, one.remedy ? make("em", {}, ` → ${message(one.remedy)}`) : null)));
     } catch (problem) {
       this.fail(problem);
     }

@@ -2,12 +2,13 @@
 // Tools and sheet in true proportion: before a run bent by geometry alone, in a run as it was computed.
 
 import { draw } from "./dom.js";
+import { drawPart, partByGeometry } from "./part.js";
 import { number } from "./texts.js";
 
 /** @typedef {[number, number]} Point */
 /**
  * @typedef {{die: Point[], punch: Point[], half_length: number, largest_stroke: number, thickness: number,
- *   shoulder: number, radii: number}} Outlines
+ *   shoulder: number, radii: number, depth: number, opening: number, punch_radius: number, closed: {die: boolean, punch: boolean}}} Outlines
  */
 
 export class Drawing {
@@ -16,9 +17,9 @@ export class Drawing {
     this.svg = svg;
     /** @type {Outlines | null} */
     this.outlines = null;
-    /** @type {{opening: number, punch_radius: number, angle: number | null, stroke: number | null}} */
-    this.values = { opening: 16, punch_radius: 1.5, angle: 90, stroke: null };
-    /** @type {{section: Point[][], stroke: number, angle: number} | null} */
+    /** @type {any} */
+    this.values = { work: "bend", opening: 16, punch_radius: 1.5, angle: 90, stroke: null };
+    /** A section, an outline in the tools, or the profile of a part. @type {any} */
     this.computed = null;
     new ResizeObserver(() => this.show()).observe(svg);
   }
@@ -30,7 +31,7 @@ export class Drawing {
     this.show();
   }
 
-  /** @param {{section: Point[][], stroke: number, angle: number} | null} computed */
+  /** @param {any} computed */
   setComputed(computed) {
     this.computed = computed;
     this.show();
@@ -40,11 +41,22 @@ export class Drawing {
     const { outlines } = this;
     const { clientWidth: width, clientHeight: height } = this.svg;
     if (!outlines || !width) return;
-    const bent = this.computed ? fromSection(this.computed) : byGeometry(outlines, this.values);
-    const deep = Math.max(-Math.min(...outlines.die.map(([, z]) => z)), outlines.largest_stroke);
-    const half = 1.1 * outlines.half_length;
-    const top = Math.max(0.95 * outlines.half_length, 3 * outlines.thickness);
-    const bottom = 1.18 * deep + outlines.thickness;
+    const { computed } = this;
+    if (computed?.profile || computed?.flattening) {
+      drawPart(this.svg, computed.profile ?? computed.outline, "sheet computed");
+      return;
+    }
+    if (!computed && this.values.work === "sequence") {
+      const part = partByGeometry(this.values, outlines.opening);
+      drawPart(this.svg, part.outline, "sheet", part.bends);
+      return;
+    }
+    const bent = computed?.outline ? computed : computed ? fromSection(computed) : byGeometry(outlines, { ...this.values, punch_radius: outlines.punch_radius });
+    const deep = Math.max(outlines.depth, outlines.largest_stroke);
+    const extent = (/** @type {(point: Point) => number} */ of) => 1.08 * (computed?.outline ?? []).reduce((/** @type {number} */ most, /** @type {Point} */ point) => Math.max(most, of(point)), 0);
+    const half = Math.max(1.1 * outlines.half_length, extent(([x]) => Math.abs(x)));
+    const top = Math.max(0.95 * outlines.half_length, 3 * outlines.thickness, extent(([, z]) => z));
+    const bottom = Math.max(1.18 * deep + outlines.thickness, extent(([, z]) => -z));
     const scale = Math.min(width / (2 * half), height / (top + bottom));
     const place = (/** @type {Point} */ [x, z]) =>
       /** @type {Point} */ ([width / 2 + x * scale, (height - (top + bottom) * scale) / 2 + (top - z) * scale]);
@@ -52,12 +64,13 @@ export class Drawing {
     /** @type {Point[]} */
     const die = [...outlines.die];
     const [first, last] = [die[0], die[die.length - 1]];
-    const body = [[far * Math.sign(first[0]), 0], ...die.slice(1, -1), [far * Math.sign(last[0]), 0],
+    const body = outlines.closed.die ? die : [[far * Math.sign(first[0]), 0], ...die.slice(1, -1), [far * Math.sign(last[0]), 0],
       [far * Math.sign(last[0]), -far], [far * Math.sign(first[0]), -far]];
     const punch = outlines.punch.map(([x, z]) => /** @type {Point} */ ([x, z - bent.stroke]));
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.svg.replaceChildren(
-      shape(body, place, "tool"), shape(lengthened(punch, far), place, "tool"), shape(flat(outlines), place, "before"),
+      shape(body, place, "tool"), shape(outlines.closed.punch ? punch : lengthened(punch, far), place, "tool"),
+      ...(computed?.outline ? [] : [shape(flat(outlines), place, "before")]),
       shape(bent.outline, place, this.computed ? "sheet computed" : "sheet"), ...this.labels(place, bent, width, height),
     );
   }
@@ -67,14 +80,15 @@ export class Drawing {
    * @param {number} width @param {number} height
    */
   labels(place, bent, width, height) {
-    const half = this.values.opening / 2;
+    const opening = this.outlines?.opening ?? this.values.opening;
+    const half = opening / 2;
     const [[left], [right]] = [place([-half, 0]), place([half, 0])];
     const low = height - 14;
     const [ax, az] = place([0, (this.outlines?.thickness ?? 0) - bent.stroke]);
     return [
       line(left, place([0, 0])[1], left, low - 4), line(right, place([0, 0])[1], right, low - 4),
       draw("path", { d: `M${left} ${low - 8}H${right}`, class: "arrow" }),
-      label((left + right) / 2, low + 6, `V ${number(this.values.opening)}`),
+      label((left + right) / 2, low + 6, `V ${number(opening, opening % 1 ? 2 : 0)}`),
       Number.isFinite(bent.angle) ? label(ax, Math.max(az - 28, 22), `${number(bent.angle, this.computed ? 1 : undefined)}°`, "angle") : draw("g"),
     ];
   }

@@ -2,20 +2,34 @@
 // The form: what is to be bent, with which tools; each change is looked at by the server at once.
 
 import { post } from "./api.js";
+import { Bends } from "./bends.js";
 import { element, make } from "./dom.js";
 import { number, problemText, t } from "./texts.js";
+import { MEASURED, Tools } from "./tools.js";
 
-/** @typedef {{name: string, unit?: string, step?: number, kind?: "number" | "select" | "check", list?: string}} Field */
-/** @type {Record<string, Field[]>} */
+/** @typedef {{name: string, unit?: string, step?: number, kind?: "number" | "select" | "check" | "bends", list?: string, of?: string[]}} Field */
+/** Fields by group; `of`: the kinds of work that have it. @type {Record<string, Field[]>} */
 const GROUPS = {
   "": [
+    { name: "work", kind: "select" },
     { name: "material", kind: "select" },
     { name: "thickness", unit: "mm", step: 0.1 },
     { name: "opening", unit: "mm", step: 1, list: "openings" },
-    { name: "angle", unit: "°", step: 1 },
+    { name: "angle", unit: "°", step: 1, of: ["bend"] },
+    { name: "press_force", unit: "kN/m", step: 10, of: ["bottom"] },
+    { name: "travel", unit: "mm", step: 0.05, of: ["bottom"] },
+    { name: "strip_length", unit: "mm", step: 1, of: ["sequence"] },
+    { name: "bends", kind: "bends", of: ["sequence"] },
+    { name: "gap", unit: "mm", step: 0.1, of: ["hem"] },
+    { name: "insert", kind: "check", of: ["hem"] },
+    { name: "flange", unit: "mm", step: 1, of: ["hem"] },
+    { name: "base", unit: "mm", step: 1, of: ["hem"] },
+    { name: "first_angle", unit: "°", step: 1, of: ["hem"] },
     { name: "length", unit: "mm", step: 10 },
   ],
   tools: [
+    { name: "die", kind: "select" },
+    { name: "punch", kind: "select" },
     { name: "die_angle", unit: "°", step: 1, list: "die-angles" },
     { name: "die_radius", unit: "mm", step: 0.1 },
     { name: "punch_angle", unit: "°", step: 1, list: "punch-angles" },
@@ -28,10 +42,10 @@ const GROUPS = {
     { name: "rolling", unit: "°", step: 15 },
   ],
   run: [
-    { name: "stroke", unit: "mm", step: 0.1 },
+    { name: "stroke", unit: "mm", step: 0.1, of: ["bend"] },
     { name: "mesh", kind: "select" },
-    { name: "budget", kind: "check" },
-    { name: "whole", kind: "check" },
+    { name: "budget", kind: "check", of: ["bend", "bottom"] },
+    { name: "whole", kind: "check", of: ["bend", "bottom"] },
   ],
 };
 const FIELDS = Object.values(GROUPS).flat();
@@ -42,34 +56,40 @@ export class Form {
     Object.assign(this, { library, looked });
     this.library = library;
     this.looked = looked;
-    this.values = { ...library.defaults, ...kept() };
+    this.values = structuredClone({ ...library.defaults, ...kept() });
+    this.bends = new Bends(() => this.look());
+    this.tools = new Tools((kind, name) => this.takeTool(kind, name));
     this.round = 0;
     /** @type {AbortController | null} */
     this.asking = null;
     this.build();
     this.look();
+    this.tools.refresh().then(() => this.build());
   }
 
   build() {
     const open = new Set([...document.querySelectorAll("#fields details[open]")].map((one) => /** @type {any} */ (one).dataset.group));
     const groups = Object.entries(GROUPS).map(([name, fields]) => {
-      const rows = fields.map((field) => this.row(field));
+      const rows = fields.filter(({ of }) => !of || of.includes(this.values.work)).map((field) => this.row(field));
       if (!name) return make("div", { class: "group" }, ...rows);
       const hint = make("p", { class: "soft" }, t(`group.${name}.hint`));
+      const more = name === "tools" ? [make("button", { type: "button", id: "tool-ask", onclick: () => this.tools.ask() }, t("tool.ask"))] : [];
       return make("details", { "data-group": name, open: open.has(name) }, make("summary", {}, t(`group.${name}`)),
-        make("div", { class: "group" }, hint, ...rows));
+        make("div", { class: "group" }, hint, ...rows, ...more));
     });
+    element("table").hidden = this.values.work !== "bend"; // a table is one of angles
     element("fields").replaceChildren(...groups, ...this.lists());
   }
 
   /** @param {Field} field */
   row({ name, unit, step, kind = "number", list }) {
     const value = this.values[name];
+    if (kind === "bends") return this.bends.build(value);
     const common = { id: `f-${name}`, "aria-describedby": `n-${name}`, onchange: () => this.take(name), oninput: () => this.take(name) };
     let input;
     if (kind === "select") {
       input = make("select", { ...common, oninput: null, onchange: () => this.take(name) }, ...this.options(name));
-      input.value = value;
+      input.value = value ?? "";
     } else if (kind === "check") {
       input = make("input", { ...common, type: "checkbox", checked: Boolean(value) });
     } else {
@@ -94,6 +114,8 @@ export class Form {
 
   /** @param {string} name */
   options(name) {
+    if (name === "punch" || name === "die") return this.tools.options(name, this.values[name]);
+    if (name === "work") return this.library.works.map((/** @type {string} */ one) => make("option", { value: one }, t(`work.${one}`)));
     if (name === "mesh") return this.library.meshes.map((/** @type {string} */ one) => make("option", { value: one }, t(`mesh.${one}`)));
     const group = (/** @type {boolean} */ card) => this.library.metals.filter((/** @type {any} */ metal) => metal.card === card)
       .map((/** @type {any} */ metal) => make("option", { value: metal.name }, metal.number && metal.number !== metal.name ? `${metal.name} (${metal.number})` : metal.name));
@@ -123,13 +145,37 @@ export class Form {
   take(name) {
     const input = element(`f-${name}`);
     this.values[name] = input.type === "checkbox" ? input.checked
-      : input.tagName === "SELECT" ? input.value
+      : input.tagName === "SELECT" ? input.value || null
       : input.value === "" ? (input.validity.badInput ? "?" : null) : Number(input.value);
+    if (name === "work") this.suitWork();
+    for (const [one, other] of [["press_force", "travel"], ["travel", "press_force"]]) {
+      if (name === one && this.values[one] !== null) this.change({ [other]: null });
+    }
     if (name === "stroke" && this.values.stroke !== null) this.change({ angle: null });
     if (name === "angle" && this.values.angle !== null) this.change({ stroke: null });
     if (name === "opening") this.suitRadius();
     if (name === "material") this.suitMaterial();
     this.look();
+  }
+
+  /** A drawn tool was read, or was deleted: then it is none. @param {"punch" | "die"} kind @param {string | null} name */
+  takeTool(kind, name) {
+    if (name || !this.tools.rows.some((one) => one.kind === kind && one.name === this.values[kind])) this.values[kind] = name;
+    this.build();
+    this.look();
+  }
+
+  /** Tools and goal that suit another kind of work. */
+  suitWork() {
+    const { work, thickness: t, press_force: force, travel, die_angle: angle } = this.values;
+    if (work === "bottom" && force === null && travel === null) this.change({ travel: 0, die_angle: 88, punch_angle: 88, punch: null, die: null });
+    if (work === "hem") {
+      this.change({ opening: 8 * t, die_angle: 30, die_radius: t, punch_angle: 30, punch_radius: 0.5 * t, punch: null, die: null, gap: t, flange: 12 * t, base: 30 * t });
+    } else if (angle < 40) {
+      this.change({ die_angle: 85, punch_angle: 85, die_radius: t, punch_radius: 0.75 * t });
+    }
+    this.build();
+    element("f-work").focus();
   }
 
   /** The shoulder radius of the library's die with this opening. */
@@ -175,11 +221,14 @@ export class Form {
   /** Put what was found beside the fields. @param {any} found */
   say(found) {
     for (const { name } of FIELDS) {
+      if (!element(`f-${name}`)) continue;
       element(`n-${name}`).replaceChildren();
       element(`n-${name}`).className = "note";
       element(`f-${name}`).removeAttribute("aria-invalid");
     }
     element("form-note").textContent = "";
+    this.change(found.measured ?? {});
+    for (const [kind, names] of Object.entries(MEASURED)) names.forEach((name) => (element(`f-${name}`).disabled = Boolean(this.values[kind])));
     for (const row of found.warnings) this.note(row, "warn", problemText(row));
     for (const row of found.problems) this.note(row, "bad", problemText(row));
     if (found.change) this.offer(found.change);
@@ -188,8 +237,9 @@ export class Form {
 
   /** @param {any} row @param {string} kind @param {string} text */
   note(row, kind, text) {
-    const place = element(`n-${row.where}`) ?? element("form-note");
-    place.append(make("span", {}, text));
+    const bend = row.row ?? /^bend (\d+)/.exec(row.where)?.[1];
+    const place = element(bend ? "n-bends" : `n-${row.where}`) ?? element("form-note");
+    place.append(make("span", {}, bend ? `${t("bend.number", { number: Number(bend) })}: ${text}` : text));
     place.className = `note ${kind}`;
     if (kind === "bad") element(`f-${row.where}`)?.setAttribute("aria-invalid", "true");
     place.closest("details")?.setAttribute("open", "");

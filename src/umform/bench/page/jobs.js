@@ -3,7 +3,7 @@
 
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
-import { language, number, t } from "./texts.js";
+import { language, number, problemText, t } from "./texts.js";
 
 const [BUSY, IDLE] = [300, 2000];
 
@@ -31,8 +31,11 @@ export class Jobs {
   async refresh() {
     clearTimeout(this.timer);
     try {
-      this.rows = (await get("/api/jobs")).jobs;
+      const { jobs, full } = await get("/api/jobs");
+      this.rows = jobs;
       element("offline").hidden = true;
+      element("full").hidden = !full;
+      element("full").textContent = full ? `${problemText(full)} (${full.value})` : "";
       this.show();
     } catch {
       element("offline").hidden = false;

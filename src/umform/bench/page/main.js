@@ -27,13 +27,14 @@ async function start() {
     expected,
     ask: (/** @type {string} */ name, /** @type {any} */ what) => jobs.ask(name, what),
     again: (/** @type {any} */ job) => {
-      form.change(job.parameters);
+      Object.assign(form.values, structuredClone(job.parameters));
+      form.build();
       go("bend");
       form.look();
     },
   });
   const form = new Form(library, (found, values) => {
-    if (found.drawing && !result.name) drawing.set(found.drawing, values);
+    if (found.drawing && !result.name) drawing.set(found.drawing, { ...values, ...found.shown });
     element("sketch").classList.toggle("old", !found.drawing);
     if (!result.name) expected(found, values);
   });
@@ -115,9 +116,11 @@ function series(rows) {
 function expected(found, values) {
   const facts = found.expected;
   element("drawing-text").textContent = facts ? t("drawing.text", { angle: values.angle ?? "?", opening: values.opening, thickness: values.thickness }) : t("drawing.old");
+  const bottom = values.work === "bottom"; // 3 to 5 times the force in the air is usual
+  const forces = bottom ? [["bottom", `${number(3 * facts?.force[0], 0)}–${number(5 * facts?.force[1], 0)} kN/m`]] : [["press", `${number(facts?.press, 1)} kN`]];
   const rows = !facts ? [] : [
     ["ratio", `${number(facts.ratio, 1)}`], ["rm", `${number(facts.tensile_strength, 0)} MPa`],
-    ["force", `${number(facts.force[0], 0)}–${number(facts.force[1], 0)} kN/m`], ["press", `${number(facts.press, 1)} kN`],
+    ["force", `${number(facts.force[0], 0)}–${number(facts.force[1], 0)} kN/m`], ...forces,
     ["radius", `${number(facts.radius, 1)} mm`],
   ];
   element("expected").replaceChildren(...rows.map(([name, value]) => make("div", { title: t(`rule.${name}.title`) }, make("dt", {}, t(`rule.${name}`)), make("dd", {}, value))));

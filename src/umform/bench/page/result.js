@@ -3,14 +3,14 @@
 
 import { get, post } from "./api.js";
 import { element, make } from "./dom.js";
+import { message } from "./messages.js";
 import { plot } from "./plot.js";
-import { language, number, t } from "./texts.js";
+import { stripNumbers } from "./strips.js";
+import { language, number, problemText, t } from "./texts.js";
 
 const OFTEN = 200;
 /** The numbers that go to the machine, in the order of the page. */
 const HEROES = ["stroke", "largest_force", "angle", "springback", "radius", "k_factor", "bend_deduction", "outer_strain", "thinning"];
-/** Seconds between two looks at the shape of a run that goes on. */
-const SHAPE_EVERY = 5;
 
 export class Result {
   /** @param {any} library @param {import("./drawing.js").Drawing} drawing @param {any} actions */
@@ -22,7 +22,6 @@ export class Result {
     this.timer = 0;
     /** @type {any} */
     this.job = null;
-    this.shapeAt = 0;
     this.shapeOf = "";
     // Buttons stay while the numbers change, lest a click be lost; the frame of the shape stays, lest it load again.
     this.bar = make("div", { class: "bar-part" });
@@ -74,15 +73,18 @@ export class Result {
     if (!this.job && job.kind === "bend") {
       const found = await post("/api/look", job.parameters);
       if (found.drawing && job.id === this.name) {
-        this.drawing.set(found.drawing, job.parameters);
+        this.drawing.set(found.drawing, { ...job.parameters, ...found.shown });
         this.actions.expected(found, job.parameters);
       }
+      if (job.id !== this.name) return; // another job was opened meanwhile
     }
-    if (job.live.section && job.kind === "bend") this.drawing.setComputed(job.live);
+    if (job.summary.profile) this.drawing.setComputed({ profile: job.summary.profile });
+    else if (job.live.section || job.live.outline) this.drawing.setComputed(job.live);
     if (job.state === "running" || job.state === "waiting") parts.push(this.progress(job));
-    if (job.state === "failed" || job.reason) parts.push(make("pre", { class: "bad" }, job.reason));
+    if (job.state === "failed" || job.reason) parts.push(this.failure(job));
     if (job.state === "stopped") parts.push(make("p", { class: "soft" }, t(`stopped.${job.kind}`)));
     if (job.state === "done" && job.summary.measures) parts.push(...this.numbers(job));
+    if (job.state === "done" && job.summary.profile) parts.push(...stripNumbers(job));
     if (job.state === "done" && job.summary.last) parts.push(this.last(job));
     const curve = this.curve(job);
     if (curve) parts.push(curve);
@@ -111,11 +113,18 @@ export class Result {
     await this.refresh();
   }
 
+  /** What went wrong, in parts where they are known. @param {any} job */
+  failure({ reason, summary: { error } }) {
+    const all = error ? error.all ?? [error] : [{ what: reason }];
+    const text = (/** @type {any} */ one) => [problemText({ ...one, kind: "" }), one.where && `${one.where}: ${one.value}`].filter(Boolean).join("\n");
+    return make("pre", { class: "bad" }, all.map(text).join("\n\n"));
+  }
+
   /** @param {any} job */
   progress(job) {
     const { live } = job;
     const percent = Math.round(100 * (live.fraction ?? 0));
-    const text = job.state === "waiting" ? t("state.waiting") : [t(`phase.${live.phase}`, live),
+    const text = job.state === "waiting" ? t("state.waiting") : [live.operations > 1 ? t("operation", live) : "", t(`phase.${live.phase}`, live),
       live.increments ? t("increments", live) : "", live.stroke === undefined ? "" : `${number(live.stroke, 2)} mm`,
       live.angle === undefined ? "" : `${number(live.angle, 1)}°`, live.seconds ? `${number(live.seconds, 0)} s` : ""].filter(Boolean).join(" · ");
     return make("div", { class: "progress" }, make("progress", { max: 100, value: percent, "aria-label": t("progress") }), make("p", { role: "status" }, text));
@@ -130,10 +139,10 @@ export class Result {
     const ratio = measures.largest_force / (0.5 * (shop[0] + shop[1]));
     if (ratio < 0.93) notes.push(t("note.below", { percent: Math.round(100 * (1 - ratio)) }));
     if (measures.k_factor !== null && measures.k_factor < 0.33) notes.push(t("note.k"));
-    if (!job.parameters.budget) notes.push(t("note.nobudget"));
+    if (!job.parameters.budget && job.parameters.work !== "bottom") notes.push(t("note.nobudget"));
     const all = Object.entries(this.library.quantities).map(([name, one]) => this.row(name, one, measures[name], spread[name]));
     return [
-      ...warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, text)),
+      ...warnings.map((/** @type {string} */ text) => make("p", { class: "note warn" }, message(text))),
       make("dl", { class: "heroes" }, ...heroes),
       ...notes.map((text) => make("p", { class: "note" }, text)),
       this.flat(measures),
@@ -191,20 +200,33 @@ export class Result {
     return make("figure", { class: "card" }, plot([{ name: "", ...curve }], words), caption);
   }
 
-  /** Scene and curves of the report in a frame of their own; while a run goes on they are loaded again now and then. @param {any} job */
+  /** Scene and curves of the report in a frame of their own. @param {any} job */
   shape(job) {
-    const now = performance.now() / 1000;
-    const version = `${job.id}-${job.live.shape}-${job.state}`;
-    if (version === this.shapeOf || (job.state === "running" && this.shapeOf && now - this.shapeAt < SHAPE_EVERY)) return;
+    const version = `${job.id}-${job.live.shape}`;
+    if (version === this.shapeOf) return;
+    const before = this.shapeOf;
     this.shapeOf = version;
-    this.shapeAt = now;
-    const src = `/files/${job.id}/shape.html?v=${encodeURIComponent(version)}`;
-    this.space.replaceChildren(make("iframe", { title: t("shape.title"), sandbox: "allow-scripts allow-downloads", src }));
+    if (before) {
+      this.renew(job.id);
+      return;
+    }
+    const frame = make("iframe", { title: t("shape.title"), sandbox: "allow-scripts allow-downloads", src: `/files/${job.id}/shape.html` });
+    frame.addEventListener("load", () => this.renew(job.id)); // the page of the shape is as old as the first state
+    this.space.replaceChildren(frame);
+  }
+
+  /** Hand the present scene to the frame of the shape, which keeps view and choices. @param {string} name */
+  async renew(name) {
+    const frame = this.space.querySelector("iframe");
+    try {
+      const scene = await get(`/api/jobs/${name}/scene`);
+      if (name === this.name) frame?.contentWindow?.postMessage(scene, "*"); // a frame without an origin has no name
+    } catch { /* the next state is as good */ }
   }
 
   /** @param {any} job */
   files(job) {
-    const named = { "report.html": "file.report", "curve.csv": "file.csv", "history.csv": "file.history", "bend.toml": "file.deck", "as-run.toml": "file.deck", "bend.json": "file.json" };
+    const named = { "report.html": "file.report", "curve.csv": "file.csv", "history.csv": "file.history", "bend.toml": "file.deck", "as-run.toml": "file.deck", "bend.json": "file.json", "sequence.json": "file.json", "hem.json": "file.json", "curves.csv": "file.csv", "profile.csv": "file.profile" };
     const link = (/** @type {string} */ file, /** @type {string} */ text) => make("a", { class: "button", href: `/files/${job.id}/${file}`, target: file.endsWith(".html") ? "_blank" : null, rel: "noopener" }, text);
     const first = Object.entries(named).filter(([file]) => job.files.includes(file)).map(([file, key]) => link(file, t(key)));
     const others = job.files.filter((/** @type {string} */ file) => !(file in named)).map((/** @type {string} */ file) => make("li", {}, link(file, file)));

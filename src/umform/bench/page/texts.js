@@ -2,6 +2,7 @@
 // All texts in the language of the reader, and numbers as they are written there.
 
 import { element } from "./dom.js";
+import { loadMessages, message } from "./messages.js";
 
 /** @type {Record<string, any>} */
 let texts = {};
@@ -19,7 +20,7 @@ function preferred() {
 /** @param {string} [wanted] */
 export async function loadTexts(wanted = preferred()) {
   language = wanted === "de" ? "de" : "en";
-  texts = await (await fetch(`/assets/${language}.json`)).json();
+  [texts] = await Promise.all([fetch(`/assets/${language}.json`).then((answer) => answer.json()), loadMessages(language)]);
   try {
     localStorage.setItem("language", language);
   } catch { /* it is asked for again next time */ }
@@ -51,6 +52,7 @@ export function number(value, decimals) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const options = decimals === undefined
     ? { maximumFractionDigits: 4 } : { minimumFractionDigits: decimals, maximumFractionDigits: decimals };
+  if (decimals !== undefined && Math.abs(value) < 0.5 * 10 ** -decimals) value = 0; // no -0.00
   return value.toLocaleString(language, { useGrouping: false, ...options });
 }
 
@@ -61,7 +63,6 @@ export function number(value, decimals) {
 export function problemText(problem) {
   const kind = `kind.${problem.kind}`;
   if (has(kind)) return t(kind, problem.bounds ?? {});
-  const known = `refused.${problem.what}`;
-  if (has(known)) return t(known, problem);
-  return [problem.what, problem.cause, problem.remedy].filter(Boolean).join("; ");
+  const parts = [problem.what, problem.cause].filter(Boolean).map(message).join("; ");
+  return problem.remedy ? `${parts} → ${message(problem.remedy)}` : parts;
 }

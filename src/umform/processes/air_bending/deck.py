@@ -13,6 +13,8 @@ from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.sheet import lines_of
 from umform.processes.decks import Entry, deck_text
 from umform.processes.material_keys import law_keys
+from umform.surfaces import Profile
+from umform.surfaces.segments import Arc, Segment
 
 
 def deck_of(case: AirBending) -> str:
@@ -48,10 +50,8 @@ def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
     yield "[element]", {"name": _element_name(case), "thickness_points": case.thickness_points}
     rolling = None if case.rolling is None else {"angle": float(case.rolling)}
     yield "[material]", law_keys(case.material, rolling)
-    die = {"shape": "VDie", "opening": case.opening, "angle": case.die_angle, "shoulder_radius": case.die_radius}
-    yield "[tools.die]", die
-    tip = {"tip_radius": case.punch_radius, "angle": case.punch_angle, "width": case.punch_width}
-    yield "[tools.punch]", {"shape": "Punch", **tip, "origin": case.punch.origin}
+    yield "[tools.die]", _die(case)
+    yield "[tools.punch]", _punch(case)
     for tool, faces in (("die", "lower"), ("punch", "upper")):
         how = {"penalty": case.penalty, "penetration": case.penetration, "points": case.contact_points}
         yield f"[contacts.{tool}]", {"tool": tool, "faces": faces, **how}
@@ -63,6 +63,33 @@ def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
     yield "[[steps]]", {"kind": "release", "control": "stroke", **unloading_keys(case)}
     tolerances = {"residual": OPTIONS.residual, "increment": OPTIONS.increment}
     yield "[solution]", {**tolerances, "line_search": OPTIONS.line_search, "extrapolate": OPTIONS.extrapolate}
+
+
+def _die(case: AirBending) -> dict[str, Any]:
+    if case.die_section is not None:
+        return {"shape": "Extruded", "profile": _profile(case.die_section.profile)}
+    return {"shape": "VDie", "opening": case.opening, "angle": case.die_angle, "shoulder_radius": case.die_radius}
+
+
+def _punch(case: AirBending) -> dict[str, Any]:
+    if case.punch_section is not None:
+        shape: dict[str, Any] = {"shape": "Extruded", "profile": _profile(case.punch_section.profile)}
+    else:
+        tip = {"tip_radius": case.punch_radius, "angle": case.punch_angle, "width": case.punch_width}
+        shape = {"shape": "Punch", **tip}
+    return {**shape, "origin": case.punch.origin}
+
+
+def _profile(profile: Profile) -> dict[str, Any]:
+    """A drawn section by its lines and arcs: the deck needs no drawing beside it."""
+    return {"segments": [_segment(segment) for segment in profile.segments], "closed": profile.closed}
+
+
+def _segment(segment: Segment) -> dict[str, Any]:
+    ends = {"start": segment.start, "end": segment.end}
+    if isinstance(segment, Arc):
+        return {"kind": "arc", **ends, "centre": segment.centre, "clockwise": bool(segment.clockwise)}
+    return {"kind": "line", **ends}
 
 
 def _element_name(case: AirBending) -> str:

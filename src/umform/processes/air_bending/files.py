@@ -113,4 +113,6 @@ def _told(numbers: Mapping[str, float]) -> dict[str, float | None]:
 
 def parameters(case: AirBending) -> dict[str, Any]:
     """Parameters as JSON data; the material as text."""
-    return case.record() | {"element": element(case.element).name, "material": repr(case.material)}
+    words = {"element": element(case.element).name, "material": repr(case.material)}
+    drawn = {"punch_section": case.punch_section, "die_section": case.die_section}
+    return case.record() | words | {name: None if tool is None else tool.words for name, tool in drawn.items()}

@@ -109,5 +109,7 @@ def _parts(
 def _parameters(case: AirBending) -> dict[str, object]:
     """The parameters of a bend, for people; those that follow from others are left out."""
     words = {"material": material_text(case.material), "element": element(case.element).name}
+    drawn = {"punch_section": case.punch_section, "die_section": case.die_section}
+    words |= {name: tool.words for name, tool in drawn.items() if tool is not None}
     record = case.record() | words | {"width": "plane strain" if case.width is None else case.width}
     return {name: value for name, value in record.items() if value is not None}

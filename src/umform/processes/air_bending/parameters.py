@@ -10,7 +10,8 @@ from umform.elements.rolling import Vector, rolling_at
 from umform.elements.technology import Element
 from umform.materials import J2, Metal, Swift
 from umform.processes.air_bending.checks import check_geometry, check_parameters
-from umform.surfaces import Punch, VDie
+from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch, check_one_sided, drawn_sizes
+from umform.surfaces import Extruded, Punch, VDie
 
 #: Like DC04 across the rolling direction in shape and level; a curve of your own material is better.
 DC04_LIKE = J2(E=210e3, nu=0.3, hardening=Swift(strength=520.0, offset=0.004, exponent=0.22))
@@ -41,6 +42,10 @@ class AirBending:
         Angle between the flanks of the punch in degrees; radius of its tip.
     width : float, optional
         Length of the bend. Without it, plane strain: a sheet so wide that nothing moves along the bend.
+    punch_section : DrawnPunch, optional
+        A punch from a drawing; ``punch_angle`` and ``punch_radius`` are then those of the drawing.
+    die_section : DrawnDie, optional
+        A die from a drawing; ``opening``, ``die_angle`` and ``die_radius`` are then those of the drawing.
     stroke : float, optional
         Way of the punch from where it touches the sheet; a search or a table does not need it.
     bottoming : bool
@@ -79,6 +84,8 @@ class AirBending:
     die_radius: float = 2.0
     punch_angle: float = 85.0
     punch_radius: float = 1.5
+    punch_section: DrawnPunch | None = None
+    die_section: DrawnDie | None = None
     width: float | None = None
     stroke: float | None = None
     bottoming: bool = False
@@ -96,21 +103,29 @@ class AirBending:
     increment: float = 0.00625
 
     def __post_init__(self) -> None:
+        for name, value in drawn_sizes(self.punch_section, self.die_section).items():
+            object.__setattr__(self, name, value)
         check_parameters(self.record())
         check_geometry(self)
+        if self.punch_section is not None:
+            check_one_sided(self.punch_section, self.half_length)
 
     def record(self) -> dict[str, Any]:
         """All parameters by name."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
-    def die(self) -> VDie:
+    def die(self) -> VDie | Extruded:
         """The die; its top is z = 0."""
+        if self.die_section is not None:
+            return Extruded(self.die_section.profile)
         return VDie(self.opening, self.die_angle, self.die_radius)
 
     @property
-    def punch(self) -> Punch:
+    def punch(self) -> Punch | Extruded:
         """The punch, touching the sheet at z = thickness."""
+        if self.punch_section is not None:
+            return Extruded(self.punch_section.profile, origin=(0.0, 0.0, self.thickness))
         return Punch(self.punch_radius, self.punch_angle, self.punch_width, origin=(0.0, 0.0, self.thickness))
 
     @property
@@ -126,7 +141,7 @@ class AirBending:
     @property
     def shoulder(self) -> float:
         """Distance of the axis of the shoulder from the middle: where the sheet rests at first."""
-        return 0.5 * self.die.tangent_width
+        return 0.5 * VDie(self.opening, self.die_angle, self.die_radius).tangent_width
 
     @property
     def steepest(self) -> float:
@@ -151,8 +166,15 @@ class AirBending:
 
     @property
     def largest_stroke(self) -> float:
-        """Stroke at which a sheet wrapped around the tip lies against a flank."""
-        return self.rigid_stroke(self.steepest)
+        """Stroke at which a sheet wrapped around the tip lies against a flank, or on the bottom of a drawn die."""
+        return min(self.rigid_stroke(self.steepest), self.depth)
+
+    @property
+    def depth(self) -> float:
+        """Depth of the die in its middle."""
+        if self.die_section is not None:
+            return self.die_section.depth
+        return 0.5 * self.opening / math.tan(math.radians(0.5 * self.die_angle))
 
     @property
     def bottom_stroke(self) -> float:

@@ -100,7 +100,7 @@ class Part:
 
     @property
     def length_balance(self) -> float:
-        """Outer lengths of the flanges minus the bend deductions minus the flat length."""
+        """Outer lengths of the flanges less the bend deductions less the flat length. eq. (5.92)"""
         return sum(self.flanges) - sum(done.measures.bend_deduction for done in self.bends) - self.sequence.length
 
     @property

@@ -67,11 +67,15 @@ def _bent(
     bend, case = sequence.bends[number], sequence.case(sequence.bends[number])
     brake = StripBrake(sequence, bend, mesh, before, frames)
     trials: tuple[tuple[float, float], ...] = ()
+
+    def told(name: str, fraction: float, detail: str = "") -> None:
+        tick(f"bend {number + 1}, {name}", fraction, detail)
+
     if bend.angle is None:
         assert bend.stroke is not None
-        state, measures = brake.load(bend.stroke), brake.unload()
+        state, measures = brake.load(bend.stroke, told), brake.unload()
     else:
-        state, measures, trials = bent_to_angle(brake, bend.angle, tolerance)
+        state, measures, trials = bent_to_angle(brake, bend.angle, tolerance, told)
     forces, result = brake.forces(), brake.run.close()
     strips = [
         (float(result["stroke"][frame.number]), Strip.of(mesh, frame.points["displacement"])) for frame in result.frames

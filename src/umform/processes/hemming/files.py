@@ -5,18 +5,19 @@ from __future__ import annotations
 import math
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
-from umform.plotting import COLOURS, INK, Picture, house_style
 from umform.processes.air_bending.files import parameters
 from umform.processes.air_bending.measures import Quantity
 from umform.processes.hemming.measures import Hem, HemMeasures
 from umform.report.versions import versions
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _DATA = ("hem.json", "curve.csv", "profile.csv", "hem.vtkhdf")
 _PICTURES = ("hem.png", "hem.svg")
@@ -91,6 +92,8 @@ def rows(measures: HemMeasures) -> list[list[str]]:
 
 def picture(hem: Hem) -> Figure:
     """Force over the travel of the plate, and the hem after unloading."""
+    from umform.plotting import COLOURS, INK, Picture, house_style
+
     with house_style():
         figure = Picture(figsize=(9.0, 3.6))
         left, right = figure.subplots(1, 2)

@@ -45,6 +45,12 @@ class Curves {
     return node;
   }
 
+  // The same columns with more rows.
+  renew(table) {
+    Object.assign(this, { table, row: null });
+    if (this.size) this.show();
+  }
+
   // Positions in the picture, and the ticks.
   scales() {
     const along = this.table.columns[element("curves-x").value];

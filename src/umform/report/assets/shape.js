@@ -4,19 +4,12 @@ const VIEWS = { oblique: [-0.55, -1, 0.5], below: [-0.55, -1, -0.5], front: [0, 
 
 class ShapeView {
   constructor(scene) {
-    this.head = scene.head;
-    this.count = scene.head.frames.length;
     this.canvas = element("shape-canvas");
     THREE.ColorManagement.enabled = false;
     this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
-    this.sheet = new Sheet(scene);
-    this.tools = scene.head.tools.map((_, number) => new ToolBody(scene, number));
     this.world = new THREE.Scene();
-    this.world.add(this.sheet.mesh, this.sheet.lines, this.sheet.axes, ...this.tools.map((tool) => tool.group));
-    this.images = new THREE.Group();
-    for (const image of [this.sheet, ...this.tools].flatMap((body) => body.images)) this.images.add(image);
-    this.world.add(this.images);
+    this.fill(scene);
     this.camera = new THREE.OrthographicCamera();
     this.camera.up.set(0, 0, 1);
     this.orbit = new THREE.OrbitControls(this.camera, this.canvas);
@@ -28,6 +21,34 @@ class ShapeView {
     this.listen();
     this.resize();
     this.look("oblique");
+    this.show();
+  }
+
+  // The bodies of a scene, in place of those before.
+  fill(scene) {
+    this.world.traverse((one) => [one.geometry, one.material].forEach((part) => part?.dispose()));
+    this.world.clear();
+    this.head = scene.head;
+    this.count = scene.head.frames.length;
+    this.sheet = new Sheet(scene);
+    this.tools = scene.head.tools.map((_, number) => new ToolBody(scene, number));
+    this.world.add(this.sheet.mesh, this.sheet.lines, this.sheet.axes, ...this.tools.map((tool) => tool.group));
+    this.images = new THREE.Group();
+    for (const image of [this.sheet, ...this.tools].flatMap((body) => body.images)) this.images.add(image);
+    this.world.add(this.images);
+  }
+
+  // A later state of the same run: field and choices stay, the view too once it was turned, the last frame is the last.
+  renew(scene) {
+    const last = this.frame === this.count - 1;
+    this.fill(scene);
+    this.field = this.head.fields.find(({ name }) => name === this.field.name) ?? this.head.fields[0];
+    element("shape-field").replaceChildren(...this.head.fields.map(({ label }) => new Option(label)));
+    element("shape-field").selectedIndex = this.head.fields.indexOf(this.field);
+    element("shape-frame").max = this.count - 1;
+    this.frame = last ? this.count - 1 : Math.min(this.frame, this.count - 1);
+    this.corners = this.cornersOfPath();
+    if (this.side) this.look(this.side);
     this.show();
   }
 
@@ -74,6 +95,7 @@ class ShapeView {
       button.addEventListener("click", () => this.look(button.dataset.view));
     });
     this.orbit.addEventListener("change", () => this.draw());
+    this.orbit.addEventListener("start", () => (this.side = null));
     this.canvas.addEventListener("pointerdown", () => this.canvas.focus({ preventScroll: true }));
     this.canvas.addEventListener("focus", () => (this.orbit.enableZoom = true));
     this.canvas.addEventListener("blur", () => (this.orbit.enableZoom = false));
@@ -107,6 +129,7 @@ class ShapeView {
 
   // Look from a side, so that the whole path of the sheet is in the picture.
   look(name) {
+    this.side = name;
     const centre = this.corners[0].clone().add(this.corners[7]).multiplyScalar(0.5);
     const towards = new THREE.Vector3(...VIEWS[name]).normalize();
     const right = new THREE.Vector3().crossVectors(this.camera.up, towards).normalize();
@@ -139,7 +162,10 @@ class ShapeView {
       return;
     }
     event.preventDefault();
-    if (event.key !== "Home") this.camera.position.copy(this.orbit.target).add(arm);
+    if (event.key !== "Home") {
+      this.side = null;
+      this.camera.position.copy(this.orbit.target).add(arm);
+    }
     this.orbit.update();
     this.draw();
   }

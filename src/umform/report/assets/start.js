@@ -19,15 +19,22 @@ function fillTable(table) {
   }
 }
 
+// A later state of the same run, in place: what was chosen stays.
+async function renew(packed, table) {
+  const { shape, curves } = window.umform;
+  if (shape) shape.renew(await unpacked(packed));
+  curves.renew(table);
+}
+
 async function start() {
   const table = history();
   element("history-all").addEventListener("toggle", () => fillTable(table));
   alive("curves");
   const colours = JSON.parse(element("curves-plot").dataset.colours);
-  window.umform = { table, curves: new Curves(table, colours) };
+  window.umform = { table, curves: new Curves(table, colours), renew };
   try {
     await started("three");
-    const scene = await unpacked("scene");
+    const scene = await unpacked(element("scene").textContent);
     alive("shape");
     window.umform.shape = new ShapeView(scene);
   } catch (problem) {

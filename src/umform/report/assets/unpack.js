@@ -2,8 +2,8 @@
 
 const element = (id) => document.getElementById(id);
 
-async function inflated(id) {
-  const coded = atob(element(id).textContent.trim());
+async function inflated(text) {
+  const coded = atob(text.trim());
   const bytes = Uint8Array.from(coded, (letter) => letter.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).arrayBuffer();
@@ -12,13 +12,13 @@ async function inflated(id) {
 // A library that is packed in the page, run as a script of the page.
 async function started(id) {
   const script = document.createElement("script");
-  script.textContent = new TextDecoder().decode(await inflated(id));
+  script.textContent = new TextDecoder().decode(await inflated(element(id).textContent));
   document.head.append(script);
 }
 
 // Record and arrays as umform.report.packing packs them.
-async function unpacked(id) {
-  const buffer = await inflated(id);
+async function unpacked(text) {
+  const buffer = await inflated(text);
   const length = new DataView(buffer).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   const arrays = {};

@@ -1,0 +1,78 @@
+"""What a strip tells while it is bent several times, or hemmed: operation, outline, curve."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from umform.processes.bend_sequence import BendSequence
+from umform.processes.bend_sequence.sides import Strip
+
+if TYPE_CHECKING:
+    from umform.model import Model
+    from umform.steps.loop import Run
+
+#: Most points of a curve, and of one face of an outline.
+_MOST = 300
+#: Part of an operation that is loading; what there is at most before the files are written.
+_LOADING, _BEFORE_FILES = 0.7, 0.95
+
+
+class StripTold:
+    """Curve, outline and progress of a strip.
+
+    Parameters
+    ----------
+    sequence : BendSequence
+        Its bends.
+    hem : bool
+        Whether it is flattened after them.
+    """
+
+    def __init__(self, sequence: BendSequence, *, hem: bool) -> None:
+        self.sequence, self.count = sequence, len(sequence.bends) + hem
+        self._model: Model | None = None
+        self._number = -1
+
+    def __call__(self, run: Run) -> dict[str, Any]:
+        """What there is to tell of the present state."""
+        if run.model is not self._model:  # each operation has its own
+            self._model, self._number = run.model, self._number + 1
+        number = min(self._number, self.count - 1)
+        bends = self.sequence.bends
+        strip = Strip.of(run.model.mesh, run.model.u)
+        if number < len(bends):
+            strip = strip.at(bends[number].position, over=bends[number].over)
+        stroke = run.result["stroke"]
+        force = -run.result["stroke_force"] / self.sequence.sheet.thickness
+        thin = max(1, -(-len(stroke) // _MOST))
+        back = len(stroke) > 1 and bool(stroke[-1] < stroke[-2])
+        return {
+            "phase": "springback" if back else "flattening" if number >= len(bends) else "loading",
+            "operation": number + 1,
+            "operations": self.count,
+            "flattening": number >= len(bends),
+            "fraction": min(_BEFORE_FILES, (number + self._part(number, float(stroke[-1]), back)) / self.count),
+            "stroke": round(float(stroke[-1]), 4),
+            "force": round(float(force[-1]), 3),
+            "curve": {"x": stroke[::thin].round(4).tolist(), "y": force[::thin].round(3).tolist()},
+            "outline": _outline(strip),
+        }
+
+    def _part(self, number: int, stroke: float, back: bool) -> float:
+        """About how much of an operation is done."""
+        if back or number >= len(self.sequence.bends):
+            return _LOADING
+        bend = self.sequence.bends[number]
+        case = self.sequence.case(bend)
+        goal = bend.stroke if bend.angle is None else case.rigid_stroke(90.0 - 0.5 * bend.angle)
+        return _LOADING * min(1.0, stroke / goal) if goal else 0.0
+
+
+def _outline(strip: Strip) -> list[list[float]]:
+    """Outline of the strip where it stands, lower face first."""
+    thin = max(1, -(-len(strip.current) // _MOST))
+    lower, upper = (strip.current[::thin, level] for level in (0, -1))
+    outline: list[list[float]] = np.concatenate([lower, upper[::-1]]).round(4).tolist()
+    return outline

@@ -1,0 +1,72 @@
+// @ts-check
+// The bends of a part in the order of the work: position, angle, direction; rows are added, moved and taken away.
+
+import { element, make } from "./dom.js";
+import { t } from "./texts.js";
+
+/** @typedef {{position: number | null, angle: number | null, over: boolean}} Bend */
+
+export class Bends {
+  /** @param {() => void} changed */
+  constructor(changed) {
+    this.changed = changed;
+    /** @type {Bend[]} */
+    this.rows = [];
+  }
+
+  /** @param {Bend[]} rows */
+  build(rows) {
+    this.rows = rows;
+    const list = make("ol", { id: "bends-list" }, ...rows.map((row, i) => this.row(row, i)));
+    const add = make("button", { type: "button", id: "bends-add", disabled: rows.length >= 20, onclick: () => this.add() }, t("bends.add"));
+    return make("fieldset", { id: "f-bends", class: "bends", "aria-describedby": "n-bends" }, make("legend", {}, t("field.bends")), list, add,
+      make("p", { class: "note", id: "n-bends", role: "status" }));
+  }
+
+  /** @param {Bend} row @param {number} i */
+  row(row, i) {
+    const number = i + 1;
+    const input = (/** @type {"position" | "angle"} */ name) => {
+      const field = make("input", { type: "number", step: "any", inputmode: "decimal", id: `b-${i}-${name}`, value: row[name] ?? "", "aria-label": t(`bends.${name}`, { number }) });
+      field.addEventListener("input", () => {
+        row[name] = field.value === "" ? null : Number(field.value);
+        this.changed();
+      });
+      return field;
+    };
+    const way = make("select", { id: `b-${i}-over`, "aria-label": t("bends.over", { number }) }, make("option", { value: "" }, t("bends.up")), make("option", { value: "1" }, t("bends.down")));
+    way.value = row.over ? "1" : "";
+    way.addEventListener("change", () => {
+      row.over = Boolean(way.value);
+      this.changed();
+    });
+    const earlier = make("button", { type: "button", id: `b-${i}-earlier`, disabled: i === 0, "aria-label": t("bends.earlier", { number }), onclick: () => this.swap(i) }, "↑");
+    const remove = make("button", { type: "button", id: `b-${i}-remove`, disabled: this.rows.length === 1, "aria-label": t("bends.remove", { number }), onclick: () => this.take(i) }, "×");
+    return make("li", {}, make("span", {}, `${number}.`), input("position"), input("angle"), way, earlier, remove);
+  }
+
+  add() {
+    const last = this.rows[this.rows.length - 1];
+    this.again([...this.rows, { ...last, position: (last.position ?? 0) + 30 }], `b-${this.rows.length}-position`);
+  }
+
+  /** @param {number} i */
+  swap(i) {
+    const rows = [...this.rows];
+    [rows[i - 1], rows[i]] = [rows[i], rows[i - 1]];
+    this.again(rows, `b-${i - 1}-position`);
+  }
+
+  /** @param {number} i */
+  take(i) {
+    this.again(this.rows.filter((_, k) => k !== i), "bends-add");
+  }
+
+  /** @param {Bend[]} rows @param {string} focus */
+  again(rows, focus) {
+    this.rows.splice(0, this.rows.length, ...rows);
+    element("f-bends").replaceWith(this.build(this.rows));
+    element(focus)?.focus();
+    this.changed();
+  }
+}

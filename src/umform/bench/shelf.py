@@ -1,0 +1,189 @@
+"""Punches and dies of one's own: drawings in the folder of the bench under a name, and what was read of them."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import json
+import re
+import shutil
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from umform.bench.helpers import answer_of
+from umform.errors import InvalidValue, UmformError
+from umform.io.atomic import PendingFile
+from umform.processes.air_bending.drawn_tools import DrawnDie, DrawnPunch
+from umform.surfaces import Profile
+from umform.surfaces.segments import Arc, Line, Segment
+
+KINDS = ("punch", "die")
+#: Bytes of a drawing, tools on the shelf, and seconds that the reading of a drawing may take.
+LONGEST_DRAWING, MOST_TOOLS, _LONGEST_READING = 6_000_000, 200, 60.0
+_NAME = re.compile(r"\w[\w +.,°-]{0,39}")
+
+
+@dataclass(frozen=True)
+class Shelf:
+    """The tools in a folder: that of the bench, or that of a job, which has copies of its own.
+
+    Parameters
+    ----------
+    folder : Path
+        Where ``tools/punch`` and ``tools/die`` are or will be.
+    """
+
+    folder: Path
+
+    def place(self, kind: str, name: str) -> Path:
+        """File of what was read of a tool.
+
+        Raises
+        ------
+        InvalidValue
+            If the name cannot be that of a tool.
+        """
+        if kind not in KINDS or not _NAME.fullmatch(name) or name.strip(" .") != name:
+            raise InvalidValue(
+                "this cannot be the name of a tool",
+                where="name",
+                value=name[:60],
+                cause="it is empty, too long, or has signs that a file cannot have",
+                remedy="1 to 40 letters, digits, blanks, dots and dashes",
+            )
+        return self.folder / "tools" / kind / f"{name}.json"
+
+    def tool(self, kind: str, name: str) -> DrawnPunch | DrawnDie:
+        """A tool by its name.
+
+        Raises
+        ------
+        InvalidValue
+            If there is none.
+        """
+        try:
+            text = self.place(kind, name).read_text(encoding="utf-8")
+        except OSError as error:
+            raise InvalidValue(
+                "there is no such drawn tool",
+                where=kind,
+                value=name[:60],
+                cause="it was deleted, or belongs to another folder of the bench",
+                remedy="choose another one, or upload the drawing again",
+            ) from error
+        return _tool(kind, text)
+
+    def add(self, kind: str, name: str, layer: str, drawing: str) -> dict[str, Any]:
+        """Read a drawing in a process of its own, and keep it under a name; one of the same name is replaced.
+
+        Parameters
+        ----------
+        kind : str
+            "punch" or "die".
+        name, layer : str
+            Name of the tool; the layer with its section, empty for the whole drawing.
+        drawing : str
+            The DXF file, as base64.
+
+        Returns
+        -------
+        dict
+            What `rows` says of it; or ``problem`` and ``layers``.
+        """
+        place = self.place(kind, name)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        if len(list(place.parent.glob("*.json"))) >= MOST_TOOLS and not place.exists():
+            raise InvalidValue(f"there are {MOST_TOOLS} tools already", where="name", remedy="delete some")
+        with tempfile.TemporaryDirectory(prefix="umform-bench-") as folder:
+            path = Path(folder) / "drawing.dxf"
+            path.write_bytes(_bytes(drawing))
+            arguments = ["umform.bench.read_tool", kind, str(path), layer]
+            found: dict[str, Any] = answer_of(arguments, _LONGEST_READING, "the reading of the drawing")
+            if "problem" in found:
+                return found
+            shutil.move(path, place.with_suffix(".dxf"))
+        with PendingFile(place) as waiting:
+            waiting.write_text(json.dumps(found | {"layer": layer}), encoding="utf-8")
+        return _row(kind, place)
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Kind, name and sizes of all tools."""
+        return [
+            _row(kind, path)
+            for kind in KINDS
+            for path in sorted((self.folder / "tools" / kind).glob("*.json"))[:MOST_TOOLS]
+        ]
+
+    def remove(self, kind: str, name: str) -> None:
+        """Take a tool away; jobs have their own copies."""
+        place = self.place(kind, name)
+        place.unlink(missing_ok=True)
+        place.with_suffix(".dxf").unlink(missing_ok=True)
+
+    def copy_to(self, folder: Path, tools: Mapping[str, str | None]) -> None:
+        """Copy the tools of a job into its folder."""
+        for kind, name in tools.items():
+            if name is not None:
+                other = Shelf(folder).place(kind, name)
+                other.parent.mkdir(parents=True)
+                shutil.copyfile(self.place(kind, name), other)
+
+
+def written(profile: Profile) -> dict[str, Any]:
+    """A section in a form that JSON can hold, to the last bit."""
+    rows = [
+        [*one.start, *one.end, *((*one.centre, int(one.clockwise)) if isinstance(one, Arc) else ())]
+        for one in profile.segments
+    ]
+    return {"segments": [[float(value) for value in row] for row in rows], "closed": profile.closed}
+
+
+def _segment(row: list[float]) -> Segment:
+    if len(row) == 4:
+        return Line((row[0], row[1]), (row[2], row[3]))
+    return Arc((row[0], row[1]), (row[2], row[3]), (row[4], row[5]), bool(row[6]))
+
+
+@lru_cache(maxsize=64)
+def _tool(kind: str, text: str) -> DrawnPunch | DrawnDie:
+    """The tool of a file; to check that a section does not cross itself takes some milliseconds."""
+    try:
+        content = json.loads(text)
+        profile = Profile([_segment(row) for row in content["segments"]], content["closed"])
+    except (ValueError, KeyError, TypeError, IndexError) as error:
+        raise UmformError("the file of a drawn tool is broken", where=kind, cause=str(error)) from error
+    return DrawnPunch.of(profile, kind) if kind == "punch" else DrawnDie.of(profile, kind)
+
+
+def _row(kind: str, place: Path) -> dict[str, Any]:
+    row: dict[str, Any] = {"kind": kind, "name": place.stem}
+    try:
+        text = place.read_text(encoding="utf-8")
+        content, tool = json.loads(text), _tool(kind, text)
+    except (OSError, ValueError, UmformError):
+        return row | {"broken": True}
+    row |= {"layer": content.get("layer", ""), "unit": content.get("unit", ""), "layers": content.get("layers", [])}
+    sizes = {"angle": tool.angle, "radius": tool.radius}
+    if isinstance(tool, DrawnDie):
+        sizes |= {"opening": tool.opening, "depth": tool.depth}
+    return row | {name: round(value, 4) for name, value in sizes.items()}
+
+
+def _bytes(drawing: str) -> bytes:
+    try:
+        content = base64.b64decode(drawing, validate=True)
+    except (binascii.Error, ValueError) as error:
+        raise InvalidValue("a drawing is sent as base64", where="drawing", cause=str(error)) from error
+    if not content or len(content) > LONGEST_DRAWING:
+        raise InvalidValue(
+            f"a drawing has 1 to {LONGEST_DRAWING} bytes here",
+            where="drawing",
+            value=len(content),
+            cause="a drawing of the whole machine, or an empty file",
+            remedy="save the section alone as DXF",
+        )
+    return content

@@ -1,0 +1,84 @@
+"""Jobs that bend a strip more than once: several bends in one part, a hem, as `umform bend` and `umform hem` do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from umform.bench.folders import RESULTS
+from umform.bench.live import Watch
+from umform.bench.live_strips import StripTold
+from umform.bench.wanted import Wanted
+from umform.io.staging import staging
+from umform.processes.air_bending.parameters import AirBending
+from umform.processes.bend_sequence import Part, bend_sequence
+from umform.processes.bend_sequence import files as part_files
+from umform.processes.hemming import Hem, Hemming, hemming
+from umform.processes.hemming import files as hem_files
+from umform.run.watching import watching
+
+#: Files of such jobs.
+FILES = (*part_files.FILES, *hem_files.FILES)
+#: Most points of a profile on the page.
+_MOST = 400
+#: What the page shows of a record as it is.
+_AS_IT_IS = ("flanges", "length_balance", "increments", "warnings", "seconds")
+
+
+def run_strip(folder: Path, title: str, wanted: Wanted, sheet: AirBending, note: str) -> dict[str, Any]:
+    """Bend a strip as it is wanted, and write what comes out of it.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of the job.
+    title : str
+        For the page of the shape.
+    wanted : Wanted
+        The form, of a part with several bends or of a hem.
+    sheet : AirBending
+        Sheet and tools.
+    note : str
+        Where the material comes from.
+
+    Returns
+    -------
+    dict
+        What the page shows.
+    """
+    case = wanted.strip(sheet)
+    hems = isinstance(case, Hemming)
+    watch = Watch(folder, title, StripTold(case.first if isinstance(case, Hemming) else case, hem=hems))
+    results = folder / RESULTS
+    with staging(results, hem_files.FILES if hems else part_files.FILES), watching(watch):
+        done = hemming(case, progress=False) if isinstance(case, Hemming) else bend_sequence(case, progress=False)
+        watch.phase("files", 0.95)
+        watch.shape(done.result if isinstance(done, Hem) else done.bends[-1].result)
+        if isinstance(done, Hem):
+            hem_files.write_files(results, done, note)
+        else:
+            part_files.write_files(results, done, note)
+    watch.phase("end", 1.0)
+    return _of_hem(done) if isinstance(done, Hem) else _of_part(done)
+
+
+def _of_part(part: Part) -> dict[str, Any]:
+    record = part_files.record(part)
+    bends = [
+        {"position": given["position"], "wanted": given["angle"], "over": given["direction"] == "down"}
+        | {"final_angle": found["final_angle"], **found["measures"]}
+        for given, found in zip(record["parameters"]["bends"], record["bends"], strict=True)
+    ]
+    return {"bends": bends, "flat_length": part.sequence.length, **_shown(record)}
+
+
+def _of_hem(hem: Hem) -> dict[str, Any]:
+    record = hem_files.record(hem)
+    return {"hem": record["measures"], "first": record["first"], **_shown(record)}
+
+
+def _shown(record: dict[str, Any]) -> dict[str, Any]:
+    """What is the same in all records, and the profile with fewer points."""
+    thin = max(1, -(-len(record["profile"]) // _MOST))
+    shown = {name: record[name] for name in _AS_IT_IS if name in record}
+    return shown | {"profile": record["profile"][::thin]}

@@ -1,0 +1,79 @@
+"""What a form says of a strip that is bent more than once, and the sequence or hem that it means."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from umform.processes.air_bending.parameters import AirBending
+from umform.processes.bend_sequence import Bend, BendSequence
+from umform.processes.hemming import Hemming
+
+_STRICT = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
+
+
+class WantedBend(BaseModel):
+    """One bend of a part.
+
+    Attributes
+    ----------
+    position : float
+        Distance of the bend line from the left end of the flat strip in mm.
+    angle : float
+        Wanted angle in degrees.
+    over : bool
+        Whether the part is turned over for it: the legs go down.
+    """
+
+    model_config = _STRICT
+
+    position: Annotated[float, Field(ge=0.1, le=4000.0)]
+    angle: Annotated[float, Field(ge=20.0, le=179.0)] = 90.0
+    over: bool = False
+
+
+class WantedStrip(BaseModel):
+    """Lengths of a strip, its bends in their order, and its hem.
+
+    Attributes
+    ----------
+    strip_length : float
+        Length of the flat strip.
+    bends : list of WantedBend
+        In the order in which they are bent.
+    gap, flange, base, first_angle : float
+        Of a hem: see `Hemming`.
+    insert : bool
+        Whether a plate of the thickness gap lies in the hem.
+    """
+
+    model_config = _STRICT
+
+    strip_length: Annotated[float, Field(ge=1.0, le=4000.0)] = 80.0
+    bends: Annotated[list[WantedBend], Field(min_length=1, max_length=20)] = [
+        WantedBend(position=25.0),
+        WantedBend(position=55.0),
+    ]
+    gap: Annotated[float, Field(ge=0.05, le=50.0)] = 1.0
+    flange: Annotated[float, Field(ge=1.0, le=500.0)] = 12.0
+    base: Annotated[float, Field(ge=1.0, le=2000.0)] = 30.0
+    first_angle: Annotated[float, Field(ge=20.0, le=70.0)] = 40.0
+    insert: bool = True
+
+    def sequence(self, sheet: AirBending) -> BendSequence:
+        """The bends in one part."""
+        bends = tuple(Bend(one.position, one.angle, direction="down" if one.over else "up") for one in self.bends)
+        return BendSequence(self.strip_length, bends, replace(sheet, stroke=None))
+
+    def hem(self, sheet: AirBending) -> Hemming:
+        """The hem."""
+        return Hemming(
+            gap=self.gap,
+            flange=self.flange,
+            base=self.base,
+            insert=self.insert,
+            angle=self.first_angle,
+            sheet=replace(sheet, stroke=None),
+        )

@@ -1,0 +1,109 @@
+"""All messages that a form can lead to before a run are there in German, and none that the code does not have."""
+
+import ast
+import json
+import re
+from importlib.resources import files
+from pathlib import Path
+
+import umform
+from umform import errors
+
+SOURCE = Path(umform.__file__).parent
+#: Code that a form can lead to, before a run.
+ROOMS = ("bench", "processes/air_bending", "processes/bend_sequence", "processes/hemming", "sheet_metals")
+FILES = (
+    "processes/rules.py",
+    "surfaces/dxf.py",
+    "surfaces/chains.py",
+    "surfaces/profile.py",
+    "surfaces/segments.py",
+    "surfaces/crossings.py",
+)
+#: What makes messages of its arguments, beside the classes of errors.
+MAKERS = {
+    "_unfit",
+    "Rule",
+    "length",
+    "angle_rule",
+    "plastic_material",
+    "_count",
+    "unreachable",
+    "_level",
+    "DiskFull",
+    "NoAnswer",
+    "PydanticCustomError",
+}
+PARTS = ("what", "cause", "remedy")
+GERMAN = json.loads(files("umform.bench").joinpath("page", "messages.de.json").read_text(encoding="utf-8"))
+#: What no form can lead to: files of curves, the Python interface, the start of the server.
+ELSEWHERE = (
+    "sheet_metals/curve_fit.py",
+    "sheet_metals/flow_curve.py",
+    "sheet_metals/least_squares.py",
+    "sheet_metals/directional_fit.py",
+    "processes/air_bending/deck.py",
+    "processes/bend_sequence/form.py",
+    "bench/server.py",
+)
+#: Beginnings of what only Python users can cause: friction, drawn tools, the interface of profiles.
+PYTHON = (
+    *("a coefficient of", "0.05 to 0.2 for", "a sign, or a percentage", "a drawn tool is", "a path or a Profile"),
+    *("a profile needs", "an empty list", "give lines and arcs", "an open profile", "it goes on", "close it:"),
+    *("the solid of", "a closed section", "solid=", "another name of the unit", "the unit of the model"),
+    *("bottoming=True;", "let each segment", "a J2 or a Metal", "AirBending(", "read_{}(", "umform "),
+)
+
+
+def messages():
+    """Templates of what, cause and remedy, with the file of each."""
+    names = {
+        name for name, kind in vars(errors).items() if isinstance(kind, type) and issubclass(kind, errors.UmformError)
+    }
+    paths = [path for room in ROOMS for path in (SOURCE / room).rglob("*.py")] + [SOURCE / name for name in FILES]
+    found = {}
+    for path in paths:
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(call, ast.Call) and _name(call.func) in names | MAKERS:
+                texts = [*call.args, *(word.value for word in call.keywords if word.arg in PARTS)]
+                for text in texts:
+                    template = _template(text)
+                    if template and " " in template:
+                        found.setdefault(template, path.relative_to(SOURCE).as_posix())
+    return found
+
+
+def _name(func):
+    return func.id if isinstance(func, ast.Name) else getattr(func, "attr", "")
+
+
+def _template(node):
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value
+    if isinstance(node, ast.JoinedStr):
+        return "".join(part.value if isinstance(part, ast.Constant) else "{}" for part in node.values)
+    return None
+
+
+def test_all_messages_of_the_form_are_german_too():
+    found = messages()
+    assert len(found) > 200
+    missing = {
+        text: place
+        for text, place in found.items()
+        if text not in GERMAN and place not in ELSEWHERE and not text.startswith(PYTHON)
+    }
+    assert missing == {}
+
+
+def test_translations_fill_in_what_the_messages_do():
+    for english, german in GERMAN.items():
+        assert german and english.count("{}") >= german.count("{}"), english
+        assert english == german or not re.search(r"\b(the|and|with)\b", german), german
+
+
+def test_translated_messages_are_those_of_the_code():
+    code = "".join(path.read_text(encoding="utf-8") for path in SOURCE.rglob("*.py"))
+    code = re.sub(r'"\s*\n\s*f?"', "", code)  # texts over several lines
+    pieces = {piece for text in GERMAN for piece in text.split("{}")}
+    assert {piece for piece in pieces if json.dumps(piece)[1:-1] not in code and piece not in code} == set()

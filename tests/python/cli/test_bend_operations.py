@@ -1,0 +1,35 @@
+"""What `umform bend` with bottoming or a sequence, and `umform hem`, refuse before anything runs."""
+
+from __future__ import annotations
+
+import pytest
+from typer.testing import CliRunner
+
+from umform.cli import app
+
+PRESS = ["--bottoming", "--die-angle", "88", "--punch-angle", "88"]
+
+
+@pytest.mark.parametrize(
+    ("typed", "message"),
+    [
+        (["bend", "--angle", "90", "--force-per-metre", "400"], "one of bottoming"),
+        (["bend", *PRESS], "one of them"),
+        (["bend", *PRESS, "--force-per-metre", "400", "--travel", "0"], "one of them"),
+        (["bend", *PRESS, "--force-per-metre", "400", "--angle", "90"], "no search for an angle"),
+        (["bend", *PRESS, "--force-per-metre", "400", "--budget"], "no budget"),
+        (["bend", *PRESS, "--travel", "2"], "more than half of its thickness"),
+        (["bend", "--bottoming", "--force-per-metre", "400", "--punch-angle", "88"], "of a sharper die"),
+        (["bend", "--sequence", "no.toml"], "cannot be read"),
+        (["bend", "--sequence", "no.toml", "--stroke", "3"], "of their own"),
+        (["hem", "--gap", "0"], "must be positive"),
+        (["hem", "--flange", "3"], "too short for the die"),
+        (["hem", "--base", "5"], "longer than its flange"),
+    ],
+)
+def test_the_command_refuses(typed, message, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(app, [*typed, "--out", str(tmp_path / "out")])
+    assert done.exit_code == 1
+    assert message in done.stderr
+    assert not (tmp_path / "out").exists()
