@@ -55,6 +55,8 @@ class Setup:
         Of the stroke; 0 for the pace that umform chooses.
     material : Material
         Law of the blank.
+    stroke : float
+        Of the punch.
     """
 
     variant: Variant = Variant("BEND8")
@@ -64,6 +66,7 @@ class Setup:
     slip: float = 0.005
     increments: int = 0
     material: Material = STEEL
+    stroke: float = STROKE
 
 
 @dataclass(frozen=True)
@@ -112,7 +115,7 @@ def model_of(setup: Setup) -> tuple[Model, list[Move]]:
         )
     force, stroke = model.press(holder, "z", "hold"), model.drive(punch, "z", "stroke")
     steps = setup.increments or None
-    return model, [Move(force, -HOLDER, steps=2), Move(stroke, -STROKE, steps=steps)]
+    return model, [Move(force, -HOLDER, steps=2), Move(stroke, -setup.stroke, steps=steps)]
 
 
 def draw(page: Page, setup: Setup, label: str) -> tuple[Model, Result]:
@@ -152,12 +155,17 @@ def measure(setup: Setup, drawn: Result, model: Model, draw_in: float) -> Measur
     """Angles and radius of the released part; force and draw-in at the end of the stroke."""
     found = u_bend_angles(shape(model), flange=max(setup.intervals // 12, 2))
     return Measured(
-        force=abs(2.0 * float(drawn["punch_fz"][-1])),
+        force=punch_force(drawn),
         draw_in=draw_in,
         theta1=found.theta1,
         theta2=found.theta2,
         radius=found.radius,
     )
+
+
+def punch_force(drawn: Result) -> float:
+    """Force of the punch at the end of the stroke, N per mm of width, both halves."""
+    return abs(2.0 * float(drawn["punch_fz"][-1]))
 
 
 def drawing_force() -> float:
