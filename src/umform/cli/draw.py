@@ -32,7 +32,7 @@ Stroke = Annotated[
 ]
 Coarse = Annotated[bool, typer.Option("--coarse", help="Coarse mesh, for a first result in seconds.")]
 Turn = Annotated[float | None, option("Largest angle in degrees that an element turns over a tool radius.", SOLUTION)]
-Layers = Annotated[int, option("Elements through the thickness.", SOLUTION)]
+Layers = Annotated[int, option("Elements through the thickness; 0: by the rule for sharp bends.", SOLUTION)]
 ThicknessPoints = Annotated[int | None, option("Thickness points per layer.", SOLUTION)]
 
 
@@ -94,7 +94,7 @@ def cup(
         element=element,
         turn=_chosen(turn, coarse, 30.0, 15.0),
         around=_chosen(around, coarse, 8, 12),
-        layers=layers,
+        layers=layers or None,
         thickness_points=thickness_points,
         contact_points=contact_points,
         penalty=_chosen(penalty, coarse, 1e4, 3e4),
@@ -156,7 +156,7 @@ def u(
         stroke=stroke,
         element=element,
         turn=_chosen(turn, coarse, 20.0, 13.0),
-        layers=layers,
+        layers=layers or None,
         thickness_points=thickness_points,
         contact_points=contact_points,
         penalty=penalty,
@@ -197,7 +197,7 @@ def _run(
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.draw.case import draw
-    from umform.processes.draw.files import FILES, write_files
+    from umform.processes.draw.files import FILES, draw_blank, write_files
     from umform.processes.draw.words import before_the_run
 
     print_warnings_once()
@@ -206,6 +206,7 @@ def _run(
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     say(f"umform: {before_the_run(case)}")
     with staging(place, FILES):
+        say(f"umform: its mesh is drawn in {draw_blank(place, case)}")
         drawn = draw(case, limit=curve)
         try:
             with printing(f"the files of the part are in {place}"):

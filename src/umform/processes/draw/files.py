@@ -11,13 +11,16 @@ from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
+from umform.processes.draw.u_bend import UBend
 from umform.processes.draw.words import parameters
 from umform.report.versions import versions
 
 _PICTURES = (
-    "curve", "thinning", "major_middle", "limit_margin", "wrinkling", "punch_distance", "gauge", "limits", "outline",
-    "section", "ears",
+    "blank", "curve", "thinning", "major_middle", "limit_margin", "wrinkling", "punch_distance", "gauge", "limits",
+    "outline", "section", "ears",
 )  # fmt: skip
+#: The mesh over the wanted sizes, drawn before the run.
+_BEFORE = "blank.png"
 _DATA = (
     "curve.csv", "fields.csv", "outline.csv", "section.csv", "ears.csv", "part.json", "draw.vtkhdf", "release.vtkhdf",
 )  # fmt: skip
@@ -60,6 +63,16 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
             save(figure, here / f"{name}.png", dpi=120)
         write_page(here / "report.html", drawn, figures, note)
         return [*files, *stage.commit(_PAGE)]
+
+
+def draw_blank(out: str | Path, case: Cup | UBend) -> Path:
+    """Draw the mesh of the blank over the sizes that the tools ask for; before the run."""
+    from umform.plotting import save
+    from umform.processes.draw.pictures import blank
+
+    with staging(out, (_BEFORE,)) as stage:
+        save(blank(case), stage.waiting / _BEFORE, dpi=120)
+        return stage.commit((_BEFORE,))[0]
 
 
 def _write_tables(here: Path, drawn: Drawn) -> None:

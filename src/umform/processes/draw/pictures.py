@@ -13,8 +13,11 @@ from numpy.typing import NDArray
 from umform.plotting import COLOURS, INK, Picture, draw_shape, house_style
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
+from umform.processes.draw.u_bend import UBend
+from umform.processes.sizes_picture import sizes_figure
 from umform.results.forming import lay_by_best_fit, lay_on_three_points
 from umform.results.shape import Shape, outer_quads
+from umform.surfaces import tool_sizes
 
 Floats = NDArray[np.float64]
 
@@ -31,7 +34,7 @@ FIELDS: Mapping[str, str] = {
 
 def pictures(drawn: Drawn) -> dict[str, Figure]:
     """All pictures by name, in the order of the report."""
-    made = {"curve": curve(drawn)}
+    made = {"blank": blank(drawn.case), "curve": curve(drawn)}
     shape = part(drawn)
     made |= {name: coloured(shape, name, label) for name, label in FIELDS.items()}
     made["gauge"] = in_gauge(drawn, shape)
@@ -39,6 +42,24 @@ def pictures(drawn: Drawn) -> dict[str, Figure]:
     if isinstance(drawn.case, Cup):
         made["ears"] = ears(drawn)
     return made
+
+
+def blank(case: Cup | UBend) -> Figure:
+    """The mesh of the blank over the sizes that the radii of the tools ask for, eq. (5.69)."""
+    model, _ = case.build()
+    surfaces = {tool.name: tool.surface for tool in model.tools}
+    X = model.mesh.points[:, :2]
+    box = X.min(axis=0), X.max(axis=0)
+    largest = float(np.diff(case.sizes.ends).max())
+    sizes = tool_sizes(
+        [surfaces["die"]], [surfaces["punch"]], box, thickness=case.thickness, turn=case.turn, largest=largest
+    )
+    mesh = model.mesh
+    if not isinstance(case, Cup):  # the strip of unit width stands for the whole width
+        stretch = np.array([1.0, 0.5 * case.width, 1.0])
+        sizes = replace(sizes, y=sizes.y * stretch[1])
+        mesh = mesh.transformed(lambda x: x * stretch)
+    return sizes_figure(sizes, mesh)
 
 
 def curve(drawn: Drawn) -> Figure:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from umform.elements import element
+from umform.elements.locking import layers_for
+from umform.materials.j2 import Plastic
 from umform.processes.rules import FRICTION, Rule, contact_points, length, number, plastic_material, positive, whole
 
 #: Rules for both cups and U-bends.
@@ -35,7 +38,14 @@ COMMON: dict[str, Rule] = {
     "layers": Rule(
         lambda value: whole(value, 1, 10),
         "layers through the thickness must be a whole number from 1 to 10",
-        "zero",
-        "1, or 2",
-    ),
+        "a thickness",
+        "1, or 2; None follows the rule for sharp bends",
+    ).optional(),
 }
+
+
+def layers_by_rule(name: str, material: Plastic, thickness: float, radius: float) -> int:
+    """Layers of an element that follow the sharpest radius of the tools, eq. (2.29)."""
+    yield_stress, _ = material.hardening.curve()(0.0)
+    order = element(name).thickness_order
+    return layers_for(order, thickness, radius, material.kappa / float(yield_stress))

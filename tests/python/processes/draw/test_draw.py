@@ -1,7 +1,7 @@
 """Cups and U-bends: parameters, sizes, tools, a run, its files, and how it may end."""
 
 import json
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -10,6 +10,8 @@ import pytest
 import umform as uf
 from umform.errors import InvalidValue
 from umform.processes.draw import Cup, UBend, draw, write_files
+from umform.processes.draw.files import draw_blank
+from umform.processes.draw.words import before_the_run
 from umform.results.forming import ear_profile
 
 STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(565.3, 0.0071, 0.259))
@@ -79,6 +81,7 @@ def test_measures_of_a_cup():
 def test_files_of_a_cup(tmp_path):
     files = {file.name for file in write_files(tmp_path, cup())}
     assert {"report.html", "ears.csv", "ears.png", "limits.png", "curve.csv", "draw.vtkhdf", "release.vtkhdf"} <= files
+    assert "blank.png" in files
     assert json.loads((tmp_path / "part.json").read_text())["ending"] is None
     page = (tmp_path / "report.html").read_text()
     assert "Forming limit diagram" in page and "Height of the cup" in page
@@ -125,6 +128,38 @@ def test_no_element_turns_more_than_asked():
         for part in case.sizes.bent:
             assert case.sizes.largest_turn(part) < 1.15 * case.turn
     assert "degrees over the edge of the punch" in str(CUP.sizes)
+
+
+def test_layers_by_rule_and_the_blank_before_the_run(tmp_path):
+    """A flow stress of 157 MPa at first: order 1 locks over a radius of 6 in one layer, order 4 does not."""
+    assert (CUP.stacked, CUP.needed_layers) == (1, 2)
+    assert "--layers 2" in before_the_run(CUP)
+    sharp = replace(CUP, layers=None, punch_edge=2.0)
+    assert sharp.stacked == sharp.needed_layers > 2 and "needs" not in before_the_run(sharp)
+    assert len(sharp.blank().connectivity) == sharp.stacked * len(replace(sharp, layers=1).blank().connectivity)
+    assert replace(CUP, element="BEND8").needed_layers == U.needed_layers == 1
+    for case in (CUP, U):
+        assert draw_blank(tmp_path, case).read_bytes()[1:4] == b"PNG"
+
+
+@dataclass(frozen=True, kw_only=True)
+class OnFloor(Cup):
+    """A cup whose bottom meets a floor below the die."""
+
+    floor: float
+
+    def build(self):
+        model, press = super().build()
+        floor = uf.Plane((0.0, 0.0, -self.floor - 0.5 * self.thickness), (0.0, 0.0, 1.0))
+        model.contact("lower", floor, penalty=self.penalty, name="floor")
+        return model, press
+
+
+def test_a_punch_that_bottoms_is_named():
+    case = OnFloor(**CUP.record() | {"stroke": 3.15}, floor=3.0)
+    drawn = draw(case, limit=lambda minor: 0.0 * minor + 9.0, frames=0, progress=False)
+    assert drawn.ending is not None and drawn.ending.kind == "bottomed"
+    assert "the punch bottoms at a stroke of" in drawn.warnings[0]
 
 
 @pytest.mark.parametrize(
