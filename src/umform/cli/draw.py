@@ -206,7 +206,7 @@ def _run(
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     say(f"umform: {before_the_run(case)}")
     with staging(place, FILES):
-        say(f"umform: its mesh is drawn in {draw_blank(place, case)}")
+        say(f"umform: the mesh of the blank is drawn in {draw_blank(place, case)}")
         drawn = draw(case, limit=curve)
         try:
             with printing(f"the files of the part are in {place}"):

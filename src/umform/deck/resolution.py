@@ -21,7 +21,7 @@ from umform.deck.problem import Problem
 from umform.deck.steps import Move
 from umform.deck.tools import ToolPart, along, smallest_radius
 from umform.deck.units import first_yield
-from umform.elements.locking import LOCKING, locking_moment
+from umform.elements.locking import HIGHEST, LOCKING, locking_moment
 from umform.elements.technology import Element
 from umform.materials import Plastic, Table
 from umform.model import Model
@@ -30,8 +30,8 @@ from umform.model.contact.encounter import sheet_thickness
 
 #: Degrees of a tool radius per element: with 4 nodes a face, and with 9, which follow an arc.
 _ARC = {4: 12.0, 9: 24.0}
-#: Order of the thickness strain above which the straight director is the limit, and the elements for bends.
-_HIGHEST, _FOR_BENDS = 4, {"hex8": "BEND8", "hex18": "BEND18"}
+#: Elements for bends.
+_FOR_BENDS = {"hex8": "BEND8", "hex18": "BEND18"}
 #: Points through the thickness that plastic bending needs, and sharp bends (strain above 0.1).
 _POINTS, _SHARP_POINTS, _SHARP = 5, 7, 0.1
 #: Travel in an increment, in thicknesses.
@@ -96,7 +96,7 @@ def through_thickness(model: Model, material: Plastic, h: float, radius: float, 
     """Thickness points and thickness order against the strain that the smallest radius asks for."""
     strain, layers = h / (2.0 * radius + h), layers_of(model, h)
     order, stiffness = max(model.element.thickness_order, 1), material.kappa / first_yield(material)
-    follows = min(order, _HIGHEST)
+    follows = min(order, HIGHEST)
     text = f"the radius {radius:.4g} of {tool} strains a sheet of {h:.4g} by {100 * strain:.3g} %"
     if locking_moment(follows, strain, stiffness, layers) > LOCKING:
         remedy = against_locking(model.element, strain, stiffness, layers)
@@ -116,12 +116,12 @@ def through_thickness(model: Model, material: Plastic, h: float, radius: float, 
 
 def against_locking(element: Element, strain: float, stiffness: float, layers: int) -> str:
     """Remedy: a higher order of the thickness strain if possible, else layers."""
-    for order in range(max(element.thickness_order, 1) + 1, _HIGHEST + 1):
+    for order in range(max(element.thickness_order, 1) + 1, HIGHEST + 1):
         if locking_moment(order, strain, stiffness, layers) <= LOCKING:
             if element.thickness_order == 0:
                 return f"name = '{_FOR_BENDS[element.cell]}'"
             return f"leave thickness_order out, or give {order} or more"
-    while locking_moment(_HIGHEST, strain, stiffness, layers) > LOCKING:
+    while locking_moment(HIGHEST, strain, stiffness, layers) > LOCKING:
         layers += 1
     return f"{layers} layers of BEND18: no order follows so sharp a bend in fewer"
 

@@ -16,6 +16,7 @@ from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
 from umform.processes.sizes_picture import sizes_figure
 from umform.results.forming import lay_by_best_fit, lay_on_three_points
+from umform.results.forming.u_bend import crossing
 from umform.results.shape import Shape, outer_quads
 from umform.surfaces import tool_sizes
 
@@ -167,6 +168,12 @@ def sections(drawn: Drawn) -> Figure:
         for (name, cut), colour, line in zip(drawn.sections.items(), COLOURS, ("--", "-"), strict=False):
             axes.plot(*cut.lower[:, [0, 2]].T, line, color=colour, label=name)
             axes.plot(*cut.upper[:, [0, 2]].T, line, color=colour)
+        if drawn.angles is not None and isinstance(drawn.case, UBend) and drawn.case.heights is not None:
+            middle = drawn.sections["released"].middle[:, [0, 2]]
+            wall = np.array([crossing(middle, height) for height in drawn.case.heights])
+            axes.plot(*wall.T, "o", color=INK, markersize=4, label="points of the wall")
+            theta1, theta2, radius = drawn.angles.theta1, drawn.angles.theta2, drawn.angles.radius
+            axes.set_title(f"theta1 {theta1:.1f}°, theta2 {theta2:.1f}°, radius of the wall {radius:.0f} mm")
         axes.set_aspect("equal")
         axes.legend()
     return figure

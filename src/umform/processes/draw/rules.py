@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import cast
+
 from umform.elements import element
 from umform.elements.locking import layers_for
+from umform.materials import Material
 from umform.materials.j2 import Plastic
+from umform.model.through_thickness import completed, points_through
 from umform.processes.rules import FRICTION, Rule, contact_points, length, number, plastic_material, positive, whole
 
 #: Rules for both cups and U-bends.
@@ -44,8 +48,9 @@ COMMON: dict[str, Rule] = {
 }
 
 
-def layers_by_rule(name: str, material: Plastic, thickness: float, radius: float) -> int:
-    """Layers of an element that follow the sharpest radius of the tools, eq. (2.29)."""
+def layers_by_rule(name: str, material: Plastic, points: int | None, thickness: float, radius: float) -> int:
+    """Layers of an element, with so many thickness points, that follow the sharpest radius of the tools, eq. (2.29)."""
     yield_stress, _ = material.hardening.curve()(0.0)
-    order = element(name).thickness_order
+    made, law = element(name), cast(Material, material)
+    order = completed(made, law, points_through(made, law, points, None)[0]).thickness_order
     return layers_for(order, thickness, radius, material.kappa / float(yield_stress))

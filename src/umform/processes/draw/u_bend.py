@@ -126,7 +126,8 @@ class UBend:
     @cached_property
     def needed_layers(self) -> int:
         """Layers by the rule for sharp bends: eq. (2.29) for the smallest radius of the tools."""
-        return layers_by_rule(self.element, self.material, self.thickness, min(self.punch_edge, self.die_edge))
+        radius = min(self.punch_edge, self.die_edge)
+        return layers_by_rule(self.element, self.material, self.thickness_points, self.thickness, radius)
 
     @property
     def stacked(self) -> int:

@@ -131,13 +131,13 @@ def test_no_element_turns_more_than_asked():
 
 
 def test_layers_by_rule_and_the_blank_before_the_run(tmp_path):
-    """A flow stress of 157 MPa at first: order 1 locks over a radius of 6 in one layer, order 4 does not."""
-    assert (CUP.stacked, CUP.needed_layers) == (1, 2)
-    assert "--layers 2" in before_the_run(CUP)
-    sharp = replace(CUP, layers=None, punch_edge=2.0)
-    assert sharp.stacked == sharp.needed_layers > 2 and "needs" not in before_the_run(sharp)
-    assert len(sharp.blank().connectivity) == sharp.stacked * len(replace(sharp, layers=1).blank().connectivity)
-    assert replace(CUP, element="BEND8").needed_layers == U.needed_layers == 1
+    """Two thickness points, so order 1, lock over a radius of 6; the complete order over one of 0.25."""
+    assert CUP.needed_layers == U.needed_layers == 1 and before_the_run(U).endswith("; 1 layer")
+    few = replace(CUP, thickness_points=2)
+    assert (few.stacked, few.needed_layers) == (1, 2) and "--layers 2" in before_the_run(few)
+    sharp = replace(CUP, layers=None, punch_edge=0.25)
+    assert sharp.stacked == 2 and before_the_run(sharp).endswith("; 2 layers")
+    assert len(sharp.blank().connectivity) == 2 * len(replace(sharp, layers=1).blank().connectivity)
     for case in (CUP, U):
         assert draw_blank(tmp_path, case).read_bytes()[1:4] == b"PNG"
 
