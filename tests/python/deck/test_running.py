@@ -192,6 +192,15 @@ def test_fields_of_forming(deck, tmp_path):
         assert {"major_lower", "minor_upper", "thinning", "limit_margin"} <= set(file["VTKHDF/CellData"])
 
 
+def test_elements_beyond_the_forming_limit_are_a_warning(deck, tmp_path):
+    for limit, torn in (("[[-0.2, 1e-6], [0.2, 1e-6]]", True), ("[[-0.2, 0.9], [0.2, 0.9]]", False)):
+        options = ["--set", "steps.0.increments=2", "--set", f"output.forming_limit={limit}", "--overwrite"]
+        answer = umform("run", deck, "--out", tmp_path / "out", *options)
+        assert answer.exit_code == 0, answer.output
+        page = (tmp_path / "out" / "report.html").read_text()
+        assert ("beyond the forming limit" in page) is torn
+
+
 def test_a_forming_limit_that_is_not_sorted_is_refused(deck, tmp_path):
     limit = "output.forming_limit=[[0.2, 0.5], [-0.2, 0.4]]"
     answer = umform("run", deck, "--out", tmp_path / "out", "--set", limit)
