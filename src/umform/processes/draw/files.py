@@ -56,6 +56,8 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
         write_json(here / "part.json", record(drawn))
         drawn.result.write(here / "draw.vtkhdf")
         if drawn.released is not None:
+            for frame in drawn.released.frames:
+                frame.points["punch_distance"] = drawn.distance_from_punch(frame.points["displacement"])
             drawn.released.write(here / "release.vtkhdf")
         files = stage.commit(_DATA)  # a failure of a picture must not lose the numbers
         figures = pictures(drawn)
@@ -82,7 +84,9 @@ def _write_tables(here: Path, drawn: Drawn) -> None:
     write_csv(here / "curve.csv", {"stroke": drawn.stroke, **forces, **work})
     mesh = result.model.mesh
     middle = mesh.points[mesh.connectivity].mean(axis=1)
-    write_csv(here / "fields.csv", {"x": middle[:, 0], "y": middle[:, 1], **drawn.fields})
+    distance = drawn.punch_distance[mesh.connectivity].mean(axis=1)
+    fields = drawn.fields | {"punch_distance": distance}
+    write_csv(here / "fields.csv", {"x": middle[:, 0], "y": middle[:, 1], **fields})
     edge = drawn.outline
     columns = np.concatenate([edge.before, edge.after, edge.draw_in[:, None]], axis=1).T
     write_csv(here / "outline.csv", dict(zip(("x_before", "y_before", "x", "y", "draw_in"), columns, strict=True)))
