@@ -156,7 +156,7 @@ class _Api:
         good, refused = [], []
         for number, one in enumerate(wanted):
             try:
-                good.append(one.with_sizes(one.case(self.queue.shelf)))
+                good.append(one.as_ordered(one.case(self.queue.shelf)))
             except UmformError as error:
                 if len(wanted) == 1:
                     raise

@@ -87,6 +87,7 @@ class Watch:
 
         write_shape(self.folder, result, self.title)
         self.content["shape"] += 1
+        self.write()
 
     def _take(self, run: Run) -> None:
         content = {"increments": len(run.result) - 1, **self.tell(run)}

@@ -170,9 +170,10 @@ class Wanted(WantedStrip):
         """Names of the drawn tools."""
         return {"punch": self.punch, "die": self.die}
 
-    def with_sizes(self, case: AirBending) -> Wanted:
-        """The same with the sizes of its drawn tools."""
-        return self.model_copy(update=drawn_sizes(case.punch_section, case.die_section))
+    def as_ordered(self, case: AirBending) -> Wanted:
+        """The same with the sizes of its drawn tools, without goals of other kinds of work."""
+        others = {} if self.work == "bend" else {"angle": None, "stroke": None}
+        return self.model_copy(update={**others, **drawn_sizes(case.punch_section, case.die_section)})
 
     @property
     def title(self) -> str:

@@ -151,7 +151,7 @@ def bend(
         punch_width=punch_width,
     )
     if sequence is not None:
-        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel)
+        check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, print_deck)
         run_sequence(sequence, case, note, out, tolerance=tolerance, overwrite=overwrite)
         return
     if bottoming:

@@ -30,11 +30,11 @@ def check_goal(angle: float | None, stroke: float | None, force: float | None, t
 
 def check_no_goal(option: str, *goals: object) -> None:
     """Refuse a goal of a single bend together with an option that defines goals."""
-    if any(goal is not None for goal in goals):
+    if any(goal is not None and goal is not False for goal in goals):
         raise InvalidValue(
             "the bends of a file have angles and strokes of their own",
             where=option,
-            cause="--angle, --stroke, --table, --force-per-metre or --travel beside it",
+            cause="--angle, --stroke, --table, --bottoming, --budget or --print-deck beside it",
             remedy=f"leave them out, or {option}",
         )
 

@@ -60,6 +60,8 @@ class Tool(Term):
         Whether it is open: it then holds no point, wherever it is.
     load : Load, optional
         Forces on the sheet that replace it while it is open.
+    may_bottom : bool
+        Whether it is meant to squeeze the sheet against another tool; else a run warns of it.
     """
 
     timed_as = "contact"
@@ -84,6 +86,7 @@ class Tool(Term):
         self.reference_point = np.zeros(3)
         self.open = False
         self.load: Load | None = None
+        self.may_bottom = False
 
     # Pose ----------------------------------------------------------------------------------------------------
 

@@ -118,7 +118,7 @@ def warn_of_bottoming(model: Model, result: History, step: int, found: Mapping[A
         return
     rows = rows if rows[0] == 0 else np.concatenate([[rows[0] - 1], rows])
     for control in model.controls:
-        if not isinstance(control, ToolMotion):
+        if not isinstance(control, ToolMotion) or control.tool.may_bottom:
             continue
         at = bottoming(result[control.name][rows], result[f"{control.name}_force"][rows])
         if at is None or not bottoms(model, control.tool, found):

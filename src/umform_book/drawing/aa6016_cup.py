@@ -206,5 +206,5 @@ thickens against it, and the cup tears where the holder keeps its distance. So t
 in the files, 40 kN is an assumption, and the budget shows what 10 kN more do.
 """,
     run=run,
-    cost=600.0,
+    cost=800.0,
 )

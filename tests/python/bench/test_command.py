@@ -44,3 +44,10 @@ def test_token_that_others_can_read_or_that_is_none_is_replaced(tmp_path, text, 
     token = token_of(tmp_path)
     assert token != text and (tmp_path / "token").read_text() == token
     assert (tmp_path / "token").stat().st_mode & 0o077 == 0
+
+
+@pytest.mark.parametrize("module", ["work", "server"])
+def test_pictures_are_loaded_after_the_first_increments(module):
+    """Matplotlib takes as long to load as all else that a bend needs before its first picture on the page."""
+    command = [sys.executable, "-c", f"import sys, umform.bench.{module}; sys.exit('matplotlib' in sys.modules)"]
+    assert subprocess.run(command, timeout=100, check=False).returncode == 0

@@ -22,6 +22,7 @@ PRESS = ["--bottoming", "--die-angle", "88", "--punch-angle", "88"]
         (["bend", "--bottoming", "--force-per-metre", "400", "--punch-angle", "88"], "of a sharper die"),
         (["bend", "--sequence", "no.toml"], "cannot be read"),
         (["bend", "--sequence", "no.toml", "--stroke", "3"], "of their own"),
+        (["bend", "--sequence", "no.toml", "--budget"], "of their own"),
         (["hem", "--gap", "0"], "must be positive"),
         (["hem", "--flange", "3"], "too short for the die"),
         (["hem", "--base", "5"], "longer than its flange"),

@@ -39,7 +39,12 @@ def test_the_force_is_the_one_asked_for(pressed):
     assert m.force == pytest.approx(400.0, rel=0.005)
     assert m.largest_force == m.force
     assert pressed.bend.against == "die"
-    assert not any("air bending" in text for text in pressed.bend.warnings)
+    assert not any("air bending" in text or "bottoms" in text for text in pressed.bend.warnings)
+
+
+def test_a_punch_that_is_meant_to_bottom_is_not_warned_of(caplog):
+    air_bending(with_travel(COARSE, 0.1), progress=False, frames=1)
+    assert "bottoms" not in caplog.text
 
 
 def test_the_flanks_take_the_springback_away(pressed):

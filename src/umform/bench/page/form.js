@@ -169,6 +169,7 @@ export class Form {
   suitWork() {
     const { work, thickness: t, press_force: force, travel, die_angle: angle } = this.values;
     if (work === "bottom" && force === null && travel === null) this.change({ travel: 0, die_angle: 88, punch_angle: 88, punch: null, die: null });
+    if (work === "bend" && this.values.angle === null && this.values.stroke === null) this.change({ angle: 90 });
     if (work === "hem") {
       this.change({ opening: 8 * t, die_angle: 30, die_radius: t, punch_angle: 30, punch_radius: 0.5 * t, punch: null, die: null, gap: t, flange: 12 * t, base: 30 * t });
     } else if (angle < 40) {

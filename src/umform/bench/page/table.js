@@ -23,7 +23,7 @@ export function askTable(form, library, ordered) {
     event.preventDefault();
     const forms = listed(openings.value).flatMap((opening) => {
       const die = library.tools.dies.find((/** @type {any} */ one) => one.opening === opening);
-      return listed(angles.value).map((angle) => ({ ...values, opening, angle, stroke: null, die_radius: die?.radius ?? values.die_radius }));
+      return listed(angles.value).map((angle) => ({ ...values, opening, angle, stroke: null, die: null, die_radius: die?.radius ?? values.die_radius }));
     });
     try {
       const answer = await post("/api/jobs", { forms, series: `${values.material} ${values.thickness} mm` });

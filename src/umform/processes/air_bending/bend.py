@@ -144,5 +144,4 @@ class AirBend:
             deep: self.penetration > _DEEP * self.case.thickness and not exceeded,
             flat: not self.released.is_bent,
         }
-        said = [text for text in self.result.warnings if not (self.case.bottoming and " bottoms at " in text)]
-        return [*(text for text, holds in found.items() if holds), *said]
+        return [*(text for text, holds in found.items() if holds), *self.result.warnings]

@@ -45,6 +45,7 @@ def build(case: AirBending) -> tuple[Model, Control]:
     penalty, depth, points = case.penalty, case.penetration, case.contact_points
     model.contact("lower", case.die, penalty=penalty, penetration=depth, points=points, name="die")
     punch = model.contact("upper", case.punch, penalty=penalty, penetration=depth, points=points, name="punch")
+    punch.tool.may_bottom = case.bottoming
     return model, model.drive(punch, "-z", name="stroke")
 
 

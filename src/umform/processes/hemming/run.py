@@ -95,6 +95,7 @@ def in_press(case: Hemming, first: Part) -> tuple[Model, Control, float]:
     plate = model.contact("lower", Plane((0.0, 0.0, top), (0.0, 0.0, -1.0)), name="plate", **how)
     if case.insert:
         model.contact("upper", _insert(case, Strip.of(mesh, model.u)), name="insert", **how)
+    plate.tool.may_bottom = case.insert
     control = model.drive(plate, "-z", name="stroke")
     model.rest()
     return model, control, top - case.height
