@@ -88,9 +88,7 @@ def on_all_ranks(solver: str, options: Sequence[str]) -> Iterator[None]:
 
 
 def launched() -> tuple[int, int]:
-    """Number of this process, and number of processes started by mpiexec, from the environment; (0, 1) without
-    mpiexec.
-    """
+    """Number of this process, and number of those started by mpiexec, from the environment; (0, 1) without it."""
     for rank, size in (("OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"), ("PMI_RANK", "PMI_SIZE")):
         if rank in os.environ and size in os.environ:
             return int(os.environ[rank]), int(os.environ[size])

@@ -108,9 +108,7 @@ def _output_fails() -> bool:
 
 
 def _forget(stream: Any) -> None:
-    """Redirect the buffered data of a stream to the null device, so that Python does not report a broken pipe at
-    exit.
-    """
+    """Redirect the buffered data of a stream to the null device, so that Python reports no broken pipe at exit."""
     if stream is not None and not stream.closed:
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 

@@ -94,9 +94,7 @@ class Cut(Part):
 
 
 def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
-    """Write displacements and the history of all bodies, and the data of this deck, for the deck of the next
-    operation.
-    """
+    """Write displacements, the history of all bodies, and the data of this deck, for the next operation."""
     state = model.snapshot()
     bodies = {body.key: state.terms[body.key] for body in model.bodies}
     tree = {"points": model.mesh.points, "u": state.u, "time": state.time, "began": state.began, "bodies": bodies}

@@ -45,9 +45,7 @@ ANS_THICKNESS = {
 
 
 def _nodal(component: str, order: int) -> dict[tuple[int, int], Mode]:
-    """Products of P_order(t) with the nine Lagrange polynomials of the 3 x 3 Gauss points, in the order of the
-    points.
-    """
+    """Products of P_order(t) with the nine Lagrange polynomials of the 3 x 3 Gauss points, in their order."""
     half, square = 0.5 / _B, 0.5 / _B**2
     of_point = (((1, -half), (2, square)), ((0, 1.0), (2, -2.0 * square)), ((1, half), (2, square)))
     return {

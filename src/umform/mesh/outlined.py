@@ -123,9 +123,7 @@ def _gmsh() -> Iterator[Any]:
 
 
 def _loop(gmsh: Any, curve: Closed) -> tuple[int, list[list[int]]]:
-    """A closed curve, and the gmsh lines of each of its segments; arcs are divided into parts of less than half a
-    turn.
-    """
+    """A closed curve, and the gmsh lines of its segments; arcs are divided into parts of less than half a turn."""
     geo, corners, tags = gmsh.model.geo, dict[tuple[float, float], int](), list[list[int]]()
 
     def corner(p: Floats | _Point) -> int:

@@ -148,9 +148,7 @@ def diagnosis(model: Evaluated) -> tuple[str, str] | None:
 
 
 def held_by_tools(model: Evaluated, evaluation: Evaluation) -> bool:
-    """Whether tools and supports hold the sheet as a rigid body: along normals, and in all directions where friction
-    sticks.
-    """
+    """Whether tools and supports hold the sheet as a rigid body: along normals, and where friction sticks, fully."""
     touched = []
     for contact in model.contacts:
         found = evaluation.found[contact]

@@ -100,9 +100,7 @@ def _check_together(press: Press, to: Tool, where: str) -> None:
 
 
 def _facing(model: Evaluated, press: Press, to: Tool) -> Iterator[Floats]:
-    """Distance (k,) between both tools at points of the sheet between them, and the sign of the travel that closes
-    it.
-    """
+    """Distance (k,) between both tools at points of the sheet, and the sign of the travel that closes it."""
     own = press.way.tool
     direction = np.asarray(press.way.direction)  # type: ignore[attr-defined]
     for pair in [*own.pairs, *to.pairs]:

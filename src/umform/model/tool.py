@@ -175,9 +175,7 @@ class Tool(Term):
     # Term ----------------------------------------------------------------------------------------------------
 
     def evaluate(self, at: At, into: Into) -> Found:
-        """Add the equations of its unknown travels: equilibrium of sheet, press, spring and stops. eqs. (4.42),
-        (4.61)
-        """
+        """Add the equilibrium equations of its unknown travels. eqs. (4.42), (4.61)"""
         border, borne = into.border, dict[str, float]()
         seen = _Seen(into.residual, into.found, at.values, at.time)
         for press in self._finding():
@@ -216,9 +214,7 @@ class Tool(Term):
         return {f"{press.force.name}_stop": borne.get(press.force.name, 0.0) for press in self.presses if press.rigid}
 
     def state(self) -> Tree:
-        """Values of unknown travels, those that are prescribed at present; whether it is open, and its replacing
-        forces.
-        """
+        """Unknown travels, whether each is prescribed at present; whether it is open, and its replacing forces."""
         ways = {press.unknown.name: [press.unknown.value, float(press.held)] for press in self.presses}
         tree: Tree = {"ways": ways}
         if self.load is not None:

@@ -121,9 +121,7 @@ class ToolMotion(ToolWay):
 
 @dataclass(eq=False, repr=False)
 class ToolTurn(ToolWay):
-    """Rotation of a tool about an axis through a point, in radians; its force is the moment of the sheet on the
-    tool.
-    """
+    """Rotation of a tool about an axis, in radians; its force is the moment of the sheet on the tool."""
 
     axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
     about: tuple[float, float, float] = (0.0, 0.0, 0.0)

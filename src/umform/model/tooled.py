@@ -1,6 +1,4 @@
-"""Motion of the tools of a model: translations, rotations, forces, moments, springs, stops, followers, motions in
-time.
-"""
+"""Motion of the tools of a model: translations, rotations, forces, springs, stops, followers, motions in time."""
 
 from __future__ import annotations
 

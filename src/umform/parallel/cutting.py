@@ -1,6 +1,4 @@
-"""The first rank divides its model into parcels, one for each rank: all data that grow with the mesh, in local
-numbering.
-"""
+"""Division of a model into parcels, one for each rank: all data that grow with the mesh, in local numbering."""
 
 from __future__ import annotations
 

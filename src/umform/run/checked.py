@@ -47,9 +47,7 @@ def checked(model: Model | None, steps: Sequence[Step] | Step) -> list[Step]:
 
 
 def _refuse_a_way_that_is_found(model: Model, control: Control, earlier: Sequence[Step], where: str) -> None:
-    """Reject to move a tool along a travel that a force or a spring determines, unless it has been released or
-    opened.
-    """
+    """Reject to move a tool whose travel a force or a spring determines, unless it was released or opened."""
     press = way_is_found(model, control)
     if press is None:
         return

@@ -89,9 +89,7 @@ class Checkpoints:
         return clock.perf_counter() - self._last >= wait
 
     def write(self, run: Run) -> None:
-        """Write the state of a run between two increments; a failure adds a warning to the result, and the run
-        continues.
-        """
+        """Write the state of a run between two increments; after a failure the run continues with a warning."""
         start = clock.perf_counter()
         tree = {"fingerprint": self.fingerprint, "note": self.note, **_tree(run)}
         try:

@@ -25,9 +25,7 @@ _FACTOR, _SOLVE, _EVALUATE = 0.055, 1.5, 1450.0
 
 
 def cost_of_factors(fill: int, equations: int, effort: float) -> float:
-    """Cost of a factorisation over that of evaluation and solve, from the entries of the factors and
-    :attr:`umform.Model.effort`.
-    """
+    """Cost of a factorisation over that of evaluation and solve, see :attr:`umform.Model.effort`."""
     column = fill / equations
     return _FACTOR * column * column / (_EVALUATE * effort + _SOLVE * column)
 

@@ -76,9 +76,7 @@ def lengthened(
 
 
 def _overshoot(system: System, along: Floats, slope: float, evaluation: Evaluation) -> float:
-    """Ratio of the slope to that at the beginning, positive after a change of sign; infinite where a cell has
-    failed.
-    """
+    """Ratio of the slope to that at the beginning, positive after a change of sign; infinite if a cell failed."""
     if evaluation.failed >= 0:
         return math.inf
     ratio = -system.ranks.dot(system.restrict(evaluation.residual), along) / slope if slope else 0.0

@@ -48,9 +48,7 @@ def follows(model: Model, last: Evaluation, converged: Converged) -> Converged:
 
 
 def _chord(model: Model, pair: Contact, last: Evaluation, now: Evaluation) -> float:
-    """Displacement of the points in contact before and after, minus the mean, relative to their distance from their
-    mean.
-    """
+    """Displacement of the points in contact minus its mean, relative to their distance from their mean."""
     both = last.found[pair].active & now.found[pair].active
     before, behind = (_in_frame_of_tool(pair, evaluation)[both] for evaluation in (last, now))
     sums = model.ranks.sum(np.concatenate([[float(both.sum())], before.sum(axis=0), behind.sum(axis=0)]))

@@ -215,9 +215,7 @@ def _hidden(run: Run, before: Evaluation, converged: Converged, way: float) -> f
 
 
 def _short_of_zero(value: float, force: float, before: Sequence[float] | None, target: float) -> float:
-    """The target, or a value just short of the zero of the secant if that comes first: beyond it contact may be
-    lost.
-    """
+    """The target, or a value just short of the zero of the secant: beyond it contact may be lost."""
     if before is None or before[0] == value or force == before[1]:
         return target
     to_zero = -force * (value - before[0]) / (force - before[1])

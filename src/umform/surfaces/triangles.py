@@ -105,9 +105,7 @@ def inside_of(facets: Callable[[Floats, float, float], Triangles], box: Box3, ch
 
 
 def _cut(soup: Floats, height: Floats) -> Floats:
-    """Clip triangles, shape (m, 3, 3), to the region where the height at their corners, shape (m, 3), is not
-    negative.
-    """
+    """Clip triangles (m, 3, 3) to the region where the height at their corners, shape (m, 3), is not negative."""
     inside = height >= 0.0
     count = inside.sum(axis=1)
     parts = [soup[count == 3]]

@@ -1,12 +1,16 @@
-"""Decks with mistakes: templates whose text, keys and values are changed at random."""
+"""Decks with mistakes: templates whose text, keys and values are changed at random; and what their refusal must say."""
 
 import copy
 import datetime
 import json
 import tomllib
+import warnings
 
+from hypothesis import HealthCheck, Phase
 from hypothesis import strategies as st
 
+from umform.deck import Deck, DeckError
+from umform.deck.check import check as check_problem
 from umform.deck.templates import template, template_file, templates
 
 FOLDER = template_file("own-mesh").parent
@@ -114,3 +118,53 @@ def changed_text(draw):
 
 
 decks = st.one_of(changed_data(), changed_data(), changed_text())
+
+#: A model of more cells than this is read, but not built.
+_SMALL = 200
+#: Settings of hypothesis for tests that are slow and whose failures are short enough.
+SETTINGS = {
+    "deadline": None,
+    "suppress_health_check": [HealthCheck.too_slow, HealthCheck.function_scoped_fixture, HealthCheck.filter_too_much],
+    "phases": [Phase.explicit, Phase.generate],
+}
+
+
+def read(text):
+    """The deck, or None if it was refused; each refusal must say where and why."""
+    try:
+        return Deck.read(text, "deck.toml", FOLDER)
+    except DeckError as error:
+        for told in error.errors:
+            assert told.where.startswith("deck.toml"), str(told)
+            assert told.what, str(told)
+            assert told.cause, str(told)
+            assert told.remedy, str(told)
+            assert "\n" not in told.where
+        return None
+
+
+def small(deck):
+    mesh = deck.contents.mesh
+    cells = getattr(mesh, "cells", (1, 1))
+    lines = [len(getattr(mesh, axis, ())) for axis in "xyz"]
+    if getattr(mesh, "generator", "") in ("disc", "ring"):  # cells of a side of the core, or of a quarter of the circle
+        cells = 4 * (cells[0] + 2 * cells[1]), cells[0]
+    return cells[0] * cells[1] * getattr(mesh, "layers", 1) <= _SMALL and lines[0] * lines[1] <= _SMALL
+
+
+def built(deck):
+    """The problem and what a look at it finds, or None if it was refused."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # numbers near the end of the range
+        try:
+            problem = deck.build()
+        except DeckError as error:
+            for told in error.errors:
+                assert told.where.startswith("deck.toml, "), str(told)
+                assert told.cause, str(told)
+                assert told.remedy, str(told)
+            return None
+        for finding in check_problem(deck, problem):
+            assert finding.text
+            assert finding.remedy or finding.level.value == "ok"
+        return problem

@@ -68,6 +68,14 @@ def test_where_no_order_follows_layers_are_advised_that_help(name, texts, found)
     assert found(text, "element", element__name="EAS3DEAS", mesh__layers=16)[0].level is Level.OK
 
 
+def test_one_layer_in_a_sharp_bend_is_told_of_its_springback(texts, found):
+    text = texts("air-bending")
+    sharp, layered = (found(text, "element", mesh__layers=layers)[0] for layers in (1, 4))
+    (blunt,) = found(text.replace("shoulder_radius = 2.0", "shoulder_radius = 3.1"), "element")
+    assert "springback of so sharp a bend" in sharp.text
+    assert "springback" not in layered.text + blunt.text
+
+
 def test_layers_share_the_thickness_points(texts, found):
     text = texts("air-bending")
     many = found(text, "element", element__thickness_points=5, mesh__layers=2)

@@ -197,7 +197,8 @@ export class Result {
     const bend = job.kind === "bend";
     const words = { x: bend ? t("axis.stroke") : curve.names[0], y: bend ? t("axis.force") : curve.names[1], label: t("curve.label"), band: bend ? job.summary.shop_forces : undefined };
     const caption = make("figcaption", {}, bend && words.band ? t("curve.band") : t("curve.live"));
-    return make("figure", { class: "card" }, plot([{ name: "", ...curve }], words), caption);
+    const width = Math.max(280, Math.min(560, element("result").clientWidth - 60)); // letters as large as all others on a phone
+    return make("figure", { class: "card" }, plot([{ name: "", ...curve }], words, width), caption);
   }
 
   /** Scene and curves of the report in a frame of their own. @param {any} job */

@@ -59,9 +59,7 @@ def ripple_of(met: Encounter, cells: int, allowed: float) -> float:
 
 
 def cells_for(met: Encounter, ripple: float, touching: float, allowed: float) -> int:
-    """Smallest number of cells that keeps the ripple below its limit and the cells shorter than the contact. eq.
-    (4.122)
-    """
+    """Smallest number of cells that limits the ripple, with cells shorter than the contact. eq. (4.122)"""
     by_ripple = math.sqrt(ripple_of(met, 1, allowed) / ripple)
     by_length = met.length / touching if touching > 0.0 else MOST
     return min(max(math.ceil(by_ripple), math.ceil(by_length), FEWEST), MOST)

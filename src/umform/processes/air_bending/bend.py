@@ -118,9 +118,7 @@ class AirBend:
 
     @property
     def force_balance(self) -> float:
-        """Force of the punch minus that of the die, relative to that of the punch, at the stroke; NaN without a
-        force.
-        """
+        """Relative difference of the forces of punch and die at the stroke; NaN without a force."""
         at = int(np.flatnonzero(self.step == 1)[-1])
         punch, die = self.result["punch_fz"][at], self.result["die_fz"][at]
         return float(abs(punch + die) / abs(punch)) if punch else math.nan

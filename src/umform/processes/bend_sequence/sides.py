@@ -121,9 +121,7 @@ class Leg:
 
     @classmethod
     def of(cls, section: Section, face: Floats) -> Leg:
-        """The best-fit line through the outermost two thicknesses of the outer face (lines, 2), from the bend
-        outwards.
-        """
+        """Best-fit line through the outermost two thicknesses of the outer face (lines, 2), away from the bend."""
         X = section.reference[:, 0, 0]
         x = face[min(section.half_length - 2.0 * section.thickness, X[-1 - section.order]) - 1e-9 < X]
         direction = np.linalg.svd(x - x.mean(axis=0))[2][0]

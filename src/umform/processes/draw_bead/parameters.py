@@ -104,9 +104,7 @@ class DrawBead:
 
     @property
     def through(self) -> float:
-        """Upper bound of the length of the sheet between both edges: sheet that enters and leaves has passed the whole
-        bead.
-        """
+        """Upper bound of the length of the sheet between both edges; sheet drawn this far has passed the whole bead."""
         return 2.0 * (self.reach + self.height)
 
     @property
