@@ -29,7 +29,7 @@ THICKNESS, LENGTH, STROKE = 0.78, 175.0, 70.0
 MU, HOLDING = 0.144, 2450.0 / 35.0 / 2.0  # N per millimetre of width, on half of the blank
 PUNCH, DIE, RADIUS = 25.0, 26.0, 5.0  # half widths
 PENALTY, HOLDER_PENALTY = 1000.0, 60.0
-#: Ratio of the stick slope of CalculiX to the penalty: with 1 its iterations end after 2.7 mm.
+#: Ratio of the stick slope of CalculiX to the penalty; with 1 its iterations diverge after some millimetres.
 STICK = 0.05
 CELLS, LAYERS = 175, 2  # layers: of CalculiX' elements with incompatible modes
 E, NU, SWIFT = 206e3, 0.3, (565.32, 0.007117, 0.2589)
