@@ -28,12 +28,20 @@ Picture = Annotated[
     Path | None,
     typer.Option("--blank", metavar="FILE.png", help="Draw the mesh of a blank over the sizes that its tools ask for."),
 ]
+Folder = Annotated[
+    Path | None, typer.Option("--tools", metavar="FOLDER", help="Write each tool near the sheet as NAME.stl.")
+]
 Force = Annotated[bool, typer.Option("--force", help="Run despite implausible numbers: these errors become warnings.")]
 
 
 @app.command("check")
 def check_deck(
-    deck: DeckFile, changes: Changes = None, blank: Picture = None, verbose: Verbose = 0, debug: Debug = False
+    deck: DeckFile,
+    changes: Changes = None,
+    blank: Picture = None,
+    tools: Folder = None,
+    verbose: Verbose = 0,
+    debug: Debug = False,
 ) -> None:
     """Check a deck without solving it: keys, names, gaps, supports, element sizes, units, effort.
 
@@ -49,6 +57,8 @@ def check_deck(
     _show(findings)
     if blank is not None:
         _draw_blank(problem, blank)
+    if tools is not None:
+        _write_tools(problem, tools)
     if any(finding.level is Level.ERROR for finding in findings):
         raise typer.Exit(1)
 
@@ -96,6 +106,20 @@ def _draw_blank(problem: Problem, path: Path) -> None:
 
     draw_sizes(problem.sizes, path, problem.model.mesh)
     typer.echo(f"Written to {path}")
+
+
+def _write_tools(problem: Problem, folder: Path) -> None:
+    """The tools in a box around the sheet, where they stand at first."""
+    import numpy as np
+
+    from umform.surfaces import write_tool
+
+    points = problem.model.mesh.points
+    span = float(np.ptp(points, axis=0).max())
+    box = points.min(axis=0) - 0.25 * span, points.max(axis=0) + 0.25 * span
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, tool in problem.tools.items():
+        typer.echo(f"Written to {write_tool(tool, folder / f'{name}.stl', box=box, chord=1e-3 * span)}")
 
 
 def _show(findings: Sequence[Finding]) -> None:

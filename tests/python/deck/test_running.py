@@ -1,6 +1,7 @@
 import csv
 from html import escape
 
+import meshio
 import pytest
 from typer.testing import CliRunner
 
@@ -160,6 +161,15 @@ def test_wrong_decks_and_changes(deck, tmp_path):
     assert answer.exit_code == 1
     assert "superlu" in answer.output
     assert umform("check", tmp_path / "missing.toml").exit_code == 1
+
+
+def test_check_writes_the_tools(tmp_path):
+    (tmp_path / "deck.toml").write_text(template_file("square-cup").read_text())
+    assert umform("check", tmp_path / "deck.toml", "--tools", tmp_path / "tools").exit_code == 0
+    assert {file.name for file in (tmp_path / "tools").iterdir()} == {"die.stl", "punch.stl", "holder.stl"}
+    for name, side, flat in (("die", "max", -0.405), ("punch", "min", 0.405)):
+        heights = meshio.read(tmp_path / "tools" / f"{name}.stl").points[:, 2]
+        assert getattr(heights, side)() == pytest.approx(flat, abs=1e-5)
 
 
 def test_new(tmp_path):
