@@ -134,7 +134,8 @@ def against_locking(element: Element, strain: float, stiffness: float, layers: i
 def layers_of(model: Model, h: float) -> int:
     """Number of stacked cells in a sheet of a thickness."""
     lower, upper = np.split(model.mesh.points[model.mesh.connectivity], 2, axis=1)
-    return max(1, round(h / float(np.median(np.linalg.norm(upper - lower, axis=-1)))))
+    cell = float(np.median(np.linalg.norm(upper - lower, axis=-1)))
+    return max(1, round(h / cell)) if math.isfinite(h / cell) else 1
 
 
 def contact_points(problem: Problem) -> Iterator[Finding]:
