@@ -228,6 +228,7 @@ def _show(drawn: Drawn, note: str) -> None:
     from rich.table import Table
 
     from umform.processes.draw.words import summary, title
+    from umform.results.penetration import penetrations
 
     table = Table("quantity", title=title(drawn), box=box.SIMPLE_HEAD)
     table.add_column("value", justify="right")
@@ -236,6 +237,8 @@ def _show(drawn: Drawn, note: str) -> None:
         table.add_row(*row)
     screen = console()
     screen.print(table)
+    for name, said in penetrations(drawn.result.model, drawn.result).items():
+        screen.print(f"contact {name}: {said}", soft_wrap=True)
     if note:
         screen.print(note, soft_wrap=True)
     echo_warnings(drawn.warnings)

@@ -150,7 +150,9 @@ def test_a_cup_that_cannot_be_drawn_is_refused(wrong):
         replace(CUP, **wrong)
 
 
-@pytest.mark.parametrize("wrong", [{"opening": 50.1}, {"thickness": 1.2}, {"stroke": 90.0}, {"holder_force": None}, {"width": 0.0}])
+@pytest.mark.parametrize(
+    "wrong", [{"opening": 50.1}, {"thickness": 1.2}, {"stroke": 90.0}, {"holder_force": None}, {"width": 0.0}]
+)
 def test_a_u_bend_that_cannot_be_drawn_is_refused(wrong):
     with pytest.raises(InvalidValue):
         replace(U, **wrong)
@@ -165,7 +167,9 @@ def test_the_default_opening_follows_the_thickness(monkeypatch, command, kind, u
     assert [type(case).__name__ for case in cases] == 3 * [kind]
     assert [case.clearance / case.thickness for case in cases] == pytest.approx(3 * [usual])
     assert (cases[0].die_radius == 31.2) if kind == "Cup" else (cases[0].opening == 52.0)
-    refused = CliRunner().invoke(app, ["draw", command, "--material", "DP600", "--thickness", "1.5", "--opening", "62.4"])
+    refused = CliRunner().invoke(
+        app, ["draw", command, "--material", "DP600", "--thickness", "1.5", "--opening", "62.4"]
+    )
     assert (refused.exit_code != 0) == (kind == "Cup")  # 62.4 is a gap of 1.2 for the cup, 6.2 for the U
 
 
