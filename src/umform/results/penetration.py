@@ -18,8 +18,9 @@ def penetrations(model: Model, result: History) -> dict[str, str]:
     return {contact.name: _said(contact, _deepest(result, contact)) for contact in model.contacts}
 
 
-def _deepest(result: History, contact: Contact) -> float:
-    return float(np.max(result[f"{contact.name}_penetration"])) if len(result) else 0.0
+def _deepest(result: History, contact: Contact, first: int = 0) -> float:
+    """Largest penetration from a row of the history on."""
+    return float(np.max(result[f"{contact.name}_penetration"][first:], initial=0.0)) if len(result) else 0.0
 
 
 def _said(contact: Contact, deepest: float) -> str:
@@ -32,8 +33,8 @@ def warn_of_contact(model: Model, result: History) -> None:
     """Warn once for each contact whose penetration exceeds the allowed one, or a few per cent of the thickness."""
     thickness = sheet_thickness(model.mesh)
     for contact in model.contacts:
-        deepest = _deepest(result, contact)
-        found = _excess(contact, deepest) or _deep(contact, deepest, thickness)
+        found = _excess(contact, _deepest(result, contact))
+        found = found or _deep(contact, _deepest(result, contact, first=1), thickness)  # not that of a run before
         message = f"contact {contact.name}: {found}"
         if found and message not in result.warnings:  # a run that was taken up at its end
             result.warn(message)

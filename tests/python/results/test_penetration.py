@@ -47,3 +47,9 @@ def test_a_tool_at_rest_may_stay_apart():
     model.contact("lower", uf.Plane((0.0, 0.0, -3.0), "z"), name="stop")
     result = uf.solve(model, uf.Move(model.prescribe("x1", "x", "pull"), 0.01, steps=1), frames=0, progress=False)
     assert about(result, "never touched") == []
+
+
+def test_the_penetration_of_a_run_before_is_not_named_again():
+    result = pressed(0.05, penalty=100.0)
+    again = uf.solve(result.model, uf.Move(result.model.controls[0], 0.0, steps=2), frames=0, progress=False)
+    assert about(result, "penetration") and about(again, "penetration") == []
