@@ -70,6 +70,12 @@ class FromLibrary(Part):
         """The law of the sheet metal."""
         return sheet_metals.get(self.library).law
 
+    @property
+    def note(self) -> str:
+        """Name, source and caveat of the metal."""
+        metal = sheet_metals.get(self.library)
+        return f"{metal.name}: {metal.source}; {metal.caveat}"
+
 
 MaterialPart = Annotated[
     Annotated[SVK, Tag("SVK")]

@@ -26,6 +26,9 @@ _BUDGET = (
     "Material data, friction and tools have uncertainties of their own."
 )
 
+#: Column of the chart: the force of the table of measures.
+_FORCE = "force_per_mm"
+
 
 def write_page(
     path: Path,
@@ -59,7 +62,7 @@ def write_page(
     kind = "plane strain" if case.width is None else f"{case.width:g} mm wide"
     title = f"Air bending: {case.thickness:g} mm sheet, {case.opening:g} mm opening, {bend.measures.angle:.2f} degrees"
     lead = f"{kind}; {bend.iterations} Newton iterations in {bend.result.seconds:.1f} s"
-    live = Live.of(bend.result, stills=False)
+    live = Live.of(bend.result, stills=False, more={_FORCE: bend.force}, first=("stroke", _FORCE))
     content = _parts(bend, live, figures, table, budget, deck, note)
     return parts.write_html(path, title, lead, content, style=style(), scripts=live.scripts)
 
@@ -87,6 +90,7 @@ def _parts(
     yield parts.heading("Curves")
     yield parts.figure(figures["curve"], "Force and angle over the stroke.")
     yield live.curves
+    yield parts.paragraph(f"{_FORCE}: force of the punch in N per mm of bend, that of the table of measures.")
     yield parts.heading("Shape")
     yield parts.figure(figures["shape"], "The sheet and its tools in true proportion.")
     yield live.shape
@@ -95,7 +99,7 @@ def _parts(
         yield parts.heading("Bending table")
         yield parts.table(table_header(), table_rows(table))
     yield parts.heading("History")
-    yield parts.paragraph("The forces of the history are those of the part of the sheet that is modelled.")
+    yield parts.paragraph(f"Its forces, but for {_FORCE}, are those of the part of the sheet that is modelled.")
     yield live.table
     yield from parameter_parts(_parameters(bend.case), note)
     yield parts.heading("Model")
