@@ -125,7 +125,7 @@ def bend(
         check_goal(angle, stroke, force_per_metre, travel)
     check_tolerance(tolerance)
     check_processes(processes)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = AirBending(
         thickness=thickness,
         opening=opening,

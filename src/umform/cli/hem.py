@@ -62,7 +62,7 @@ def hem(
     from umform.processes.hemming.files import FILES, RESULTS, rows, write_files
 
     print_warnings_once()
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     sheet = AirBending(
         thickness=thickness,
         opening=opening,

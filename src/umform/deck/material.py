@@ -73,8 +73,7 @@ class FromLibrary(Part):
     @property
     def note(self) -> str:
         """Name, source and caveat of the metal."""
-        metal = sheet_metals.get(self.library)
-        return f"{metal.name}: {metal.source}; {metal.caveat}"
+        return sheet_metals.get(self.library).note
 
 
 MaterialPart = Annotated[
