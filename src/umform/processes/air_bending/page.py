@@ -13,6 +13,7 @@ from umform.processes.air_bending.budget import Budget
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.remarks import remarks, tools_text
 from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
 from umform.report import parts
 from umform.report.live import Live, style
@@ -86,6 +87,8 @@ def _parts(
             yield parts.note(f"{name}: {why}", bad=True)
     low, high = shop_forces(bend.case)
     yield parts.paragraph(f"The rule of the shop, 1.33 to 1.42 Rm t²/V, gives {low:.1f} to {high:.1f} N/mm.")
+    yield parts.paragraph(tools_text(bend.case))
+    yield from map(parts.note, remarks(bend.case, bend.measures))
     yield parts.figure(figures["drawing"], "What is measured.")
     yield parts.heading("Curves")
     yield parts.figure(figures["curve"], "Force and angle over the stroke.")
@@ -101,7 +104,7 @@ def _parts(
     yield parts.heading("History")
     yield parts.paragraph(f"Its forces, but for {_FORCE}, are those of the part of the sheet that is modelled.")
     yield live.table
-    yield from parameter_parts(_parameters(bend.case), note)
+    yield from parameter_parts(parameters(bend.case), note)
     yield parts.heading("Model")
     yield parts.pairs(settings(bend.result))
     if deck:
@@ -110,7 +113,7 @@ def _parts(
     yield from closing(bend.result)
 
 
-def _parameters(case: AirBending) -> dict[str, object]:
+def parameters(case: AirBending) -> dict[str, object]:
     """The parameters of a bend, for people; those that follow from others are left out."""
     words = {"material": material_text(case.material), "element": element(case.element).name}
     drawn = {"punch_section": case.punch_section, "die_section": case.die_section}
