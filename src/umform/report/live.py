@@ -13,6 +13,8 @@ from string import Template
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from umform.io.tables import write_csv
 from umform.plotting import COLOURS, plot_history, plot_shape
 from umform.report import parts
@@ -71,7 +73,8 @@ class Live:
         more : mapping of str to ndarray, optional
             Columns in addition to those of the history.
         first : tuple of str, optional
-            Abscissa and ordinate of the curve that is shown at first; default: the control with the largest work.
+            Abscissa and ordinate of the curve that is shown at first, for a page that says itself what forces refer
+            to; default: the control with the largest work, below a note on the modelled part.
         """
         scene, columns = scene_of(result), {**result.table(), **(more or {})}
         shape, curves = _shape(result, scene, stills), _curves(result, stills, first)
@@ -111,14 +114,16 @@ def _curves(result: History, stills: bool, first: tuple[str, str] | None) -> str
     """Curves of the history, or a still for each control; above them what their forces refer to."""
     pairs = [(control.name, f"{control.name}_force") for control in leading_controls(result)]
     if not pairs and result.model.controls:
-        pairs = [(result.model.controls[0].name, "external_work")]  # a load over itself says nothing
+        name = result.model.controls[0].name
+        loaded = bool(np.ptp(result[name]))  # a load over itself says nothing; at the start nothing has moved yet
+        pairs = [(name, "external_work" if loaded else f"{name}_force")]
     drawn = [
         parts.figure(plot_history(result, x, [y]), f"{y} over {x}, all converged increments.")
         for x, y in (pairs if stills else [])
     ]
     x, y = first or (pairs[0] if pairs else ("time", result.columns()[-1]))
     colours = escape(json.dumps(COLOURS))
-    part = modelled_part(result.model)
+    part = "" if first else modelled_part(result.model)
     said = parts.note(f"{part[0].upper()}{part[1:]}.") if part else ""
     return said + _filled("curves.html", still="\n".join(drawn), x=escape(x), y=escape(y), colours=colours)
 

@@ -93,7 +93,10 @@ def _parts(
     yield parts.heading("Curves")
     yield parts.figure(figures["curve"], "Force and angle over the stroke.")
     yield live.curves
-    yield parts.paragraph(f"{_FORCE}: force of the punch in N per mm of bend, that of the table of measures.")
+    yield parts.paragraph(
+        f"{_FORCE}: force of the punch in N per mm of bend, that of the table of measures. Other forces are those of "
+        "the modelled part of the sheet."
+    )
     yield parts.heading("Shape")
     yield parts.figure(figures["shape"], "The sheet and its tools in true proportion.")
     yield live.shape
@@ -102,7 +105,6 @@ def _parts(
         yield parts.heading("Bending table")
         yield parts.table(table_header(), table_rows(table))
     yield parts.heading("History")
-    yield parts.paragraph(f"Its forces, but for {_FORCE}, are those of the part of the sheet that is modelled.")
     yield live.table
     yield from parameter_parts(parameters(bend.case), note)
     yield parts.heading("Model")
