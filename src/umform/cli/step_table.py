@@ -17,18 +17,24 @@ _GUTTER, _ENDS = 3, 1
 def step_rows(result: History) -> list[list[str]]:
     """Rows of text: a header, then time, increments, iterations and each control with its force.
 
-    A control or a force that never changes in the run has no row.
+    No row: what never changes in the run, what is zero at the end of every step, and the force of a load, which is the
+    load itself.
     """
     steps = sorted({int(row["step"]) for row in result.rows} - {0})
     within = [[row for row in result.rows if row["step"] == step] for step in steps]
-    names = [column for control in result.model.controls for column in (control.name, f"{control.name}_force")]
+    names: list[str] = []
+    for control in result.model.controls:
+        force = f"{control.name}_force"
+        load = all(row[control.name] == row[force] for row in result.rows)
+        names += [control.name] if load else [control.name, force]
     changing = [name for name in names if len({row[name] for row in result.rows}) > 1]
+    shown = [name for name in changing if any(rows[-1][name] for rows in within)]
     return [
         ["step", *map(str, steps)],
         ["time", *(f"{rows[-1]['time']:.6g}" for rows in within)],
         ["increments", *(str(len(rows)) for rows in within)],
         ["iterations", *(str(int(sum(row["iterations"] for row in rows))) for rows in within)],
-        *([name, *(f"{rows[-1][name] + 0.0:.6g}" for rows in within)] for name in changing),
+        *([name, *(f"{rows[-1][name] + 0.0:.6g}" for rows in within)] for name in shown),
     ]
 
 

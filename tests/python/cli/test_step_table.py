@@ -9,13 +9,13 @@ from umform.cli.step_table import step_rows, step_tables
 
 
 def history(steps):
-    """A history with two controls, of which the second one is never used."""
+    """A history with three controls: a tool, one that is never used, a load."""
     rows = [
         {"step": step, "time": float(step), "stroke": 1.5 * step, "stroke_force": -12034.0 * step, "hold": 0.0}
-        | {"hold_force": 7.0, "iterations": 3 if step else 0}
+        | {"hold_force": 7.0, "load": 5.0 * step, "load_force": 5.0 * step, "iterations": 3 if step else 0}
         for step in range(steps + 1)
     ]
-    controls = [SimpleNamespace(name="stroke"), SimpleNamespace(name="hold")]
+    controls = [SimpleNamespace(name="stroke"), SimpleNamespace(name="hold"), SimpleNamespace(name="load")]
     return SimpleNamespace(rows=rows, model=SimpleNamespace(controls=controls))
 
 
@@ -29,8 +29,8 @@ def printed(steps, width):
 def test_quantities_are_rows_and_constant_ones_are_left_out():
     rows = step_rows(history(2))
     assert rows[0] == ["step", "1", "2"]
-    assert [row[0] for row in rows] == ["step", "time", "increments", "iterations", "stroke", "stroke_force"]
-    assert rows[-1] == ["stroke_force", "-12034", "-24068"]
+    assert [row[0] for row in rows] == ["step", "time", "increments", "iterations", "stroke", "stroke_force", "load"]
+    assert rows[-2] == ["stroke_force", "-12034", "-24068"]
 
 
 def test_no_number_is_cut_at_any_width():
