@@ -80,7 +80,7 @@ def cup(
     """
     from umform.processes.draw.cup import CLEARANCE, Cup
 
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = Cup(
         thickness=thickness,
         blank_radius=0.5 * blank,
@@ -143,7 +143,7 @@ def u(
     """
     from umform.processes.draw.u_bend import CLEARANCE, UBend
 
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = UBend(
         thickness=thickness,
         length=length,
