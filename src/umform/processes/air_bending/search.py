@@ -202,12 +202,12 @@ def _load_to_angle(brake: Brake, angle: float, tick: Callable[[float], None]) ->
 
 
 def _unreached(brake: Brake, angle: float, state: Loaded, smallest: float) -> InvalidValue:
-    """Error for a sheet that lies against a flank; the smallest angle is the one after springback."""
+    """Error for a sheet that lies against a flank; ``smallest`` is its angle after springback."""
     return unreachable(
         brake.case,
         angle,
-        f"under load it lies against the {state.against} at {state.angle:.2f} degrees; after springback the smallest "
-        f"angle of these tools is about {smallest:.1f} degrees",
+        f"under load it lies against the {state.against} at {state.angle:.2f} degrees, about {smallest:.1f} degrees "
+        "after springback: these tools reach larger angles only",
     )
 
 
