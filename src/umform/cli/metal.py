@@ -11,6 +11,7 @@ from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
     from umform.materials import J2, Hardening, Metal
+    from umform.sheet_metals import SheetMetal
 
 
 def law_of(
@@ -28,14 +29,31 @@ def law_of(
     own = [value for value in (young, poisson, yield_stress, modulus, swift, flow_curve) if value is not None]
     if name is not None:
         if own:
-            raise InvalidValue("give a material by name or by numbers", where="--material", value=name)
-        from umform.sheet_metals import get
-
-        metal = get(name)
+            raise InvalidValue(
+                "give a material by name or by numbers",
+                where="--material",
+                value=name,
+                cause="an option of a law of your own, such as --yield-stress or --swift, beside the name",
+                remedy="leave one of them out; `umform metal show NAME` lists the numbers of a name",
+            )
+        metal = named(name, "--material", ", or --yield-stress, --swift or --flow-curve of a certificate in its place")
         return metal.law, f"{name}: {metal.source}; {metal.caveat}"
     if not own:
         return DC04_LIKE, "material: a curve like that of DC04; give your own for numbers that count"
     return _own_law(young, poisson, yield_stress, modulus, swift, flow_curve), ""
+
+
+def named(name: str, where: str, otherwise: str = "") -> SheetMetal:
+    """A sheet metal of the library; the error names the place, and commands instead of functions."""
+    from umform.sheet_metals import get
+
+    try:
+        return get(name)
+    except InvalidValue as error:
+        error.where = where
+        error.cause = error.cause or "a typing mistake, or a metal that the library does not have"
+        error.remedy = f"choose one of `umform metal list`{otherwise}"
+        raise
 
 
 def _own_law(
@@ -55,6 +73,7 @@ def _own_law(
         raise InvalidValue(
             "a hardening curve is given by --yield-stress with --hardening-modulus, by --swift, or by --flow-curve",
             where="--yield-stress",
+            cause="two of them are given, or none beside --young, --poisson or --hardening-modulus",
             remedy="--yield-stress 160 --hardening-modulus 500, --swift 520,0.004,0.22, or --flow-curve coil.csv",
         )
     hardening: Hardening
@@ -88,5 +107,11 @@ def numbers(text: str, separator: str, count: int, where: str, remedy: str) -> l
     except ValueError:
         values = []
     if len(values) != count:
-        raise InvalidValue(f"{count} numbers are needed here", where=where, value=text, remedy=remedy)
+        raise InvalidValue(
+            f"{count} numbers are needed here",
+            where=where,
+            value=text,
+            cause=f"{len(values)} numbers are given" if values else "no numbers, or another sign between them",
+            remedy=remedy,
+        )
     return values

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.metal import named
 from umform.cli.root import Debug, Overwrite, app, console, printing
 
 if TYPE_CHECKING:
@@ -73,11 +74,10 @@ def _curve(hardening: object) -> str:
 @metals.command()
 def show(name: Annotated[str, typer.Argument(help="Name of a sheet metal: see `umform metal list`.")]) -> None:
     """Show a sheet metal: numbers, source, deck and Python."""
-    from umform import sheet_metals
     from umform.calibration.code import deck_block, python_code
     from umform.materials import Metal
 
-    metal = sheet_metals.get(name)
+    metal = named(name, "umform metal show")
     typer.echo(metal)
     if isinstance(metal.law, Metal):
         _print_directions(metal)
