@@ -43,7 +43,7 @@ def bend(
     ] = None,
     angle: Annotated[float | None, option("Find the stroke for this angle after springback, degrees.", _GOAL)] = None,
     stroke: Annotated[float | None, option("Bend to this stroke in mm.", _GOAL)] = None,
-    table: Annotated[str | None, option("Strokes of a bending table: first:last:step, such as 4:6:0.5.", _GOAL)] = None,
+    table: Annotated[str | None, option("Bending table at strokes first:last:step, such as 4:6:0.5.", _GOAL)] = None,
     bottoming: Annotated[
         bool, option("Press the sheet onto the flanks of the die, with --force-per-metre or --travel.", _GOAL)
     ] = False,
@@ -105,7 +105,7 @@ def bend(
 ) -> None:
     """Air-bend a sheet in a V-die, and unload it.
 
-    Give the stroke, or the angle after springback. Each number is defined in docs/air-bending.md.
+    Give the stroke, the angle after springback, or a table of strokes. Each number is defined in docs/air-bending.md.
     """
     from umform.io.folders import folder_for
     from umform.io.staging import staging
@@ -122,7 +122,10 @@ def bend(
 
     print_warnings_once()
     if not bottoming and sequence is None:
-        check_goal(angle, stroke, force_per_metre, travel)
+        check_goal(angle, stroke, table, force_per_metre, travel)
+    strokes = [] if table is None else strokes_of(table)
+    if strokes and angle is None and stroke is None and not bottoming:
+        stroke = strokes[-1]
     check_tolerance(tolerance)
     check_processes(processes)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
@@ -157,7 +160,6 @@ def bend(
     if bottoming:
         check_press(angle, table, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
-    strokes = [] if table is None else strokes_of(table)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if print_deck:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 from typer.testing import CliRunner
 
@@ -11,8 +13,9 @@ from umform.cli import app
 @pytest.mark.parametrize(
     ("typed", "message"),
     [
-        ([], "give the stroke or the angle"),
-        (["--stroke", "6", "--angle", "90"], "give the stroke or the angle"),
+        ([], "none of them is given"),
+        (["--stroke", "6", "--angle", "90"], "both are given"),
+        (["--table", "1:9:1"], "beyond air bending"),
         (["--stroke", "6", "--swift", "520"], "3 numbers are needed"),
         (["--stroke", "6", "--swift", "520,0.004,0.22", "--flow-curve", "a.csv"], "a hardening curve is given by"),
         (["--stroke", "6", "--flow-curve", "no.csv"], "the flow curve cannot be read"),
@@ -102,3 +105,11 @@ def test_a_folder_that_takes_no_files_is_refused_before_the_run(tmp_path, monkey
     done = CliRunner().invoke(app, ["bend", "--stroke", "6", "--out", str(tmp_path / "file")])
     assert done.exit_code == 1
     assert "the folder cannot be made" in done.stderr
+
+
+def test_a_table_alone_ends_at_its_last_stroke(tmp_path):
+    fast = ["--layers", "1", "--elements-per-thickness", "1", "--increment", "0.05"]
+    done = CliRunner().invoke(app, ["bend", "--table", "0.4:0.8:0.4", *fast, "--out", str(tmp_path)])
+    assert done.exit_code == 0, done.output
+    assert json.loads((tmp_path / "bend.json").read_text())["measures"]["stroke"] == 0.8
+    assert len((tmp_path / "table.csv").read_text().splitlines()) == 3
