@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -114,7 +113,7 @@ def bend(
     from umform.processes.air_bending.branches import FRAMES, Brake
     from umform.processes.air_bending.budget import error_budget
     from umform.processes.air_bending.case import air_bending
-    from umform.processes.air_bending.checks import check_tolerance
+    from umform.processes.air_bending.checks import check_angle, check_tolerance
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
     from umform.processes.air_bending.parameters import AirBending
     from umform.processes.air_bending.search import bending_table, find_stroke
@@ -171,11 +170,15 @@ def bend(
             case = find_stroke(case, angle, tolerance=tolerance, frames=1).case
         typer.echo(deck_of(case), nl=False)
         return
+    if angle is not None:
+        check_angle(case, angle)
+    said: list[str] = []
+    place = folder_for(out, Path("results/bend"), RESULTS, overwrite=overwrite, say=said.append)
     with timings() as spent:
         brake = Brake(case, frames=FRAMES)
     _refuse_implausible(brake.model, force=force)
-    say = partial(typer.echo, err=True)
-    place = folder_for(out, Path("results/bend"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    for text in said:  # only of a run that starts
+        typer.echo(f"umform: {text}", err=True)
     with staging(place, FILES):
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
