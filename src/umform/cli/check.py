@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -22,6 +23,9 @@ Changes = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Set a key of the deck, such as steps.0.increments=5; repeatable."),
 ]
+
+#: A word, such as the name of an element; a number with a decimal comma.
+_WORD, _DECIMAL_COMMA = re.compile(r"[^\W\d][\w.-]*"), re.compile(r"[-+]?\d*,\d+")
 
 Force = Annotated[bool, typer.Option("--force", help="Run despite implausible numbers: these errors become warnings.")]
 
@@ -66,12 +70,15 @@ def _change(text: str) -> tuple[str, Any]:
     try:
         return key.strip(), tomllib.loads(f"value = {value}")["value"]
     except (tomllib.TOMLDecodeError, RecursionError, ValueError):
+        if key.strip() and _WORD.fullmatch(value.strip()):
+            return key.strip(), value.strip()  # text without quotes; a key that needs a number refuses it
+        comma = _DECIMAL_COMMA.fullmatch(value.strip())
         raise InvalidValue(
             "this changes no key",
             where="--set",
             value=text,
-            cause="the value is no TOML",
-            remedy="write key=value, as steps.0.increments=5; words in quotes within quotes: element.name='\"BEND8\"'",
+            cause="a decimal comma" if comma else "the value is neither a number, a word, a list nor text in quotes",
+            remedy=f"write {key}={value.replace(',', '.')}" if comma else "write key=value, as steps.0.increments=5",
         ) from None
 
 

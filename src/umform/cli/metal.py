@@ -11,9 +11,22 @@ from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
     from umform.materials import J2, Hardening, Metal
-    from umform.sheet_metals import SheetMetal
 
 
+@contextmanager
+def by_name(where: str, otherwise: str = "") -> Iterator[None]:
+    """Name place and commands in errors of the library of sheet metals."""
+    try:
+        yield
+    except InvalidValue as error:
+        if error.where == "sheet_metals":
+            error.where = where
+            error.cause = error.cause or "a typing mistake, or a metal that the library does not have"
+            error.remedy = f"choose one of `umform metal list`{otherwise}"
+        raise
+
+
+@by_name("--material", ", or --yield-stress, --swift or --flow-curve of a certificate in its place")
 def law_of(
     name: str | None,
     young: float | None,
@@ -36,24 +49,13 @@ def law_of(
                 cause="an option of a law of your own, such as --yield-stress or --swift, beside the name",
                 remedy="leave one of them out; `umform metal show NAME` lists the numbers of a name",
             )
-        metal = named(name, "--material", ", or --yield-stress, --swift or --flow-curve of a certificate in its place")
+        from umform.sheet_metals import get
+
+        metal = get(name)
         return metal.law, f"{name}: {metal.source}; {metal.caveat}"
     if not own:
         return DC04_LIKE, "material: a curve like that of DC04; give your own for numbers that count"
     return _own_law(young, poisson, yield_stress, modulus, swift, flow_curve), ""
-
-
-def named(name: str, where: str, otherwise: str = "") -> SheetMetal:
-    """A sheet metal of the library; the error names the place, and commands instead of functions."""
-    from umform.sheet_metals import get
-
-    try:
-        return get(name)
-    except InvalidValue as error:
-        error.where = where
-        error.cause = error.cause or "a typing mistake, or a metal that the library does not have"
-        error.remedy = f"choose one of `umform metal list`{otherwise}"
-        raise
 
 
 def _own_law(

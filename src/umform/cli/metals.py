@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from umform.cli.metal import named
+from umform.cli.metal import by_name
 from umform.cli.root import Debug, Overwrite, app, console, printing
 
 if TYPE_CHECKING:
@@ -74,10 +74,12 @@ def _curve(hardening: object) -> str:
 @metals.command()
 def show(name: Annotated[str, typer.Argument(help="Name of a sheet metal: see `umform metal list`.")]) -> None:
     """Show a sheet metal: numbers, source, deck and Python."""
+    from umform import sheet_metals
     from umform.calibration.code import deck_block, python_code
     from umform.materials import Metal
 
-    metal = named(name, "umform metal show")
+    with by_name("umform metal show"):
+        metal = sheet_metals.get(name)
     typer.echo(metal)
     if isinstance(metal.law, Metal):
         _print_directions(metal)

@@ -7,6 +7,7 @@ from typer.testing import CliRunner
 
 from umform.cli import app
 from umform.cli.typed import as_typed
+from umform.deck.templates import template
 
 TYPED = [
     ("bend --stroke 8.5", 1, ["or --bottoming"]),
@@ -43,3 +44,27 @@ def test_only_names_of_parameters_are_translated():
     text = "bottoming=True, angle=90.5, a punch_radius, the angle, my_punch_radius, punch_radius(), other=3"
     said = "--bottoming, --angle 90.5, a --punch-radius, the angle, my_punch_radius, punch_radius(), other=3"
     assert as_typed(text, options) == said
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("mesh.thickness=zwei", "write a number"),
+        ("mesh.thickness=2,5", "write mesh.thickness=2.5"),
+        ("mesh.thickness=", "neither a number"),
+        ("element.name=BEND", "BEND8"),
+    ],
+)
+def test_values_of_keys_are_told_by_the_kind_of_the_key(change, said, tmp_path):
+    (tmp_path / "deck.toml").write_text(template("free-bending"))
+    done = CliRunner().invoke(app, ["check", str(tmp_path / "deck.toml"), "--set", change])
+    assert done.exit_code == 1
+    assert said in done.stderr
+    assert "TOML" not in done.stderr
+
+
+def test_a_finer_mesh_is_asked_for_with_its_limit(tmp_path):
+    (tmp_path / "deck.toml").write_text(template("free-bending"))
+    done = CliRunner().invoke(app, ["check", str(tmp_path / "deck.toml"), "--set", "mesh.cells=[6, 1]"])
+    assert "the warning begins at" in " ".join(done.stdout.split())
+    assert "pace" not in done.stdout
