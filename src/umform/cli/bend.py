@@ -250,6 +250,7 @@ def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str)
 
     screen = console()
     _print_table("Air bending", summary_header(errors), summary(done.measures, done.case.width, errors))
+    screen.print("rows of the table: docs/air-bending.md, What is measured")
     low, high = shop_forces(done.case)
     screen.print(f"rule of the shop for the largest force: {low:.1f} to {high:.1f} N/mm (1.33 to 1.42 Rm t²/V)")
     if rows:

@@ -24,6 +24,7 @@ TYPED = [
     ("bend --thicknes 3", 2, ["value:  --thicknes", "perhaps --thickness"]),
     ("--thicknes 3", 2, ["no such option", "umform --help"]),
     ("metal fit --yield-function hill48", 2, ["--young", "`umform metal fit --help`"]),
+    ("draw cup --opening 200", 1, ["half of --opening"]),
     ("bnd", 2, ["'bend'", "remedy:"]),
 ]
 
