@@ -38,7 +38,7 @@ Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tabl
 LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]
 Coarse = Annotated[bool, typer.Option("--coarse", help="Coarse mesh, for a first result in seconds.")]
 Turn = Annotated[float | None, option("Largest angle in degrees that an element turns over a tool radius.", SOLUTION)]
-Layers = Annotated[int, option("Elements through the thickness.", SOLUTION)]
+Layers = Annotated[int, option("Elements through the thickness; 0: by the rule for sharp bends.", SOLUTION)]
 ThicknessPoints = Annotated[int | None, option("Thickness points per layer.", SOLUTION)]
 
 
@@ -111,7 +111,7 @@ def cup(
         element=element,
         turn=_chosen(turn, coarse, 30.0, 15.0),
         around=_chosen(around, coarse, 8, 12),
-        layers=layers,
+        layers=layers or None,
         thickness_points=thickness_points,
         contact_points=contact_points,
         penalty=_chosen(penalty, coarse, 1e4, 3e4),
@@ -175,7 +175,7 @@ def u(
         stroke=stroke,
         element=element,
         turn=_chosen(turn, coarse, 20.0, 13.0),
-        layers=layers,
+        layers=layers or None,
         thickness_points=thickness_points,
         contact_points=contact_points,
         penalty=penalty,
@@ -216,7 +216,7 @@ def _run(
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.draw.case import draw
-    from umform.processes.draw.files import FILES, write_files
+    from umform.processes.draw.files import FILES, draw_blank, write_files
     from umform.processes.draw.words import before_the_run
 
     print_warnings_once()
@@ -225,6 +225,7 @@ def _run(
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     say(f"umform: {before_the_run(case)}")
     with staging(place, FILES):
+        say(f"umform: the mesh of the blank is drawn in {draw_blank(place, case)}")
         drawn = draw(case, limit=curve)
         try:
             with printing(f"the files of the part are in {place}"):

@@ -63,12 +63,11 @@ def hem(
     from umform.processes.hemming import Hemming, hemming
     from umform.processes.hemming.files import FILES, RESULTS, rows, write_files
 
-    print_warnings_once()
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
-
     def size(given: float | None, thicknesses: float) -> float:
         return thicknesses * thickness if given is None else given
 
+    print_warnings_once()
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
     sheet = AirBending(
         thickness=thickness,
         opening=size(opening, 8.0),

@@ -49,6 +49,8 @@ def check(deck: Deck, problem: Problem) -> Iterator[Finding]:
 def before_run(deck: Deck, problem: Problem) -> Iterator[Finding]:
     """The fast part of :func:`check`, without the supports, which `umform.solve` checks."""
     with np.errstate(all="ignore"):
+        for note in problem.notes:
+            yield ok("deck", note)
         yield from of_model(problem.model, millimetres=isinstance(deck.contents.material, FromLibrary))
         yield from resolution(deck, problem)
         yield from drawings(problem)

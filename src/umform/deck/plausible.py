@@ -1,4 +1,4 @@
-"""Plausibility checks of any model: mesh, gaps and units; they need no deck."""
+"""Plausibility checks of any model: mesh, gaps, units and r-values; they need no deck."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from umform.deck.findings import Finding, error, ok, warning
+from umform.deck.r_values import r_values
 from umform.deck.units import units
 from umform.mesh.quality import jacobians
 from umform.model import Model
@@ -20,7 +21,7 @@ _DISTORTED = 0.2
 
 
 def of_model(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
-    """Mesh, gaps and units of any model.
+    """Mesh, gaps, units and r-values of any model.
 
     Parameters
     ----------
@@ -32,6 +33,7 @@ def of_model(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
     yield mesh(model)
     yield from gaps(model)
     yield from units(model, millimetres=millimetres)
+    yield from r_values(model)
 
 
 def mesh(model: Model) -> Finding:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from umform.deck.findings import Level
-from umform.deck.resolution import locking_moment
+from umform.elements.locking import locking_moment
 
 OK = [Level.OK]
 
@@ -66,6 +66,14 @@ def test_where_no_order_follows_layers_are_advised_that_help(name, texts, found)
     assert locks.remedy.startswith("2 layers of BEND18")
     assert found(text, "element", element__name="BEND18", mesh__layers=2)[0].level is Level.OK
     assert found(text, "element", element__name="EAS3DEAS", mesh__layers=16)[0].level is Level.OK
+
+
+def test_one_layer_in_a_sharp_bend_is_told_of_its_springback(texts, found):
+    text = texts("air-bending")
+    sharp, layered = (found(text, "element", mesh__layers=layers)[0] for layers in (1, 4))
+    (blunt,) = found(text.replace("shoulder_radius = 2.0", "shoulder_radius = 3.1"), "element")
+    assert "springback of so sharp a bend" in sharp.text
+    assert "springback" not in layered.text + blunt.text
 
 
 def test_layers_share_the_thickness_points(texts, found):
