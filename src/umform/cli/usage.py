@@ -43,7 +43,7 @@ def _refused(error: BaseException, text: str) -> tuple[str, str]:
     found = _NO_NUMBER.search(text)
     if found:
         return found["value"], found["kind"]
-    details = getattr(error.__cause__, "errors", list)()
+    details: list[dict[str, object]] = getattr(error.__cause__, "errors", list)()
     first = details[0] if details else {}
     return str(first.get("input", "")), str(first.get("type", "")).partition("_")[0]
 
