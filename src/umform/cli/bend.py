@@ -109,7 +109,7 @@ def bend(
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.pool import check_processes
-    from umform.processes.air_bending.bottoming import press_to_force, with_travel
+    from umform.processes.air_bending.bottoming import check_force, press_to_force, with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
     from umform.processes.air_bending.budget import error_budget
     from umform.processes.air_bending.case import air_bending
@@ -159,6 +159,8 @@ def bend(
     if bottoming:
         check_press(angle, table, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
+        if force_per_metre is not None:
+            check_force(force_per_metre)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if print_deck:

@@ -28,7 +28,7 @@ def usage_problem(error: Any) -> InvalidValue:
             "there is no such option",
             where=command,
             value=error.option_name,
-            cause="a typing mistake" if near else "an option of another command",
+            cause="a typing mistake" if near else "a typing mistake, or an option of another command",
             remedy=f"perhaps {near} is meant; {more}" if near else more,
         )
     text, place = error.format_message(), _place(error, command)
@@ -63,7 +63,7 @@ def _no_number(value: str, place: str, *, whole: bool) -> InvalidValue:
 
 
 def _place(error: Any, command: str) -> str:
-    """The option or argument."""
+    """The option, or the command of an argument."""
     parameter = getattr(error, "param", None)
     names = getattr(parameter, "opts", None) or [command]
-    return str(names[0])
+    return str(names[0]) if str(names[0]).startswith("-") else command

@@ -18,7 +18,14 @@ def test_a_table_alone_ends_at_its_last_stroke(tmp_path):
     assert len((tmp_path / "table.csv").read_text().splitlines()) == 3
 
 
-@pytest.mark.parametrize("refused", [["--angle", "80"], ["--stroke", "6", "--young", "5", "--yield-stress", "1"]])
+@pytest.mark.parametrize(
+    "refused",
+    [
+        ["--angle", "80"],
+        ["--stroke", "6", "--young", "5", "--yield-stress", "1"],
+        ["--bottoming", "--die-angle", "88", "--punch-angle", "88", "--force-per-metre", "-4"],
+    ],
+)
 def test_the_folder_of_a_run_that_does_not_start_is_not_named(refused, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "results" / "bend").mkdir(parents=True)

@@ -25,6 +25,7 @@ TYPED = [
     ("--thicknes 3", 2, ["no such option", "umform --help"]),
     ("metal fit --yield-function hill48", 2, ["--young", "`umform metal fit --help`"]),
     ("draw cup --opening 200", 1, ["half of --opening"]),
+    ("view", 2, ["where:  umform view"]),
     ("bnd", 2, ["'bend'", "remedy:"]),
 ]
 
