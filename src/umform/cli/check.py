@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -32,6 +33,9 @@ Folder = Annotated[
     Path | None, typer.Option("--tools", metavar="FOLDER", help="Write each tool near the sheet as NAME.stl.")
 ]
 Force = Annotated[bool, typer.Option("--force", help="Run despite implausible numbers: these errors become warnings.")]
+
+#: A word, such as the name of an element; a number with a decimal comma.
+_WORD, _DECIMAL_COMMA = re.compile(r"[^\W\d][\w.-]*"), re.compile(r"[-+]?\d*,\d+")
 
 
 @app.command("check")
@@ -85,12 +89,15 @@ def _change(text: str) -> tuple[str, Any]:
     try:
         return key.strip(), tomllib.loads(f"value = {value}")["value"]
     except (tomllib.TOMLDecodeError, RecursionError, ValueError):
+        if key.strip() and _WORD.fullmatch(value.strip()):
+            return key.strip(), value.strip()  # text without quotes; a key that needs a number refuses it
+        comma = _DECIMAL_COMMA.fullmatch(value.strip())
         raise InvalidValue(
             "this changes no key",
             where="--set",
             value=text,
-            cause="the value is no TOML",
-            remedy="write key=value, as steps.0.increments=5; words in quotes within quotes: element.name='\"BEND8\"'",
+            cause="a decimal comma" if comma else "the value is neither a number, a word, a list nor text in quotes",
+            remedy=f"write {key}={value.replace(',', '.')}" if comma else "write key=value, as steps.0.increments=5",
         ) from None
 
 

@@ -61,6 +61,7 @@ def run(
         loaded = read(deck, changes or ())
         chosen = solver or loaded.contents.solution.solver
         with on_all_ranks(chosen, petsc_options(ctx)):
+            running.refuse_folder(chosen, out, overwrite=overwrite)
             problem = running.prepared(loaded, chosen, partial(running.refuse_implausible, loaded, force=force))
             outcome = running.run(
                 loaded, problem, out, solver=solver, checkpoint=checkpoint, every=every, overwrite=overwrite

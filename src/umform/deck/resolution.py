@@ -79,7 +79,9 @@ def element_size(contact: Contact, model: Model, tool: ToolPart, radius: float) 
     most = _ARC[contact.facets.shape[1]]
     if degrees <= most:
         return ok(about, text)
-    remedy = f"elements of {math.radians(most / 1.2) * radius:.2g} or less where this radius bends the sheet"
+    wanted = most / 1.2
+    fine = f"elements of {math.radians(wanted) * radius:.2g} or less where this radius bends the sheet"
+    remedy = f"{fine}: {wanted:.3g} degrees of it each, the warning begins at {most:g}"
     return warning(about, text, remedy)
 
 
@@ -162,7 +164,7 @@ def ways(deck: Deck, problem: Problem) -> Iterator[Finding]:
             if not np.isfinite(way):
                 continue
             part = way / step.increments if step.increments is not None else 0.0
-            each = "at a pace" if step.increments is None else f"{part:.3g} in an increment"
+            each = "increments chosen during the run" if step.increments is None else f"{part:.3g} in an increment"
             text = f"{name} moves by {way:.4g}, {each}"
             if way > span:
                 yield warning(about, f"{text}: farther than the sheet is long", "check the units and the target")

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from umform.attempts import HARMLESS, Attempts
 from umform.report import parts
 from umform.report.live import Live, style
 from umform.report.materials import material_text
@@ -14,7 +15,6 @@ from umform.report.versions import versions
 from umform.results.penetration import penetrations
 
 if TYPE_CHECKING:
-    from umform.attempts import Attempts
     from umform.results.history import History
 
 
@@ -119,7 +119,8 @@ def _attempts(attempts: Attempts) -> str:
     rows += [[f"given up: {cause}", str(count), ""] for cause, count in attempts.causes.most_common()]
     rows += [["return maps in stages", str(attempts.staged), ""]] if attempts.staged else []
     share = f"{attempts.evaluations} evaluations, {100 * attempts.share:.1f} % of them thrown away"
-    return parts.table([share, "tried", "won"], rows)
+    table = parts.table([share, "tried", "won"], rows)
+    return parts.folded_part("Numerics", parts.paragraph(HARMLESS) + table)
 
 
 def settings(result: History) -> dict[str, object]:

@@ -11,8 +11,9 @@ from umform.cli import app
 @pytest.mark.parametrize(
     ("typed", "message"),
     [
-        ([], "give the stroke or the angle"),
-        (["--stroke", "6", "--angle", "90"], "give the stroke or the angle"),
+        ([], "none of them is given"),
+        (["--stroke", "6", "--angle", "90"], "both are given"),
+        (["--table", "1:9:1"], "beyond air bending"),
         (["--stroke", "6", "--swift", "520"], "3 numbers are needed"),
         (["--stroke", "6", "--swift", "520,0.004,0.22", "--flow-curve", "a.csv"], "a hardening curve is given by"),
         (["--stroke", "6", "--flow-curve", "no.csv"], "the flow curve cannot be read"),

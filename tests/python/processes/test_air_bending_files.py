@@ -121,6 +121,7 @@ def test_tables_have_a_column_for_each_refinement(bend, errors):
     assert {len(row) for row in rows} == {len(header)}
     assert [row[0] for row in rows if row[0] != "force on the width"] == [q.label for q in QUANTITIES.values()]
     total = next(row for row in rows if row[0] == "force on the width")
+    assert "largest force (choose the press by it)" in [row[0] for row in summary(bend.measures)]
     assert float(total[1]) == pytest.approx(bend.measures.largest_force * 0.05, abs=0.006)
 
 
