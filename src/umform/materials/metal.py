@@ -283,8 +283,8 @@ class LogarithmicSpace:
     small: Material
 
     @property
-    def thickness_points(self) -> int:
-        """Default number of Gauss points through the thickness."""
+    def thickness_points(self) -> int | None:
+        """Default number of Gauss points through the thickness, that of the small-strain law."""
         return self.small.thickness_points
 
     def law(self) -> _core.Material:

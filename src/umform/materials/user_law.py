@@ -64,8 +64,9 @@ class UserLaw:
         differences. A function of three arguments gets the :class:`Points` too: axes, size, step.
     initial : tuple of float
         History of the virgin material; its length is the size of the history.
-    thickness_points : int
-        Default number of points through the thickness.
+    thickness_points : int, optional
+        Default number of Gauss points through the thickness. Without it a law with a history counts as plastic: the
+        points and the complete order of the element for plastic laws, mostly 18 graded points; one without has 2.
     name : str
         For messages.
     energy : callable, optional
@@ -99,7 +100,7 @@ class UserLaw:
 
     function: LawFunction
     initial: tuple[float, ...] = ()
-    thickness_points: int = 2
+    thickness_points: int | None = None
     name: str = "user law"
     energy: EnergyFunction | None = None
     symmetric: bool = True

@@ -131,7 +131,7 @@ class Body(Term):
                 remedy=f"thickness_points={least} or more",
             )
         self._through = make_thickness_rule(self.thickness_points, self.thickness_rule)
-        self.element.check_modes(self._through[0])
+        self.element.check_modes(*self._through)
         self._selection, self._given_rolling = cells, rolling
         self.elsewhere = False
         self.before = np.empty(0)
