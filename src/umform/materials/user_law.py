@@ -53,7 +53,10 @@ def named_parts(history: Mapping[str, Floats], state: Mapping[str, int]) -> dict
 
 @dataclass(frozen=True)
 class UserLaw:
-    """A material law from a Python function: slow (one call for each element), but quick to write.
+    """A material law from a Python function: slow (one call for all points of each element), but quick to write.
+
+    NaN in stress or tangent says that the law has no answer at that strain and cuts the increment; an exception ends the
+    run, with the law and the cell in its notes. :class:`LogarithmicSpace` takes a law of small strains to finite strain.
 
     Parameters
     ----------
@@ -249,3 +252,7 @@ class UserLaw:
         return _core.material_from_function(
             self._respond, list(self.initial), names, energies, self.symmetric, self.sees_points
         )
+
+    def small_strain_law(self) -> _core.Material:
+        """The law itself, of the strain that it gets."""
+        return self.law()

@@ -84,7 +84,7 @@ def test_the_pressure_scales_with_the_square_of_the_length_of_the_gradient():
     expected = force(ball, 100.0)
     assert abs(expected) > 1.0
     assert force(scaled, 400.0) == pytest.approx(expected, rel=1e-12)
-    x = CENTRE + [[0.0, 0.0, -7.9], [1.0, 0.0, -7.8]]
+    x = CENTRE + np.array([[0.0, 0.0, -7.9], [1.0, 0.0, -7.8]])
     look = uf.check_surface(uf.UserSurface(scaled), x, 1e-4)
     assert look.ok(1e-6)
     assert look.gradient_length == pytest.approx(0.5, abs=1e-6)
