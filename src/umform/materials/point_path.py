@@ -108,7 +108,7 @@ def tension(
     Parameters
     ----------
     material : Metal, CompiledLaw, Umat, LogarithmicSpace or UserLaw
-        A law of logarithmic strains. A UserLaw is taken as one of the strain that it gets: of a UserLaw in Green-Lagrange
+        A law of logarithmic strains. A UserLaw is taken as one of the strain that it gets: of one in Green-Lagrange
         strain these are Green-Lagrange strains and second Piola-Kirchhoff stresses.
     strains : array_like, shape (n,)
         Logarithmic strains, one after the other.

@@ -55,8 +55,8 @@ def named_parts(history: Mapping[str, Floats], state: Mapping[str, int]) -> dict
 class UserLaw:
     """A material law from a Python function: slow (one call for all points of each element), but quick to write.
 
-    NaN in stress or tangent says that the law has no answer at that strain and cuts the increment; an exception ends the
-    run, with the law and the cell in its notes. :class:`LogarithmicSpace` takes a law of small strains to finite strain.
+    NaN in stress or tangent says that the law has no answer at that strain and cuts the increment; an exception ends
+    the run, with the law and the cell in its notes. :class:`LogarithmicSpace` takes a small-strain law to finite strain.
 
     Parameters
     ----------
