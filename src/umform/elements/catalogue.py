@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, TypedDict
+from typing import TypedDict
 
-from umform.elements.technology import Element, Mode, Term, Tying
+from umform.elements.technology import SPRINGBACK, Element, Mode, Term, Tying
 from umform.elements.through_thickness import MOST_POINTS
 from umform.errors import InvalidValue
 
@@ -153,7 +153,7 @@ def _build(
             surface_points=2 if cell == "hex8" else 3,
             thickness_order=thickness_order if thickness > 0 else 0,
             citation=citation,
-            plastic_points=_SPRINGBACK if thickness > 0 else (5, "gauss"),
+            plastic_points=SPRINGBACK if thickness > 0 else (5, "gauss"),
             complete=complete,
             options={
                 "thickness_modes": thickness_modes_count,
@@ -191,8 +191,6 @@ def _check_thickness(name: str, cell: str, thickness: int, count: int, order: in
 
 _MITC9 = MITC9_MEMBRANE + MITC9_IN_PLANE_SHEAR + MITC9_SHEAR
 
-#: Points that find the permanent set of a mild bend (docs/theory, 2.10).
-_SPRINGBACK = (18, "graded")
 #: What sharp bends need, of an elastic law too.
 _BENDS: _Bends = {"order": 4, "tied": True}
 
@@ -274,20 +272,11 @@ def element(
     return CATALOGUE[name](**given)
 
 
-def at_order(made: Element, order: int) -> Element:
-    """An element of the catalogue with another thickness order; an element with its own modes is unchanged."""
-    known: dict[str, Any] = dict(made.options)
-    if made.name not in CATALOGUE or element(made.name, **known).modes != made.modes:
-        return made
-    return element(made.name, **(known | {"thickness_order": order}))
-
-
 __all__ = [
     "CATALOGUE",
     "Element",
     "Term",
     "Tying",
-    "at_order",
     "element",
     "membrane_modes",
     "thickness_modes",
