@@ -13,7 +13,7 @@ import typer
 from umform.cli.check import Force
 from umform.cli.drawing import without_help_texts
 from umform.cli.drawn_tools import drawn_tools
-from umform.cli.goals import check_goal, check_no_goal, check_press, strokes_of
+from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
 from umform.cli.metal import law_of
 from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
@@ -68,6 +68,9 @@ def bend(
     die_layer: Annotated[str | None, option("Layer with its section; default: the whole drawing.", _TOOLS)] = None,
     thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 2.0,
     width: Annotated[float | None, option("Length of the bend; default: plane strain.", SHEET)] = None,
+    length: Annotated[
+        float | None, option("Bend length for the total force in kN and t; the model does not change.", SHEET)
+    ] = None,
     material: Material = None,
     rolling: Annotated[
         float | None, option("Degrees from the bend line to the rolling direction: 0 along it, 90 across.", SHEET)
@@ -126,8 +129,9 @@ def bend(
     if strokes and angle is None and stroke is None and not bottoming:
         stroke = strokes[-1]
     check_tolerance(tolerance)
+    check_length(length)
     check_processes(processes)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = AirBending(
         thickness=thickness,
         opening=opening,
@@ -154,7 +158,7 @@ def bend(
     )
     if sequence is not None:
         check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, print_deck)
-        run_sequence(sequence, case, note, out, tolerance=tolerance, overwrite=overwrite)
+        run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
         return
     if bottoming:
         check_press(angle, table, budget, stroke, force_per_metre, travel)
@@ -194,7 +198,7 @@ def bend(
         try:
             errors = error_budget(done.case, done.measures, processes=processes) if budget else None
             with printing(f"the files of the bend are in {place}"):
-                _show(done, rows, errors, note)
+                _show(done, rows, errors, note, length)
         except KeyboardInterrupt as stop:
             stop.add_note(f"  results so far are in {place}: all but the budget")
             raise
@@ -244,17 +248,23 @@ def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
         raise
 
 
-def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str) -> None:
+def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str, length: float | None) -> None:
     """Print measures, bending table, and remarks."""
     from umform.processes.air_bending.formulas import shop_forces
+    from umform.processes.air_bending.remarks import remarks, tools_text, total_force
     from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
     from umform.results.penetration import penetrations
 
     screen = console()
+    screen.print(tools_text(done.case), soft_wrap=True)
     _print_table("Air bending", summary_header(errors), summary(done.measures, done.case.width, errors))
     screen.print("rows of the table: docs/air-bending.md, What is measured")
     low, high = shop_forces(done.case)
     screen.print(f"rule of the shop for the largest force: {low:.1f} to {high:.1f} N/mm (1.33 to 1.42 Rm t²/V)")
+    if length is not None:
+        screen.print(total_force(done.measures.largest_force, length), soft_wrap=True)
+    for remark in remarks(done.case, done.measures):
+        screen.print(remark, soft_wrap=True)
     if rows:
         _print_table("Bending table", table_header(), table_rows(rows))
     for name, said in penetrations(done.result.model, done.result).items():

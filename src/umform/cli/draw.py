@@ -59,7 +59,9 @@ def cup(
     coarse: Coarse = False,
     punch: Annotated[float, option("Diameter of the punch.", _TOOLS)] = 60.0,
     punch_edge: Annotated[float, option("Edge radius of the punch.", _TOOLS)] = 5.0,
-    opening: Annotated[float, option("Diameter of the opening of the die.", _TOOLS)] = 62.4,
+    opening: Annotated[
+        float | None, option("Diameter of the opening of the die; default: punch + 2.4 t.", _TOOLS)
+    ] = None,
     die_edge: Annotated[float, option("Edge radius of the die.", _TOOLS)] = 10.0,
     holder_force: Annotated[float, option("Force on the whole holder, N; 0: fixed at its gap.", _TOOLS)] = 40e3,
     holder_gap: Annotated[
@@ -93,16 +95,16 @@ def cup(
 
     The defaults are the tools of the ESAFORM benchmark 2021. Each number is defined in docs/forming-results.md.
     """
-    from umform.processes.draw.cup import Cup
+    from umform.processes.draw.cup import CLEARANCE, Cup
 
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = Cup(
         thickness=thickness,
         blank_radius=0.5 * blank,
         material=law,
         punch_radius=0.5 * punch,
         punch_edge=punch_edge,
-        die_radius=0.5 * opening,
+        die_radius=0.5 * punch + CLEARANCE * thickness if opening is None else 0.5 * opening,
         die_edge=die_edge,
         holder_force=holder_force or None,
         holder_gap=holder_gap,
@@ -125,7 +127,7 @@ def u(
     coarse: Coarse = False,
     punch: Annotated[float, option("Width of the punch.", _TOOLS)] = 50.0,
     punch_edge: Annotated[float, option("Edge radius of the punch.", _TOOLS)] = 5.0,
-    opening: Annotated[float, option("Opening of the die.", _TOOLS)] = 52.0,
+    opening: Annotated[float | None, option("Opening of the die; default: punch + 2.56 t.", _TOOLS)] = None,
     die_edge: Annotated[float, option("Edge radius of the die.", _TOOLS)] = 5.0,
     holder_force: Annotated[
         float, option("Force on the whole holder, N: both sides, all of the width.", _TOOLS)
@@ -158,9 +160,9 @@ def u(
 
     The defaults are the tools of the NUMISHEET benchmark 93. Each number is defined in docs/forming-results.md.
     """
-    from umform.processes.draw.u_bend import UBend
+    from umform.processes.draw.u_bend import CLEARANCE, UBend
 
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = UBend(
         thickness=thickness,
         length=length,
@@ -168,7 +170,7 @@ def u(
         material=law,
         punch_width=punch,
         punch_edge=punch_edge,
-        opening=opening,
+        opening=punch + 2.0 * CLEARANCE * thickness if opening is None else opening,
         die_edge=die_edge,
         holder_force=holder_force,
         friction=friction,
@@ -246,6 +248,7 @@ def _show(drawn: Drawn, note: str) -> None:
     from rich.table import Table
 
     from umform.processes.draw.words import summary, title
+    from umform.results.penetration import penetrations
 
     table = Table("quantity", title=title(drawn), box=box.SIMPLE_HEAD)
     table.add_column("value", justify="right")
@@ -254,6 +257,8 @@ def _show(drawn: Drawn, note: str) -> None:
         table.add_row(*row)
     screen = console()
     screen.print(table)
+    for name, said in penetrations(drawn.result.model, drawn.result).items():
+        screen.print(f"contact {name}: {said}", soft_wrap=True)
     if note:
         screen.print(note, soft_wrap=True)
     echo_warnings(drawn.warnings)

@@ -31,6 +31,18 @@ def check_goal(
         )
 
 
+def check_length(length: float | None) -> None:
+    """Refuse a bend length that is none."""
+    if length is not None and not 0.0 < length < math.inf:
+        raise InvalidValue(
+            "a bend length must be positive and finite",
+            where="--length",
+            value=length,
+            cause="a sign, or a missing value",
+            remedy="the length of the bend line in mm, such as 1000",
+        )
+
+
 def check_no_goal(option: str, *goals: object) -> None:
     """Refuse a goal of a single bend together with an option that defines goals."""
     if any(goal is not None and goal is not False for goal in goals):

@@ -20,7 +20,7 @@ _HEM, _TOOLS = "Hem (mm, degrees)", "Tools of the first bend (mm, degrees)"
 def hem(
     out: Annotated[
         str | None,
-        typer.Option(metavar="FOLDER", help="Folder for tables, pictures and fields; default: results/hem."),
+        typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/hem."),
     ] = None,
     gap: Annotated[
         float | None, option("Final distance of flange and base, thickness of the insert; default: 1 thickness.", _HEM)
@@ -61,13 +61,14 @@ def hem(
     from umform.io.staging import staging
     from umform.processes.air_bending.parameters import AirBending
     from umform.processes.hemming import Hemming, hemming
-    from umform.processes.hemming.files import FILES, RESULTS, rows, write_files
+    from umform.processes.hemming.files import FILES, RESULTS, write_files
+    from umform.processes.hemming.words import remarks, rows
 
     def size(given: float | None, thicknesses: float) -> float:
         return thicknesses * thickness if given is None else given
 
     print_warnings_once()
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     sheet = AirBending(
         thickness=thickness,
         opening=size(opening, 8.0),
@@ -94,15 +95,15 @@ def hem(
         done = hemming(case)
         try:
             with printing(f"the files of the hem are in {place}"):
-                _show(rows(done.measures), note)
+                _show(rows(done.measures), [*remarks(done), note])
                 echo_warnings(list(done.warnings))
         finally:  # even if the table cannot be printed
             files = write_files(place, done, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
 
 
-def _show(rows: list[list[str]], note: str) -> None:
-    """Print the measures."""
+def _show(rows: list[list[str]], remarks: list[str]) -> None:
+    """Print the measures, and what belongs to them."""
     from rich import box
     from rich.table import Table
 
@@ -112,5 +113,5 @@ def _show(rows: list[list[str]], note: str) -> None:
     for row in rows:
         table.add_row(*row)
     console().print(table)
-    if note:
-        console().print(note, soft_wrap=True)
+    for remark in filter(None, remarks):
+        console().print(remark, soft_wrap=True)

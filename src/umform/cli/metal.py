@@ -7,10 +7,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import typer
+
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
     from umform.materials import J2, Hardening, Metal
+
+#: What is computed with if no material is given.
+_NO_MATERIAL = "the sheet is a soft steel like DC04; forces and springback of another metal differ much"
 
 
 @contextmanager
@@ -35,8 +40,9 @@ def law_of(
     modulus: float | None,
     swift: str | None,
     flow_curve: Path | None,
+    thickness: float,
 ) -> tuple[J2 | Metal, str]:
-    """Law of the sheet, and a remark on it."""
+    """Law of the sheet of a thickness in mm, and a remark on it; a warning if no material is given."""
     from umform.processes.air_bending.parameters import DC04_LIKE
 
     own = [value for value in (young, poisson, yield_stress, modulus, swift, flow_curve) if value is not None]
@@ -51,10 +57,11 @@ def law_of(
             )
         from umform.sheet_metals import get
 
-        metal = get(name)
-        return metal.law, f"{name}: {metal.source}; {metal.caveat}"
+        metal = get(name, thickness)
+        return metal.law, metal.note
     if not own:
-        return DC04_LIKE, "material: a curve like that of DC04; give your own for numbers that count"
+        typer.echo(f"umform: warning: no --material: {_NO_MATERIAL}", err=True)
+        return DC04_LIKE, f"material: {_NO_MATERIAL}"
     return _own_law(young, poisson, yield_stress, modulus, swift, flow_curve), ""
 
 

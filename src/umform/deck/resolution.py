@@ -18,6 +18,7 @@ from umform.deck.controls import Displacement, Drive, MidLine
 from umform.deck.deck import Deck
 from umform.deck.findings import Finding, ok, warning
 from umform.deck.problem import Problem
+from umform.deck.sizes import size_near
 from umform.deck.steps import Move
 from umform.deck.tools import ToolPart, along, smallest_radius
 from umform.deck.units import first_yield
@@ -69,7 +70,7 @@ def bends(deck: Deck, problem: Problem) -> Iterator[Finding]:
 def element_size(contact: Contact, model: Model, tool: ToolPart, radius: float) -> Finding:
     """Angle of the smallest radius of a tool per element where the tool is nearest."""
     about = f"contact {contact.name}"
-    size = _size_near(contact, model, along(tool))
+    size = size_near(contact, model, along(tool))
     if radius == 0.0:
         remedy = "round it: the finer the mesh, the deeper an edge cuts into the sheet"
         return warning(about, "the tool has a sharp edge", remedy)
@@ -82,19 +83,6 @@ def element_size(contact: Contact, model: Model, tool: ToolPart, radius: float) 
     fine = f"elements of {math.radians(wanted) * radius:.2g} or less where this radius bends the sheet"
     remedy = f"{fine}: {wanted:.3g} degrees of it each, the warning begins at {most:g}"
     return warning(about, text, remedy)
-
-
-def _size_near(contact: Contact, model: Model, axis: np.ndarray[tuple[int, ...], np.dtype[np.float64]] | None) -> float:
-    """Size of the facets nearest to the tool: across it if it has one section, else their shorter side."""
-    corners = model.mesh.points[contact.facets[:, :4]]
-    gaps = contact.gap(corners.mean(axis=1))
-    near = corners[gaps <= np.nanmin(gaps) + 1e-9 * float(np.ptp(model.mesh.points, axis=0).max())]
-    sides = np.roll(near, -1, axis=1) - near
-    lengths = np.linalg.norm(sides, axis=-1)
-    if axis is None:
-        return float(lengths.min(axis=1).min())
-    lateral = np.linalg.norm(sides - (sides @ axis)[..., None] * axis, axis=-1)
-    return float(lateral.max(axis=1).min())
 
 
 def through_thickness(model: Model, material: Plastic, h: float, radius: float, tool: str) -> Iterator[Finding]:

@@ -51,7 +51,8 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole
     if wanted.report:
         from umform.report.page import write_report
 
-        write_report(result, waiting / "report.html", deck=text, title=deck.contents.title)
+        metal = getattr(deck.contents.material, "note", "")
+        write_report(result, waiting / "report.html", deck=text, title=deck.contents.title, note=metal)
     return [*files, *stage.commit(["report.html", "curve.png", "shape.png"])]
 
 

@@ -146,3 +146,17 @@ def test_locking_moment_is_that_of_the_theory():
     for order in (1, 2, 3):
         moment = (energy(k * 1.0001, order) - energy(k * 0.9999, order)) / (2e-4 * k)
         assert locking_moment(order, k * h / 2, kappa_over_y) == pytest.approx(moment / plastic, rel=1e-4)
+
+
+def test_a_strip_one_element_wide_is_bent_along_its_length(texts, found):
+    text = texts("hat-rail")
+    coarse = found(text, "contact punch", mesh__cells=[15, 1])[1]
+    assert "an element is 6 long" in coarse.text and coarse.level is Level.WARNING
+    assert "an element is 1 long" in found(text, "contact punch")[1].text
+
+
+def test_a_box_bends_elements_across_its_edges(texts, found):
+    text = texts("hat-rail").replace("width = 1.0", "width = 6.0")
+    long = found(text, "contact punch", mesh__cells=[15, 6])[1]  # elements of 6 x 1
+    assert "an element is 6 long" in long.text and long.level is Level.WARNING
+    assert "an element is 1 long" in found(text, "contact punch", mesh__cells=[90, 2])[1].text  # 1 x 3

@@ -13,10 +13,12 @@ from umform.materials.j2 import Plastic
 from umform.mesh import Bent, Mesh, Sizes, bending_sizes, disc
 from umform.model import Model
 from umform.processes.draw.press import Press, held_by
-from umform.processes.draw.rules import COMMON, layers_by_rule
+from umform.processes.draw.rules import COMMON, check_clearance, layers_by_rule, tight
 from umform.processes.rules import check_rules, length, whole
 from umform.surfaces import Plane, Profile, Revolved
 
+#: Usual clearance beside the punch in thicknesses, that of the ESAFORM benchmark 2021: the rim thickens.
+CLEARANCE = 1.2
 #: Way of the punch beyond that at which the rim has left the edge of the die, in thicknesses.
 _BEYOND = 4.0
 _RULES = COMMON | {
@@ -106,15 +108,8 @@ class Cup:
         self._check_tools()
 
     def _check_tools(self) -> None:
-        air = self.die_radius - self.punch_radius
-        if not 0.5 * self.thickness < air < 20.0 * self.thickness:
-            raise InvalidValue(
-                "the gap between punch and die does not fit the sheet",
-                where="die_radius",
-                value=self.die_radius,
-                cause=f"a gap of {air:.4g} beside the punch for a sheet of {self.thickness:g}; a diameter for a radius",
-                remedy=f"about {self.punch_radius + 1.1 * self.thickness:.4g}",
-            )
+        wanted = self.punch_radius + CLEARANCE * self.thickness
+        check_clearance(self.clearance, self.thickness, where="die_radius", value=self.die_radius, wanted=wanted)
         if not self.punch_edge < 0.9 * self.punch_radius:
             raise InvalidValue(
                 "the edge of the punch is larger than the punch",
@@ -142,6 +137,17 @@ class Cup:
     def record(self) -> dict[str, Any]:
         """All parameters by name."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @property
+    def clearance(self) -> float:
+        """Gap beside the punch in the die."""
+        return self.die_radius - self.punch_radius
+
+    @property
+    def warnings(self) -> list[str]:
+        """Unusual parameters."""
+        wanted = 2.0 * (self.punch_radius + CLEARANCE * self.thickness)
+        return tight(self.clearance, self.thickness, what="an opening", wanted=wanted)
 
     @property
     def gap(self) -> float:

@@ -158,7 +158,7 @@ class Drawn:
         """Warnings."""
         own = [] if self.ending is None else [self.ending.text]
         more = [] if self.released is None else self.released.warnings
-        return list(dict.fromkeys([*own, *self.result.warnings, *more]))
+        return list(dict.fromkeys([*own, *self.case.warnings, *self.result.warnings, *more]))
 
     def measures(self) -> dict[str, tuple[float, str]]:
         """Measures of the part by name, with units."""
@@ -172,8 +172,9 @@ class Drawn:
             "largest major strain": (float(found["major_middle"].max()), ""),
             "margin to the forming limit": (float(found["limit_margin"].min()), ""),
             "work of friction": (self.friction_share, "%"),
-            "largest springback": (self.springback.largest, "mm"),
         }
+        if self.released is not None:
+            rows["largest springback"] = (self.springback.largest, "mm")
         if isinstance(self.case, Cup):
             ears = self.ears
             rows |= {

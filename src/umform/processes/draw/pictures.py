@@ -38,7 +38,8 @@ def pictures(drawn: Drawn) -> dict[str, Figure]:
     made = {"blank": blank(drawn.case), "curve": curve(drawn)}
     shape = part(drawn)
     made |= {name: coloured(shape, name, label) for name, label in FIELDS.items()}
-    made["gauge"] = in_gauge(drawn, shape)
+    if drawn.released is not None:
+        made["gauge"] = in_gauge(drawn, shape)
     made |= {"limits": limits(drawn), "outline": outline(drawn), "section": sections(drawn)}
     if isinstance(drawn.case, Cup):
         made["ears"] = ears(drawn)

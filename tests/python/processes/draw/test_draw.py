@@ -7,11 +7,14 @@ from functools import cache
 import h5py
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import umform as uf
+from umform.cli import app
 from umform.errors import InvalidValue
 from umform.processes.draw import Cup, UBend, draw, write_files
 from umform.processes.draw.files import draw_blank
+from umform.processes.draw.pictures import pictures
 from umform.processes.draw.words import before_the_run
 from umform.results.forming import ear_profile
 
@@ -171,6 +174,7 @@ def test_a_punch_that_bottoms_is_named():
     "wrong",
     [
         {"die_radius": 25.2},
+        {"thickness": 1.6},
         {"die_radius": 52.8},
         {"punch_edge": 25.0},
         {"blank_radius": 20.0},
@@ -186,7 +190,38 @@ def test_a_cup_that_cannot_be_drawn_is_refused(wrong):
         replace(CUP, **wrong)
 
 
-@pytest.mark.parametrize("wrong", [{"opening": 50.1}, {"stroke": 90.0}, {"holder_force": None}, {"width": 0.0}])
+@pytest.mark.parametrize(
+    "wrong", [{"opening": 50.1}, {"thickness": 1.2}, {"stroke": 90.0}, {"holder_force": None}, {"width": 0.0}]
+)
 def test_a_u_bend_that_cannot_be_drawn_is_refused(wrong):
     with pytest.raises(InvalidValue):
         replace(U, **wrong)
+
+
+@pytest.mark.parametrize(("command", "kind", "usual"), [("cup", "Cup", 1.2), ("u", "UBend", 1.0 / 0.78)])
+def test_the_default_opening_follows_the_thickness(monkeypatch, command, kind, usual):
+    cases = []
+    monkeypatch.setattr("umform.cli.draw._run", lambda case, *_, **__: cases.append(case))
+    for more in ([], ["--thickness", "1.5"], ["--punch", "40", "--thickness", "2"]):
+        assert CliRunner().invoke(app, ["draw", command, "--material", "DP600", *more]).exit_code == 0
+    assert [type(case).__name__ for case in cases] == 3 * [kind]
+    assert [case.clearance / case.thickness for case in cases] == pytest.approx(3 * [usual])
+    assert (cases[0].die_radius == 31.2) if kind == "Cup" else (cases[0].opening == 52.0)
+    refused = CliRunner().invoke(
+        app, ["draw", command, "--material", "DP600", "--thickness", "1.5", "--opening", "62.4"]
+    )
+    assert (refused.exit_code != 0) == (kind == "Cup")  # 62.4 is a gap of 1.2 for the cup, 6.2 for the U
+
+
+def test_a_clearance_below_the_thickness_is_a_warning():
+    assert CUP.warnings == [] and U.warnings == []
+    tight = replace(CUP, die_radius=25.95)
+    assert "they iron the wall" in tight.warnings[0] and "52.4" in tight.warnings[0]
+    drawn = replace(cup(), case=tight, released=None)
+    assert any("they iron the wall" in text for text in drawn.warnings)
+
+
+def test_a_part_that_stays_in_its_tools_has_no_springback():
+    assert "largest springback" in cup().measures()
+    kept = replace(cup(), released=None)
+    assert "largest springback" not in kept.measures() and "gauge" not in pictures(kept)
