@@ -260,7 +260,13 @@ def element(
             )
         return name
     if name not in CATALOGUE:
-        raise InvalidValue("unknown element", value=name, remedy="one of " + ", ".join(CATALOGUE))
+        raise InvalidValue(
+            "unknown element",
+            where="element",
+            value=name,
+            cause="a typing mistake, or a name of another program",
+            remedy="one of " + ", ".join(CATALOGUE),
+        )
     if compatible_E12 and name not in ("MI9K3DEAS", "BEND18"):
         raise InvalidValue(f"{name} does not tie E_12", remedy="leave compatible_E12 out, or take MI9K3DEAS or BEND18")
     return CATALOGUE[name](**given)
