@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from umform.model import Body, Model
     from umform.model.axes import cylindrical, turned
     from umform.model.contact.friction import Friction, FrictionByRegion, Region
+    from umform.model.element_check import check_element
     from umform.model.trim import Trim
     from umform.results import fields
     from umform.run import Result, resume, solve
@@ -112,6 +113,7 @@ _HOME = {
     "umform.model": ("Body", "Model"),
     "umform.model.axes": ("cylindrical", "turned"),
     "umform.model.contact.friction": ("Friction", "FrictionByRegion", "Region"),
+    "umform.model.element_check": ("check_element",),
     "umform.model.trim": ("Trim",),
     "umform.run": ("Result", "resume", "solve"),
     "umform.run.stages": ("Stage", "solve_stages"),
@@ -212,6 +214,7 @@ __all__ = [
     "Yld91",
     "Yld2004",
     "YoshidaUemori",
+    "check_element",
     "check_law",
     "check_surface",
     "cylindrical",

@@ -56,7 +56,8 @@ class UserLaw:
     """A material law from a Python function: slow (one call for all points of each element), but quick to write.
 
     NaN in stress or tangent says that the law has no answer at that strain and cuts the increment; an exception ends
-    the run, with the law and the cell in its notes. :class:`LogarithmicSpace` takes a small-strain law to finite strain.
+    the run, with the law and the cell in its notes. :class:`LogarithmicSpace` makes a small-strain law one of finite
+    strain.
 
     Parameters
     ----------

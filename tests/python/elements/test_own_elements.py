@@ -9,6 +9,7 @@ from umform import J2, SVK, Linear, Model, Move, UserLaw, solve
 from umform.elements import Element, Term, Tying, at_order, element
 from umform.errors import InvalidValue
 from umform.mesh import strip
+from umform.model.element_check import check_element
 
 STEEL = J2(E=206e3, nu=0.3, hardening=Linear(200.0, 2000.0))
 SHEAR = ((Term("12", 1),), (Term("12", 0, 1),))
@@ -138,3 +139,31 @@ STIFF = 1000.0 * np.eye(6)
 def test_a_history_makes_a_law_plastic_and_its_points_are_honoured(law, points, modes):
     model = model_of("ANS3DEAS", UserLaw(linear, **law))
     assert (model.thickness_points, model.block.modes) == (points, modes)
+
+
+@pytest.mark.parametrize(
+    ("name", "membrane", "bending"),
+    [
+        ("DISP3D", True, False),
+        ("DISP3DEAS", True, False),
+        ("ANS3DEAS", True, True),
+        ("EAS3DEAS", True, True),
+        ("DISP9K3D", True, False),  # too stiff: no enhanced thickness strain
+        ("DISP9K3DEAS", True, True),
+        ("MI9K3DEAS", False, False),  # tied in-plane shear, docs/theory, 2.9
+    ],
+)
+def test_the_patch_tests_of_the_catalogue_are_those_of_the_book(name, membrane, bending):
+    check = check_element(name)
+    assert check.zeros == 6
+    assert (check.membrane < 1e-12) == membrane
+    assert (check.bending < 1e-10) == bending
+    assert max(check.membrane, check.bending) < 1e-10 or max(check.membrane, check.bending) > 1e-2
+    assert check.ok() == (membrane and bending)
+
+
+def test_a_reduced_element_has_mechanisms_and_fails():
+    """One sampled strain in the place of four lets the cell deform without work."""
+    tying = tuple(Tying(component, (0.0,), (0.0,)) for component in ("11", "22", "12", "13", "23"))
+    assert check_element(Element("reduced", "hex8", tying=tying)).zeros > 6
+    assert not check_element(Element("reduced", "hex8", tying=tying)).ok()
