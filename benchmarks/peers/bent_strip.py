@@ -22,6 +22,8 @@ GOAL = 20.0
 #: Facets of the tool in CalculiX: 400 give the same forces to 0.1 % and take 1.6 times as long.
 FACETS = 100
 CELLS = {"BEND8": "hex8", "BEND18": "hex18", "EAS3DEAS": "hex8", "C3D8I": "hex8", "C3D20R": "hex20"}
+#: BEND8 and BEND18 with what a force needs: order 4, these points or the number given. The default is for springback.
+FORCES: dict[str, Any] = {"thickness_order": 4, "thickness_points": 12, "thickness_rule": "split"}
 STACK = {"model": {"thickness_order": 2, "tie_E33": True, "thickness_points": 4, "thickness_rule": "gauss"}}
 #: Code, element, cells along, layers.
 MESHES = (
@@ -70,12 +72,13 @@ def entry(
     loose : float
         Tolerance of the residual, with one of a hundredth for the increment; default: those of the code.
     points : int
-        Points through the thickness; default: those of the element.
+        Gauss points through the thickness; default: those of ``FORCES``.
     """
     newton = {"newton": {"residual": loose, "increment": 1e-2}} if loose else {}
-    options: Mapping[str, Any] = (STACK if element == "EAS3DEAS" else {}) | newton
-    if points:
-        options = {**options, "model": {"thickness_points": points}}
+    model = FORCES | ({"thickness_points": points, "thickness_rule": "gauss"} if points else {})
+    options: Mapping[str, Any] = (
+        STACK if element == "EAS3DEAS" else {"model": model} if peer == "umform" else {}
+    ) | newton
     made = partial(build, cells, layers, CELLS[element], across)
     mesh = f"{cells} x {max(across, 1)} x {layers}"
     notes = [f"{points} points"] * (points > 0) + [f"tolerance {loose:.0e}".replace("e-0", "e-")] * (loose > 0)

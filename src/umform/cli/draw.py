@@ -32,7 +32,7 @@ Stroke = Annotated[
 ]
 Coarse = Annotated[bool, typer.Option("--coarse", help="Coarse mesh, for a first result in seconds.")]
 Turn = Annotated[float | None, option("Largest angle in degrees that an element turns over a tool radius.", SOLUTION)]
-Layers = Annotated[int, option("Elements through the thickness.", SOLUTION)]
+Layers = Annotated[int, option("Elements through the thickness; 0: by the rule for sharp bends.", SOLUTION)]
 ThicknessPoints = Annotated[int | None, option("Thickness points per layer.", SOLUTION)]
 
 
@@ -42,7 +42,9 @@ def cup(
     coarse: Coarse = False,
     punch: Annotated[float, option("Diameter of the punch.", _TOOLS)] = 60.0,
     punch_edge: Annotated[float, option("Edge radius of the punch.", _TOOLS)] = 5.0,
-    opening: Annotated[float, option("Diameter of the opening of the die.", _TOOLS)] = 62.4,
+    opening: Annotated[
+        float | None, option("Diameter of the opening of the die; default: punch + 2.4 t.", _TOOLS)
+    ] = None,
     die_edge: Annotated[float, option("Edge radius of the die.", _TOOLS)] = 10.0,
     holder_force: Annotated[float, option("Force of the holder; 0: fixed at its gap.", _TOOLS)] = 40e3,
     holder_gap: Annotated[
@@ -76,7 +78,7 @@ def cup(
 
     The defaults are the tools of the ESAFORM benchmark 2021. Each number is defined in docs/forming-results.md.
     """
-    from umform.processes.draw.cup import Cup
+    from umform.processes.draw.cup import CLEARANCE, Cup
 
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = Cup(
@@ -85,7 +87,7 @@ def cup(
         material=law,
         punch_radius=0.5 * punch,
         punch_edge=punch_edge,
-        die_radius=0.5 * opening,
+        die_radius=0.5 * punch + CLEARANCE * thickness if opening is None else 0.5 * opening,
         die_edge=die_edge,
         holder_force=holder_force or None,
         holder_gap=holder_gap,
@@ -94,7 +96,7 @@ def cup(
         element=element,
         turn=_chosen(turn, coarse, 30.0, 15.0),
         around=_chosen(around, coarse, 8, 12),
-        layers=layers,
+        layers=layers or None,
         thickness_points=thickness_points,
         contact_points=contact_points,
         penalty=_chosen(penalty, coarse, 1e4, 3e4),
@@ -108,7 +110,7 @@ def u(
     coarse: Coarse = False,
     punch: Annotated[float, option("Width of the punch.", _TOOLS)] = 50.0,
     punch_edge: Annotated[float, option("Edge radius of the punch.", _TOOLS)] = 5.0,
-    opening: Annotated[float, option("Opening of the die.", _TOOLS)] = 52.0,
+    opening: Annotated[float | None, option("Opening of the die; default: punch + 2.56 t.", _TOOLS)] = None,
     die_edge: Annotated[float, option("Edge radius of the die.", _TOOLS)] = 5.0,
     holder_force: Annotated[float, option("Force of the holder.", _TOOLS)] = 2450.0,
     friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.144,
@@ -139,7 +141,7 @@ def u(
 
     The defaults are the tools of the NUMISHEET benchmark 93. Each number is defined in docs/forming-results.md.
     """
-    from umform.processes.draw.u_bend import UBend
+    from umform.processes.draw.u_bend import CLEARANCE, UBend
 
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = UBend(
@@ -149,14 +151,14 @@ def u(
         material=law,
         punch_width=punch,
         punch_edge=punch_edge,
-        opening=opening,
+        opening=punch + 2.0 * CLEARANCE * thickness if opening is None else opening,
         die_edge=die_edge,
         holder_force=holder_force,
         friction=friction,
         stroke=stroke,
         element=element,
         turn=_chosen(turn, coarse, 20.0, 13.0),
-        layers=layers,
+        layers=layers or None,
         thickness_points=thickness_points,
         contact_points=contact_points,
         penalty=penalty,
@@ -197,7 +199,7 @@ def _run(
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.draw.case import draw
-    from umform.processes.draw.files import FILES, write_files
+    from umform.processes.draw.files import FILES, draw_blank, write_files
     from umform.processes.draw.words import before_the_run
 
     print_warnings_once()
@@ -206,6 +208,7 @@ def _run(
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     say(f"umform: {before_the_run(case)}")
     with staging(place, FILES):
+        say(f"umform: the mesh of the blank is drawn in {draw_blank(place, case)}")
         drawn = draw(case, limit=curve)
         try:
             with printing(f"the files of the part are in {place}"):
@@ -226,6 +229,7 @@ def _show(drawn: Drawn, note: str) -> None:
     from rich.table import Table
 
     from umform.processes.draw.words import summary, title
+    from umform.results.penetration import penetrations
 
     table = Table("quantity", title=title(drawn), box=box.SIMPLE_HEAD)
     table.add_column("value", justify="right")
@@ -234,6 +238,8 @@ def _show(drawn: Drawn, note: str) -> None:
         table.add_row(*row)
     screen = console()
     screen.print(table)
+    for name, said in penetrations(drawn.result.model, drawn.result).items():
+        screen.print(f"contact {name}: {said}", soft_wrap=True)
     if note:
         screen.print(note, soft_wrap=True)
     echo_warnings(drawn.warnings)

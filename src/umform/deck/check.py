@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
+from umform.deck.clearance import away, clearances
 from umform.deck.contents import Contents
 from umform.deck.deck import Deck
 from umform.deck.findings import Finding, error, ok, warning
 from umform.deck.material import FromLibrary
+from umform.deck.placement import out_of_the_sheet
 from umform.deck.plausible import of_model
 from umform.deck.problem import Problem
 from umform.deck.references import references
 from umform.deck.resolution import resolution
+from umform.deck.steps import Move
 from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallowsSheet
 from umform.model.contact.encounter import sheet_thickness
 from umform.run.loose import carried, carried_motions
@@ -51,9 +55,15 @@ def check(deck: Deck, problem: Problem) -> Iterator[Finding]:
 def before_run(deck: Deck, problem: Problem) -> Iterator[Finding]:
     """The fast part of :func:`check`, without the supports, which `umform.solve` checks."""
     with np.errstate(all="ignore"):
-        yield from of_model(problem.model, millimetres=isinstance(deck.contents.material, FromLibrary))
+        for note in problem.notes:
+            yield ok("deck", note)
+        place = partial(out_of_the_sheet, deck.contents)
+        millimetres = isinstance(deck.contents.material, FromLibrary)
+        yield from of_model(problem.model, millimetres=millimetres, place=place)
         yield from metal_of_thickness(deck, problem)
         yield from resolution(deck, problem)
+        yield from clearances(deck, problem)
+        yield from away(deck, problem)
         yield from drawings(problem)
         yield from idle(deck)
 
@@ -128,10 +138,12 @@ def effort(contents: Contents, problem: Problem) -> Finding:
     finally:
         model.revert()
     increments = sum(step.expected for step in contents.steps)
+    adapts = any(isinstance(step, Move) and step.increments is None for step in contents.steps)
+    about = "at least" if adapts else "about"  # contact may halve an increment many times
     text = (
-        f"about {increments} increments; {1e3 * seconds:.3g} ms an iteration with {solver.solver.name}: "
-        f"about {_spell(seconds * increments * _ITERATIONS)}"
-    )
+        f"{about} {increments} increments; {1e3 * seconds:.3g} ms an iteration with {solver.solver.name}: "
+        f"{about} {_spell(seconds * increments * _ITERATIONS)}"
+    ) + ("; an adaptive step may take several times as many" if adapts else "")
     return ok("effort", text)
 
 

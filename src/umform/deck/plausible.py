@@ -1,16 +1,21 @@
-"""Plausibility checks of any model: mesh, gaps and units; they need no deck."""
+"""Plausibility checks of any model: mesh, gaps, units and r-values; they need no deck."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from umform.deck.findings import Finding, error, ok, warning
+from umform.deck.r_values import r_values
 from umform.deck.units import units
 from umform.mesh.quality import jacobians
 from umform.model import Model
 from umform.model.contact.encounter import sheet_thickness
+
+#: (name of a contact, shift of its tool) -> the key that does it.
+Placing = Callable[[str, NDArray[np.float64]], str]
 
 #: Overlaps relative to the thickness at the start: beyond the first one the sheet gets a jolt; beyond the second one,
 #: the tool is misplaced.
@@ -19,8 +24,8 @@ _OVERLAP, _DEEP = 0.02, 0.2
 _DISTORTED = 0.2
 
 
-def of_model(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
-    """Mesh, gaps and units of any model.
+def of_model(model: Model, *, millimetres: bool = False, place: Placing | None = None) -> Iterator[Finding]:
+    """Mesh, gaps, units and r-values of any model.
 
     Parameters
     ----------
@@ -28,10 +33,13 @@ def of_model(model: Model, *, millimetres: bool = False) -> Iterator[Finding]:
         The model, which is unchanged.
     millimetres : bool
         Units are known to be mm, N and MPa.
+    place : callable, optional
+        Key of the input that shifts the tool of a contact, for the remedy.
     """
     yield mesh(model)
-    yield from gaps(model)
+    yield from gaps(model, place)
     yield from units(model, millimetres=millimetres)
+    yield from r_values(model)
 
 
 def mesh(model: Model) -> Finding:
@@ -47,11 +55,12 @@ def mesh(model: Model) -> Finding:
     return warning("mesh", text, "cells nearer to parallelograms, mid-side nodes nearer to the middle")
 
 
-def gaps(model: Model) -> Iterator[Finding]:
+def gaps(model: Model, place: Placing | None = None) -> Iterator[Finding]:
     """Gap or overlap of each contact pair at the start."""
     thickness, size = sheet_thickness(model.mesh), float(np.ptp(model.mesh.points, axis=0).max())
     for contact in model.contacts:
-        gap = contact.locate(model.u, contact.pose).gap
+        at = contact.locate(model.u, contact.pose)
+        gap = at.gap
         about = f"contact {contact.name}"
         if not np.isfinite(gap).all():
             remedy = "move the tool so that it just touches the sheet"
@@ -64,6 +73,9 @@ def gaps(model: Model) -> Iterator[Finding]:
         if deepest < -_OVERLAP * thickness:
             found = error if deepest < -_DEEP * thickness else warning
             remedy = "move the tool out of the sheet; an overlap is pressed out in the first increment"
+            if place is not None:
+                key = place(contact.name, deepest * at.normal[int(np.argmin(gap))])
+                remedy = f"{key}: places of tools do not follow the thickness; {remedy}"
             yield found(about, f"{text}: {-100 * deepest / thickness:.3g} % of the thickness", remedy)
         elif deepest > size:
             remedy = "check the place of the tool and the units"

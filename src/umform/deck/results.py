@@ -57,11 +57,17 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole
 
 
 def _add_forming(result: Result, points: list[tuple[float, float]] | None) -> None:
-    """Add the fields of forming to the frames."""
-    from umform.results.forming import LimitTable, add_forming_fields
+    """Add the fields of forming to the frames; warn of elements beyond the limit."""
+    from umform.results.forming import LimitTable, add_forming_fields, forming_fields
+    from umform.results.forming.strains import beyond_limit
 
     limit = None if points is None else LimitTable(*zip(*points, strict=True))
     add_forming_fields(result, limit)
+    if limit is not None:
+        mesh = result.model.mesh
+        text = beyond_limit(mesh, forming_fields(mesh, result.model.u, limit))
+        if text is not None:
+            result.warn(f"the sheet tears: {text}")
 
 
 def as_run(deck: Deck) -> str:

@@ -12,6 +12,7 @@ from umform.progress import Tick, progress_bar
 from umform.results.bottoming import warn_of_bottoming
 from umform.results.penetration import warn_of_contact
 from umform.results.rest import tell_of_rest
+from umform.results.untouched import warn_of_untouched
 from umform.run.interrupt import Interrupt, gentle_interrupt
 from umform.run.loose import note_springs
 from umform.run.result import Result
@@ -93,12 +94,14 @@ def taken(
                 run.number, run.loop = run.number + 1, None
             if last:
                 warn_of_contact(run.model, result)
+                warn_of_untouched(run.model, result)
                 tell_of_rest(run.model, result)
             _pause(run, start, checkpoints, stop, last=last)
         except BaseException as error:  # whatever ends the run, the error carries the results so far
             result.seconds = clock.perf_counter() - start
             if isinstance(error, NoConvergence):
                 warn_of_bottoming(run.model, result, run.number, run.evaluation.found)
+                warn_of_contact(run.model, result)
             error.result = result  # type: ignore[attr-defined]
             raise
 

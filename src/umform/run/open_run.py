@@ -12,6 +12,7 @@ from umform.model.state import Snapshot
 from umform.progress import Tick, silent
 from umform.results.history import Mark as HistoryMark
 from umform.results.penetration import warn_of_contact
+from umform.results.untouched import warn_of_untouched
 from umform.run.checked import checked
 from umform.run.going import begun, taken
 from umform.run.result import Result
@@ -141,4 +142,5 @@ class OpenRun:
     def close(self) -> Result:
         """The result of the steps, with the warnings of the end of a run."""
         warn_of_contact(self._run.model, self.result)
+        warn_of_untouched(self._run.model, self.result)
         return self.result

@@ -16,6 +16,7 @@ from umform.model.loose_part import loose_part
 from umform.solution.augmentation import augmented
 from umform.solution.records import Cause, Converged, Failed, Iteration
 from umform.solution.strategies import Increment, equilibrium
+from umform.steps.crushed import crushed
 from umform.steps.loop import Run
 from umform.steps.trail import Trail, changes
 
@@ -102,6 +103,13 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
     if pressed:
         cause = f"{cause}; at the last converged state {'; '.join(pressed)}"
         remedy = f"{remedy}; a force that the sheet does not answer: less of it, a spring, a stop, or drive the tool"
+    deep = crushed(run)
+    if deep:
+        cause = f"{cause}; at the last converged state {'; '.join(deep)}"
+        remedy = (
+            "a smaller force: a force or pressure is probably in another unit, or that of the whole part on a piece of "
+            "it; if the forces are right, a stiffer penalty"
+        )
     return NoConvergence(
         "Newton's method did not converge at the smallest increment",
         where=f"step {run.number}, on the way to {goal}",

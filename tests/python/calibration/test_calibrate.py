@@ -12,10 +12,10 @@ from pydantic import TypeAdapter
 from typer.testing import CliRunner
 
 import umform as uf
-from umform.calibration import Measurements, calibrate, read_cycles, read_tension
+from umform.calibration import Calibration, Measurements, calibrate, read_cycles, read_tension
 from umform.calibration.code import deck_block, python_code
 from umform.calibration.measurements import Test
-from umform.calibration.pictures import curve_of, over_the_angle
+from umform.calibration.pictures import curve_of, over_the_angle, pictures
 from umform.calibration.words import remarks
 from umform.cli import app
 from umform.deck.material import MaterialPart
@@ -149,12 +149,38 @@ def test_refusals():
         calibrate(Measurements(Directions({}, {0: 1.0, 45: 1.2, 90: 1.1})), 2e5, yield_function="yld2004")
 
 
+def test_pictures_show_data_and_fit():
+    """Measured points as given, and the fit near them: over the angle, on the yield locus, in tension, in a cycle."""
+    law = LAWS["Chaboche"]
+    angles = (0.0, 45.0, 90.0)
+    measured = Directions(
+        {a: float(uf.sheet_metals.uniaxial(law.yield_function, a)[0]) for a in angles},
+        {a: float(uf.sheet_metals.uniaxial(law.yield_function, a)[1]) for a in angles},
+        biaxial=1.1,
+    )
+    ways = {"tension": np.linspace(0.01, 0.1, 10), "cycles": np.array([0.01, 0.02, 0.01, -0.01])}
+    tests = {name: Test(strain, uf.materials.tension(law, strain)[1]) for name, strain in ways.items()}
+    drawn = dict(pictures(Calibration(Measurements(measured, **tests), law, law.yield_function, {})))
+    assert set(drawn) == {"directions", "locus", "tension", "cycles"}
+    for axes, values in zip(drawn["directions"].axes, (measured.stress, measured.r), strict=True):
+        fit, points = (np.array(line.get_xydata()) for line in axes.lines)
+        assert points.tolist() == [list(pair) for pair in values.items()]
+        assert np.interp(points[:, 0], *fit.T) == pytest.approx(points[:, 1])
+    assert [1.1, 1.1] in [line.get_xydata()[0].tolist() for line in drawn["locus"].axes[0].lines]
+    for name, test in tests.items():
+        points, fit = (np.array(line.get_xydata()) for line in drawn[name].axes[0].lines)
+        assert np.array_equal(points, np.column_stack([test.strain, test.stress]))
+        distance = np.abs((fit[:, None] - points) / [1e-6, 10.0]).max(axis=2).min(axis=0)
+        assert (distance < 1.0).all()
+
+
 def test_the_command(tmp_path):
     out, angles, tension = tmp_path / "o", EXAMPLES / "aa2090_directions.csv", EXAMPLES / "aa6016_tension.csv"
     given = ["metal", "fit", "--young", "69000", "--angles", str(angles), "--out", str(out)]
     run = CliRunner().invoke(app, given)
     assert run.exit_code == 0, run.output
     assert "uf.Hill48" in run.output
+    assert "determined" in run.output
     assert {file.name for file in out.iterdir()} >= {"metal.toml", "metal.py", "constants.csv", "locus.png"}
     rows = (out / "constants.csv").read_text().splitlines()
     assert rows[0] == "fit,constant,value,standard_error"

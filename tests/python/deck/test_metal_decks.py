@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import pytest
+from typer.testing import CliRunner
 
 import umform as uf
+from umform import cli
 from umform.deck import Deck
+from umform.deck.check import check
 from umform.deck.errors import DeckError
 
 DECK = """
@@ -103,3 +106,31 @@ def test_what_is_refused(changes, where, text):
     assert "remedy:" in message
     assert where in message
     assert text in message
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "text"),
+    [
+        (R_VALUES, STRESSES, "not convex"),
+        ("r0 = 1.79", "r0 = -0.5", "greater than 0"),
+        (R_VALUES, "F = 0.5, G = 0.5, H = -0.1, N = 1.5", "r-value at 0 degrees"),
+        ("[4000.0, 80.0]", "[-4000.0, 80.0]", "C must be positive"),
+        ("saturated = 160e3", "saturated = 160.0", "GPa"),
+    ],
+)
+def test_the_command_check_finds_them(old, new, text, tmp_path):
+    """A yield function that is not convex, r below 0, a back stress of the wrong sign, a modulus in GPa."""
+    assert old in DECK
+    path = tmp_path / "deck.toml"
+    path.write_text(DECK)
+    assert CliRunner().invoke(cli.app, ["check", str(path)]).exit_code == 0
+    path.write_text(DECK.replace(old, new))
+    found = CliRunner().invoke(cli.app, ["check", str(path)])
+    assert found.exit_code == 1
+    assert text in " ".join(found.output.split())
+
+
+def test_r_values_are_checked_over_the_angle():
+    deck = Deck.read(DECK)
+    (good,) = [finding for finding in check(deck, deck.build()) if finding.about == "material"]
+    assert good.text == "r-values from 1.51 to 2.27"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from umform.deck.findings import Level
-from umform.deck.resolution import locking_moment
+from umform.elements.locking import locking_moment
 
 OK = [Level.OK]
 
@@ -66,6 +66,14 @@ def test_where_no_order_follows_layers_are_advised_that_help(name, texts, found)
     assert locks.remedy.startswith("2 layers of BEND18")
     assert found(text, "element", element__name="BEND18", mesh__layers=2)[0].level is Level.OK
     assert found(text, "element", element__name="EAS3DEAS", mesh__layers=16)[0].level is Level.OK
+
+
+def test_one_layer_in_a_sharp_bend_is_told_of_its_springback(texts, found):
+    text = texts("air-bending")
+    sharp, layered = (found(text, "element", mesh__layers=layers)[0] for layers in (1, 4))
+    (blunt,) = found(text.replace("shoulder_radius = 2.0", "shoulder_radius = 3.1"), "element")
+    assert "springback of so sharp a bend" in sharp.text
+    assert "springback" not in layered.text + blunt.text
 
 
 def test_layers_share_the_thickness_points(texts, found):
@@ -138,3 +146,17 @@ def test_locking_moment_is_that_of_the_theory():
     for order in (1, 2, 3):
         moment = (energy(k * 1.0001, order) - energy(k * 0.9999, order)) / (2e-4 * k)
         assert locking_moment(order, k * h / 2, kappa_over_y) == pytest.approx(moment / plastic, rel=1e-4)
+
+
+def test_a_strip_one_element_wide_is_bent_along_its_length(texts, found):
+    text = texts("hat-rail")
+    coarse = found(text, "contact punch", mesh__cells=[15, 1])[1]
+    assert "an element is 6 long" in coarse.text and coarse.level is Level.WARNING
+    assert "an element is 1 long" in found(text, "contact punch")[1].text
+
+
+def test_a_box_bends_elements_across_its_edges(texts, found):
+    text = texts("hat-rail").replace("width = 1.0", "width = 6.0")
+    long = found(text, "contact punch", mesh__cells=[15, 6])[1]  # elements of 6 x 1
+    assert "an element is 6 long" in long.text and long.level is Level.WARNING
+    assert "an element is 1 long" in found(text, "contact punch", mesh__cells=[90, 2])[1].text  # 1 x 3

@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 import umform as uf
 from umform import cli
+from umform.cli.view import _add_rolling as add_rolling
 
 
 def view(*arguments):
@@ -39,6 +40,29 @@ def test_pictures_show_the_frame_and_the_field(file, tmp_path):
     assert flat.shape == (800, 1200, 3)
     for one, other in ((flat, bent), (bent, coloured)):
         assert (np.abs(one - other).max(axis=2) > 0.05).mean() > 0.02
+
+
+def test_lines_along_the_rolling_direction():
+    """On the faces that it lies in, and on no others."""
+    pv = pytest.importorskip("pyvista")
+    drawn = []
+
+    class Plotter:
+        def add_mesh(self, lines, **_):
+            drawn.append(lines)
+
+    sheet = pv.ImageData(dimensions=(3, 2, 2)).cast_to_unstructured_grid()
+    sheet.cell_data["rolling"] = np.array([[0.6, 0.8, 0.0], [0.0, 1.0, 0.0]])
+    add_rolling(pv, Plotter(), sheet, switch=False)
+    ends = drawn[0].points.reshape(-1, 2, 3)
+    along = ends[:, 1] - ends[:, 0]
+    way = along / np.linalg.norm(along, axis=1, keepdims=True)
+    first = ends.mean(axis=1)[:, 0] < 1.0
+    above = np.abs(ends.mean(axis=1)[:, 2] - 0.5) > 0.5
+    assert above.sum() == 4
+    assert np.abs(way[first & above]) == pytest.approx(np.tile([0.6, 0.8, 0.0], (2, 1)), abs=1e-6)
+    assert np.abs(way[~first & above]) == pytest.approx(np.tile([0.0, 1.0, 0.0], (2, 1)), abs=1e-6)
+    assert len(ends) == 5  # above and below both cells; the end of the second, which its direction lies in
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import logging
+
 from umform.errors import NoConvergence
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
@@ -9,6 +11,8 @@ from umform.processes.draw.endings import Ending, ending_of
 from umform.processes.draw.u_bend import UBend
 from umform.results.forming import FormingLimit, KeelerBrazier, add_forming_fields
 from umform.run import Result, solve
+
+log = logging.getLogger("umform")
 
 #: States that each step keeps for pictures.
 FRAMES = 20
@@ -44,6 +48,8 @@ def draw(
     -------
     Drawn
     """
+    for warning in case.warnings:
+        log.warning(warning)
     model, press = case.build()
     limit = limit or KeelerBrazier(case.thickness, uniform_strain(case))
     released: Result | None = None

@@ -13,10 +13,12 @@ from umform.materials.j2 import Plastic
 from umform.mesh import Bent, Mesh, Sizes, bending_sizes, disc
 from umform.model import Model
 from umform.processes.draw.press import Press, held_by
-from umform.processes.draw.rules import COMMON
+from umform.processes.draw.rules import COMMON, check_clearance, layers_by_rule, tight
 from umform.processes.rules import check_rules, length, whole
 from umform.surfaces import Plane, Profile, Revolved
 
+#: Usual clearance beside the punch in thicknesses, that of the ESAFORM benchmark 2021: the rim thickens.
+CLEARANCE = 1.2
 #: Way of the punch beyond that at which the rim has left the edge of the die, in thicknesses.
 _BEYOND = 4.0
 _RULES = COMMON | {
@@ -62,8 +64,10 @@ class Cup:
         Largest angle in degrees that an element turns over the edge of the punch or of the die.
     around : int
         Elements on a quarter of the rim; an even number.
-    layers, thickness_points : int
-        Layers of elements, and points through the thickness of each; default: that of the law.
+    layers : int or None
+        Layers of elements; None: as many as the sharpest radius needs, eq. (2.29).
+    thickness_points : int
+        Points through the thickness of each layer; default: that of the law.
     contact_points : int
         Contact points per direction and facet.
     penalty : float
@@ -85,7 +89,7 @@ class Cup:
     element: str = "ANS3DEAS"
     turn: float = 15.0
     around: int = 12
-    layers: int = 1
+    layers: int | None = 1
     thickness_points: int | None = None
     contact_points: int = 2
     penalty: float = 3e4
@@ -104,15 +108,8 @@ class Cup:
         self._check_tools()
 
     def _check_tools(self) -> None:
-        air = self.die_radius - self.punch_radius
-        if not 0.5 * self.thickness < air < 20.0 * self.thickness:
-            raise InvalidValue(
-                "the gap between punch and die does not fit the sheet",
-                where="die_radius",
-                value=self.die_radius,
-                cause=f"a gap of {air:.4g} beside the punch for a sheet of {self.thickness:g}; a diameter for a radius",
-                remedy=f"about {self.punch_radius + 1.1 * self.thickness:.4g}",
-            )
+        wanted = self.punch_radius + CLEARANCE * self.thickness
+        check_clearance(self.clearance, self.thickness, where="die_radius", value=self.die_radius, wanted=wanted)
         if not self.punch_edge < 0.9 * self.punch_radius:
             raise InvalidValue(
                 "the edge of the punch is larger than the punch",
@@ -142,6 +139,17 @@ class Cup:
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
+    def clearance(self) -> float:
+        """Gap beside the punch in the die."""
+        return self.die_radius - self.punch_radius
+
+    @property
+    def warnings(self) -> list[str]:
+        """Unusual parameters."""
+        wanted = 2.0 * (self.punch_radius + CLEARANCE * self.thickness)
+        return tight(self.clearance, self.thickness, what="an opening", wanted=wanted)
+
+    @property
     def gap(self) -> float:
         """Distance of the holder on its blocks from the die."""
         return 1.04 * self.thickness if self.holder_gap is None else self.holder_gap
@@ -160,6 +168,17 @@ class Cup:
         """Travel of the punch."""
         full = self.constant_thickness_height + self.die_edge + _BEYOND * self.thickness
         return full if self.stroke is None else self.stroke
+
+    @cached_property
+    def needed_layers(self) -> int:
+        """Layers by the rule for sharp bends: eq. (2.29) for the smallest radius of the tools."""
+        radius = min(self.punch_edge, self.die_edge)
+        return layers_by_rule(self.element, self.material, self.thickness_points, self.thickness, radius)
+
+    @property
+    def stacked(self) -> int:
+        """Layers of elements."""
+        return self.needed_layers if self.layers is None else self.layers
 
     @cached_property
     def sizes(self) -> Sizes:
@@ -187,7 +206,7 @@ class Cup:
             (self.around // 2, 1),
             part="quarter",
             cell=element(self.element).cell,
-            layers=self.layers,
+            layers=self.stacked,
             core=self._core / self.blank_radius,
             radii=self.sizes.ends.tolist(),
         )

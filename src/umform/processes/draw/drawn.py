@@ -112,9 +112,13 @@ class Drawn:
     @cached_property
     def punch_distance(self) -> Floats:
         """Distance of the upper face of the part from the punch at the end of its stroke, at the nodes; shape (n,)."""
+        return self.distance_from_punch(self.u_free)
+
+    def distance_from_punch(self, u: Floats) -> Floats:
+        """The same with another displacement of the nodes; lower nodes have the value of the upper ones."""
         model = self.result.model
         punch = next(tool for tool in model.tools if tool.name == "punch")
-        distance = distance_from(punch, model.mesh.points + self.u_free.reshape(-1, 3))
+        distance = distance_from(punch, model.mesh.points + u.reshape(-1, 3))
         cells = model.mesh.connectivity
         half = cells.shape[1] // 2
         distance[cells[:, :half]] = distance[cells[:, half:]]
@@ -154,7 +158,7 @@ class Drawn:
         """Warnings."""
         own = [] if self.ending is None else [self.ending.text]
         more = [] if self.released is None else self.released.warnings
-        return list(dict.fromkeys([*own, *self.result.warnings, *more]))
+        return list(dict.fromkeys([*own, *self.case.warnings, *self.result.warnings, *more]))
 
     def measures(self) -> dict[str, tuple[float, str]]:
         """Measures of the part by name, with units."""
@@ -168,8 +172,9 @@ class Drawn:
             "largest major strain": (float(found["major_middle"].max()), ""),
             "margin to the forming limit": (float(found["limit_margin"].min()), ""),
             "work of friction": (self.friction_share, "%"),
-            "largest springback": (self.springback.largest, "mm"),
         }
+        if self.released is not None:
+            rows["largest springback"] = (self.springback.largest, "mm")
         if isinstance(self.case, Cup):
             ears = self.ears
             rows |= {
