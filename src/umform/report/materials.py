@@ -60,6 +60,7 @@ def hardening_text(curve: object) -> str:
         if curve.modulus:
             parts.append(f"linear hardening {curve.modulus:.6g}")
         if curve.rate and curve.saturation > curve.yield_stress:
+            parts[0] += _START
             parts.append(f"saturation {curve.saturation:.6g} at the rate {curve.rate:.6g}")
         return ", ".join(parts) if len(parts) > 1 else f"{parts[0]}, perfectly plastic"
     if isinstance(curve, Swift):

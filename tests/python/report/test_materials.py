@@ -18,7 +18,7 @@ STEEL = {"E": 210e3, "nu": 0.3}
         ),
         (
             uf.J2(**STEEL, hardening=uf.Voce(160.0, 320.0, 12.5)),
-            "J2: E = 210000, nu = 0.3, yield stress 160, saturation 320 at the rate 12.5",
+            "J2: E = 210000, nu = 0.3, yield stress 160 (start of the curve), saturation 320 at the rate 12.5",
         ),
         (
             uf.J2(**STEEL, hardening=uf.Swift(520.0, 0.004, 0.22)),
