@@ -13,6 +13,9 @@ from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+#: Judgement of failed attempts.
+HARMLESS = "An attempt that fails is repeated in another way: it costs time, the results are those of accepted ones."
+
 
 class Attempts:
     """Counts of a run.

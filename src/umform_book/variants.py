@@ -42,7 +42,7 @@ class Variant:
     def element(self) -> Element:
         """The element: those for bends have their complete order."""
         made = element(self.name, **self.options)
-        return replace(made, complete=made.complete and self.name.startswith("BEND"))
+        return replace(made, complete=made.raised and self.name.startswith("BEND"))
 
     @property
     def cell(self) -> str:

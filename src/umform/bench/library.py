@@ -37,6 +37,7 @@ def library() -> dict[str, Any]:
             "source": metal.source,
             "basis": metal.basis,
             "caveat": metal.caveat,
+            "thicker": [_thicker(metal.name, limit) for limit in sheet_metals.limits(metal.name)],
         }
         for metal in map(sheet_metals.get, (*sheet_metals.names(), *sheet_metals.cards()))
     ]
@@ -51,6 +52,17 @@ def library() -> dict[str, Any]:
         "works": list(WORKS),
         "quantities": quantities,
         "defaults": Wanted().model_dump(),
+    }
+
+
+def _thicker(name: str, limit: float) -> dict[str, float]:
+    """Values of a metal from a thickness on."""
+    metal = sheet_metals.get(name, limit)
+    return {
+        "from": limit,
+        "yield_stress": metal.yield_stress,
+        "tensile_strength": metal.tensile_strength,
+        "uniform_elongation": round(100.0 * metal.uniform_elongation, 1),
     }
 
 

@@ -106,11 +106,11 @@ class Wanted(WantedStrip):
         from umform.sheet_metals import get, of_certificate
 
         if self.yield_stress is None or self.tensile_strength is None:
-            metal = get(self.material)
+            metal = get(self.material, self.thickness)
         else:
             elongation = None if self.uniform_elongation is None else 0.01 * self.uniform_elongation
             metal = of_certificate(self.material, self.yield_stress, self.tensile_strength, elongation)
-        return metal.law, f"{metal.name}: {metal.source}; {metal.caveat}"
+        return metal.law, metal.note
 
     def case(self, shelf: Shelf | None = None) -> AirBending:
         """Parameters of the bend; an angle that the tools cannot reach is refused.

@@ -84,7 +84,7 @@ def bead(
     from umform.processes.draw_bead.parameters import DrawBead
 
     print_warnings_once()
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = DrawBead(
         thickness=thickness,
         material=law,

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,7 +13,7 @@ import typer
 from umform.cli.check import Force
 from umform.cli.drawing import without_help_texts
 from umform.cli.drawn_tools import drawn_tools
-from umform.cli.goals import check_goal, check_no_goal, check_press, strokes_of
+from umform.cli.goals import check_goal, check_length, check_no_goal, check_press, strokes_of
 from umform.cli.metal import law_of
 from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Poisson, SwiftCurve, Yield, Young, option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
@@ -43,7 +42,7 @@ def bend(
     ] = None,
     angle: Annotated[float | None, option("Find the stroke for this angle after springback, degrees.", _GOAL)] = None,
     stroke: Annotated[float | None, option("Bend to this stroke in mm.", _GOAL)] = None,
-    table: Annotated[str | None, option("Strokes of a bending table: first:last:step, such as 4:6:0.5.", _GOAL)] = None,
+    table: Annotated[str | None, option("Bending table at strokes first:last:step, such as 4:6:0.5.", _GOAL)] = None,
     bottoming: Annotated[
         bool, option("Press the sheet onto the flanks of the die, with --force-per-metre or --travel.", _GOAL)
     ] = False,
@@ -69,6 +68,9 @@ def bend(
     die_layer: Annotated[str | None, option("Layer with its section; default: the whole drawing.", _TOOLS)] = None,
     thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 2.0,
     width: Annotated[float | None, option("Length of the bend; default: plane strain.", SHEET)] = None,
+    length: Annotated[
+        float | None, option("Bend length for the total force in kN and t; the model does not change.", SHEET)
+    ] = None,
     material: Material = None,
     rolling: Annotated[
         float | None, option("Degrees from the bend line to the rolling direction: 0 along it, 90 across.", SHEET)
@@ -105,16 +107,16 @@ def bend(
 ) -> None:
     """Air-bend a sheet in a V-die, and unload it.
 
-    Give the stroke, or the angle after springback. Each number is defined in docs/air-bending.md.
+    Give the stroke, the angle after springback, or a table of strokes. Each number is defined in docs/air-bending.md.
     """
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.pool import check_processes
-    from umform.processes.air_bending.bottoming import press_to_force, with_travel
+    from umform.processes.air_bending.bottoming import check_force, press_to_force, with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
     from umform.processes.air_bending.budget import error_budget
     from umform.processes.air_bending.case import air_bending
-    from umform.processes.air_bending.checks import check_tolerance
+    from umform.processes.air_bending.checks import check_angle, check_tolerance
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
     from umform.processes.air_bending.parameters import AirBending
     from umform.processes.air_bending.search import bending_table, find_stroke
@@ -122,10 +124,14 @@ def bend(
 
     print_warnings_once()
     if not bottoming and sequence is None:
-        check_goal(angle, stroke, force_per_metre, travel)
+        check_goal(angle, stroke, table, force_per_metre, travel)
+    strokes = [] if table is None else strokes_of(table)
+    if strokes and angle is None and stroke is None and not bottoming:
+        stroke = strokes[-1]
     check_tolerance(tolerance)
+    check_length(length)
     check_processes(processes)
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = AirBending(
         thickness=thickness,
         opening=opening,
@@ -152,12 +158,13 @@ def bend(
     )
     if sequence is not None:
         check_no_goal("--sequence", angle, stroke, table, force_per_metre, travel, bottoming, budget, print_deck)
-        run_sequence(sequence, case, note, out, tolerance=tolerance, overwrite=overwrite)
+        run_sequence(sequence, case, note, out, length, tolerance=tolerance, overwrite=overwrite)
         return
     if bottoming:
         check_press(angle, table, budget, stroke, force_per_metre, travel)
         case = case if travel is None else with_travel(case, travel)
-    strokes = [] if table is None else strokes_of(table)
+        if force_per_metre is not None:
+            check_force(force_per_metre)
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if print_deck:
@@ -169,11 +176,15 @@ def bend(
             case = find_stroke(case, angle, tolerance=tolerance, frames=1).case
         typer.echo(deck_of(case), nl=False)
         return
+    if angle is not None:
+        check_angle(case, angle)
+    said: list[str] = []
+    place = folder_for(out, Path("results/bend"), RESULTS, overwrite=overwrite, say=said.append)
     with timings() as spent:
         brake = Brake(case, frames=FRAMES)
     _refuse_implausible(brake.model, force=force)
-    say = partial(typer.echo, err=True)
-    place = folder_for(out, Path("results/bend"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
+    for text in said:  # only of a run that starts
+        typer.echo(f"umform: {text}", err=True)
     with staging(place, FILES):
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
@@ -187,7 +198,7 @@ def bend(
         try:
             errors = error_budget(done.case, done.measures, processes=processes) if budget else None
             with printing(f"the files of the bend are in {place}"):
-                _show(done, rows, errors, note)
+                _show(done, rows, errors, note, length)
         except KeyboardInterrupt as stop:
             stop.add_note(f"  results so far are in {place}: all but the budget")
             raise
@@ -237,16 +248,23 @@ def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
         raise
 
 
-def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str) -> None:
+def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str, length: float | None) -> None:
     """Print measures, bending table, and remarks."""
     from umform.processes.air_bending.formulas import shop_forces
+    from umform.processes.air_bending.remarks import remarks, tools_text, total_force
     from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
     from umform.results.penetration import penetrations
 
     screen = console()
+    screen.print(tools_text(done.case), soft_wrap=True)
     _print_table("Air bending", summary_header(errors), summary(done.measures, done.case.width, errors))
+    screen.print("rows of the table: docs/air-bending.md, What is measured")
     low, high = shop_forces(done.case)
     screen.print(f"rule of the shop for the largest force: {low:.1f} to {high:.1f} N/mm (1.33 to 1.42 Rm t²/V)")
+    if length is not None:
+        screen.print(total_force(done.measures.largest_force, length), soft_wrap=True)
+    for remark in remarks(done.case, done.measures):
+        screen.print(remark, soft_wrap=True)
     if rows:
         _print_table("Bending table", table_header(), table_rows(rows))
     for name, said in penetrations(done.result.model, done.result).items():

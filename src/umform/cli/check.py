@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -16,6 +17,7 @@ from umform.errors import InvalidValue, UmformError
 if TYPE_CHECKING:
     from umform.deck import Deck
     from umform.deck.findings import Finding
+    from umform.deck.problem import Problem
 
 DeckFile = Annotated[Path, typer.Argument(metavar="DECK", help="Deck, a TOML file.")]
 Changes = Annotated[
@@ -23,11 +25,28 @@ Changes = Annotated[
     typer.Option("--set", metavar="KEY=VALUE", help="Set a key of the deck, such as steps.0.increments=5; repeatable."),
 ]
 
+Picture = Annotated[
+    Path | None,
+    typer.Option("--blank", metavar="FILE.png", help="Draw the mesh of a blank over the sizes that its tools ask for."),
+]
+Folder = Annotated[
+    Path | None, typer.Option("--tools", metavar="FOLDER", help="Write each tool near the sheet as NAME.stl.")
+]
 Force = Annotated[bool, typer.Option("--force", help="Run despite implausible numbers: these errors become warnings.")]
+
+#: A word, such as the name of an element; a number with a decimal comma.
+_WORD, _DECIMAL_COMMA = re.compile(r"[^\W\d][\w.-]*"), re.compile(r"[-+]?\d*,\d+")
 
 
 @app.command("check")
-def check_deck(deck: DeckFile, changes: Changes = None, verbose: Verbose = 0, debug: Debug = False) -> None:
+def check_deck(
+    deck: DeckFile,
+    changes: Changes = None,
+    blank: Picture = None,
+    tools: Folder = None,
+    verbose: Verbose = 0,
+    debug: Debug = False,
+) -> None:
     """Check a deck without solving it: keys, names, gaps, supports, element sizes, units, effort.
 
     An error ends with exit code 1; warnings do not.
@@ -40,6 +59,10 @@ def check_deck(deck: DeckFile, changes: Changes = None, verbose: Verbose = 0, de
         problem = loaded.build()
         findings = list(check(loaded, problem))
     _show(findings)
+    if blank is not None:
+        _draw_blank(problem, blank)
+    if tools is not None:
+        _write_tools(problem, tools)
     if any(finding.level is Level.ERROR for finding in findings):
         raise typer.Exit(1)
 
@@ -66,13 +89,44 @@ def _change(text: str) -> tuple[str, Any]:
     try:
         return key.strip(), tomllib.loads(f"value = {value}")["value"]
     except (tomllib.TOMLDecodeError, RecursionError, ValueError):
+        if key.strip() and _WORD.fullmatch(value.strip()):
+            return key.strip(), value.strip()  # text without quotes; a key that needs a number refuses it
+        comma = _DECIMAL_COMMA.fullmatch(value.strip())
         raise InvalidValue(
             "this changes no key",
             where="--set",
             value=text,
-            cause="the value is no TOML",
-            remedy="write key=value, as steps.0.increments=5; words in quotes within quotes: element.name='\"BEND8\"'",
+            cause="a decimal comma" if comma else "the value is neither a number, a word, a list nor text in quotes",
+            remedy=f"write {key}={value.replace(',', '.')}" if comma else "write key=value, as steps.0.increments=5",
         ) from None
+
+
+def _draw_blank(problem: Problem, path: Path) -> None:
+    if problem.sizes is None:
+        raise InvalidValue(
+            "the sizes of this mesh do not follow the tools",
+            where="--blank",
+            value=path,
+            remedy='in [mesh]: generator = "outline" with turn, the largest angle of an element over a radius',
+        )
+    from umform.processes.sizes_picture import draw_sizes
+
+    draw_sizes(problem.sizes, path, problem.model.mesh)
+    typer.echo(f"Written to {path}")
+
+
+def _write_tools(problem: Problem, folder: Path) -> None:
+    """The tools in a box around the sheet, where they stand at first."""
+    import numpy as np
+
+    from umform.surfaces import write_tool
+
+    points = problem.model.mesh.points
+    span = float(np.ptp(points, axis=0).max())
+    box = points.min(axis=0) - 0.25 * span, points.max(axis=0) + 0.25 * span
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, tool in problem.tools.items():
+        typer.echo(f"Written to {write_tool(tool, folder / f'{name}.stl', box=box, chord=1e-3 * span)}")
 
 
 def _show(findings: Sequence[Finding]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,6 +13,7 @@ import typer
 from umform.cli.options import option
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
+from umform.cli.typed import as_typed, options_of
 from umform.processes.bending.parameters import RECONSTRUCTION, FreeBending
 
 if TYPE_CHECKING:
@@ -26,6 +28,7 @@ Default = FreeBending
 
 @demos.command("free-bending", epilog=RECONSTRUCTION)
 def free_bending(
+    context: typer.Context,
     out: Annotated[
         str | None,
         typer.Option(
@@ -125,15 +128,14 @@ def free_bending(
     )
     outcome = demo(place, runs, processes=processes)
     with printing(f"the files of the runs are in {place}"):
-        _show(outcome, place, timing=timing)
+        _show(outcome, place, options_of(context.command), timing=timing)
 
 
-def _show(outcome: Outcome, out: Path, *, timing: bool) -> None:
+def _show(outcome: Outcome, out: Path, options: Mapping[str, str], *, timing: bool) -> None:
     """Print the table, the files, and failures."""
     from rich import box
     from rich.table import Table
 
-    from umform.processes.bending.options import as_typed
     from umform.processes.bending.table import header, rows
     from umform.report.repeats import counted
 
@@ -155,7 +157,7 @@ def _show(outcome: Outcome, out: Path, *, timing: bool) -> None:
             typer.echo(f"umform: {run.case.name}: {warning}", err=True)
     failed = [run for run in outcome.runs if run.failure]
     for run in failed:
-        typer.echo(f"umform: {run.case.name}: {as_typed(run.failure)}", err=True)
+        typer.echo(f"umform: {run.case.name}: {as_typed(run.failure, options)}", err=True)
     if failed:
         typer.echo(f"  earlier results are in {out}", err=True)
         raise typer.Exit(1)

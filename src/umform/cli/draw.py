@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -13,6 +15,7 @@ from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Po
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import echo_warnings, print_warnings_once
+from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
     from umform.processes.draw.cup import Cup
@@ -20,6 +23,12 @@ if TYPE_CHECKING:
     from umform.processes.draw.u_bend import UBend
 
 _TOOLS = "Tools (mm, N)"
+#: Options of diameters by the radii of a cup.
+_DIAMETERS = {
+    "die_radius": "half of --opening",
+    "punch_radius": "half of --punch",
+    "blank_radius": "half of --blank",
+}
 
 group = typer.Typer(no_args_is_help=True, help="Draw a part, open the tools and measure it: `umform draw cup`.")
 app.add_typer(group, name="draw")
@@ -27,16 +36,24 @@ app.add_typer(group, name="draw")
 
 Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
 LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]
-Stroke = Annotated[
-    float | None, option("Stroke of the punch; default: the full cup, or a fifth of the blank for a U.", _TOOLS)
-]
 Coarse = Annotated[bool, typer.Option("--coarse", help="Coarse mesh, for a first result in seconds.")]
 Turn = Annotated[float | None, option("Largest angle in degrees that an element turns over a tool radius.", SOLUTION)]
-Layers = Annotated[int, option("Elements through the thickness.", SOLUTION)]
+Layers = Annotated[int, option("Elements through the thickness; 0: by the rule for sharp bends.", SOLUTION)]
 ThicknessPoints = Annotated[int | None, option("Thickness points per layer.", SOLUTION)]
 
 
+@contextmanager
+def _halves() -> Iterator[None]:
+    """Name the options of the diameters where a radius is refused."""
+    try:
+        yield
+    except InvalidValue as error:
+        error.where = _DIAMETERS.get(error.where, error.where)
+        raise
+
+
 @group.command()
+@_halves()
 def cup(
     out: Out = None,
     coarse: Coarse = False,
@@ -46,12 +63,12 @@ def cup(
         float | None, option("Diameter of the opening of the die; default: punch + 2.4 t.", _TOOLS)
     ] = None,
     die_edge: Annotated[float, option("Edge radius of the die.", _TOOLS)] = 10.0,
-    holder_force: Annotated[float, option("Force of the holder; 0: fixed at its gap.", _TOOLS)] = 40e3,
+    holder_force: Annotated[float, option("Force on the whole holder, N; 0: fixed at its gap.", _TOOLS)] = 40e3,
     holder_gap: Annotated[
         float | None, option("Smallest distance between holder and die; default 1.04 t.", _TOOLS)
     ] = None,
     friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.09,
-    stroke: Stroke = None,
+    stroke: Annotated[float | None, option("Stroke of the punch; default: the full cup.", _TOOLS)] = None,
     blank: Annotated[float, option("Diameter of the blank.", SHEET)] = 107.5,
     thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 1.0,
     material: Material = None,
@@ -80,7 +97,7 @@ def cup(
     """
     from umform.processes.draw.cup import CLEARANCE, Cup
 
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = Cup(
         thickness=thickness,
         blank_radius=0.5 * blank,
@@ -96,7 +113,7 @@ def cup(
         element=element,
         turn=_chosen(turn, coarse, 30.0, 15.0),
         around=_chosen(around, coarse, 8, 12),
-        layers=layers,
+        layers=layers or None,
         thickness_points=thickness_points,
         contact_points=contact_points,
         penalty=_chosen(penalty, coarse, 1e4, 3e4),
@@ -112,9 +129,11 @@ def u(
     punch_edge: Annotated[float, option("Edge radius of the punch.", _TOOLS)] = 5.0,
     opening: Annotated[float | None, option("Opening of the die; default: punch + 2.56 t.", _TOOLS)] = None,
     die_edge: Annotated[float, option("Edge radius of the die.", _TOOLS)] = 5.0,
-    holder_force: Annotated[float, option("Force of the holder.", _TOOLS)] = 2450.0,
+    holder_force: Annotated[
+        float, option("Force on the whole holder, N: both sides, all of the width.", _TOOLS)
+    ] = 2450.0,
     friction: Annotated[float, option("Coefficient of friction.", _TOOLS)] = 0.144,
-    stroke: Stroke = None,
+    stroke: Annotated[float | None, option("Stroke of the punch; default: a fifth of the blank.", _TOOLS)] = None,
     length: Annotated[float, option("Length of the blank.", SHEET)] = 350.0,
     width: Annotated[float, option("Width of the blank.", SHEET)] = 35.0,
     thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 0.78,
@@ -143,7 +162,7 @@ def u(
     """
     from umform.processes.draw.u_bend import CLEARANCE, UBend
 
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = UBend(
         thickness=thickness,
         length=length,
@@ -158,7 +177,7 @@ def u(
         stroke=stroke,
         element=element,
         turn=_chosen(turn, coarse, 20.0, 13.0),
-        layers=layers,
+        layers=layers or None,
         thickness_points=thickness_points,
         contact_points=contact_points,
         penalty=penalty,
@@ -199,7 +218,7 @@ def _run(
     from umform.io.folders import folder_for
     from umform.io.staging import staging
     from umform.processes.draw.case import draw
-    from umform.processes.draw.files import FILES, write_files
+    from umform.processes.draw.files import FILES, draw_blank, write_files
     from umform.processes.draw.words import before_the_run
 
     print_warnings_once()
@@ -208,6 +227,7 @@ def _run(
     place = folder_for(out, Path("results") / name, FILES, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     say(f"umform: {before_the_run(case)}")
     with staging(place, FILES):
+        say(f"umform: the mesh of the blank is drawn in {draw_blank(place, case)}")
         drawn = draw(case, limit=curve)
         try:
             with printing(f"the files of the part are in {place}"):

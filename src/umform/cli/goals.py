@@ -11,20 +11,35 @@ from umform.errors import InvalidValue
 _MOST_ROWS = 1000
 
 
-def check_goal(angle: float | None, stroke: float | None, force: float | None, travel: float | None) -> None:
-    """Refuse a bend without a stroke or an angle, or with both."""
+def check_goal(
+    angle: float | None, stroke: float | None, table: str | None, force: float | None, travel: float | None
+) -> None:
+    """Refuse a bend without a goal, or with both stroke and angle."""
     if force is not None or travel is not None:
         raise InvalidValue(
             "a force or a way beyond the bottom is one of bottoming",
             where="--force-per-metre, --travel",
             remedy="--bottoming beside it",
         )
-    if (angle is None) == (stroke is None):
+    both = angle is not None and stroke is not None
+    if both or (angle is None and stroke is None and table is None):
         raise InvalidValue(
             "give the stroke or the angle, one of them",
             where="umform bend",
-            cause="both or none are given",
-            remedy="--angle 90 looks for the stroke, --stroke 6 bends to it",
+            cause="both are given" if both else "none of them is given, and no --table",
+            remedy="--angle 90 looks for the stroke, --stroke 6 bends to it, --table 4:6:0.5 to several strokes",
+        )
+
+
+def check_length(length: float | None) -> None:
+    """Refuse a bend length that is none."""
+    if length is not None and not 0.0 < length < math.inf:
+        raise InvalidValue(
+            "a bend length must be positive and finite",
+            where="--length",
+            value=length,
+            cause="a sign, or a missing value",
+            remedy="the length of the bend line in mm, such as 1000",
         )
 
 

@@ -20,20 +20,22 @@ _HEM, _TOOLS = "Hem (mm, degrees)", "Tools of the first bend (mm, degrees)"
 def hem(
     out: Annotated[
         str | None,
-        typer.Option(metavar="FOLDER", help="Folder for tables, pictures and fields; default: results/hem."),
+        typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report; default: results/hem."),
     ] = None,
-    gap: Annotated[float, option("Distance of flange and base in the end, thickness of the insert.", _HEM)] = 1.0,
-    flange: Annotated[float, option("Length of the flat flange.", _HEM)] = 12.0,
-    base: Annotated[float, option("Length of the flat base.", _HEM)] = 30.0,
+    gap: Annotated[
+        float | None, option("Final distance of flange and base, thickness of the insert; default: 1 thickness.", _HEM)
+    ] = None,
+    flange: Annotated[float | None, option("Length of the flat flange; default: 12 thicknesses.", _HEM)] = None,
+    base: Annotated[float | None, option("Length of the flat base; default: 30 thicknesses.", _HEM)] = None,
     insert: Annotated[
         bool, option("A rigid plate between flange and base, or an open hem.", _HEM, "--insert/--open")
     ] = True,
     angle: Annotated[float, option("Angle after the first bend.", _HEM)] = 40.0,
-    opening: Annotated[float, option("Opening of the die.", _TOOLS)] = 8.0,
+    opening: Annotated[float | None, option("Opening of the die; default: 8 thicknesses.", _TOOLS)] = None,
     die_angle: Annotated[float, option("Angle of the die.", _TOOLS)] = 30.0,
-    die_radius: Annotated[float, option("Radius of the die shoulders.", _TOOLS)] = 1.0,
+    die_radius: Annotated[float | None, option("Radius of the die shoulders; default: 1 thickness.", _TOOLS)] = None,
     punch_angle: Annotated[float, option("Angle of the punch.", _TOOLS)] = 30.0,
-    punch_radius: Annotated[float, option("Radius of the punch tip.", _TOOLS)] = 0.5,
+    punch_radius: Annotated[float | None, option("Radius of the punch tip; default: 0.5 thicknesses.", _TOOLS)] = None,
     thickness: Annotated[float, option("Thickness of the sheet.", SHEET)] = 1.0,
     material: Material = None,
     rolling: Annotated[
@@ -59,38 +61,49 @@ def hem(
     from umform.io.staging import staging
     from umform.processes.air_bending.parameters import AirBending
     from umform.processes.hemming import Hemming, hemming
-    from umform.processes.hemming.files import FILES, RESULTS, rows, write_files
+    from umform.processes.hemming.files import FILES, RESULTS, write_files
+    from umform.processes.hemming.words import remarks, rows
+
+    def size(given: float | None, thicknesses: float) -> float:
+        return thicknesses * thickness if given is None else given
 
     print_warnings_once()
-    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve)
+    law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     sheet = AirBending(
         thickness=thickness,
-        opening=opening,
+        opening=size(opening, 8.0),
         die_angle=die_angle,
-        die_radius=die_radius,
+        die_radius=size(die_radius, 1.0),
         punch_angle=punch_angle,
-        punch_radius=punch_radius,
+        punch_radius=size(punch_radius, 0.5),
         material=law,
         rolling=rolling,
         layers=layers,
         elements_per_thickness=elements_per_thickness,
     )
-    case = Hemming(gap=gap, flange=flange, base=base, insert=insert, angle=angle, sheet=sheet)
+    case = Hemming(
+        gap=size(gap, 1.0),
+        flange=size(flange, 12.0),
+        base=size(base, 30.0),
+        insert=insert,
+        angle=angle,
+        sheet=sheet,
+    )
     say = partial(typer.echo, err=True)
     place = folder_for(out, Path("results/hem"), RESULTS, overwrite=overwrite, say=lambda text: say(f"umform: {text}"))
     with staging(place, FILES):
         done = hemming(case)
         try:
             with printing(f"the files of the hem are in {place}"):
-                _show(rows(done.measures), note)
+                _show(rows(done.measures), [*remarks(done), note])
                 echo_warnings(list(done.warnings))
         finally:  # even if the table cannot be printed
             files = write_files(place, done, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
 
 
-def _show(rows: list[list[str]], note: str) -> None:
-    """Print the measures."""
+def _show(rows: list[list[str]], remarks: list[str]) -> None:
+    """Print the measures, and what belongs to them."""
     from rich import box
     from rich.table import Table
 
@@ -100,5 +113,5 @@ def _show(rows: list[list[str]], note: str) -> None:
     for row in rows:
         table.add_row(*row)
     console().print(table)
-    if note:
-        console().print(note, soft_wrap=True)
+    for remark in filter(None, remarks):
+        console().print(remark, soft_wrap=True)

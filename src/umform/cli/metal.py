@@ -7,12 +7,31 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import typer
+
 from umform.errors import InvalidValue
 
 if TYPE_CHECKING:
     from umform.materials import J2, Hardening, Metal
 
+#: What is computed with if no material is given.
+_NO_MATERIAL = "the sheet is a soft steel like DC04; forces and springback of another metal differ much"
 
+
+@contextmanager
+def by_name(where: str, otherwise: str = "") -> Iterator[None]:
+    """Name place and commands in errors of the library of sheet metals."""
+    try:
+        yield
+    except InvalidValue as error:
+        if error.where == "sheet_metals":
+            error.where = where
+            error.cause = error.cause or "a typing mistake, or a metal that the library does not have"
+            error.remedy = f"choose one of `umform metal list`{otherwise}"
+        raise
+
+
+@by_name("--material", ", or --yield-stress, --swift or --flow-curve of a certificate in its place")
 def law_of(
     name: str | None,
     young: float | None,
@@ -21,20 +40,28 @@ def law_of(
     modulus: float | None,
     swift: str | None,
     flow_curve: Path | None,
+    thickness: float,
 ) -> tuple[J2 | Metal, str]:
-    """Law of the sheet, and a remark on it."""
+    """Law of the sheet of a thickness in mm, and a remark on it; a warning if no material is given."""
     from umform.processes.air_bending.parameters import DC04_LIKE
 
     own = [value for value in (young, poisson, yield_stress, modulus, swift, flow_curve) if value is not None]
     if name is not None:
         if own:
-            raise InvalidValue("give a material by name or by numbers", where="--material", value=name)
+            raise InvalidValue(
+                "give a material by name or by numbers",
+                where="--material",
+                value=name,
+                cause="an option of a law of your own, such as --yield-stress or --swift, beside the name",
+                remedy="leave one of them out; `umform metal show NAME` lists the numbers of a name",
+            )
         from umform.sheet_metals import get
 
-        metal = get(name)
-        return metal.law, f"{name}: {metal.source}; {metal.caveat}"
+        metal = get(name, thickness)
+        return metal.law, metal.note
     if not own:
-        return DC04_LIKE, "material: a curve like that of DC04; give your own for numbers that count"
+        typer.echo(f"umform: warning: no --material: {_NO_MATERIAL}", err=True)
+        return DC04_LIKE, f"material: {_NO_MATERIAL}"
     return _own_law(young, poisson, yield_stress, modulus, swift, flow_curve), ""
 
 
@@ -55,6 +82,7 @@ def _own_law(
         raise InvalidValue(
             "a hardening curve is given by --yield-stress with --hardening-modulus, by --swift, or by --flow-curve",
             where="--yield-stress",
+            cause="two of them are given, or none beside --young, --poisson or --hardening-modulus",
             remedy="--yield-stress 160 --hardening-modulus 500, --swift 520,0.004,0.22, or --flow-curve coil.csv",
         )
     hardening: Hardening
@@ -88,5 +116,11 @@ def numbers(text: str, separator: str, count: int, where: str, remedy: str) -> l
     except ValueError:
         values = []
     if len(values) != count:
-        raise InvalidValue(f"{count} numbers are needed here", where=where, value=text, remedy=remedy)
+        raise InvalidValue(
+            f"{count} numbers are needed here",
+            where=where,
+            value=text,
+            cause=f"{len(values)} numbers are given" if values else "no numbers, or another sign between them",
+            remedy=remedy,
+        )
     return values

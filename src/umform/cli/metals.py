@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from umform.cli.metal import by_name
 from umform.cli.root import Debug, Overwrite, app, console, printing
 
 if TYPE_CHECKING:
@@ -77,7 +78,8 @@ def show(name: Annotated[str, typer.Argument(help="Name of a sheet metal: see `u
     from umform.calibration.code import deck_block, python_code
     from umform.materials import Metal
 
-    metal = sheet_metals.get(name)
+    with by_name("umform metal show"):
+        metal = sheet_metals.get(name)
     typer.echo(metal)
     if isinstance(metal.law, Metal):
         _print_directions(metal)

@@ -12,12 +12,15 @@ from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks,
 from umform.cli.root import Debug, Overwrite, Verbose, app
 from umform.cli.run import Every, finish
 from umform.cli.warnings import print_warnings_once
+from umform.errors import FileProblem
 
 
 @app.command(cls=WithPetscOptions)
 def resume(
     ctx: typer.Context,
-    checkpoint: Annotated[Path, typer.Argument(metavar="CHECKPOINT", help="Checkpoint of `umform run`.")],
+    checkpoint: Annotated[
+        Path, typer.Argument(metavar="CHECKPOINT", help="Checkpoint of `umform run`, or the folder of the run.")
+    ],
     out: Annotated[
         str | None, typer.Option(metavar="FOLDER", help="Folder for the results; default: that of the run.")
     ] = None,
@@ -37,7 +40,32 @@ def resume(
     let_the_first_talk()
     print_warnings_once()
     with deck_errors():
+        checkpoint = _file_of(checkpoint)
         kept = Kept.read(checkpoint)
         with on_all_ranks(kept.chosen_solver, petsc_options(ctx)):
             outcome = running.resume(checkpoint, kept, out, every=every, overwrite=overwrite)
     finish(outcome)
+
+
+def _file_of(path: Path) -> Path:
+    """The checkpoint, or that in the folder of a run."""
+    from umform.deck.results import CHECKPOINT, FILES, STATE
+
+    if not path.is_dir() or (path / CHECKPOINT).is_file():
+        return path / CHECKPOINT if path.is_dir() else path
+    there = [name for name in FILES if (path / name).is_file()]
+    if STATE in there:
+        raise FileProblem(
+            "the run in this folder is finished",
+            where=str(path),
+            cause=f"it has {STATE}; a run removes its checkpoint at the end",
+            remedy="nothing is left to do; `umform view` and `umform plot` show the results",
+        )
+    raise FileProblem(
+        f"this folder has no {CHECKPOINT}",
+        where=str(path),
+        cause="the run is finished, or it ended before its first checkpoint"
+        if there
+        else "no run of a deck ended here",
+        remedy="give the file of `umform run --checkpoint FILE`, or run the deck again (--every 0: more of them)",
+    )

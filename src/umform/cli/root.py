@@ -16,6 +16,8 @@ from typer.core import TyperGroup
 
 import umform
 from umform.cli import INTERRUPTED
+from umform.cli.typed import message, options_of
+from umform.cli.usage import is_usage_error, usage_problem
 from umform.errors import FileProblem, UmformError
 from umform.io.atomic import write_problem
 
@@ -32,6 +34,16 @@ class Commands(TyperGroup):
         """Names of all commands."""
         return [*super().list_commands(ctx), *_plugins()]
 
+    def make_context(self, *args: Any, **kwargs: Any) -> Any:
+        """Read the options before the command."""
+        try:
+            return super().make_context(*args, **kwargs)
+        except Exception as error:
+            if not is_usage_error(error):
+                raise
+            say_of(error, str(usage_problem(error)))
+            raise typer.Exit(2) from error
+
     def invoke(self, ctx: Any) -> Any:
         """Run a command; print errors on standard error, and a traceback only with ``--debug``."""
         try:
@@ -39,9 +51,7 @@ class Commands(TyperGroup):
                 return super().invoke(ctx)
         except UmformError as error:
             _show_traceback(ctx)
-            from umform.processes.bending.options import message
-
-            say_of(error, message(error, _options(self, ctx.invoked_subcommand)))
+            say_of(error, message(error, options_of(self.get_command(ctx, ctx.invoked_subcommand or ""))))
             raise typer.Exit(1) from error
         except KeyboardInterrupt as error:
             say_of(error, "interrupted; what was not finished is given up")
@@ -53,8 +63,11 @@ class Commands(TyperGroup):
             say_of(error, str(write_problem(Path(error.filename or "a file"), error)))
             raise typer.Exit(1) from error
         except Exception as error:
+            if is_usage_error(error):
+                say_of(error, str(usage_problem(error)))
+                raise typer.Exit(2) from error
             if type(error).__module__.split(".")[0] in ("typer", "click"):
-                raise  # usage errors and regular exits
+                raise  # regular exits
             _show_traceback(ctx)
             say_of(error, f"an error that nobody expected: {type(error).__name__}: {error}")
             typer.echo("  remedy: report it, with the command and what it prints with --debug", err=True)
@@ -117,13 +130,6 @@ def _plugins() -> dict[str, Any]:
     from umform.cli.plugins import plugins
 
     return plugins()
-
-
-def _options(group: TyperGroup, command: str | None) -> dict[str, str]:
-    """Options of a command and its subcommands, by their Python names."""
-    chosen: Any = group.commands.get(command or "") or _plugins()[command or ""]
-    below = chosen.commands.values() if isinstance(chosen, TyperGroup) else [chosen]
-    return {str(parameter.name): parameter.opts[0] for each in below for parameter in each.params}
 
 
 def _show_traceback(ctx: Any) -> None:

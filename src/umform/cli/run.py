@@ -13,13 +13,13 @@ from umform.cli import INTERRUPTED
 from umform.cli.check import Changes, DeckFile, Force, deck_errors, read
 from umform.cli.ranks import WithPetscOptions, let_the_first_talk, on_all_ranks, petsc_options
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing, say_of
+from umform.cli.step_table import step_tables
 from umform.cli.timing import Timed, show_timing
 from umform.cli.warnings import echo_warnings, print_warnings_once
 from umform.errors import FileProblem, UmformError
 
 if TYPE_CHECKING:
     from umform.deck.running import Outcome
-    from umform.run import Result
 
 Every = Annotated[float, typer.Option(metavar="SECONDS", help="Seconds between checkpoints; 0: after each increment.")]
 
@@ -61,6 +61,7 @@ def run(
         loaded = read(deck, changes or ())
         chosen = solver or loaded.contents.solution.solver
         with on_all_ranks(chosen, petsc_options(ctx)):
+            running.refuse_folder(chosen, out, overwrite=overwrite)
             problem = running.prepared(loaded, chosen, partial(running.refuse_implausible, loaded, force=force))
             outcome = running.run(
                 loaded, problem, out, solver=solver, checkpoint=checkpoint, every=every, overwrite=overwrite
@@ -85,37 +86,26 @@ def finish(outcome: Outcome, *, timing: bool = False) -> None:
 
 def show(outcome: Outcome) -> None:
     """The table, events, and the files."""
+    from umform.report.symmetry import modelled_part
     from umform.results.penetration import penetrations
 
     screen = console()
-    screen.print(_table(outcome.result))
-    for name, said in penetrations(outcome.result.model, outcome.result).items():
+    result = outcome.result
+    done = f"{len(result) - 1} increments in {result.seconds:.1f} s, solver {result.solver}"
+    screen.print(f"{done}; the end of each step, in the units of the deck:", soft_wrap=True)
+    for table in step_tables(result, screen.width):
+        screen.print(table, crop=False, no_wrap=True, overflow="ignore")
+    part = modelled_part(result.model)
+    if part:
+        screen.print(part, soft_wrap=True)
+    for name, said in penetrations(result.model, result).items():
         screen.print(f"contact {name}: {said}", soft_wrap=True, markup=False)
-    for event in outcome.result.events:
+    for event in result.events:
         screen.print(event, soft_wrap=True, markup=False)
     if outcome.files:
         names = ", ".join(file.name for file in outcome.files)
         screen.print(f"Written to {outcome.files[0].parent}: {names}", soft_wrap=True, markup=False)
-    echo_warnings(outcome.result.warnings)
-
-
-def _table(result: Result) -> object:
-    """The end of each step: increments, iterations, and all controls with their forces."""
-    from rich import box
-    from rich.table import Table
-
-    names = [column for control in result.model.controls for column in (control.name, f"{control.name}_force")]
-    summary = result.summary()
-    title = f"{summary['increments']} increments in {result.seconds:.1f} s, solver {result.solver}"
-    table = Table("step", title=title, box=box.SIMPLE_HEAD)
-    for name in ("time", "increments", "iterations", *names):
-        table.add_column(name, justify="right")
-    for step in sorted({int(row["step"]) for row in result.rows} - {0}):
-        rows = [row for row in result.rows if row["step"] == step]
-        last = rows[-1]
-        effort = [str(len(rows)), str(int(sum(row["iterations"] for row in rows)))]
-        table.add_row(str(step), f"{last['time']:.4g}", *effort, *(f"{last[name]:.6g}" for name in names))
-    return table
+    echo_warnings(result.warnings)
 
 
 def end(outcome: Outcome) -> None:

@@ -15,12 +15,16 @@ if TYPE_CHECKING:
     from umform.processes.air_bending.parameters import AirBending
     from umform.processes.bend_sequence import Part
 
-#: Columns of the table of bends.
-_COLUMNS = ("stroke", "loaded_angle", "angle", "springback", "largest_force", "radius", "k_factor", "bend_deduction")
-
 
 def run_sequence(
-    file: Path, sheet: AirBending, note: str, out: str | None, *, tolerance: float, overwrite: bool
+    file: Path,
+    sheet: AirBending,
+    note: str,
+    out: str | None,
+    length: float | None,
+    *,
+    tolerance: float,
+    overwrite: bool,
 ) -> None:
     """Bend the part of a file, print the results and write them."""
     from umform.io.folders import folder_for
@@ -37,36 +41,32 @@ def run_sequence(
         part = bend_sequence(sequence, tolerance=tolerance)
         try:
             with printing(f"the files of the part are in {place}"):
-                _show(part, note)
+                _show(part, note, length)
         finally:  # even if the table cannot be printed
             files = write_files(place, part, note)
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
 
 
-def _show(part: Part, note: str) -> None:
-    """Print a row for each bend, and the flanges."""
+def _show(part: Part, note: str, length: float | None) -> None:
+    """Print a column for each bend, and the flanges."""
     from rich import box
     from rich.table import Table
 
-    from umform.processes.air_bending.measures import QUANTITIES
+    from umform.processes.air_bending.remarks import total_force
+    from umform.processes.bend_sequence.words import bend_rows, flanges, remarks
 
-    table = Table(title="Bends", box=box.SIMPLE_HEAD)
-    for name in (
-        "bend",
-        "at",
-        "direction",
-        *(f"{QUANTITIES[name].label} {QUANTITIES[name].unit}" for name in _COLUMNS),
-    ):
-        table.add_column(name, justify="right")
-    for number, done in enumerate(part.bends, start=1):
-        cells = [f"{getattr(done.measures, name):.{QUANTITIES[name].decimals}f}" for name in _COLUMNS]
-        table.add_row(str(number), f"{done.bend.position:g}", done.bend.direction, *cells)
+    header, *rows = bend_rows(part)
+    table = Table(header[0], title="Bends", box=box.SIMPLE_HEAD)
+    for name in header[1:-1]:
+        table.add_column(name, justify="right", no_wrap=True)
+    table.add_column(header[-1])
+    for row in rows:
+        table.add_row(*row)
     screen = console()
     screen.print(table)
-    screen.print("angles in the end: " + ", ".join(f"{angle:.2f}" for angle in part.angles) + " degrees")
-    screen.print(
-        "outer lengths of the flanges: " + ", ".join(f"{length:.3f}" for length in part.flanges) + " mm", soft_wrap=True
-    )
-    if note:
-        screen.print(note, soft_wrap=True)
+    said = [flanges(part)]
+    if length is not None:
+        said.append(total_force(max(done.measures.largest_force for done in part.bends), length))
+    for text in (*said, *remarks(part), *([note] if note else [])):
+        screen.print(text, soft_wrap=True)
     echo_warnings(part.warnings)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -12,6 +13,7 @@ from umform.deck.drawn_tools import Profiled
 from umform.deck.errors import DeckError
 from umform.deck.foreign import Foreign
 from umform.deck.metal import J2, Metal
+from umform.deck.outline import Outlined
 from umform.deck.places import Place
 from umform.deck.problem import Problem
 from umform.deck.profiles import profile_of
@@ -23,6 +25,7 @@ from umform.elements import Rolling
 from umform.elements.technology import Element
 from umform.errors import UmformError
 from umform.materials import Material
+from umform.mesh import Mesh
 from umform.model import Model
 from umform.model.contact import Contact
 from umform.model.control import Control
@@ -30,7 +33,7 @@ from umform.model.support import Support
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
 from umform.steps import Step
-from umform.surfaces import Tool
+from umform.surfaces import Tool, ToolSizes
 
 
 class Earlier(Protocol):
@@ -83,9 +86,10 @@ class _Builder:
     before: Earlier | None = None
     errors: list[UmformError] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    sizes: ToolSizes | None = None
 
     def problem(self) -> Problem:
-        tools = self._tools()
+        tools = self._tools
         model = self.sheet()
         if model is None:
             raise DeckError(self.errors)
@@ -109,8 +113,10 @@ class _Builder:
             solver=self.solver,
             frames=self.contents.output.frames,
             notes=self.notes,
+            sizes=self.sizes,
         )
 
+    @cached_property
     def _tools(self) -> dict[str, Tool]:
         tools: dict[str, Tool] = {}
         for name, part in self.contents.tools.items():
@@ -160,7 +166,7 @@ class _Builder:
         part = self.contents.element
         element, mesh, material, rolling = self._element(), None, self._material(), self._rolling()
         with self._at("mesh"):
-            mesh = self.contents.mesh.build(element.cell if element else "hex8", self.source.folder)
+            mesh = self._mesh(element.cell if element else "hex8")
         if element is None or mesh is None or material is None or any("rolling" in e.where for e in self.errors):
             return None
         with self._at("element"):
@@ -173,6 +179,19 @@ class _Builder:
                 rolling=rolling,
             )
         return None
+
+    def _mesh(self, cell: str) -> Mesh | None:
+        """The mesh; that of an outline may follow the radii of the tools. None if one of these has failed."""
+        part, folder, tools = self.contents.mesh, self.source.folder, self._tools
+        if not isinstance(part, Outlined) or part.turn is None:
+            return part.build(cell, folder)
+        touching = {(contact.tool, str(contact.faces)) for contact in self.contents.contacts.values()}
+        if any(tool not in tools for tool, _ in touching):
+            return None
+        below, above = ([tools[tool] for tool, on in sorted(touching) if on == side] for side in ("lower", "upper"))
+        self.sizes = part.sizes(below, above, folder)
+        self.notes.append(f"mesh: {self.sizes}")
+        return part.build(cell, folder, self.sizes)
 
     def _rolling(self) -> Rolling | None:
         """The rolling direction of a metal that has one."""

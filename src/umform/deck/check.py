@@ -20,7 +20,9 @@ from umform.deck.references import references
 from umform.deck.resolution import resolution
 from umform.deck.steps import Move
 from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallowsSheet
+from umform.model.contact.encounter import sheet_thickness
 from umform.run.loose import carried, carried_motions
+from umform.sheet_metals import get
 from umform.solution.newton import Newton
 from umform.surfaces import CadTool, Offset, Placed, Triangulated
 
@@ -53,14 +55,32 @@ def check(deck: Deck, problem: Problem) -> Iterator[Finding]:
 def before_run(deck: Deck, problem: Problem) -> Iterator[Finding]:
     """The fast part of :func:`check`, without the supports, which `umform.solve` checks."""
     with np.errstate(all="ignore"):
+        for note in problem.notes:
+            yield ok("deck", note)
         place = partial(out_of_the_sheet, deck.contents)
         millimetres = isinstance(deck.contents.material, FromLibrary)
         yield from of_model(problem.model, millimetres=millimetres, place=place)
+        yield from metal_of_thickness(deck, problem)
         yield from resolution(deck, problem)
         yield from clearances(deck, problem)
         yield from away(deck, problem)
         yield from drawings(problem)
         yield from idle(deck)
+
+
+def metal_of_thickness(deck: Deck, problem: Problem) -> Iterator[Finding]:
+    """Warn if the standard of a metal of the library has other values for the thickness of the sheet."""
+    part = deck.contents.material
+    if not isinstance(part, FromLibrary):
+        return
+    thin, thick = get(part.library), get(part.library, sheet_thickness(problem.model.mesh) * (1.0 + 1e-9))
+    if thick is not thin:
+        values = f"R {thick.yield_stress:g}, Rm {thick.tensile_strength:g} MPa"
+        yield warning(
+            "material",
+            f"{thin.name} with Rm {thin.tensile_strength:g} MPa ({thin.basis}); {thick.basis}: {values}",
+            f'its curve as law = "J2": umform.sheet_metals.get("{thin.name}", thickness).law',
+        )
 
 
 def supports(problem: Problem) -> Finding:

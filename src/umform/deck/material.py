@@ -70,6 +70,11 @@ class FromLibrary(Part):
         """The law of the sheet metal."""
         return sheet_metals.get(self.library).law
 
+    @property
+    def note(self) -> str:
+        """Name, source and caveat of the metal."""
+        return sheet_metals.get(self.library).note
+
 
 MaterialPart = Annotated[
     Annotated[SVK, Tag("SVK")]

@@ -1,4 +1,4 @@
-"""The mesh of a deck: a strip, a grid, a disc, a ring, or a file of hexahedra or quadrilaterals."""
+"""The mesh of a deck: a strip, a grid, a disc, a ring, any outline, or a file of hexahedra or quadrilaterals."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from pydantic import Discriminator, Field, Strict, Tag, model_validator
 from pydantic_core import PydanticCustomError
 
 from umform import mesh
+from umform.deck.outline import Outlined
 from umform.deck.parts import Pair, Part, Positive, Vector, tagged_by, word_or_array
 from umform.errors import InvertedElement, MeshError, WrongNodeOrder
 from umform.mesh import Floats, Mesh
@@ -243,12 +244,16 @@ MeshPart = Annotated[
     | Annotated[Grid, Tag("grid")]
     | Annotated[Disc, Tag("disc")]
     | Annotated[Ring, Tag("ring")]
+    | Annotated[Outlined, Tag("outline")]
     | Annotated[File, Tag("file")]
     | Annotated[Shell, Tag("shell")],
     Discriminator(
         _kind,
         custom_error_type="mesh",
-        custom_error_message="a mesh has generator = strip, plate, grid, disc or ring, or file = a path",
-        custom_error_context={"key": "generator", "expected_tags": "'strip', 'plate', 'grid', 'disc', 'ring'"},
+        custom_error_message="a mesh has generator = strip, plate, grid, disc, ring or outline, or file = a path",
+        custom_error_context={
+            "key": "generator",
+            "expected_tags": "'strip', 'plate', 'grid', 'disc', 'ring', 'outline'",
+        },
     ),
 ]

@@ -13,14 +13,16 @@ from umform.model.dead_load import Load
 from umform.model.pressure import Pressure
 from umform.plotting import house_style, plot_shape, save
 from umform.report.symmetry import mirrors, whole
+from umform.results.leading import leading_controls
 from umform.results.shape import Shape
 from umform.run import Result
 from umform.steps import Release
 
 
 def draw_curve(problem: Problem, result: Result, path: Path) -> None:
-    """Force over displacement of the control that the first step moves; for a load, over the largest displacement."""
-    control = main_control(problem)
+    """Force over displacement of the control with the largest work; a load over the largest displacement."""
+    moved = leading_controls(result)
+    control = moved[0] if moved else main_control(problem)
     if isinstance(control, Load | Pressure):
         _draw_load(control, result, path)
     else:

@@ -14,7 +14,7 @@ from umform.model.control import Control
 from umform.run import Result, resume, solve
 from umform.solution.options import NewtonOptions
 from umform.steps import Step
-from umform.surfaces import Tool
+from umform.surfaces import Tool, ToolSizes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,7 +70,9 @@ class Problem(Solving):
     tools : dict of str to Tool
         Surfaces of its tools by name.
     notes : sequence of str
-        Notes on cuts, for the results.
+        Notes on cuts and sizes of elements, for the results.
+    sizes : ToolSizes, optional
+        Sizes of the elements of a blank that follow the radii of the tools.
     """
 
     model: Model
@@ -79,6 +81,7 @@ class Problem(Solving):
     steps: list[Step]
     tools: dict[str, Tool]
     notes: Sequence[str] = ()
+    sizes: ToolSizes | None = None
 
     def solve(self, *, solver: str | None = None, **options: Any) -> Result:
         """Solve the problem; ``progress``, ``checkpoint``, ``every`` and ``note`` as for :func:`umform.solve`."""

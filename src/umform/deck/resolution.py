@@ -22,6 +22,7 @@ from umform.deck.sizes import size_near
 from umform.deck.steps import Move
 from umform.deck.tools import ToolPart, along, smallest_radius
 from umform.deck.units import first_yield
+from umform.elements.locking import HIGHEST, LOCKING, locking_moment
 from umform.elements.technology import Element
 from umform.materials import Plastic, Table
 from umform.model import Model
@@ -30,10 +31,8 @@ from umform.model.contact.encounter import sheet_thickness
 
 #: Degrees of a tool radius per element: with 4 nodes a face, and with 9, which follow an arc.
 _ARC = {4: 12.0, 9: 24.0}
-#: Tolerated ratio of the false moment to the plastic one.
-_LOCKING = 0.05
-#: Order of the thickness strain above which the straight director is the limit, and the elements for bends.
-_HIGHEST, _FOR_BENDS = 4, {"hex8": "BEND8", "hex18": "BEND18"}
+#: Elements for bends.
+_FOR_BENDS = {"hex8": "BEND8", "hex18": "BEND18"}
 #: Points through the thickness that plastic bending needs, and sharp bends (strain above 0.1).
 _POINTS, _SHARP_POINTS, _SHARP = 5, 7, 0.1
 #: Radius of the mid-surface over the thickness below which one layer, whose director is straight, errs in springback
@@ -80,7 +79,9 @@ def element_size(contact: Contact, model: Model, tool: ToolPart, radius: float) 
     most = _ARC[contact.facets.shape[1]]
     if degrees <= most:
         return ok(about, text)
-    remedy = f"elements of {math.radians(most / 1.2) * radius:.2g} or less where this radius bends the sheet"
+    wanted = most / 1.2
+    fine = f"elements of {math.radians(wanted) * radius:.2g} or less where this radius bends the sheet"
+    remedy = f"{fine}: {wanted:.3g} degrees of it each, the warning begins at {most:g}"
     return warning(about, text, remedy)
 
 
@@ -88,9 +89,9 @@ def through_thickness(model: Model, material: Plastic, h: float, radius: float, 
     """Thickness points and thickness order against the strain that the smallest radius asks for."""
     strain, layers = h / (2.0 * radius + h), layers_of(model, h)
     order, stiffness = max(model.element.thickness_order, 1), material.kappa / first_yield(material)
-    follows = min(order, _HIGHEST)
+    follows = min(order, HIGHEST)
     text = f"the radius {radius:.4g} of {tool} strains a sheet of {h:.4g} by {100 * strain:.3g} %"
-    if locking_moment(follows, strain, stiffness, layers) > _LOCKING:
+    if locking_moment(follows, strain, stiffness, layers) > LOCKING:
         remedy = against_locking(model.element, strain, stiffness, layers)
         yield warning("element", f"{text}: at thickness order {order} it locks", remedy)
     else:
@@ -110,12 +111,12 @@ def through_thickness(model: Model, material: Plastic, h: float, radius: float, 
 
 def against_locking(element: Element, strain: float, stiffness: float, layers: int) -> str:
     """Remedy: a higher order of the thickness strain if possible, else layers."""
-    for order in range(max(element.thickness_order, 1) + 1, _HIGHEST + 1):
-        if locking_moment(order, strain, stiffness, layers) <= _LOCKING:
+    for order in range(max(element.thickness_order, 1) + 1, HIGHEST + 1):
+        if locking_moment(order, strain, stiffness, layers) <= LOCKING:
             if element.thickness_order == 0:
                 return f"name = '{_FOR_BENDS[element.cell]}'"
             return f"leave thickness_order out, or give {order} or more"
-    while locking_moment(_HIGHEST, strain, stiffness, layers) > _LOCKING:
+    while locking_moment(HIGHEST, strain, stiffness, layers) > LOCKING:
         layers += 1
     return f"{layers} layers of BEND18: no order follows so sharp a bend in fewer"
 
@@ -123,26 +124,8 @@ def against_locking(element: Element, strain: float, stiffness: float, layers: i
 def layers_of(model: Model, h: float) -> int:
     """Number of stacked cells in a sheet of a thickness."""
     lower, upper = np.split(model.mesh.points[model.mesh.connectivity], 2, axis=1)
-    return max(1, round(h / float(np.median(np.linalg.norm(upper - lower, axis=-1)))))
-
-
-def locking_moment(order: int, strain: float, stiffness: float, layers: int = 1) -> float:
-    """False moment of sharp-bend locking over the plastic moment, eq. (2.29).
-
-    Parameters
-    ----------
-    order : int
-        Order of the thickness strain.
-    strain : float
-        x_s, the strain at the surface.
-    stiffness : float
-        Bulk modulus over yield stress.
-    layers : int
-        Stacked elements: each bends about its own middle, so that x_s of (2.27) is that of a layer.
-    """
-    m = order + 1
-    beta = (m + 1) / 2 * 2.0**m * math.factorial(m) ** 2 / math.factorial(2 * m)
-    return math.sqrt(3.0) * m * beta**2 / (2 * m + 1) * stiffness * strain ** (2 * m - 1) / float(layers) ** (2 * m)
+    cell = float(np.median(np.linalg.norm(upper - lower, axis=-1)))
+    return max(1, round(h / cell)) if math.isfinite(h / cell) else 1
 
 
 def contact_points(problem: Problem) -> Iterator[Finding]:
@@ -181,7 +164,7 @@ def ways(deck: Deck, problem: Problem) -> Iterator[Finding]:
             if not np.isfinite(way):
                 continue
             part = way / step.increments if step.increments is not None else 0.0
-            each = "at a pace" if step.increments is None else f"{part:.3g} in an increment"
+            each = "increments chosen during the run" if step.increments is None else f"{part:.3g} in an increment"
             text = f"{name} moves by {way:.4g}, {each}"
             if way > span:
                 yield warning(about, f"{text}: farther than the sheet is long", "check the units and the target")

@@ -51,16 +51,23 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole
     if wanted.report:
         from umform.report.page import write_report
 
-        write_report(result, waiting / "report.html", deck=text, title=deck.contents.title)
+        metal = getattr(deck.contents.material, "note", "")
+        write_report(result, waiting / "report.html", deck=text, title=deck.contents.title, note=metal)
     return [*files, *stage.commit(["report.html", "curve.png", "shape.png"])]
 
 
 def _add_forming(result: Result, points: list[tuple[float, float]] | None) -> None:
-    """Add the fields of forming to the frames."""
-    from umform.results.forming import LimitTable, add_forming_fields
+    """Add the fields of forming to the frames; warn of elements beyond the limit."""
+    from umform.results.forming import LimitTable, add_forming_fields, forming_fields
+    from umform.results.forming.strains import beyond_limit
 
     limit = None if points is None else LimitTable(*zip(*points, strict=True))
     add_forming_fields(result, limit)
+    if limit is not None:
+        mesh = result.model.mesh
+        text = beyond_limit(mesh, forming_fields(mesh, result.model.u, limit))
+        if text is not None:
+            result.warn(f"the sheet tears: {text}")
 
 
 def as_run(deck: Deck) -> str:

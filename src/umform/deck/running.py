@@ -96,6 +96,18 @@ def _on_first(solver: str, work: Callable[[], _Answer]) -> _Answer | None:
     return world().on_first(work)
 
 
+def refuse_folder(solver: str, out: str | Path | None, *, overwrite: bool = False) -> None:
+    """Refuse a given folder with results of another run, before the problem is built and its warnings are logged.
+
+    Raises
+    ------
+    InvalidValue, FileProblem
+        See :func:`umform.io.folders.chosen_folder`.
+    """
+    if out is not None:
+        _on_first(solver, partial(chosen_folder, out, RESULTS, overwrite=overwrite))
+
+
 def refuse_implausible(deck: Deck, problem: Problem, *, force: bool = False) -> None:
     """Refuse numbers that are certainly wrong, and log warnings of unusual ones, before the run.
 

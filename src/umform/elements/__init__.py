@@ -7,11 +7,11 @@ from umform.elements.catalogue import (
     MITC9_IN_PLANE_SHEAR,
     MITC9_MEMBRANE,
     MITC9_SHEAR,
-    at_order,
     element,
     membrane_modes,
     thickness_modes,
 )
+from umform.elements.complete_order import at_order
 from umform.elements.rolling import Rolling, rolling_at, rolling_directions
 from umform.elements.technology import COMPONENTS, Element, Mode, Term, Tying
 from umform.elements.through_thickness import thickness_rule

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, TypedDict
+from typing import TypedDict
 
-from umform.elements.technology import Element, Mode, Term, Tying
+from umform.elements.technology import SPRINGBACK, Element, Mode, Term, Tying
 from umform.elements.through_thickness import MOST_POINTS
 from umform.errors import InvalidValue
 
@@ -153,7 +153,7 @@ def _build(
             surface_points=2 if cell == "hex8" else 3,
             thickness_order=thickness_order if thickness > 0 else 0,
             citation=citation,
-            plastic_points=_SPRINGBACK if thickness > 0 else (5, "gauss"),
+            plastic_points=SPRINGBACK if thickness > 0 else (5, "gauss"),
             complete=complete,
             options={
                 "thickness_modes": thickness_modes_count,
@@ -191,8 +191,6 @@ def _check_thickness(name: str, cell: str, thickness: int, count: int, order: in
 
 _MITC9 = MITC9_MEMBRANE + MITC9_IN_PLANE_SHEAR + MITC9_SHEAR
 
-#: Points that find the permanent set of a mild bend (docs/theory, 2.10).
-_SPRINGBACK = (18, "graded")
 #: What sharp bends need, of an elastic law too.
 _BENDS: _Bends = {"order": 4, "tied": True}
 
@@ -262,18 +260,16 @@ def element(
             )
         return name
     if name not in CATALOGUE:
-        raise InvalidValue("unknown element", value=name, remedy="one of " + ", ".join(CATALOGUE))
+        raise InvalidValue(
+            "unknown element",
+            where="element",
+            value=name,
+            cause="a typing mistake, or a name of another program",
+            remedy="one of " + ", ".join(CATALOGUE),
+        )
     if compatible_E12 and name not in ("MI9K3DEAS", "BEND18"):
         raise InvalidValue(f"{name} does not tie E_12", remedy="leave compatible_E12 out, or take MI9K3DEAS or BEND18")
     return CATALOGUE[name](**given)
-
-
-def at_order(made: Element, order: int) -> Element:
-    """An element of the catalogue with another thickness order; an element with its own modes is unchanged."""
-    known: dict[str, Any] = dict(made.options)
-    if made.name not in CATALOGUE or element(made.name, **known).modes != made.modes:
-        return made
-    return element(made.name, **(known | {"thickness_order": order}))
 
 
 __all__ = [
@@ -281,7 +277,6 @@ __all__ = [
     "Element",
     "Term",
     "Tying",
-    "at_order",
     "element",
     "membrane_modes",
     "thickness_modes",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 from umform import _core
 from umform.elements.legendre import legendre
 from umform.errors import InvalidValue
+
+#: Points that find the permanent set of a mild bend (docs/theory, 2.10).
+SPRINGBACK = (18, "graded")
 
 #: Voigt order of the strain components.
 COMPONENTS = ("11", "22", "33", "12", "23", "13")
@@ -75,11 +78,15 @@ class Term:
         """Value at natural coordinates."""
         return self.factor * r**self.a * s**self.b * legendre(self.c, t)
 
-    def mean(self) -> float:
-        """Mean over the parent cube. eq. (2.12)"""
-        if self.c > 0 or self.a % 2 or self.b % 2:
+    def mean(self, points: int) -> float:
+        """Mean under the rule of as many Gauss points per direction of the surface. eq. (2.12)
+
+        The kernels take the mean under the rule in t from P_c, c > 0. eq. (2.48)
+        """
+        if self.c > 0:
             return 0.0
-        return self.factor / ((self.a + 1) * (self.b + 1))
+        x, w = _core.gauss(points)
+        return float(self.factor * (w @ x**self.a) * (w @ x**self.b) / 4.0)
 
 
 Mode = tuple[Term, ...]
@@ -100,15 +107,19 @@ class Element:
     modes : tuple of Mode
         Enhanced strains.
     surface_points : int
-        Gauss points per direction of the surface.
+        Gauss points per direction of the surface; default 2 with 8 nodes, 3 with 18.
     thickness_order : int
-        Highest order in t of the enhanced thickness strain (0: none); it needs order + 1 thickness points.
+        Highest order in t of the enhanced thickness strain (0: none), at least that of the modes, the default; it needs
+        order + 1 thickness points.
     citation : str
         Reference (a key of references.bib).
     plastic_points : tuple (int, str), optional
-        Default points through the thickness and their rule with a plastic law.
-    complete : bool
-        Whether a plastic law raises the thickness order to the number of points minus one, see :func:`at_order`.
+        Default points through the thickness and their rule with a plastic law, one with a history. Default: 18 graded
+        points with an enhanced thickness strain, else 5 Gauss points.
+    complete : bool, optional
+        Whether a plastic law raises the thickness order to the number of points minus one: modes of E_33 that are
+        missing are added to those of the element, see :func:`umform.elements.at_order`. Default: with an enhanced
+        thickness strain. Without the complete order a plastic bend is too stiff (docs/theory, 2.10).
 
     Examples
     --------
@@ -121,11 +132,11 @@ class Element:
     cell: str
     tying: tuple[Tying, ...] = ()
     modes: tuple[Mode, ...] = ()
-    surface_points: int = 2
+    surface_points: int = 0
     thickness_order: int = 0
     citation: str = ""
-    plastic_points: tuple[int, str] = (5, "gauss")
-    complete: bool = False
+    plastic_points: tuple[int, str] | None = None
+    complete: bool | None = None
     options: dict[str, object] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
@@ -140,46 +151,99 @@ class Element:
                     value=row.component,
                     remedy="components: " + ", ".join(COMPONENTS),
                 )
+            if any(np.ndim(abscissae) != 1 for abscissae in (row.r, row.s)):
+                raise InvalidValue(
+                    "the abscissae of a tying row are tuples",
+                    where=self.name,
+                    value=row,
+                    cause="a number in place of a tuple",
+                    remedy=f'with the comma: Tying("{row.component}", r=(0.0,), s=(-1.0, 1.0))',
+                )
             if any(len(set(abscissae)) != len(abscissae) or not abscissae for abscissae in (row.r, row.s)):
                 raise InvalidValue("the abscissae of a tying row must be distinct", where=self.name, value=row)
+        if self.surface_points == 0:
+            object.__setattr__(self, "surface_points", 2 if self.cell == "hex8" else 3)
         for mode in self.modes:
-            if not mode or any(term.component not in COMPONENTS for term in mode):
-                raise InvalidValue("a mode is a tuple of terms in known components", where=self.name, value=mode)
-            for component in {term.component for term in mode}:
-                mean = sum(term.mean() for term in mode if term.component == component)
-                if abs(mean) > 1e-12:
-                    raise InvalidValue(
-                        "the mean of an enhanced mode over the element must vanish",
-                        where=self.name,
-                        value=f"{mode}: mean {mean:.3g}",
-                        cause="such a mode takes part in constant strain: the patch test is lost",
-                        remedy="odd powers of r or s, or Legendre order c > 0; or subtract the mean by another term",
-                    )
+            self._check_mode(mode)
+        orders = [term.c for mode in self.modes for term in mode if term.component == "33"]
+        object.__setattr__(self, "thickness_order", max([self.thickness_order, *orders]))
+
+    def _check_mode(self, mode: Mode) -> None:
+        """Reject a mode that is no tuple of terms, or whose mean does not vanish at the Gauss points. eq. (2.12)"""
+        if isinstance(mode, Term):
+            raise InvalidValue(
+                "a mode is a tuple of terms",
+                where=self.name,
+                value=mode,
+                cause="a term in place of a mode",
+                remedy="with the comma: modes=((Term(...),), ...)",
+            )
+        if not mode or any(term.component not in COMPONENTS for term in mode):
+            raise InvalidValue("a mode is a tuple of terms in known components", where=self.name, value=mode)
+        for component in {term.component for term in mode}:
+            mean = sum(term.mean(self.surface_points) for term in mode if term.component == component)
+            if abs(mean) > 1e-12:
+                raise InvalidValue(
+                    "the mean of an enhanced mode over the element must vanish",
+                    where=self.name,
+                    value=f"{mode}: mean {mean:.3g} at {self.surface_points} x {self.surface_points} Gauss points",
+                    cause="such a mode takes part in constant strain: the patch test is lost",
+                    remedy="odd powers of r or s, or Legendre order c > 0; or subtract the mean at these points "
+                    "by another term",
+                )
+
+    @property
+    def raised(self) -> bool:
+        """Whether a plastic law raises the thickness order."""
+        return self.thickness_order > 0 if self.complete is None else self.complete
+
+    @property
+    def plastic_rule(self) -> tuple[int, str]:
+        """Points through the thickness and their rule with a plastic law."""
+        if self.plastic_points is not None:
+            return self.plastic_points
+        return SPRINGBACK if self.thickness_order > 0 else (5, "gauss")
 
     @property
     def nodes(self) -> int:
         """Number of nodes: 8 or 18."""
         return {"hex8": 8, "hex18": 18}[self.cell]
 
-    def check_modes(self, t: NDArray[np.float64]) -> None:
-        """Reject modes that are linearly dependent at the Gauss points, for the thickness points ``t``.
+    def mode_values(self, t: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Modes at all points as the kernels have them, shape (6 points, modes), for a rule in t. eq. (2.48)"""
+        x = _core.gauss(self.surface_points)[0]
+        r, s, layers = (grid.ravel() for grid in np.meshgrid(x, x, t, indexing="ij"))
+        values = np.zeros((len(COMPONENTS), len(r), len(self.modes)))
+        for k, mode in enumerate(self.modes):
+            for term in mode:
+                mean = 0.5 * float(w @ legendre(term.c, t)) if term.c > 0 else 0.0
+                constant = mean * replace(term, c=0)(r, s, layers)
+                values[COMPONENTS.index(term.component), :, k] += term(r, s, layers) - constant
+        return values.reshape(len(COMPONENTS) * len(r), len(self.modes))
+
+    def check_modes(self, t: NDArray[np.float64], w: NDArray[np.float64]) -> None:
+        """Reject modes that vanish or are linearly dependent at the Gauss points, for a rule in t.
 
         Raises
         ------
         InvalidValue
             If the parameters of the modes are not unique.
         """
-        x = _core.gauss(self.surface_points)[0]
-        r, s, layers = (grid.ravel() for grid in np.meshgrid(x, x, t, indexing="ij"))
-        values = np.zeros((len(COMPONENTS), len(r), len(self.modes)))
-        for k, mode in enumerate(self.modes):
-            for term in mode:
-                values[COMPONENTS.index(term.component), :, k] += term(r, s, layers)
-        if self.modes and np.linalg.matrix_rank(values.reshape(-1, len(self.modes)), tol=1e-10) < len(self.modes):
+        values, points = self.mode_values(t, w), f"{self.surface_points} x {self.surface_points} x {len(t)} points"
+        for mode, largest in zip(self.modes, np.abs(values).max(axis=0), strict=True):
+            if largest <= 1e-10 * max(abs(term.factor) for term in mode):
+                raise InvalidValue(
+                    "an enhanced mode vanishes at the Gauss points",
+                    where=self.name,
+                    value=f"{mode}, {points}",
+                    cause="the points cannot see a polynomial of this degree",
+                    remedy="take it out, or more thickness points",
+                )
+        if self.modes and np.linalg.matrix_rank(values, tol=1e-10) < len(self.modes):
             raise InvalidValue(
                 "the enhanced modes are linearly dependent at the Gauss points",
                 where=self.name,
-                value=f"{len(self.modes)} modes, {self.surface_points} x {self.surface_points} x {len(t)} points",
+                value=f"{len(self.modes)} modes, {points}",
                 cause="two modes alike, or more of them than the points can see",
                 remedy="take modes out, or more thickness points",
             )

@@ -88,7 +88,7 @@ def read_tree(path: str | os.PathLike[str], kind: str, *, part: str | None = Non
     except PermissionError as error:
         raise _problem(path, f"the {kind} cannot be read", "no permission to read it") from error
     except (OSError, KeyError, RuntimeError, ValueError, TypeError, AttributeError) as error:
-        raise _problem(path, f"the {kind} is damaged", f"it was cut short, or is no HDF5 file: {error}") from error
+        raise _problem(path, f"the {kind} is damaged", "it was cut short, or is no HDF5 file") from error
     if part is None and checksum != _checksum(tree):
         raise _problem(path, f"the {kind} is damaged", "its checksum does not fit")
     return tree

@@ -56,8 +56,9 @@ class CompiledLaw:
         Whether it uses axes and length of the cell; else they are null and 0.
     directional : bool
         Whether it is anisotropic, so that a model needs the rolling direction.
-    thickness_points : int
-        Default number of points through the thickness.
+    thickness_points : int, optional
+        Default number of Gauss points through the thickness. Without it a law with a history counts as plastic: the
+        points and the complete order of the element for plastic laws, mostly 18 graded points; one without has 2.
     name : str
         For messages and fingerprints of runs; without a library, give each function its own name.
 
@@ -78,7 +79,7 @@ class CompiledLaw:
     parallel: bool = True
     sees_points: bool = False
     directional: bool = False
-    thickness_points: int = 5
+    thickness_points: int | None = None
     name: str = "compiled law"
     content: str = field(default="", init=False)
 

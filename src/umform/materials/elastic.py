@@ -99,7 +99,7 @@ class SVK(Elastic):
     80769
     """
 
-    thickness_points = 2
+    thickness_points = None
 
     def law(self) -> _core.Material:
         """The law as the kernels take it."""
@@ -122,7 +122,7 @@ class NeoHooke(Elastic):
     True
     """
 
-    thickness_points = 2
+    thickness_points = None
 
     def law(self) -> _core.Material:
         """The law as the kernels take it."""
@@ -145,7 +145,7 @@ class NeoHookePower(Elastic):
     True
     """
 
-    thickness_points = 2
+    thickness_points = None
 
     def law(self) -> _core.Material:
         """The law as the kernels take it."""

@@ -44,7 +44,7 @@ class Plastic(Elastic):
             )
         object.__setattr__(self, "hardening", hardening)
 
-    thickness_points = 5
+    thickness_points = None
 
 
 class J2(Plastic):

@@ -12,8 +12,8 @@ class Material(Protocol):
     """Interface of a material: the law of the kernels and the default number of thickness points."""
 
     @property
-    def thickness_points(self) -> int:
-        """Default number of Gauss points through the thickness."""
+    def thickness_points(self) -> int | None:
+        """Default number of Gauss points through the thickness; None: 2, or those of the element with a history."""
 
     def law(self) -> _core.Material:
         """The law as the kernels take it."""

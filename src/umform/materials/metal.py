@@ -283,13 +283,17 @@ class LogarithmicSpace:
     small: Material
 
     @property
-    def thickness_points(self) -> int:
-        """Default number of Gauss points through the thickness."""
+    def thickness_points(self) -> int | None:
+        """Default number of Gauss points through the thickness, that of the small-strain law."""
         return self.small.thickness_points
 
     def law(self) -> _core.Material:
         """The law as the kernels take it."""
-        return _core.logarithmic_space(self.small.law())
+        return _core.logarithmic_space(self.small_strain_law())
+
+    def small_strain_law(self) -> _core.Material:
+        """The law of logarithmic strains."""
+        return self.small.law()
 
     def shown(self, history: Mapping[str, Floats]) -> Mapping[str, Floats]:
         """Fields of the history: those of the small-strain law."""

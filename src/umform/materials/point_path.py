@@ -50,8 +50,8 @@ def point_path(
 
     Parameters
     ----------
-    material : Metal
-        A metal.
+    material : Metal, CompiledLaw, Umat, LogarithmicSpace or UserLaw
+        A law of logarithmic strains; a UserLaw is taken as one of the strain that it gets.
     strain : array_like, shape (n, 6)
         Logarithmic strains 11, 22, 33, 12, 23, 13 with engineering shears; NaN where the stress is prescribed.
     stress : array_like, shape (n, 6)
@@ -81,7 +81,7 @@ def point_path(
             remedy="NaN in strain where the stress is prescribed",
         )
     steps = _durations(material, time, len(wanted))
-    law = material.small_strain_law()
+    law = _law(material)
     turn = _turned(math.radians(angle))
     strains, stresses, states = law.lead(turn, wanted, given, steps)
     if (number := len(strains)) < len(wanted):
@@ -103,12 +103,13 @@ def tension(
     component: int = 0,
     time: ArrayLike | None = None,
 ) -> tuple[Floats, Floats, Floats]:
-    """Strain, stress and plastic strain, shape (n, 6) each, of a bar under prescribed logarithmic strains.
+    """A bar under prescribed logarithmic strains, or simple shear.
 
     Parameters
     ----------
-    material : Metal
-        A metal.
+    material : Metal, CompiledLaw, Umat, LogarithmicSpace or UserLaw
+        A law of logarithmic strains. A UserLaw is taken as one of the strain that it gets: of one in Green-Lagrange
+        strain these are Green-Lagrange strains and second Piola-Kirchhoff stresses.
     strains : array_like, shape (n,)
         Logarithmic strains, one after the other.
     angle : float
@@ -117,13 +118,59 @@ def tension(
         0 to 2 for tension along axis 1 to 3; 3 for simple shear in the plane of the sheet.
     time : array_like, shape (n,), optional
         When each strain is reached, from 0 on, for a metal with a rate.
+
+    Returns
+    -------
+    strain, stress : ndarray, shape (n,)
+        Prescribed component of the logarithmic strain, and its conjugate stress.
+    plastic : ndarray, shape (n, 6)
+        Plastic strain in the axes of the test, engineering shears: the part ``plastic_strain`` of the history, NaN
+        without it.
+
+    Raises
+    ------
+    InvalidValue
+        If the material has no law of logarithmic strains.
+
+    Examples
+    --------
+    >>> import umform as uf
+    >>> steel = uf.Metal(206e3, 0.3, hardening=uf.Linear(200.0, 500.0))
+    >>> strain, stress, plastic = uf.materials.tension(steel, [0.01, 0.02])
+    >>> stress.shape, plastic.shape
+    ((2,), (2, 6))
     """
     along = np.asarray(strains, dtype=float)
     path = np.full((len(along), 6), np.nan)
     path[:, component] = along
     found = point_path(material, path, np.zeros_like(path), angle, time=time)
-    plastic = found.state[:, :6] @ _turned(-math.radians(angle)).T
+    plastic = _plastic_strain(_law(material), found.state) @ _turned(-math.radians(angle)).T
     return found.strain[:, component], found.stress[:, component], plastic
+
+
+def _law(material: SmallStrainLaw) -> _core.Material:
+    """The small-strain law of a material."""
+    made = getattr(material, "small_strain_law", None)
+    if made is None or isinstance(material, type):
+        raise InvalidValue(
+            "a path needs a law of logarithmic strains",
+            where="point_path",
+            value=material if isinstance(material, type) else type(material).__name__,
+            cause="the multiplicative split of J2, an elastic law of another strain, or no law",
+            remedy="Metal(E, nu, hardening=...) in place of J2; LogarithmicSpace(law) of an elastic law",
+        )
+    law: _core.Material = made()
+    return law
+
+
+def _plastic_strain(law: _core.Material, states: Floats) -> Floats:
+    """The part of histories (n, size) called plastic_strain, shape (n, 6); NaN if a law has none."""
+    first = 0
+    for name, size in law.state.items():
+        if name == "plastic_strain" and size == 6:
+            return states[:, first : first + 6]
+        first += size
+    return np.full((len(states), 6), np.nan)
 
 
 def _durations(material: SmallStrainLaw, time: ArrayLike | None, rows: int) -> Floats:

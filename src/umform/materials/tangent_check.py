@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from umform.errors import InvalidValue
 from umform.materials.material import Material
 from umform.materials.user_law import Floats, UserLaw
 
@@ -65,6 +66,15 @@ def check_law(material: Material, E: ArrayLike, state: ArrayLike | None = None, 
     law = material.law()
     E = np.ascontiguousarray(E, dtype=float)
     history = np.tile(law.initial(), (len(E), 1)) if state is None else np.ascontiguousarray(state, dtype=float)
+    sizes, shape = (len(E), law.state_size), np.shape(history)
+    if shape != sizes:
+        raise InvalidValue(
+            f"the history of the points must have shape {sizes}",
+            where="check_law",
+            value=shape,
+            cause="another number of points than of strains, or of the numbers of a history",
+            remedy=f"one row for each strain with the parts {dict(law.state)}; without state: the virgin material",
+        )
 
     def respond(strain: Floats) -> tuple[Floats, Floats, Floats]:
         return law.respond(strain, history, None, 1.0, 1.0)

@@ -43,8 +43,9 @@ class Umat:
         Whether several threads may call it at the same time: no SAVE, no COMMON, no files. MPI ranks always do.
     directional : bool
         Whether it is anisotropic, so that a model needs the rolling direction; False for an isotropic one.
-    thickness_points : int
-        Default number of points through the thickness.
+    thickness_points : int, optional
+        Default number of Gauss points through the thickness. Without it a law with a history counts as plastic: the
+        points and the complete order of the element for plastic laws, mostly 18 graded points; one without has 2.
     symbol : str, optional
         Name of the function; default: the usual names that compilers give to UMAT.
     name : str
@@ -64,7 +65,7 @@ class Umat:
     energies: bool = False
     parallel: bool = False
     directional: bool = True
-    thickness_points: int = 5
+    thickness_points: int | None = None
     symbol: str | None = None
     name: str = "UMAT"
     content: str = field(default="", init=False)

@@ -53,7 +53,10 @@ def named_parts(history: Mapping[str, Floats], state: Mapping[str, int]) -> dict
 
 @dataclass(frozen=True)
 class UserLaw:
-    """A material law from a Python function: slow (one call for each element), but quick to write.
+    """A material law from a Python function: slow (one call for all points of each element), but quick to write.
+
+    NaN in stress or tangent says that the law has no answer at that strain and cuts the increment; an exception ends
+    the run, with the law and the cell in its notes. :class:`LogarithmicSpace` takes a small-strain law to finite strain.
 
     Parameters
     ----------
@@ -64,8 +67,9 @@ class UserLaw:
         differences. A function of three arguments gets the :class:`Points` too: axes, size, step.
     initial : tuple of float
         History of the virgin material; its length is the size of the history.
-    thickness_points : int
-        Default number of points through the thickness.
+    thickness_points : int, optional
+        Default number of Gauss points through the thickness. Without it a law with a history counts as plastic: the
+        points and the complete order of the element for plastic laws, mostly 18 graded points; one without has 2.
     name : str
         For messages.
     energy : callable, optional
@@ -99,7 +103,7 @@ class UserLaw:
 
     function: LawFunction
     initial: tuple[float, ...] = ()
-    thickness_points: int = 2
+    thickness_points: int | None = None
     name: str = "user law"
     energy: EnergyFunction | None = None
     symmetric: bool = True
@@ -248,3 +252,7 @@ class UserLaw:
         return _core.material_from_function(
             self._respond, list(self.initial), names, energies, self.symmetric, self.sees_points
         )
+
+    def small_strain_law(self) -> _core.Material:
+        """The law itself, of the strain that it gets."""
+        return self.law()

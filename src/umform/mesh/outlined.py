@@ -104,7 +104,7 @@ def _gmsh() -> Iterator[Any]:
             cause=str(error),
             remedy="pip install 'umform[mesh]'; or disc, ring, strip, which need no extra",
         ) from error
-    gmsh.initialize(["gmsh", "-noenv"], readConfigFiles=False, interruptible=False)
+    gmsh.initialize(["gmsh", "-v", "0", "-noenv"], readConfigFiles=False, interruptible=False)
     try:
         for name, value in {
             "General.Terminal": 0,

@@ -60,8 +60,10 @@ class Body(Term):
     name : str
         For messages and fields.
     thickness_points : int, optional
-        Points through the thickness, 2 to 20, at least thickness_order + 1. Default: 2 with an elastic law, 18 with a
-        plastic one; the elements without an enhanced thickness strain have 5.
+        Points through the thickness, 2 to 20, at least thickness_order + 1. Default: those of the law, if it names a
+        number; else 2 with an elastic law, the ``plastic_points`` of the element with a plastic one (any law with a
+        history): 18, or 5 without an enhanced thickness strain. With a plastic law the thickness order of an element
+        that is ``complete`` is then the number of points minus one, see :class:`umform.Element`.
     thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
         Quadrature rule; default gauss, but graded if the default of 18 points applies.
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional
@@ -131,7 +133,7 @@ class Body(Term):
                 remedy=f"thickness_points={least} or more",
             )
         self._through = make_thickness_rule(self.thickness_points, self.thickness_rule)
-        self.element.check_modes(self._through[0])
+        self.element.check_modes(*self._through)
         self._selection, self._given_rolling = cells, rolling
         self.elsewhere = False
         self.before = np.empty(0)

@@ -42,8 +42,10 @@ class Model(Standing):
     bodies : sequence of Body, optional
         Several bodies instead of element and material; each cell belongs to one.
     thickness_points : int, optional
-        Points through the thickness, 2 to 20, at least thickness_order + 1. Default: 2 with an elastic law, 18 with a
-        plastic one; the elements without an enhanced thickness strain have 5.
+        Points through the thickness, 2 to 20, at least thickness_order + 1. Default: those of the law, if it names a
+        number; else 2 with an elastic law, the ``plastic_points`` of the element with a plastic one (any law with a
+        history): 18, or 5 without an enhanced thickness strain. With a plastic law the thickness order of an element
+        that is ``complete`` is then the number of points minus one, see :class:`umform.Element`.
     thickness_rule : {"gauss", "lobatto", "split", "graded"}, optional
         Quadrature rule; default gauss, but graded if the default of 18 points applies.
     rolling : array_like, shape (3,) or (cells, 3), or callable, optional

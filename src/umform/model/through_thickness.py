@@ -8,19 +8,23 @@ from umform.materials.material import Material
 
 
 def points_through(element: Element, material: Material, points: int | None, rule: str | None) -> tuple[int, str]:
-    """Points through the thickness and their rule: as given, else the default of law and element."""
-    wanted, wanted_rule = element.plastic_points if _plastic(material) else (2, "gauss")
+    """Points through the thickness and their rule: as given, else those of the law, else of the element for the law."""
     if points is not None:
         return points, rule or "gauss"
-    return max(wanted, material.thickness_points, element.thickness_order + 1), rule or wanted_rule
+    least = element.thickness_order + 1
+    if material.thickness_points is not None:
+        return max(material.thickness_points, least), rule or "gauss"
+    wanted, wanted_rule = element.plastic_rule if _plastic(material) else (2, "gauss")
+    return max(wanted, least), rule or wanted_rule
 
 
 def completed(element: Element, material: Material, points: int) -> Element:
     """The element with the complete order of E_33, if the law is plastic. eq. (2.46)"""
-    if not (_plastic(material) and element.complete) or points <= element.thickness_order + 1:
+    if points <= element.thickness_order + 1 or not (element.raised and _plastic(material)):
         return element
     return at_order(element, points - 1)
 
 
 def _plastic(material: Material) -> bool:
-    return material.thickness_points > 2
+    """Whether the law has a history."""
+    return len(material.law().initial()) > 0

@@ -10,13 +10,15 @@ from umform.errors import InvalidValue
 from umform.materials import Material
 from umform.mesh import Mesh, Selector
 from umform.model.body import Body
+from umform.model.contact.encounter import sheet_thickness
 from umform.model.contact.friction import AnyFriction
 from umform.model.contact.pair import Contact
 from umform.model.contact.settings import contact_settings
 from umform.model.now import Now
 from umform.model.tool import Tool
 from umform.model.tooled import Tooled
-from umform.surfaces import Surface
+from umform.surfaces import Surface, UserSurface
+from umform.surfaces.user_check import check_beside
 
 
 class Touched(Tooled):
@@ -117,10 +119,14 @@ class Touched(Tooled):
                 cause="the columns of the history and the fields go by it",
                 remedy="contact(..., name=...) with another one",
             )
+        surface = tool.surface if isinstance(tool, Tool) else tool
+        if isinstance(surface, UserSurface):
+            facets = self.mesh.facets(faces)[:, :4]
+            check_beside(surface, self.mesh.points[facets], sheet_thickness(self.mesh), f"contact {name}")
         settings = contact_settings(
             self.mesh,
             faces,
-            tool.surface if isinstance(tool, Tool) else tool,
+            surface,
             self._law_of(faces),
             penalty=penalty,
             penetration=penetration,

@@ -25,6 +25,13 @@ def draw_sizes(sizes: ToolSizes, path: str | Path, mesh: Mesh | None = None) -> 
     mesh : Mesh, optional
         The blank.
     """
+    figure = sizes_figure(sizes, mesh)
+    save(figure, path)
+    return figure
+
+
+def sizes_figure(sizes: ToolSizes, mesh: Mesh | None = None) -> Figure:
+    """The picture of :func:`draw_sizes`, not saved."""
     with house_style():
         figure = Figure(figsize=(5.6, 3.8), layout="compressed")
         axes = figure.add_subplot()
@@ -37,5 +44,4 @@ def draw_sizes(sizes: ToolSizes, path: str | Path, mesh: Mesh | None = None) -> 
         bar = figure.colorbar(shown, ax=axes, shrink=0.8)
         bar.set_label("size of elements")
         bar.outline.set_visible(False)
-    save(figure, path)
     return figure

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from base64 import b64encode
+from collections.abc import Mapping
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
@@ -12,15 +13,21 @@ from string import Template
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from umform.io.tables import write_csv
 from umform.plotting import COLOURS, plot_history, plot_shape
 from umform.report import parts
 from umform.report.packing import compressed
 from umform.report.scene import Scene, scene_of
-from umform.report.symmetry import whole
+from umform.report.symmetry import modelled_part, whole
+from umform.results.leading import leading_controls
 from umform.results.shape import Shape
 
 if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
     from umform.results.history import History
 
 _SCRIPTS = ("unpack.js", "space.js", "shape.js", "curves.js", "start.js")
@@ -47,14 +54,31 @@ class Live:
     scripts: str
 
     @classmethod
-    def of(cls, result: History, *, stills: bool = True) -> Live:
+    def of(
+        cls,
+        result: History,
+        *,
+        stills: bool = True,
+        more: Mapping[str, NDArray[float64]] | None = None,
+        first: tuple[str, str] | None = None,
+    ) -> Live:
         """The parts for a result with a history; without kept frames, only its last state is drawn in 3D.
 
-        ``stills``: pictures of shape and curves for printing; a page that shows both may omit them.
+        Parameters
+        ----------
+        result : History
+            The result.
+        stills : bool
+            Pictures of shape and curves for printing; a page that shows both may omit them.
+        more : mapping of str to ndarray, optional
+            Columns in addition to those of the history.
+        first : tuple of str, optional
+            Abscissa and ordinate of the curve that is shown at first, for a page that says itself what forces refer
+            to; default: the control with the largest work, below a note on the modelled part.
         """
-        scene = scene_of(result)
-        shape, curves = _shape(result, scene, stills), _curves(result, stills)
-        return cls(shape, curves, _table(result), tuple(scene.notes), _scripts(scene))
+        scene, columns = scene_of(result), {**result.table(), **(more or {})}
+        shape, curves = _shape(result, scene, stills), _curves(result, stills, first)
+        return cls(shape, curves, _table(columns), tuple(scene.notes), _scripts(scene))
 
 
 def style() -> str:
@@ -86,26 +110,32 @@ def _shape(result: History, scene: Scene, stills: bool) -> str:
     return _filled("shape.html", still=still, fields=options, last=str(scene.frames - 1), **hidden)
 
 
-def _curves(result: History, stills: bool) -> str:
-    """Curves of the history, or a still for each control."""
-    pairs = [(control.name, f"{control.name}_force") for control in result.model.controls]
+def _curves(result: History, stills: bool, first: tuple[str, str] | None) -> str:
+    """Curves of the history, or a still for each control; above them what their forces refer to."""
+    pairs = [(control.name, f"{control.name}_force") for control in leading_controls(result)]
+    if not pairs and result.model.controls:
+        name = result.model.controls[0].name
+        loaded = bool(np.ptp(result[name]))  # a load over itself says nothing; at the start nothing has moved yet
+        pairs = [(name, "external_work" if loaded else f"{name}_force")]
     drawn = [
         parts.figure(plot_history(result, x, [y]), f"{y} over {x}, all converged increments.")
         for x, y in (pairs if stills else [])
     ]
-    x, y = pairs[0] if pairs else ("time", result.columns()[-1])
+    x, y = first or (pairs[0] if pairs else ("time", result.columns()[-1]))
     colours = escape(json.dumps(COLOURS))
-    return _filled("curves.html", still="\n".join(drawn), x=escape(x), y=escape(y), colours=colours)
+    part = "" if first else modelled_part(result.model)
+    said = parts.note(f"{part[0].upper()}{part[1:]}.") if part else ""
+    return said + _filled("curves.html", still="\n".join(drawn), x=escape(x), y=escape(y), colours=colours)
 
 
-def _table(result: History) -> str:
+def _table(columns: Mapping[str, NDArray[float64]]) -> str:
     """The history as a file to download, and as a table."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "history.csv"
-        write_csv(path, result.table())
+        write_csv(path, columns)
         csv = path.read_bytes()
-    names = "".join(f"<th>{escape(name)}</th>" for name in result.columns())
-    size = {"rows": str(len(result)), "count": str(len(result.columns()))}
+    names = "".join(f"<th>{escape(name)}</th>" for name in columns)
+    size = {"rows": str(len(columns["step"])), "count": str(len(columns))}
     return _filled("history.html", csv=b64encode(csv).decode("ascii"), names=names, **size)
 
 

@@ -6,6 +6,9 @@ from dataclasses import fields, is_dataclass
 
 from umform.materials import CompiledLaw, Elastic, LinearVoce, Metal, Plastic, Swift, Table, Umat, UserLaw
 
+#: What the first stress of a curve is; it lies below R of a tensile test.
+_START = " (start of the curve)"
+
 
 def material_text(material: object) -> str:
     """Law and constants of a material as text.
@@ -62,8 +65,8 @@ def hardening_text(curve: object) -> str:
     if isinstance(curve, Swift):
         first = curve.strength * curve.offset**curve.exponent
         law = f"{curve.strength:.6g} ({curve.offset:.6g} + e)^{curve.exponent:.6g}"
-        return f"yield stress {first:.6g}, Swift hardening {law}"
+        return f"yield stress {first:.6g}{_START}, Swift hardening {law}"
     if isinstance(curve, Table):
         end = f"{curve.stress[-1]:.6g} at a plastic strain of {curve.eqps[-1]:.6g}"
-        return f"yield stress {curve.stress[0]:.6g}, table of {len(curve.eqps)} points up to {end}"
+        return f"yield stress {curve.stress[0]:.6g}{_START}, table of {len(curve.eqps)} points up to {end}"
     return str(curve)

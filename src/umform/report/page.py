@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from umform.attempts import HARMLESS, Attempts
 from umform.report import parts
 from umform.report.live import Live, style
 from umform.report.materials import material_text
@@ -14,11 +15,10 @@ from umform.report.versions import versions
 from umform.results.penetration import penetrations
 
 if TYPE_CHECKING:
-    from umform.attempts import Attempts
     from umform.results.history import History
 
 
-def write_report(result: History, path: str | Path, *, deck: str = "", title: str = "") -> Path:
+def write_report(result: History, path: str | Path, *, deck: str = "", title: str = "", note: str = "") -> Path:
     """Write one self-contained page about a result.
 
     Parameters
@@ -31,6 +31,8 @@ def write_report(result: History, path: str | Path, *, deck: str = "", title: st
         The input of the result, to be embedded in the page.
     title : str, optional
         Heading of the page; default: element and number of increments.
+    note : str, optional
+        Name, source and limits of the material.
 
     Returns
     -------
@@ -50,11 +52,11 @@ def write_report(result: History, path: str | Path, *, deck: str = "", title: st
     )
     title, lead = (title, f"{size}; {effort}") if title else (size, effort)
     live = Live.of(result)
-    content = _parts(result, live, deck)
+    content = _parts(result, live, deck, note)
     return parts.write_html(path, title, lead, content, style=style(), scripts=live.scripts)
 
 
-def _parts(result: History, live: Live, deck: str) -> Iterator[str]:
+def _parts(result: History, live: Live, deck: str, note: str) -> Iterator[str]:
     for message in counted(result.warnings):
         yield parts.note(message, bad=True)
     yield parts.heading("Shape")
@@ -69,6 +71,8 @@ def _parts(result: History, live: Live, deck: str) -> Iterator[str]:
     yield _end_values(result)
     yield live.table
     yield parts.heading("Settings")
+    if note:
+        yield parts.paragraph(note)
     yield parts.pairs(settings(result))
     if deck:
         yield parts.heading("Deck")
@@ -115,7 +119,8 @@ def _attempts(attempts: Attempts) -> str:
     rows += [[f"given up: {cause}", str(count), ""] for cause, count in attempts.causes.most_common()]
     rows += [["return maps in stages", str(attempts.staged), ""]] if attempts.staged else []
     share = f"{attempts.evaluations} evaluations, {100 * attempts.share:.1f} % of them thrown away"
-    return parts.table([share, "tried", "won"], rows)
+    table = parts.table([share, "tried", "won"], rows)
+    return parts.folded_part("Numerics", parts.paragraph(HARMLESS) + table)
 
 
 def settings(result: History) -> dict[str, object]:

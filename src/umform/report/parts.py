@@ -57,6 +57,11 @@ def folded(title: str, text: str) -> str:
     return f"<details><summary>{escape(title)}</summary><pre>{escape(text)}</pre></details>"
 
 
+def folded_part(title: str, content: str) -> str:
+    """Part of a page that opens at a click."""
+    return f"<details><summary>{escape(title)}</summary>{content}</details>"
+
+
 def items(texts: Iterable[str]) -> str:
     """A list."""
     return "<ul>" + "".join(f"<li>{escape(text)}</li>" for text in texts) + "</ul>"

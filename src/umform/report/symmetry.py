@@ -70,6 +70,13 @@ def mirrors(model: Model) -> list[Mirror]:
     return found
 
 
+def modelled_part(model: Model) -> str:
+    """What forces and works refer to if planes of symmetry leave only a part in the model; otherwise empty."""
+    parts = {1: "half", 2: "quarter", 3: "eighth"}
+    part = parts.get(len(mirrors(model)), "")
+    return f"forces and works are those of the modelled {part} of the sheet" if part else ""
+
+
 def _through_the_thickness(model: Model, inside: NDArray[np.bool_]) -> bool:
     """Whether for each pair of a lower and an upper node both lie in a plane, or neither."""
     lower, upper = np.split(model.mesh.connectivity, 2, axis=1)

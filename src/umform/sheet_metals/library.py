@@ -41,7 +41,7 @@ def cards() -> tuple[str, ...]:
     return tuple(card_rows())
 
 
-def get(name: str) -> SheetMetal:
+def get(name: str, thickness: float | None = None) -> SheetMetal:
     """Sheet metal by name.
 
     Parameters
@@ -49,6 +49,8 @@ def get(name: str) -> SheetMetal:
     name : str
         Name, material number or another name, as ``"DC04"``, ``"1.0338"``, ``"AISI 304"``, ``"AA6016-T4"``; spaces,
         hyphens and capitals do not matter.
+    thickness : float, optional
+        Thickness of the sheet in mm, where the values of the standard depend on it; default: those of thin sheet.
 
     Returns
     -------
@@ -63,7 +65,7 @@ def get(name: str) -> SheetMetal:
     known = _known()
     key = _plain(name)
     if key in known:
-        return _made(known[key])
+        return _made(known[key], _range(known[key], thickness))
     near = difflib.get_close_matches(key, known, n=1, cutoff=0.5)
     raise InvalidValue(
         "the library has no sheet metal of that name",
@@ -160,9 +162,25 @@ def of_certificate(
         return _from_row(metal.name, row | {"curve": "Voce"})
 
 
+def limits(name: str) -> list[float]:
+    """Thicknesses in mm from which on the standard has other values, ascending."""
+    return [float(row["from"]) for row in _data().get(get(name).name, {}).get("thicker", [])]
+
+
+def _range(name: str, thickness: float | None) -> int:
+    """Number of ranges of thickness below the one of a sheet."""
+    rows = _data().get(name, {}).get("thicker", [])
+    return 0 if thickness is None else sum(thickness >= row["from"] for row in rows)
+
+
 @cache
-def _made(name: str) -> SheetMetal:
-    return made_card(name) if name in card_rows() else _from_row(name, _data()[name])
+def _made(name: str, thicker: int) -> SheetMetal:
+    if name in card_rows():
+        return made_card(name)
+    row = _data()[name]
+    for change in row.get("thicker", [])[:thicker]:
+        row = row | change
+    return _from_row(name, row)
 
 
 def _from_row(name: str, row: dict[str, Any]) -> SheetMetal:

@@ -59,6 +59,12 @@ class SheetMetal:
     caveat: str
     measured: Directions | None = None
 
+    @property
+    def note(self) -> str:
+        """Name, source, limits, and the values in use."""
+        used = f"used here: R {self.yield_stress:.4g}, Rm {self.tensile_strength:.4g} MPa ({self.basis})"
+        return f"{self.name}: {self.source}; {self.caveat}; {used}"
+
     def __str__(self) -> str:
         lines = [
             f"{self.name}: R {self.yield_stress:.4g} MPa, Rm {self.tensile_strength:.4g} MPa, "

@@ -10,6 +10,8 @@ from dataclasses import replace
 import numpy as np
 
 from umform.errors import NoConvergence
+from umform.materials import UserLaw
+from umform.model import Model
 from umform.model.checks import diagnosis
 from umform.model.control import Control
 from umform.model.loose_part import loose_part
@@ -19,6 +21,7 @@ from umform.solution.strategies import Increment, equilibrium
 from umform.steps.crushed import crushed
 from umform.steps.loop import Run
 from umform.steps.trail import Trail, changes
+from umform.surfaces import UserSurface
 
 log = logging.getLogger("umform.steps")
 
@@ -99,6 +102,7 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
             "is thousands of times as long as thick between its supports needs more of them; at a limit point "
             "prescribe displacements instead of forces"
         )
+    remedy += own_parts(run.model)
     pressed = pressed_tools(run)
     if pressed:
         cause = f"{cause}; at the last converged state {'; '.join(pressed)}"
@@ -117,6 +121,17 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
         cause=cause,
         remedy=remedy,
     )
+
+
+def own_parts(model: Model) -> str:
+    """Checks of the laws and tools of the user in a model, as the end of a remedy."""
+    laws = [getattr(body.material, "small", body.material) for body in model.bodies]
+    surfaces = [tool.surface for tool in model.tools]
+    checks = [
+        ("check_law compares the tangent of your law", any(isinstance(law, UserLaw) for law in laws)),
+        ("check_surface the derivatives of your tool", any(isinstance(one, UserSurface) for one in surfaces)),
+    ]
+    return "".join(f"; {check} with differences" for check, own in checks if own)
 
 
 def pressed_tools(run: Run) -> list[str]:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from umform.surfaces.tool import Surface
+
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -19,7 +22,8 @@ class SurfaceCheck:
     normal, hessian : float
         Normal against differences of g; Hessian (times the length of the step scale) against differences of n.
     gradient_length : float
-        Largest deviation of the length of the difference gradient from 1: 0 for a true distance.
+        Largest deviation of the length of the difference gradient from 1: 0 for a true distance. Where it is not, the
+        pressure per penetration is scaled by the square of that length; :meth:`ok` does not look at it.
     asymmetry : float
         Largest deviation of H from its transpose.
     """
@@ -30,8 +34,21 @@ class SurfaceCheck:
     asymmetry: float
 
     def ok(self, tolerance: float = 1e-5) -> bool:
-        """Whether normal and Hessian are derivatives of the distance."""
+        """Whether normal and Hessian are the derivatives of g, also of one that is no distance: see gradient_length."""
         return max(self.normal, self.hessian, self.asymmetry) < tolerance
+
+
+def differences(
+    gap: Callable[[Floats], tuple[Floats, Floats, Floats]], x: Floats, step: float
+) -> tuple[Floats, Floats]:
+    """Central differences of distance (n, 3) and normal (n, 3, 3) at points (n, 3). eq. (4.20)"""
+    dg, dn = np.empty((len(x), 3)), np.empty((len(x), 3, 3))
+    for k in range(3):
+        shift = step * np.eye(3)[k]
+        ahead, behind = gap(x + shift), gap(x - shift)
+        dg[:, k] = (ahead[0] - behind[0]) / (2.0 * step)
+        dn[:, :, k] = (ahead[1] - behind[1]) / (2.0 * step)
+    return dg, dn
 
 
 def check_surface(surface: Surface, x: ArrayLike, step: float) -> SurfaceCheck:
@@ -55,13 +72,7 @@ def check_surface(surface: Surface, x: ArrayLike, step: float) -> SurfaceCheck:
     kernel = surface.kernel()
     x = np.ascontiguousarray(x, dtype=float)
     _, n, H = kernel.gap(x)
-    dg, dn = np.empty_like(n), np.empty_like(H)
-    for k in range(3):
-        shift = np.zeros(3)
-        shift[k] = step
-        ahead, behind = kernel.gap(x + shift), kernel.gap(x - shift)
-        dg[:, k] = (ahead[0] - behind[0]) / (2 * step)
-        dn[:, :, k] = (ahead[1] - behind[1]) / (2 * step)
+    dg, dn = differences(kernel.gap, x, step)
     size = max(float(np.abs(H).max()), 1e-300)
     return SurfaceCheck(
         normal=float(np.abs(n - dg).max()),

@@ -28,9 +28,10 @@ class UserSurface(Tool):
     ----------
     function : callable
         Takes positions (n, 3) and returns the signed distance (n,), negative inside the tool, the normal (n, 3) out of
-        the tool and the Hessian of the distance (n, 3, 3). It is called once for all contact points of a pair. Where
-        function is not a distance but close to one (a scaled level set), gap and pressure are scaled with it.
-        :func:`check_surface` compares normal and Hessian with differences.
+        the tool and the Hessian of the distance (n, 3, 3). It is called once for all contact points of a pair. A level
+        set that is no distance returns its gradient, not normalised, and its own Hessian: the gap is scaled by the
+        length of the gradient, the pressure per penetration by the square. A contact compares normal and Hessian with
+        differences beside the sheet, :func:`check_surface` at any points.
     name : str
         For messages and reports.
 

@@ -123,7 +123,7 @@ def _wall(mesh: Mesh, u: Floats) -> tuple[float, float]:
 
     def thickness(above: float) -> float:
         there = height > above
-        return layers * float(volume[there].sum() / area[there].sum())
+        return layers * float(volume[there].sum() / area[there].sum()) if there.any() else np.nan
 
     return thickness(WALL), thickness(height.max() - 0.2 * (height.max() - WALL))
 

@@ -68,9 +68,10 @@ CASE = Case(
     name="cook-membrane",
     title="Cook's membrane",
     problem="""
-Panel with corners (0, 0), (48, 44), (48, 60), (0, 44), thickness 1, E = 1, nu = 1/3. The side x = 0 is held; a force of
-1 upward is spread along the opposite side. Plane stress: one element through the thickness, lower nodes in the plane z
-= 0, upper face free. Measured: displacement of the middle of the loaded side; n x n intervals between nodes.
+Panel with corners (0, 0), (48, 44), (48, 60), (0, 44), thickness 1, E = 1, nu = 1/3. On the side x = 0
+u_x = u_y = 0; a force of 1 upward is spread along the opposite side. One linear solution, SVK at u = 0 (Hooke's law).
+Plane stress: one element through the thickness, u_z = 0 on the lower nodes, upper face free. The mesh divides opposite
+sides into n equal intervals between nodes. Measured: u_y of the middle of the loaded side, (48, 52).
 """,
     reference="""
 23.96: our own solution with biquadratic membrane strains (DISP9K3DEAS) on 64 x 64 intervals, uncertain by 0.2 %. The

@@ -85,7 +85,7 @@ def bend_element(page: Page, label: str, name: str, metal: Metal, corners: Corne
     """A few elements between two sections along the same corners."""
     variant = Variant(name)
     chords = CELLS[name] if variant.cell == "hex8" else 0
-    points, rule = variant.element.plastic_points
+    points, rule = variant.element.plastic_rule
     model, edges = model_of(variant, CELLS[name], metal, points, rule)
 
     def side(start: tuple[float, float], end: tuple[float, float], which: int) -> Callable[[float], float]:

@@ -31,9 +31,10 @@ CASE = Case(
     name="nonlinear-end-shear",
     title="Cantilever under an end shear force",
     problem="""
-Strip of length 10, width 1, thickness 0.1; E = 1.2e6, nu = 0. One end is clamped; a dead force of 4, normal to the
-undeformed strip, is spread over the other end face. One element over the width. Measured: deflection w of the end and
-its shortening -u at 20 load levels.
+Strip of length 10, width 1, thickness 0.1; E = 1.2e6, nu = 0, law of Saint-Venant and Kirchhoff (SVK). One end is
+clamped; a dead force of 4, normal to the undeformed strip, is spread over the other end face. One element over the
+width. Measured: deflection w of the end and its shortening -u at 20 load levels, the means of all lower and upper nodes
+of the end face.
 """,
     reference="""
 Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569 (Abaqus S4R): w = 6.698, -u = 3.286. MI9K3DEAS with 32 and 64

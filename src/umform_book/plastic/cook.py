@@ -162,8 +162,8 @@ CASE = Case(
     name="plastic-cook",
     title="Cook's membrane with finite plastic strains",
     problem=f"""
-The trapezoid (0, 0), (48, 44), (48, 60), (0, 44), thickness 1, plane strain: one layer, u_z = 0 on both faces. The left
-side is held; on the right side a dead traction of resultant F = {FORCE:g} acts upward, in {STEPS} increments. kappa =
+The trapezoid (0, 0), (48, 44), (48, 60), (0, 44), thickness 1, plane strain: one layer, u_z = 0 on both faces. On the left
+side u_x = u_y = 0; on the right side a dead traction of resultant F = {FORCE:g} acts upward, in {STEPS} increments. kappa =
 164.21, mu = 80.1938 (E = 206.9, nu = 0.29), yield stress 0.45 + 0.12924 e + 0.265 (1 - exp(-16.93 e)), logarithmic
 strains. Measured: vertical displacement of the upper right corner. The membrane must keep the volume; thickness modes
 and the tying of E_33 do not help here.

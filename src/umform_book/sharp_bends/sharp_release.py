@@ -62,7 +62,7 @@ def to_one_thickness(page: Page) -> None:
 
 def _default(candidate: Candidate) -> Candidate:
     """The candidate with the points that its element takes with a plastic law."""
-    points, rule = candidate.variant.element.plastic_points
+    points, rule = candidate.variant.element.plastic_rule
     return replace(candidate, points=points, rule=rule)
 
 

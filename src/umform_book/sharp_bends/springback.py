@@ -209,7 +209,7 @@ def _elements(page: Page, exact: Floats) -> None:
 def _defaults() -> Iterator[Variant]:
     """The defaults as variants: the number of their points is given there."""
     for name in DEFAULTS:
-        order = element(name).plastic_points[0] - 1
+        order = element(name).plastic_rule[0] - 1
         yield Variant(name, {"thickness_order": order}, f"order {order}")
 
 
@@ -220,7 +220,7 @@ def _further(page: Page) -> None:
         exact = bending_path(steel(HARDENING), THICKNESS, multiple * YIELD_CURVATURE)
         row: list[str | float] = [f"{multiple:g}"]
         for variant in page.pick(tuple(_defaults()), tuple(_defaults())[:1]):
-            points, rule = variant.element.plastic_points
+            points, rule = variant.element.plastic_rule
             label = f"{variant.label}, {multiple:g} times"
             cells = variant.cells(4)
             found = bend(page, label, variant, cells, steel(HARDENING), exact, points=points, rule=rule)

@@ -11,8 +11,9 @@ from umform.cli import app
 @pytest.mark.parametrize(
     ("typed", "message"),
     [
-        ([], "give the stroke or the angle"),
-        (["--stroke", "6", "--angle", "90"], "give the stroke or the angle"),
+        ([], "none of them is given"),
+        (["--stroke", "6", "--angle", "90"], "both are given"),
+        (["--table", "1:9:1"], "beyond air bending"),
         (["--stroke", "6", "--swift", "520"], "3 numbers are needed"),
         (["--stroke", "6", "--swift", "520,0.004,0.22", "--flow-curve", "a.csv"], "a hardening curve is given by"),
         (["--stroke", "6", "--flow-curve", "no.csv"], "the flow curve cannot be read"),
@@ -102,3 +103,17 @@ def test_a_folder_that_takes_no_files_is_refused_before_the_run(tmp_path, monkey
     done = CliRunner().invoke(app, ["bend", "--stroke", "6", "--out", str(tmp_path / "file")])
     assert done.exit_code == 1
     assert "the folder cannot be made" in done.stderr
+
+
+def test_without_a_material_there_is_a_warning_before_the_run(tmp_path):
+    done = CliRunner().invoke(app, ["bend", "--stroke", "6", "--print-deck"])
+    assert done.stderr.startswith("umform: warning: no --material")
+    done = CliRunner().invoke(app, ["bend", "--stroke", "6", "--material", "DC04", "--print-deck"])
+    assert done.stderr == ""
+
+
+def test_the_thickness_chooses_the_values_of_the_standard():
+    typed = ["bend", "--stroke", "6", "--opening", "24", "--material", "S355", "--print-deck", "--thickness"]
+    thin, thick = (CliRunner().invoke(app, [*typed, thickness]).stdout for thickness in ("2.9", "3"))
+    curves = [[line for line in text.splitlines() if "strength" in line] for text in (thin, thick)]
+    assert curves[0] and curves[0] != curves[1]

@@ -124,3 +124,11 @@ def test_a_demo_without_room_for_its_stroke_is_refused_with_its_options(tmp_path
     assert "12.67 at most" in refused.stderr
     assert "--tool-x 31 or more" in refused.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_a_taken_folder_is_refused_before_warnings(deck, tmp_path):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "history.csv").touch()
+    run = umform("run", deck, *SHORT, "--set", "contacts.cylinder.points=1", "--out", "out")
+    assert run.exit_code == 1
+    assert run.stderr.startswith("umform: the folder holds the results of another run")

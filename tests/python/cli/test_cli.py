@@ -183,7 +183,7 @@ def test_a_restricted_run_gives_the_force_of_the_reference(tmp_path):
         (["--thickness-order", "3", "--thickness-points", "3", "--contact", "2"], 1, "needs at least 4"),
         (["--mesh", "24"], 1, "24x1"),
         (["--contact", "2x3"], 1, "nodes"),
-        (["--steps", "many"], 2, "Usage"),
+        (["--steps", "many"], 2, "a whole number is needed"),
         (["--nonsense"], 2, "nonsense"),
     ],
 )

@@ -211,6 +211,21 @@ def test_what_is_no_checkpoint_of_a_deck_is_one_message(tmp_path, build):
         assert "Traceback" not in answer.output
 
 
+def test_the_folder_of_a_run_stands_for_its_checkpoint(tmp_path):
+    for name, said in ((None, "this folder has no checkpoint.h5"), ("state.h5", "the run in this folder is finished")):
+        if name:
+            (tmp_path / name).touch()
+        answer = umform("resume", tmp_path)
+        assert answer.exit_code == 1
+        assert said in answer.output
+        assert "cause:" in answer.output
+    (tmp_path / "checkpoint.h5").write_text("no HDF5")
+    answer = umform("resume", tmp_path)
+    assert f"where:  {tmp_path / 'checkpoint.h5'}" in answer.output
+    assert "Errno" not in answer.output
+    assert "0x" not in answer.output
+
+
 def test_a_checkpoint_that_cannot_be_written_is_refused_before_the_run(stopped, tmp_path):
     answer = umform("run", stopped.parents[1] / "deck.toml", "--checkpoint", tmp_path / "no" / "folder" / "c.h5")
     assert answer.exit_code == 1

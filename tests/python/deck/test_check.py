@@ -79,3 +79,12 @@ def test_effort(texts, found):
     assert "ms an iteration" in effort.text
     (singular,) = found(texts("free-bending").replace("-20.5]", "-21.5]"), "effort")
     assert singular.level is Level.WARNING or "ms an iteration" in singular.text
+
+
+@pytest.mark.parametrize(("thickness", "warned"), [(2.5, 0), (3.0, 1)])
+def test_a_metal_with_other_values_for_the_thickness_of_the_sheet(strip, found, thickness, warned):
+    text = strip.replace('law = "SVK"', 'library = "S355"').replace("E = 210e3", "").replace("nu = 0.3", "")
+    said = found(text, "material", mesh__thickness=thickness)
+    said = [finding for finding in said if "Rm" in finding.text]
+    assert len(said) == warned
+    assert all("Rm 510 MPa" in finding.text and "R 355, Rm 470 MPa" in finding.text for finding in said)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from umform.deck.findings import Level
-from umform.deck.resolution import locking_moment
+from umform.elements.locking import locking_moment
 
 OK = [Level.OK]
 

@@ -1,6 +1,7 @@
 import csv
 from html import escape
 
+import meshio
 import pytest
 from typer.testing import CliRunner
 
@@ -162,6 +163,15 @@ def test_wrong_decks_and_changes(deck, tmp_path):
     assert umform("check", tmp_path / "missing.toml").exit_code == 1
 
 
+def test_check_writes_the_tools(tmp_path):
+    (tmp_path / "deck.toml").write_text(template_file("square-cup").read_text())
+    assert umform("check", tmp_path / "deck.toml", "--tools", tmp_path / "tools").exit_code == 0
+    assert {file.name for file in (tmp_path / "tools").iterdir()} == {"die.stl", "punch.stl", "holder.stl"}
+    for name, side, flat in (("die", "max", -0.405), ("punch", "min", 0.405)):
+        heights = meshio.read(tmp_path / "tools" / f"{name}.stl").points[:, 2]
+        assert getattr(heights, side)() == pytest.approx(flat, abs=1e-5)
+
+
 def test_new(tmp_path):
     assert "air-bending" in umform("new").output
     assert umform("new", "cantilever").output == template_file("cantilever").read_text()
@@ -190,6 +200,15 @@ def test_fields_of_forming(deck, tmp_path):
     assert answer.exit_code == 0, answer.output
     with h5py.File(tmp_path / "out" / "fields.vtkhdf") as file:
         assert {"major_lower", "minor_upper", "thinning", "limit_margin"} <= set(file["VTKHDF/CellData"])
+
+
+def test_elements_beyond_the_forming_limit_are_a_warning(deck, tmp_path):
+    for limit, torn in (("[[-0.2, 1e-6], [0.2, 1e-6]]", True), ("[[-0.2, 0.9], [0.2, 0.9]]", False)):
+        options = ["--set", "steps.0.increments=2", "--set", f"output.forming_limit={limit}", "--overwrite"]
+        answer = umform("run", deck, "--out", tmp_path / "out", *options)
+        assert answer.exit_code == 0, answer.output
+        page = (tmp_path / "out" / "report.html").read_text()
+        assert ("beyond the forming limit" in page) is torn
 
 
 def test_a_forming_limit_that_is_not_sorted_is_refused(deck, tmp_path):

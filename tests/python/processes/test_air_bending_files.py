@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import re
+from base64 import b64decode
 from dataclasses import dataclass, replace
 from html import escape
 
@@ -120,6 +121,7 @@ def test_tables_have_a_column_for_each_refinement(bend, errors):
     assert {len(row) for row in rows} == {len(header)}
     assert [row[0] for row in rows if row[0] != "force on the width"] == [q.label for q in QUANTITIES.values()]
     total = next(row for row in rows if row[0] == "force on the width")
+    assert "largest force (choose the press by it)" in [row[0] for row in summary(bend.measures)]
     assert float(total[1]) == pytest.approx(bend.measures.largest_force * 0.05, abs=0.006)
 
 
@@ -250,3 +252,12 @@ def test_the_command_finds_an_angle(tmp_path):
     record = json.loads((tmp_path / "bend.json").read_text())
     assert record["measures"]["angle"] == pytest.approx(160.0, abs=0.2)
     assert "500" in record["parameters"]["material"]
+
+
+def test_the_chart_of_the_report_has_the_force_of_the_table(bend, tmp_path):
+    write_files(tmp_path, bend)
+    page = (tmp_path / "report.html").read_text()
+    assert 'data-x="stroke" data-y="force_per_mm"' in page
+    (coded,) = re.findall(r'href="data:text/csv;base64,([^"]*)"', page)
+    rows = list(csv.DictReader(b64decode(coded).decode().splitlines()))
+    assert max(float(row["force_per_mm"]) for row in rows) == bend.measures.largest_force

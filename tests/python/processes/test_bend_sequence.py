@@ -12,11 +12,12 @@ import pytest
 from umform.errors import FileProblem, InvalidValue
 from umform.processes.air_bending import AirBending, air_bending
 from umform.processes.bend_sequence import Bend, BendSequence, Bodies, bend_sequence
-from umform.processes.bend_sequence.collisions import collisions, die_body, punch_body
+from umform.processes.bend_sequence.collisions import Collision, collisions, die_body, punch_body
 from umform.processes.bend_sequence.files import FILES, record, write_files
 from umform.processes.bend_sequence.form import read_sequence, sequence_form
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.bend_sequence.strip import strip_lines
+from umform.processes.bend_sequence.words import bend_rows, flanges
 
 SHEET = AirBending(elements_per_thickness=1.0, layers=1, increment=0.0125)
 STROKE = 5.0
@@ -69,6 +70,17 @@ def test_the_record_is_json(profile_z, tmp_path):
     assert text["bends"][0]["outline"]["before"]["stroke"] == 0.0
     write_files(tmp_path, profile_z)
     assert {file.name for file in tmp_path.iterdir()} == set(FILES)
+    page = (tmp_path / "report.html").read_text()
+    assert flanges(profile_z) in page
+    assert all(f"<td>{cell}</td>" in page for row in bend_rows(profile_z) for cell in row[1:-1] if row[0] != "bend")
+    assert "coarse mesh" in page
+
+
+def test_a_collision_is_told_in_plain_words(profile_z):
+    hit = replace(profile_z.bends[0], collisions=(Collision("punch", 7.8, 0.0),))
+    (said,) = replace(profile_z, bends=(hit, *profile_z.bends[1:])).warnings
+    assert "bend 1: the part collides with the body of the punch from a stroke of 7.8 mm on, at 30 mm from" in said
+    assert "invalid" in said
 
 
 def test_about_a_bend_line_the_mesh_is_that_of_a_single_bend():

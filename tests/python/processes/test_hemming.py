@@ -11,10 +11,11 @@ import pytest
 from umform.errors import InvalidValue
 from umform.processes.bend_sequence.sides import Strip
 from umform.processes.hemming import Hemming, hemming
-from umform.processes.hemming.files import FILES, record, rows, write_files
+from umform.processes.hemming.files import FILES, record, write_files
 from umform.processes.hemming.measures import clearances
 from umform.processes.hemming.parameters import ACUTE
 from umform.processes.hemming.run import _refuse_touch
+from umform.processes.hemming.words import rows
 
 COARSE = Hemming(base=13.0, increments=24, sheet=replace(ACUTE, elements_per_thickness=1.0, layers=1, increment=0.025))
 
@@ -57,6 +58,9 @@ def test_the_record_is_json(hem, tmp_path):
     assert len(rows(hem.measures)) == len(text["measures"])
     write_files(tmp_path, hem)
     assert {file.name for file in tmp_path.iterdir()} == set(FILES)
+    page = (tmp_path / "report.html").read_text()
+    assert all(f"<td>{value}</td>" in page for _, value, _ in rows(hem.measures))
+    assert "V 8, 30 degrees, shoulder 1, punch radius 0.5, 30 degrees; V/t 8" in page
 
 
 def folded(gap):

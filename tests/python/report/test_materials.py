@@ -22,11 +22,12 @@ STEEL = {"E": 210e3, "nu": 0.3}
         ),
         (
             uf.J2(**STEEL, hardening=uf.Swift(520.0, 0.004, 0.22)),
-            "J2: E = 210000, nu = 0.3, yield stress 154.332, Swift hardening 520 (0.004 + e)^0.22",
+            "J2: E = 210000, nu = 0.3, yield stress 154.332 (start of the curve), Swift hardening 520 (0.004 + e)^0.22",
         ),
         (
             uf.J2(**STEEL, hardening=uf.Table((0.0, 0.1, 0.2), (200.0, 300.0, 1000.0 / 3))),
-            "J2: E = 210000, nu = 0.3, yield stress 200, table of 3 points up to 333.333 at a plastic strain of 0.2",
+            "J2: E = 210000, nu = 0.3, yield stress 200 (start of the curve), "
+            "table of 3 points up to 333.333 at a plastic strain of 0.2",
         ),
         (
             uf.Metal(

@@ -11,6 +11,7 @@ from umform.errors import InvalidValue
 from umform.plotting import inline_svg, plot_shape
 from umform.processes import FreeBending, free_bending
 from umform.report.page import write_report
+from umform.report.symmetry import mirrors
 from umform.results.shape import Shape
 
 
@@ -113,3 +114,10 @@ def test_a_title_is_the_heading_and_the_material_has_six_digits(result, tmp_path
     assert "ANS3DEAS: 8 elements" in page
     assert "J2: E = 210002, nu = 0.299998, yield stress 160, perfectly plastic" in page
     assert "kappa=" not in page
+
+
+def test_the_material_note_and_the_modelled_part_are_said(result, tmp_path):
+    page = write_report(result, tmp_path / "r.html", note="DC04: from <a standard>").read_text(encoding="utf-8")
+    assert "DC04: from &lt;a standard&gt;" in page
+    half = "Forces and works are those of the modelled half of the sheet." in page
+    assert half == (len(mirrors(result.model)) == 1)

@@ -232,3 +232,14 @@ def test_what_is_no_flow_curve_is_refused(text, said, tmp_path):
 def test_a_flow_curve_that_is_not_there_is_refused(tmp_path):
     with pytest.raises(FileProblem, match="cannot be read"):
         read_flow_curve(tmp_path / "no.csv")
+
+
+def test_s355_has_other_least_values_from_3_mm_on():
+    """EN 10025-2: Rm at least 510 MPa below 3 mm, 470 MPa from 3 mm on; ReH 355 in both."""
+    for thickness, strength in [(None, 510.0), (2.99, 510.0), (3.0, 470.0), (8.0, 470.0)]:
+        metal = get("St 52-3", thickness)
+        assert (metal.yield_stress, metal.tensile_strength) == (355.0, strength)
+        test = uf.sheet_metals.tension_test(metal.law)
+        assert test.tensile_strength == pytest.approx(strength, rel=2e-3)
+        assert f"Rm {strength:g} MPa" in metal.note
+    assert get("DC04", 5.0) is get("DC04")

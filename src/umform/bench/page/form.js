@@ -126,7 +126,17 @@ export class Form {
   placeholder(name) {
     const metal = this.metal();
     if (name === "rolling") return metal?.directional ? "" : "–";
-    return metal && name in metal ? number(metal[name]) : "";
+    const thick = metal?.thicker.findLast((/** @type {any} */ range) => this.values.thickness >= range.from);
+    const values = { ...metal, ...thick };
+    return name in values ? number(values[name]) : "";
+  }
+
+  /** Show the values of the standard for this thickness. */
+  standard() {
+    for (const { name } of GROUPS.coil) {
+      const input = element(`f-${name}`);
+      if (input) input.placeholder = this.placeholder(name);
+    }
   }
 
   metal() {
@@ -188,7 +198,7 @@ export class Form {
   suitMaterial() {
     const metal = this.metal();
     this.change({ yield_stress: null, tensile_strength: null, uniform_elongation: null, rolling: metal.directional ? 90 : null });
-    for (const { name } of GROUPS.coil) element(`f-${name}`).placeholder = this.placeholder(name);
+    this.standard();
   }
 
   /** Set some values, in the fields too. @param {Record<string, any>} values */
@@ -209,6 +219,7 @@ export class Form {
     this.asking?.abort();
     this.asking = new AbortController();
     keep(this.values);
+    this.standard();
     try {
       const found = await post("/api/look", this.values, this.asking.signal);
       if (round !== this.round) return;

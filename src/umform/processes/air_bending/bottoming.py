@@ -19,6 +19,16 @@ _TOLERANCE, _MOST_TRIALS = 0.005, 30
 _FORCE = length("the force of bottoming", "in kN/m: 3 to 5 times that of air bending")
 
 
+def check_force(force_per_metre: float) -> None:
+    """Refuse a force that is not positive.
+
+    Raises
+    ------
+    InvalidValue
+    """
+    _FORCE.check("force_per_metre", force_per_metre)
+
+
 def press_to_force(
     case: AirBending,
     force_per_metre: float,
@@ -62,7 +72,7 @@ def press_to_force(
         If the sheet cannot be pressed to this force.
     """
     force = force_per_metre
-    _FORCE.check("force_per_metre", force)
+    check_force(force)
     if not case.bottoming:
         raise InvalidValue(
             "these tools are to bend in the air",

@@ -12,6 +12,8 @@ from umform.processes.rules import Rule, check_rolling, check_rules, number
 
 #: Range of opening over thickness for air bending; press brakes use 5 to 16.
 _NARROWEST, _WIDEST = 1.0, 500.0
+#: Smallest usual opening over thickness.
+_USUAL = 5.0
 #: Penalty times thickness over E beyond which Newton's method converges slowly.
 _STIFFEST = 1e3
 
@@ -271,11 +273,20 @@ def check_angle(case: Geometry, angle: float) -> None:
     _WANTED.check("angle", angle)
     least = max(case.die_angle, case.punch_angle)
     if angle <= least:
-        raise unreachable(angle, f"the larger of the angles of punch and die is {least:.4g}")
+        raise unreachable(case, angle, f"the larger of the angles of punch and die is {least:.4g}")
 
 
-def unreachable(angle: float, cause: str) -> InvalidValue:
+def unreachable(case: Geometry, angle: float, cause: str) -> InvalidValue:
     """Error for an angle that is not reached before the sheet touches a flank."""
+    over_thickness = case.opening / case.thickness
+    if over_thickness < _USUAL:
+        return InvalidValue(
+            "the angle cannot be reached before the sheet lies against a flank",
+            where="angle",
+            value=angle,
+            cause=f"{cause}; the opening V of the die is small: V/t = {over_thickness:.3g}",
+            remedy=f"a wider opening, such as {8.0 * case.thickness:.4g} (V/t = 8)",
+        )
     return InvalidValue(
         "the angle cannot be reached before the sheet lies against a flank",
         where="angle",

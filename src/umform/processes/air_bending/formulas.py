@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from umform.materials import J2, Metal
+from umform.materials import J2, Metal, Table
 from umform.processes.air_bending.parameters import AirBending
 from umform.sheet_metals import tension_test
 
@@ -23,6 +23,21 @@ def tensile_strength(material: J2 | Metal, angle: float = 0.0) -> float:
     curve = material.hardening.curve()
     strains = np.linspace(0.0, 2.0, 4001)
     return float(max(curve(float(e))[0] * np.exp(-e) for e in strains))
+
+
+def uniform_strain(material: J2 | Metal, angle: float = 0.0) -> float:
+    """Plastic strain up to which a tensile test determines the flow curve: at the largest force, or the end of a table.
+
+    ``angle``: degrees from the rolling direction to the bar.
+    """
+    if isinstance(material, Metal):
+        test = tension_test(material, angle)
+        return float(np.log1p(test.uniform_elongation))
+    if isinstance(material.hardening, Table):
+        return float(material.hardening.eqps[-1])
+    curve = material.hardening.curve()
+    strains = np.linspace(0.0, 2.0, 4001)
+    return float(strains[np.argmax([curve(float(e))[0] * np.exp(-e) for e in strains])])
 
 
 def strength(case: AirBending) -> float:

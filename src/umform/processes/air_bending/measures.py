@@ -12,31 +12,32 @@ from umform.processes.air_bending.section import Floats, Section
 
 @dataclass(frozen=True)
 class Quantity:
-    """Presentation of a measure: label, unit, decimals."""
+    """Presentation of a measure: label, unit, decimals, and what it is for."""
 
     label: str
     unit: str
     decimals: int
+    hint: str = ""
 
 
 #: The measures in the order of tables, defined in docs/air-bending.md.
 QUANTITIES = {
     "stroke": Quantity("stroke", "mm", 3),
-    "force": Quantity("force", "N/mm", 1),
-    "largest_force": Quantity("largest force", "N/mm", 1),
+    "force": Quantity("force at the stroke", "N/mm", 1),
+    "largest_force": Quantity("largest force", "N/mm", 1, "choose the press by it"),
     "loaded_angle": Quantity("angle under load", "deg", 2),
     "angle": Quantity("angle", "deg", 2),
     "springback": Quantity("springback", "deg", 2),
     "springback_ratio": Quantity("springback ratio", "", 4),
     "radius": Quantity("inside radius", "mm", 3),
     "smallest_radius": Quantity("smallest radius", "mm", 3),
-    "neutral_fibre": Quantity("neutral fibre", "", 3),
-    "k_factor": Quantity("K-factor", "", 3),
+    "neutral_fibre": Quantity("neutral fibre", "", 3, "its place in the sheet"),
+    "k_factor": Quantity("K-factor", "", 3, "for the flat pattern"),
     "bend_allowance": Quantity("bend allowance", "mm", 3),
     "bend_deduction": Quantity("bend deduction", "mm", 3),
     "setback": Quantity("outside setback", "mm", 3),
     "leg": Quantity("straight leg", "mm", 3),
-    "length_balance": Quantity("length balance", "mm", 4),
+    "length_balance": Quantity("length balance", "mm", 4, "a check: near 0"),
     "outer_strain": Quantity("outer strain", "", 4),
     "thinning": Quantity("smallest thickness ratio", "", 4),
 }

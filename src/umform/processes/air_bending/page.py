@@ -13,6 +13,7 @@ from umform.processes.air_bending.budget import Budget
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
+from umform.processes.air_bending.remarks import remarks, tools_text
 from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
 from umform.report import parts
 from umform.report.live import Live, style
@@ -25,6 +26,9 @@ _BUDGET = (
     "layers, points, penalty and increments. In the column stack, the sheet is eight layers of 8-node elements. "
     "Material data, friction and tools have uncertainties of their own."
 )
+
+#: Column of the chart: the force of the table of measures.
+_FORCE = "force_per_mm"
 
 
 def write_page(
@@ -59,7 +63,7 @@ def write_page(
     kind = "plane strain" if case.width is None else f"{case.width:g} mm wide"
     title = f"Air bending: {case.thickness:g} mm sheet, {case.opening:g} mm opening, {bend.measures.angle:.2f} degrees"
     lead = f"{kind}; {bend.iterations} Newton iterations in {bend.result.seconds:.1f} s"
-    live = Live.of(bend.result, stills=False)
+    live = Live.of(bend.result, stills=False, more={_FORCE: bend.force}, first=("stroke", _FORCE))
     content = _parts(bend, live, figures, table, budget, deck, note)
     return parts.write_html(path, title, lead, content, style=style(), scripts=live.scripts)
 
@@ -83,10 +87,16 @@ def _parts(
             yield parts.note(f"{name}: {why}", bad=True)
     low, high = shop_forces(bend.case)
     yield parts.paragraph(f"The rule of the shop, 1.33 to 1.42 Rm t²/V, gives {low:.1f} to {high:.1f} N/mm.")
+    yield parts.paragraph(tools_text(bend.case))
+    yield from map(parts.note, remarks(bend.case, bend.measures))
     yield parts.figure(figures["drawing"], "What is measured.")
     yield parts.heading("Curves")
     yield parts.figure(figures["curve"], "Force and angle over the stroke.")
     yield live.curves
+    yield parts.paragraph(
+        f"{_FORCE}: force of the punch in N per mm of bend, that of the table of measures. Other forces are those of "
+        "the modelled part of the sheet."
+    )
     yield parts.heading("Shape")
     yield parts.figure(figures["shape"], "The sheet and its tools in true proportion.")
     yield live.shape
@@ -95,9 +105,8 @@ def _parts(
         yield parts.heading("Bending table")
         yield parts.table(table_header(), table_rows(table))
     yield parts.heading("History")
-    yield parts.paragraph("The forces of the history are those of the part of the sheet that is modelled.")
     yield live.table
-    yield from parameter_parts(_parameters(bend.case), note)
+    yield from parameter_parts(parameters(bend.case), note)
     yield parts.heading("Model")
     yield parts.pairs(settings(bend.result))
     if deck:
@@ -106,7 +115,7 @@ def _parts(
     yield from closing(bend.result)
 
 
-def _parameters(case: AirBending) -> dict[str, object]:
+def parameters(case: AirBending) -> dict[str, object]:
     """The parameters of a bend, for people; those that follow from others are left out."""
     words = {"material": material_text(case.material), "element": element(case.element).name}
     drawn = {"punch_section": case.punch_section, "die_section": case.die_section}

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from umform.errors import SolveError
+from umform.errors import InvalidValue, SolveError
 from umform.processes.air_bending.bend import AirBend, Loaded
 from umform.processes.air_bending.brake import INCREMENTS
 from umform.processes.air_bending.branches import FRAMES, Brake
@@ -114,10 +114,11 @@ def bent_to_angle(
         tick("trials", min(1.0, len(trials) / 4))
         if abs(measures.angle - angle) <= tolerance:
             if state.against:
-                raise unreachable(angle, f"at this angle it lies against the {state.against}")
+                cause = f"at this angle, {state.angle:.2f} degrees under load, it lies against the {state.against}"
+                raise unreachable(brake.case, angle, f"{cause}; the smallest one of these tools is a little larger")
             return state, measures, tuple(trials)
         if state.against and measures.angle > angle:
-            raise unreachable(angle, f"at {measures.angle:.2f} degrees it lies against the {state.against}")
+            raise _unreached(brake, angle, state, measures.angle)
         if len(trials) == _MOST_TRIALS:
             raise SolveError("the stroke for the angle cannot be closed in", where="find_stroke", value=trials)
         state = brake.load(_next_stroke(trials, angle, slope, brake.case.largest_stroke))
@@ -184,19 +185,30 @@ def _load_to_angle(brake: Brake, angle: float, tick: Callable[[float], None]) ->
         tick(min(1.0, (180.0 - state.angle) / (180.0 - angle)))
         slope = (state.angle - before) / (stroke - (number - 1) * part)
         if state.against and state.angle > angle:
-            raise unreachable(angle, f"at {state.angle:.2f} degrees under load it lies against the {state.against}")
+            raise _unreached(brake, angle, state, state.angle + _springback(case, state))
         left = state.angle + _springback(case, state) - angle
         if left <= 0.0 or (state.against and state.angle <= angle):
             return state, slope
         if stroke >= case.largest_stroke:
             if state.angle <= angle:
                 return state, slope
-            raise unreachable(angle, f"at the largest stroke {stroke:.4g} it has {state.angle:.2f} degrees under load")
+            cause = f"at the largest stroke {stroke:.4g} it has {state.angle:.2f} degrees under load"
+            raise unreachable(case, angle, cause)
         if slope < 0.0 and stroke - left / slope < min(stroke + part, case.largest_stroke):
             nearer = brake.load(stroke - left / slope)
             far = nearer.stroke - stroke > 0.2 * part
             return nearer, (nearer.angle - state.angle) / (nearer.stroke - stroke) if far else slope
         before = state.angle
+
+
+def _unreached(brake: Brake, angle: float, state: Loaded, smallest: float) -> InvalidValue:
+    """Error for a sheet that lies against a flank; ``smallest`` is its angle after springback."""
+    return unreachable(
+        brake.case,
+        angle,
+        f"under load it lies against the {state.against} at {state.angle:.2f} degrees, about {smallest:.1f} degrees "
+        "after springback: these tools reach larger angles only",
+    )
 
 
 def _springback(case: AirBending, state: Loaded) -> float:

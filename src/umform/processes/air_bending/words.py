@@ -25,7 +25,8 @@ def summary(measures: Measures, width: float | None = None, budget: Budget | Non
     rows = []
     for name, quantity in QUANTITIES.items():
         digits = quantity.decimals
-        row = [quantity.label, _told(getattr(measures, name), f".{digits}f")]
+        hint = f" ({quantity.hint})" if quantity.hint and budget is None else ""
+        row = [quantity.label + hint, _told(getattr(measures, name), f".{digits}f")]
         if budget:
             row.append(_told(budget.total(name), f".{digits}f"))
             row += [_told(change[name], f"+.{digits}f") for change in budget.changes.values()]

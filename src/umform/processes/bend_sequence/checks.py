@@ -79,9 +79,20 @@ def check_bend(bend: Bend, tools: Iterable[str]) -> None:
     _POSITION.check("position", bend.position)
     where = f"bend at {bend.position:g}"
     if (bend.angle is None) == (bend.stroke is None):
-        raise InvalidValue("give the angle of a bend or its stroke, one of them", where=where, remedy="angle=90")
+        raise InvalidValue(
+            "give the angle of a bend or its stroke, one of them",
+            where=where,
+            cause="none of them is given" if bend.angle is None else "both are given",
+            remedy="angle = 90",
+        )
     if bend.direction not in ("up", "down"):
-        raise InvalidValue("a bend goes up or down", where=where, value=bend.direction, remedy="direction='down'")
+        raise InvalidValue(
+            "a bend goes up or down",
+            where=where,
+            value=bend.direction,
+            cause="another word",
+            remedy="direction = 'down'",
+        )
     unknown = sorted(set(bend.tools) - set(tools))
     if unknown:
         raise InvalidValue(

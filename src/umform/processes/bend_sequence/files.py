@@ -1,4 +1,4 @@
-"""The files of a part: numbers, profile, curves, fields, pictures."""
+"""The files of a part: numbers, profile, curves, fields, pictures, report."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ from umform.report.versions import versions
 
 _DATA = ("sequence.json", "profile.csv", "curves.csv", "part.vtkhdf")
 _PICTURES = ("part.png", "part.svg")
+_PAGE = "report.html"
 #: Files of a part.
-FILES = (*_DATA, *_PICTURES)
+FILES = (*_DATA, *_PICTURES, _PAGE)
 RESULTS = FILES
 
 
@@ -29,13 +30,15 @@ def write_files(out: str | Path, part: Part, note: str = "") -> list[Path]:
     Parameters
     ----------
     out : str or Path
-        Folder for sequence.json, profile.csv, curves.csv, part.vtkhdf (the last bend), part.png and part.svg.
+        Folder for sequence.json, profile.csv, curves.csv, part.vtkhdf (the last bend), part.png, part.svg and
+        report.html.
     part : Part
         The part.
     note : str
         Source of the material data; may be empty.
     """
     from umform.plotting import save
+    from umform.processes.bend_sequence.page import write_page
     from umform.processes.bend_sequence.pictures import picture
 
     with staging(out, FILES) as stage:
@@ -50,7 +53,8 @@ def write_files(out: str | Path, part: Part, note: str = "") -> list[Path]:
         figure = picture(part)
         for name in _PICTURES:
             save(figure, here / name)
-        return [*files, *stage.commit(_PICTURES)]
+        write_page(here / _PAGE, part, figure, note)
+        return [*files, *stage.commit([*_PICTURES, _PAGE])]
 
 
 def record(part: Part) -> dict[str, Any]:

@@ -114,11 +114,12 @@ class Part:
         found = []
         for number, done in enumerate(self.bends, start=1):
             for hit in done.collisions:
-                when = "before it is bent" if hit.stroke == 0.0 else f"from a stroke of {hit.stroke:.4g} on"
+                when = "before it is bent" if hit.stroke == 0.0 else f"from a stroke of {hit.stroke:.4g} mm on"
                 place = done.bend.position + (-hit.distance if done.bend.over else hit.distance)
                 found.append(
-                    f"bend {number}: the part touches the {hit.tool} {when}, {place:.4g} from the left end of the flat "
-                    "strip; another order of the bends, or other tools"
+                    f"bend {number}: the part collides with the body of the {hit.tool} {when}, at {place:.3g} mm from "
+                    "the left end of the flat strip. The run went on as if that body were not there: the results of "
+                    "this bend and of those after it are invalid. Choose another order of the bends, or other tools"
                 )
             found += [f"bend {number}: {text}" for text in done.warnings]
         return found

@@ -54,7 +54,8 @@ def bend_sequence(
                 done.append(_bent(sequence, number, mesh, before, tolerance, frames, tick))
             except BaseException as error:
                 error.bends = tuple(done)  # type: ignore[attr-defined]
-                error.add_note(f"  in bend {number + 1} of {len(sequence.bends)}")
+                if len(sequence.bends) > 1:
+                    error.add_note(f"  in bend {number + 1} of {len(sequence.bends)}")
                 raise
             before = done[-1].result
     return Part(sequence, tuple(done))

@@ -1,39 +1,8 @@
-"""Parameters of free bending as options of the command line: how they are written, read, and named in messages."""
+"""Mesh and contact rule of free bending as they are typed."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
-from dataclasses import fields
-
-from umform.errors import InvalidValue, UmformError
-from umform.processes.bending.parameters import FreeBending
-
-_NAMES = {field.name for field in fields(FreeBending)} | {"processes", "out"}
-_SETTING = re.compile(rf"\b({'|'.join(sorted(_NAMES, key=len, reverse=True))})=(\w+)")
-
-
-def option(name: str) -> str:
-    """The option of a parameter: --tie-e33 of tie_E33."""
-    return "--" + name.lower().replace("_", "-")
-
-
-def as_typed(text: str) -> str:
-    """A text in which settings of Python, such as line_search=True, are options."""
-
-    def written(match: re.Match[str]) -> str:
-        name, value = match.groups()
-        return option(name) if value == "True" else f"{option(name)} {value}"
-
-    return _SETTING.sub(written, text)
-
-
-def message(error: UmformError, options: Mapping[str, str]) -> str:
-    """The message of an error that names options in place of parameters, which are given by name."""
-    if isinstance(error, InvalidValue):  # a file may be called as a parameter is
-        error.where = options.get(error.where, error.where)
-    error.what, error.cause, error.remedy = map(as_typed, (error.what, error.cause, error.remedy))
-    return str(error)
+from umform.errors import InvalidValue
 
 
 def read_mesh(text: str) -> tuple[int, int]:

@@ -13,7 +13,7 @@ from umform.materials.j2 import Plastic
 from umform.mesh import Bent, Mesh, Sizes, bending_sizes, disc
 from umform.model import Model
 from umform.processes.draw.press import Press, held_by
-from umform.processes.draw.rules import COMMON, check_clearance, tight
+from umform.processes.draw.rules import COMMON, check_clearance, layers_by_rule, tight
 from umform.processes.rules import check_rules, length, whole
 from umform.surfaces import Plane, Profile, Revolved
 
@@ -64,8 +64,10 @@ class Cup:
         Largest angle in degrees that an element turns over the edge of the punch or of the die.
     around : int
         Elements on a quarter of the rim; an even number.
-    layers, thickness_points : int
-        Layers of elements, and points through the thickness of each; default: that of the law.
+    layers : int or None
+        Layers of elements; None: as many as the sharpest radius needs, eq. (2.29).
+    thickness_points : int
+        Points through the thickness of each layer; default: that of the law.
     contact_points : int
         Contact points per direction and facet.
     penalty : float
@@ -87,7 +89,7 @@ class Cup:
     element: str = "ANS3DEAS"
     turn: float = 15.0
     around: int = 12
-    layers: int = 1
+    layers: int | None = 1
     thickness_points: int | None = None
     contact_points: int = 2
     penalty: float = 3e4
@@ -168,6 +170,17 @@ class Cup:
         return full if self.stroke is None else self.stroke
 
     @cached_property
+    def needed_layers(self) -> int:
+        """Layers by the rule for sharp bends: eq. (2.29) for the smallest radius of the tools."""
+        radius = min(self.punch_edge, self.die_edge)
+        return layers_by_rule(self.element, self.material, self.thickness_points, self.thickness, radius)
+
+    @property
+    def stacked(self) -> int:
+        """Layers of elements."""
+        return self.needed_layers if self.layers is None else self.layers
+
+    @cached_property
     def sizes(self) -> Sizes:
         """Rings of the blank, which follow the radii of the tools."""
         half = 0.5 * self.thickness
@@ -193,7 +206,7 @@ class Cup:
             (self.around // 2, 1),
             part="quarter",
             cell=element(self.element).cell,
-            layers=self.layers,
+            layers=self.stacked,
             core=self._core / self.blank_radius,
             radii=self.sizes.ends.tolist(),
         )

@@ -112,9 +112,13 @@ class Drawn:
     @cached_property
     def punch_distance(self) -> Floats:
         """Distance of the upper face of the part from the punch at the end of its stroke, at the nodes; shape (n,)."""
+        return self.distance_from_punch(self.u_free)
+
+    def distance_from_punch(self, u: Floats) -> Floats:
+        """The same with another displacement of the nodes; lower nodes have the value of the upper ones."""
         model = self.result.model
         punch = next(tool for tool in model.tools if tool.name == "punch")
-        distance = distance_from(punch, model.mesh.points + self.u_free.reshape(-1, 3))
+        distance = distance_from(punch, model.mesh.points + u.reshape(-1, 3))
         cells = model.mesh.connectivity
         half = cells.shape[1] // 2
         distance[cells[:, :half]] = distance[cells[:, half:]]

@@ -10,6 +10,7 @@ import numpy as np
 from umform.errors import NoConvergence
 from umform.results.bottoming import bottoming, bottoms
 from umform.results.forming import FormingLimit, distance_from, forming_fields
+from umform.results.forming.strains import beyond_limit
 from umform.run import Result
 
 if TYPE_CHECKING:
@@ -57,18 +58,14 @@ def ending_of(case: Cup | UBend, result: Result, limit: FormingLimit, failure: N
     """
     model = result.model
     found = forming_fields(model.mesh, model.u, limit)
-    worst = int(np.argmin(found["limit_margin"]))
-    margin, thinnest = float(found["limit_margin"][worst]), float(found["thinning"].max())
-    place = model.mesh.points[model.mesh.connectivity[worst]].mean(axis=0)
-    where = f"at ({place[0]:.3g}, {place[1]:.3g}) of the blank"
+    torn, thinnest = beyond_limit(model.mesh, found), float(found["thinning"].max())
     stroke = float(result["stroke"][-1])
     early = failure is not None
     reached = f" at a stroke of {stroke:.4g} of {case.way:.4g}" if early else ""
-    if margin < 0.0 or (early and thinnest > _TORN):
-        beyond = int((found["limit_margin"] < 0.0).sum())
+    if torn is not None or (early and thinnest > _TORN):
         still = early and _drawn_in(case, result) < 0.02 * case.way
         what = "the holder is too strong: the sheet does not flow in and tears" if still else "the sheet tears"
-        text = f"{what}{reached}: {beyond} elements are beyond the forming limit, by {max(-margin, 0.0):.3g} {where}; "
+        text = f"{what}{reached}: " + (f"{torn}; " if torn else "")
         remedy = "less holder force or friction, larger radii, a smaller blank"
         return Ending("held" if still else "torn", f"{text}thinning up to {thinnest:.3g} %; {remedy}", early)
     air = wrinkle(result, case.thickness)

@@ -11,13 +11,16 @@ from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
+from umform.processes.draw.u_bend import UBend
 from umform.processes.draw.words import parameters
 from umform.report.versions import versions
 
 _PICTURES = (
-    "curve", "thinning", "major_middle", "limit_margin", "wrinkling", "punch_distance", "gauge", "limits", "outline",
-    "section", "ears",
+    "blank", "curve", "thinning", "major_middle", "limit_margin", "wrinkling", "punch_distance", "gauge", "limits",
+    "outline", "section", "ears",
 )  # fmt: skip
+#: The mesh over the wanted sizes, drawn before the run.
+_BEFORE = "blank.png"
 _DATA = (
     "curve.csv", "fields.csv", "outline.csv", "section.csv", "ears.csv", "part.json", "draw.vtkhdf", "release.vtkhdf",
 )  # fmt: skip
@@ -53,6 +56,8 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
         write_json(here / "part.json", record(drawn))
         drawn.result.write(here / "draw.vtkhdf")
         if drawn.released is not None:
+            for frame in drawn.released.frames:
+                frame.points["punch_distance"] = drawn.distance_from_punch(frame.points["displacement"])
             drawn.released.write(here / "release.vtkhdf")
         files = stage.commit(_DATA)  # a failure of a picture must not lose the numbers
         figures = pictures(drawn)
@@ -62,6 +67,16 @@ def write_files(out: str | Path, drawn: Drawn, note: str = "") -> list[Path]:
         return [*files, *stage.commit(_PAGE)]
 
 
+def draw_blank(out: str | Path, case: Cup | UBend) -> Path:
+    """Draw the mesh of the blank over the sizes that the tools ask for; before the run."""
+    from umform.plotting import save
+    from umform.processes.draw.pictures import blank
+
+    with staging(out, (_BEFORE,)) as stage:
+        save(blank(case), stage.waiting / _BEFORE, dpi=120)
+        return stage.commit((_BEFORE,))[0]
+
+
 def _write_tables(here: Path, drawn: Drawn) -> None:
     result = drawn.result
     forces = {f"{name}_force": values for name, values in drawn.forces.items()}
@@ -69,7 +84,9 @@ def _write_tables(here: Path, drawn: Drawn) -> None:
     write_csv(here / "curve.csv", {"stroke": drawn.stroke, **forces, **work})
     mesh = result.model.mesh
     middle = mesh.points[mesh.connectivity].mean(axis=1)
-    write_csv(here / "fields.csv", {"x": middle[:, 0], "y": middle[:, 1], **drawn.fields})
+    distance = drawn.punch_distance[mesh.connectivity].mean(axis=1)
+    fields = drawn.fields | {"punch_distance": distance}
+    write_csv(here / "fields.csv", {"x": middle[:, 0], "y": middle[:, 1], **fields})
     edge = drawn.outline
     columns = np.concatenate([edge.before, edge.after, edge.draw_in[:, None]], axis=1).T
     write_csv(here / "outline.csv", dict(zip(("x_before", "y_before", "x", "y", "draw_in"), columns, strict=True)))

@@ -15,6 +15,7 @@ from umform.report.page import closing, parameter_parts, settings
 from umform.report.repeats import counted
 
 _CAPTIONS = {
+    "blank": "Mesh of the blank over the sizes that keep the angle of an element over the radii of the tools.",
     "curve": "Forces of the tools on the whole part over the stroke.",
     "thinning": "Thinning of the part out of its tools.",
     "major_middle": "Major strain in the middle of the sheet.",

@@ -13,8 +13,12 @@ from numpy.typing import NDArray
 from umform.plotting import COLOURS, INK, Picture, draw_shape, house_style
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
+from umform.processes.draw.u_bend import UBend
+from umform.processes.sizes_picture import sizes_figure
 from umform.results.forming import lay_by_best_fit, lay_on_three_points
+from umform.results.forming.u_bend import crossing
 from umform.results.shape import Shape, outer_quads
+from umform.surfaces import tool_sizes
 
 Floats = NDArray[np.float64]
 
@@ -31,7 +35,7 @@ FIELDS: Mapping[str, str] = {
 
 def pictures(drawn: Drawn) -> dict[str, Figure]:
     """All pictures by name, in the order of the report."""
-    made = {"curve": curve(drawn)}
+    made = {"blank": blank(drawn.case), "curve": curve(drawn)}
     shape = part(drawn)
     made |= {name: coloured(shape, name, label) for name, label in FIELDS.items()}
     if drawn.released is not None:
@@ -40,6 +44,24 @@ def pictures(drawn: Drawn) -> dict[str, Figure]:
     if isinstance(drawn.case, Cup):
         made["ears"] = ears(drawn)
     return made
+
+
+def blank(case: Cup | UBend) -> Figure:
+    """The mesh of the blank over the sizes that the radii of the tools ask for, eq. (5.69)."""
+    model, _ = case.build()
+    surfaces = {tool.name: tool.surface for tool in model.tools}
+    X = model.mesh.points[:, :2]
+    box = X.min(axis=0), X.max(axis=0)
+    largest = float(np.diff(case.sizes.ends).max())
+    sizes = tool_sizes(
+        [surfaces["die"]], [surfaces["punch"]], box, thickness=case.thickness, turn=case.turn, largest=largest
+    )
+    mesh = model.mesh
+    if not isinstance(case, Cup):  # the strip of unit width stands for the whole width
+        stretch = np.array([1.0, 0.5 * case.width, 1.0])
+        sizes = replace(sizes, y=sizes.y * stretch[1])
+        mesh = mesh.transformed(lambda x: x * stretch)
+    return sizes_figure(sizes, mesh)
 
 
 def curve(drawn: Drawn) -> Figure:
@@ -147,6 +169,12 @@ def sections(drawn: Drawn) -> Figure:
         for (name, cut), colour, line in zip(drawn.sections.items(), COLOURS, ("--", "-"), strict=False):
             axes.plot(*cut.lower[:, [0, 2]].T, line, color=colour, label=name)
             axes.plot(*cut.upper[:, [0, 2]].T, line, color=colour)
+        if drawn.angles is not None and isinstance(drawn.case, UBend) and drawn.case.heights is not None:
+            middle = drawn.sections["released"].middle[:, [0, 2]]
+            wall = np.array([crossing(middle, height) for height in drawn.case.heights])
+            axes.plot(*wall.T, "o", color=INK, markersize=4, label="points of the wall")
+            theta1, theta2, radius = drawn.angles.theta1, drawn.angles.theta2, drawn.angles.radius
+            axes.set_title(f"theta1 {theta1:.1f}°, theta2 {theta2:.1f}°, radius of the wall {radius:.0f} mm")
         axes.set_aspect("equal")
         axes.legend()
     return figure

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+from typing import cast
+
+from umform.elements import element
+from umform.elements.locking import layers_for
 from umform.errors import InvalidValue
+from umform.materials import Material
+from umform.materials.j2 import Plastic
+from umform.model.through_thickness import completed, points_through
 from umform.processes.rules import FRICTION, Rule, contact_points, length, number, plastic_material, positive, whole
 
 #: Clearances beside the punch in thicknesses: less is a wrong number rather than ironing, more leaves the sheet loose.
@@ -39,10 +46,18 @@ COMMON: dict[str, Rule] = {
     "layers": Rule(
         lambda value: whole(value, 1, 10),
         "layers through the thickness must be a whole number from 1 to 10",
-        "zero",
-        "1, or 2",
-    ),
+        "a thickness",
+        "1, or 2; None follows the rule for sharp bends",
+    ).optional(),
 }
+
+
+def layers_by_rule(name: str, material: Plastic, points: int | None, thickness: float, radius: float) -> int:
+    """Layers of an element, with so many thickness points, that follow the sharpest radius of the tools, eq. (2.29)."""
+    yield_stress, _ = material.hardening.curve()(0.0)
+    made, law = element(name), cast(Material, material)
+    order = completed(made, law, points_through(made, law, points, None)[0]).thickness_order
+    return layers_for(order, thickness, radius, material.kappa / float(yield_stress))
 
 
 def check_clearance(air: float, thickness: float, *, where: str, value: float, wanted: float) -> None:

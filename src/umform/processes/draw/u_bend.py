@@ -15,7 +15,7 @@ from umform.materials.j2 import Plastic
 from umform.mesh import Bent, Mesh, Sizes, bending_sizes, grid
 from umform.model import Model
 from umform.processes.draw.press import Press, held_by
-from umform.processes.draw.rules import COMMON, check_clearance, tight
+from umform.processes.draw.rules import COMMON, check_clearance, layers_by_rule, tight
 from umform.processes.rules import check_rules, length
 from umform.results.forming.u_bend import HEIGHTS
 from umform.surfaces import Box, Plane, UDie
@@ -77,7 +77,7 @@ class UBend:
     stroke: float | None = None
     element: str = "BEND8"
     turn: float = 15.0
-    layers: int = 1
+    layers: int | None = 1
     thickness_points: int | None = None
     contact_points: int = 3
     penalty: float = 1000.0
@@ -130,6 +130,17 @@ class UBend:
         return (low + 0.15 * (high - low), 0.5 * (low + high), high - 0.15 * (high - low))
 
     @cached_property
+    def needed_layers(self) -> int:
+        """Layers by the rule for sharp bends: eq. (2.29) for the smallest radius of the tools."""
+        radius = min(self.punch_edge, self.die_edge)
+        return layers_by_rule(self.element, self.material, self.thickness_points, self.thickness, radius)
+
+    @property
+    def stacked(self) -> int:
+        """Layers of elements."""
+        return self.needed_layers if self.layers is None else self.layers
+
+    @cached_property
     def sizes(self) -> Sizes:
         """Ends of the elements along half of the blank, which follow the radii of the tools."""
         half = 0.5 * self.thickness
@@ -144,7 +155,7 @@ class UBend:
 
     def blank(self) -> Mesh:
         """Half of a strip of unit width, its lower face at z = 0."""
-        heights = np.linspace(0.0, self.thickness, self.layers + 1)
+        heights = np.linspace(0.0, self.thickness, self.stacked + 1)
         return grid(self.sizes.ends, (0.0, 1.0), heights, element(self.element).cell)
 
     def build(self) -> tuple[Model, Press]:

@@ -12,7 +12,7 @@ from umform.processes.draw.u_bend import UBend
 
 def parameters(case: Cup | UBend) -> dict[str, Any]:
     """Parameters with their defaults; the material as text."""
-    found: dict[str, Any] = {"stroke": case.way}
+    found: dict[str, Any] = {"stroke": case.way, "layers": case.stacked}
     if isinstance(case, Cup):
         found["holder_gap"] = case.gap
     return case.record() | found | {"element": element(case.element).name, "material": repr(case.material)}
@@ -33,4 +33,7 @@ def summary(drawn: Drawn) -> list[list[str]]:
 
 def before_the_run(case: Cup | UBend) -> str:
     """Description of the mesh, printed before the run."""
-    return f"along the section: {case.sizes}"
+    stacked, needed = case.stacked, case.needed_layers
+    layers = "1 layer" if stacked == 1 else f"{stacked} layers"
+    advice = f" (the sharpest radius needs {needed}, eq. (2.29): --layers {needed})" if needed > stacked else ""
+    return f"along the section: {case.sizes}; {layers}{advice}"

@@ -1,4 +1,4 @@
-"""The files of a hem: numbers, curve, profile, fields, picture."""
+"""The files of a hem: numbers, curve, profile, fields, picture, report."""
 
 from __future__ import annotations
 
@@ -12,8 +12,7 @@ import numpy as np
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.files import parameters
-from umform.processes.air_bending.measures import Quantity
-from umform.processes.hemming.measures import Hem, HemMeasures
+from umform.processes.hemming.measures import Hem
 from umform.report.versions import versions
 
 if TYPE_CHECKING:
@@ -21,23 +20,10 @@ if TYPE_CHECKING:
 
 _DATA = ("hem.json", "curve.csv", "profile.csv", "hem.vtkhdf")
 _PICTURES = ("hem.png", "hem.svg")
+_PAGE = "report.html"
 #: Files of a hem.
-FILES = (*_DATA, *_PICTURES)
+FILES = (*_DATA, *_PICTURES, _PAGE)
 RESULTS = FILES
-
-#: The measures, in the order of tables, defined in docs/bending-operations.md.
-QUANTITIES = {
-    "force": Quantity("force", "N/mm", 1),
-    "largest_force": Quantity("largest force", "N/mm", 1),
-    "loaded_height": Quantity("height under load", "mm", 3),
-    "height": Quantity("height", "mm", 3),
-    "springback": Quantity("springback", "mm", 3),
-    "tip_gap": Quantity("gap at the tip", "mm", 3),
-    "loop_gap": Quantity("largest gap", "mm", 3),
-    "angle": Quantity("angle of the flange", "deg", 2),
-    "outer_strain": Quantity("outer strain", "", 4),
-    "thinning": Quantity("smallest thickness ratio", "", 4),
-}
 
 
 def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
@@ -46,13 +32,14 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
     Parameters
     ----------
     out : str or Path
-        Folder for hem.json, curve.csv, profile.csv, hem.vtkhdf, hem.png and hem.svg.
+        Folder for hem.json, curve.csv, profile.csv, hem.vtkhdf, hem.png, hem.svg and report.html.
     hem : Hem
         The hem.
     note : str
         Source of the material data; may be empty.
     """
     from umform.plotting import save
+    from umform.processes.hemming.page import write_page
 
     with staging(out, FILES) as stage:
         here = stage.waiting
@@ -64,7 +51,8 @@ def write_files(out: str | Path, hem: Hem, note: str = "") -> list[Path]:
         figure = picture(hem)
         for name in _PICTURES:
             save(figure, here / name)
-        return [*files, *stage.commit(_PICTURES)]
+        write_page(here / _PAGE, hem, figure, note)
+        return [*files, *stage.commit([*_PICTURES, _PAGE])]
 
 
 def record(hem: Hem) -> dict[str, Any]:
@@ -83,11 +71,6 @@ def record(hem: Hem) -> dict[str, Any]:
         "warnings": list(hem.warnings),
         "versions": versions(),
     }
-
-
-def rows(measures: HemMeasures) -> list[list[str]]:
-    """Measures as rows of text: name, value, unit."""
-    return [[q.label, f"{getattr(measures, name):.{q.decimals}f}", q.unit] for name, q in QUANTITIES.items()]
 
 
 def picture(hem: Hem) -> Figure:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -117,6 +118,25 @@ def forming_fields(mesh: Mesh, u: Floats, limit: FormingLimit | None = None) -> 
     if limit is not None:
         fields["limit_margin"] = limit_margin(limit, strains.major["middle"], strains.minor["middle"])
     return fields
+
+
+def beyond_limit(mesh: Mesh, fields: Mapping[str, Floats]) -> str | None:
+    """How many elements are beyond the forming limit, by how much at most, and where; None if there are none.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Undeformed.
+    fields : mapping of str to ndarray
+        Of :func:`forming_fields`, with ``limit_margin``.
+    """
+    margin = fields["limit_margin"]
+    if not (margin < 0.0).any():
+        return None
+    worst = int(np.argmin(margin))
+    place = mesh.points[mesh.connectivity[worst]].mean(axis=0)
+    where = f"at ({place[0]:.3g}, {place[1]:.3g}) of the blank"
+    return f"{int((margin < 0.0).sum())} elements are beyond the forming limit, by {-margin[worst]:.3g} {where}"
 
 
 def add_forming_fields(result: History, limit: FormingLimit | None = None) -> None:

@@ -1,9 +1,10 @@
 """Cups and U-bends: parameters, sizes, tools, a run, its files, and how it may end."""
 
 import json
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 
+import h5py
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -12,7 +13,9 @@ import umform as uf
 from umform.cli import app
 from umform.errors import InvalidValue
 from umform.processes.draw import Cup, UBend, draw, write_files
+from umform.processes.draw.files import draw_blank
 from umform.processes.draw.pictures import pictures
+from umform.processes.draw.words import before_the_run
 from umform.results.forming import ear_profile
 
 STEEL = uf.J2(E=206e3, nu=0.3, hardening=uf.Swift(565.3, 0.0071, 0.259))
@@ -82,6 +85,10 @@ def test_measures_of_a_cup():
 def test_files_of_a_cup(tmp_path):
     files = {file.name for file in write_files(tmp_path, cup())}
     assert {"report.html", "ears.csv", "ears.png", "limits.png", "curve.csv", "draw.vtkhdf", "release.vtkhdf"} <= files
+    assert "blank.png" in files
+    with h5py.File(tmp_path / "release.vtkhdf") as file:
+        assert "punch_distance" in file["VTKHDF/PointData"] and "limit_margin" in file["VTKHDF/CellData"]
+    assert "punch_distance" in (tmp_path / "fields.csv").read_text().splitlines()[0]
     assert json.loads((tmp_path / "part.json").read_text())["ending"] is None
     page = (tmp_path / "report.html").read_text()
     assert "Forming limit diagram" in page and "Height of the cup" in page
@@ -110,9 +117,10 @@ def test_a_sheet_beyond_its_limit_is_named():
     assert "beyond the forming limit" in drawn.warnings[0]
 
 
-def test_a_holder_that_is_too_strong_tears_the_sheet():
-    drawn = draw(replace(CUP, holder_force=500e3, stroke=25.0, friction=0.2), frames=0, progress=False)
-    assert drawn.ending is not None and drawn.ending.early and drawn.ending.kind in ("torn", "held")
+@pytest.mark.parametrize(("force", "friction", "kind"), [(500e3, 0.2, "torn"), (800e3, 0.5, "held")])
+def test_a_holder_that_is_too_strong_tears_the_sheet(force, friction, kind):
+    drawn = draw(replace(CUP, holder_force=force, stroke=25.0, friction=friction), frames=0, progress=False)
+    assert drawn.ending is not None and drawn.ending.early and drawn.ending.kind == kind
     assert 5.0 < drawn.result["stroke"][-1] < 25.0 and drawn.released is None
     assert drawn.fields["limit_margin"].min() < 0.0
 
@@ -128,6 +136,38 @@ def test_no_element_turns_more_than_asked():
         for part in case.sizes.bent:
             assert case.sizes.largest_turn(part) < 1.15 * case.turn
     assert "degrees over the edge of the punch" in str(CUP.sizes)
+
+
+def test_layers_by_rule_and_the_blank_before_the_run(tmp_path):
+    """Two thickness points, so order 1, lock over a radius of 6; the complete order over one of 0.25."""
+    assert CUP.needed_layers == U.needed_layers == 1 and before_the_run(U).endswith("; 1 layer")
+    few = replace(CUP, thickness_points=2)
+    assert (few.stacked, few.needed_layers) == (1, 2) and "--layers 2" in before_the_run(few)
+    sharp = replace(CUP, layers=None, punch_edge=0.25)
+    assert sharp.stacked == 2 and before_the_run(sharp).endswith("; 2 layers")
+    assert len(sharp.blank().connectivity) == 2 * len(replace(sharp, layers=1).blank().connectivity)
+    for case in (CUP, U):
+        assert draw_blank(tmp_path, case).read_bytes()[1:4] == b"PNG"
+
+
+@dataclass(frozen=True, kw_only=True)
+class OnFloor(Cup):
+    """A cup whose bottom meets a floor below the die."""
+
+    floor: float
+
+    def build(self):
+        model, press = super().build()
+        floor = uf.Plane((0.0, 0.0, -self.floor - 0.5 * self.thickness), (0.0, 0.0, 1.0))
+        model.contact("lower", floor, penalty=self.penalty, name="floor")
+        return model, press
+
+
+def test_a_punch_that_bottoms_is_named():
+    case = OnFloor(**CUP.record() | {"stroke": 3.15}, floor=3.0)
+    drawn = draw(case, limit=lambda minor: 0.0 * minor + 9.0, frames=0, progress=False)
+    assert drawn.ending is not None and drawn.ending.kind == "bottomed"
+    assert "the punch bottoms at a stroke of" in drawn.warnings[0]
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,69 @@
+"""Errors of typing: unknown options, missing arguments, values that are no numbers."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from umform.errors import InvalidValue
+
+_NO_NUMBER = re.compile(r"'(?P<value>.*)' is not a valid (?P<kind>float|integer|int)\b", re.DOTALL)
+_COMMA = re.compile(r"[-+]?\d*,\d+")
+_UNIT = re.compile(r"(?P<number>[-+]?\d+(?:\.\d+)?)\s*[^\W\d]\w*")
+
+
+def is_usage_error(error: BaseException) -> bool:
+    """Whether an error is one of typing; typer has classes of its own or those of click."""
+    kinds = [kind.__name__ for kind in type(error).__mro__]
+    return "UsageError" in kinds and "NoArgsIsHelpError" not in kinds  # the latter only shows the help
+
+
+def usage_problem(error: Any) -> InvalidValue:
+    """The error with place, value, cause and remedy."""
+    command = getattr(error.ctx, "command_path", "umform")
+    more = f"`{command} --help` lists all options"
+    if type(error).__name__ == "NoSuchOption":
+        near = " or ".join(error.possibilities or ())
+        return InvalidValue(
+            "there is no such option",
+            where=command,
+            value=error.option_name,
+            cause="a typing mistake" if near else "a typing mistake, or an option of another command",
+            remedy=f"perhaps {near} is meant; {more}" if near else more,
+        )
+    text, place = error.format_message(), _place(error, command)
+    value, kind = _refused(error, text)
+    if kind in ("float", "integer", "int"):
+        return _no_number(value, place, whole=kind != "float")
+    return InvalidValue(text[:1].lower() + text[1:].rstrip("."), where=place, remedy=more)
+
+
+def _refused(error: BaseException, text: str) -> tuple[str, str]:
+    """Value and wanted kind of a number that cannot be read: from the text of click, or the details of pydantic."""
+    found = _NO_NUMBER.search(text)
+    if found:
+        return found["value"], found["kind"]
+    details: list[dict[str, object]] = getattr(error.__cause__, "errors", list)()
+    first = details[0] if details else {}
+    return str(first.get("input", "")), str(first.get("type", "")).partition("_")[0]
+
+
+def _no_number(value: str, place: str, *, whole: bool) -> InvalidValue:
+    """Error for a value that is no number."""
+    cause, remedy = "a word in place of a number", "digits, with a decimal point and without a unit"
+    unit = _UNIT.fullmatch(value)
+    if whole:
+        cause, remedy = "a fraction or a word in place of a whole number", "digits only, such as 2"
+    elif _COMMA.fullmatch(value):
+        cause, remedy = "a decimal comma", f"write {value.replace(',', '.')}"
+    elif unit:
+        cause, remedy = "a unit behind the number", f"write {unit['number']}; the help names the unit"
+    what = "a whole number is needed here" if whole else "a number is needed here"
+    return InvalidValue(what, where=place, value=value, cause=cause, remedy=remedy)
+
+
+def _place(error: Any, command: str) -> str:
+    """The option, or the command of an argument."""
+    parameter = getattr(error, "param", None)
+    names = getattr(parameter, "opts", None) or [command]
+    return str(names[0]) if str(names[0]).startswith("-") else command

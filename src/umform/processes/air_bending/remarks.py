@@ -1,0 +1,67 @@
+"""What belongs beside the numbers of a bend: tools in use, coarse mesh, force for the press, extrapolated curve."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+from umform.processes.air_bending.formulas import shop_forces, uniform_strain
+from umform.processes.air_bending.measures import Measures
+from umform.processes.air_bending.parameters import AirBending
+
+#: Deviation of the computed force from the workshop formula that is explained.
+_APART = 0.15
+#: Standard gravity in m/s², for forces in tonnes.
+_GRAVITY = 9.80665
+_DEFAULT = {field.name: field.default for field in fields(AirBending)}
+
+
+def tools_text(case: AirBending) -> str:
+    """The tools in use, those that nobody has given too."""
+    die = f"V {case.opening:g}, {case.die_angle:g} degrees, shoulder {case.die_radius:g}"
+    punch = f"punch radius {case.punch_radius:g}, {case.punch_angle:g} degrees"
+    return f"tools: {die}, {punch}; V/t {case.opening / case.thickness:.3g}"
+
+
+def coarse_mesh(case: AirBending) -> list[str]:
+    """A remark if the mesh is coarser than the default one."""
+    names = ["elements_per_thickness", "layers", *(["width_elements"] if case.width is not None else [])]
+    below = {name: _DEFAULT[name] for name in names if getattr(case, name) < _DEFAULT[name]}
+    if not below:
+        return []
+    given = ", ".join(f"{name.replace('_', ' ')} {getattr(case, name):g} (default {n:g})" for name, n in below.items())
+    return [f"coarse mesh: {given}; for a trial only, the angle may be off by some degrees"]
+
+
+def extrapolated(case: AirBending, outer_strain: float) -> list[str]:
+    """A remark if the outer strain exceeds the strain up to which the flow curve is known."""
+    known = uniform_strain(case.material, 0.0 if case.rolling is None else 90.0 - case.rolling)
+    if not 0.0 < known < outer_strain:
+        return []
+    return [
+        f"the outer strain {outer_strain:.2f} exceeds the {known:.2f} up to which a tensile test supports the flow "
+        "curve: it is extrapolated there"
+    ]
+
+
+def force_apart(case: AirBending, measures: Measures) -> list[str]:
+    """A remark if the maximum of the force is far from the workshop formula, which holds for air bending."""
+    force, middle = measures.largest_force, 0.5 * sum(shop_forces(case))
+    passed = measures.force < force  # before the maximum the formula does not apply
+    if case.bottoming or not passed or not middle or abs(force / middle - 1.0) <= _APART:
+        return []
+    side = "below" if force < middle else "above"
+    return [
+        f"the computed force is {100.0 * abs(force / middle - 1.0):.0f} % {side} the rule of the shop, which includes "
+        "friction and the higher Rm of real coils: choose the press by the larger value"
+    ]
+
+
+def remarks(case: AirBending, measures: Measures) -> list[str]:
+    """All remarks on a single bend."""
+    return [*coarse_mesh(case), *force_apart(case, measures), *extrapolated(case, measures.outer_strain)]
+
+
+def total_force(force: float, length: float) -> str:
+    """A force in N/mm on a bend length in mm, in kN and tonnes."""
+    whole = force * length / 1e3
+    return f"largest force on a bend length of {length:g} mm: {whole:.4g} kN ({whole / _GRAVITY:.3g} t)"

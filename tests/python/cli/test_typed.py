@@ -1,0 +1,72 @@
+"""Messages name options and commands, and errors of typing have cause and remedy."""
+
+from __future__ import annotations
+
+import pytest
+from typer.testing import CliRunner
+
+from umform.cli import app
+from umform.cli.typed import as_typed
+from umform.deck.templates import template
+
+TYPED = [
+    ("bend --stroke 8.5", 1, ["or --bottoming"]),
+    ("bend --stroke 3 --material AA6016-T4", 1, ["--rolling 90 for", "--rolling 0 for"]),
+    ("bend --stroke 3 --punch-radius 20", 1, ["a smaller --punch-radius"]),
+    ("bend --stroke 3 --element FOO", 1, ["where:  --element", "cause:"]),
+    ("bend --stroke 3 --material S690", 1, ["where:  --material", "umform metal list", "--swift", "cause:"]),
+    ("metal show S690", 1, ["where:  umform metal show", "umform metal list"]),
+    ("bend --stroke 3 --material DC04 --yield-stress 200", 1, ["cause:", "leave one of them out"]),
+    ("bend --stroke 3 --swift 520,0.004", 1, ["2 numbers are given", "520,0.004,0.22"]),
+    ("bend --stroke 3,0", 2, ["where:  --stroke", "a decimal comma", "write 3.0"]),
+    ("bend --stroke 3mm", 2, ["write 3;"]),
+    ("bend --layers 1.5", 2, ["a whole number", "cause:"]),
+    ("bend --thicknes 3", 2, ["value:  --thicknes", "perhaps --thickness"]),
+    ("--thicknes 3", 2, ["no such option", "umform --help"]),
+    ("metal fit --yield-function hill48", 2, ["--young", "`umform metal fit --help`"]),
+    ("draw cup --opening 200", 1, ["half of --opening"]),
+    ("view", 2, ["where:  umform view"]),
+    ("bnd", 2, ["'bend'", "remedy:"]),
+]
+
+
+@pytest.mark.parametrize(("typed", "code", "said"), TYPED)
+def test_messages_say_what_to_type(typed, code, said):
+    done = CliRunner().invoke(app, typed.split(), prog_name="umform")
+    assert done.exit_code == code
+    assert done.stderr.startswith("umform: ")
+    for text in (*said, "remedy:"):
+        assert text in done.stderr
+    for python in ("=True", "sheet_metals", "swift_from", "punch_radius", "rolling="):
+        assert python not in done.stderr
+
+
+def test_only_names_of_parameters_are_translated():
+    options = {"bottoming": "--bottoming", "angle": "--angle", "punch_radius": "--punch-radius"}
+    text = "bottoming=True, angle=90.5, a punch_radius, the angle, my_punch_radius, punch_radius(), other=3"
+    said = "--bottoming, --angle 90.5, a --punch-radius, the angle, my_punch_radius, punch_radius(), other=3"
+    assert as_typed(text, options) == said
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("mesh.thickness=zwei", "write a number"),
+        ("mesh.thickness=2,5", "write mesh.thickness=2.5"),
+        ("mesh.thickness=", "neither a number"),
+        ("element.name=BEND", "BEND8"),
+    ],
+)
+def test_values_of_keys_are_told_by_the_kind_of_the_key(change, said, tmp_path):
+    (tmp_path / "deck.toml").write_text(template("free-bending"))
+    done = CliRunner().invoke(app, ["check", str(tmp_path / "deck.toml"), "--set", change])
+    assert done.exit_code == 1
+    assert said in done.stderr
+    assert "TOML" not in done.stderr
+
+
+def test_a_finer_mesh_is_asked_for_with_its_limit(tmp_path):
+    (tmp_path / "deck.toml").write_text(template("free-bending"))
+    done = CliRunner().invoke(app, ["check", str(tmp_path / "deck.toml"), "--set", "mesh.cells=[6, 1]"])
+    assert "the warning begins at" in " ".join(done.stdout.split())
+    assert "pace" not in done.stdout

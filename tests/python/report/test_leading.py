@@ -1,0 +1,36 @@
+"""The first curve of a report: the control that works, not a load over itself."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from umform.results.leading import leading_controls
+
+
+class Named:
+    def __init__(self, name):
+        self.name = name
+
+
+class Rows(dict):
+    """Columns of a history, with the controls of a model."""
+
+    def __init__(self, **columns):
+        super().__init__({name: np.array(values, dtype=float) for name, values in columns.items()})
+        self.model = SimpleNamespace(controls=[Named(name) for name in columns if f"{name}_force" in columns])
+
+
+def leading(**columns):
+    return [control.name for control in leading_controls(Rows(**columns))]
+
+
+def test_the_control_with_the_largest_work_is_first_and_a_load_is_none():
+    hold = {"hold": [0, 1e4, 1e4], "hold_force": [0, 1e4, 1e4]}
+    lid = {"lid": [0, 1, 1], "lid_force": [0, -5, -900]}
+    punch = {"punch": [0, 0, 10], "punch_force": [0, 0, -100]}
+    still = {"still": [2, 2, 2], "still_force": [0, 5, 9]}
+    assert leading(**hold, **lid, **punch, **still) == ["punch", "lid"]
+
+
+def test_a_tool_that_moves_without_force_counts():
+    assert leading(tool=[0, 1], tool_force=[0, 0]) == ["tool"]
