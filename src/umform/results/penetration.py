@@ -63,4 +63,6 @@ def _deep(contact: Contact, deepest: float, thickness: float) -> str:
     stiffer = share / _SHALLOW * contact.penalty
     text = f"the penetration of {deepest:.3g} is {100.0 * share:.3g} % of the thickness {thickness:.4g}"
     remedy = f"a penalty of {stiffer:.3g} or more, or none: it then follows from the allowed penetration"
-    return f"{text}: the tool is softer than it should be, or its force too large; {remedy}"
+    if contact.allowed is not None:
+        remedy = f"allow less, such as {_SHALLOW * thickness:.3g}"
+    return f"{text}: so much of the stroke is lost, or a force is too large; {remedy}"
