@@ -142,7 +142,8 @@ def table_interrupted_by(error, monkeypatch, tmp_path):
         return unload(self)
 
     monkeypatch.setattr(Brake, "unload", interrupted)
-    return umform("bend", *BEND, "--table", "0.4:1.2:0.2", "--out", tmp_path / "out")
+    typed = ["--material", "DC04", "--table", "0.4:1.2:0.2", "--out", tmp_path / "out"]
+    return umform("bend", *BEND, *typed)
 
 
 def test_ctrl_c_keeps_the_rows_of_a_bending_table(monkeypatch, tmp_path):
