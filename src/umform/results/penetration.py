@@ -10,7 +10,7 @@ from umform.model.contact.encounter import sheet_thickness
 from umform.results.history import History
 
 #: Penetration relative to the thickness that is reported, and that of a sufficient penalty.
-_DEEP, _SHALLOW = 0.03, 0.01
+_DEEP, _SHALLOW = 0.1, 0.02
 
 
 def penetrations(model: Model, result: History) -> dict[str, str]:
@@ -34,7 +34,7 @@ def _said(contact: Contact, deepest: float) -> str:
 
 
 def warn_of_contact(model: Model, result: History) -> None:
-    """Warn once for each contact whose penetration exceeds the allowed one, or a few per cent of the thickness."""
+    """Warn once for each contact whose penetration exceeds the allowed one, or a tenth of the thickness."""
     thickness = sheet_thickness(model.mesh)
     for contact in model.contacts:
         found = _excess(contact, _deepest(result, contact))
@@ -56,7 +56,7 @@ def _excess(contact: Contact, deepest: float) -> str:
 
 
 def _deep(contact: Contact, deepest: float, thickness: float) -> str:
-    """Penetration of a few per cent of the thickness, with a remedy; empty without."""
+    """Penetration of a tenth of the thickness or more, with a remedy; empty without."""
     share = deepest / thickness
     if not share > _DEEP:
         return ""

@@ -256,12 +256,8 @@ def test_a_penetration_that_takes_much_of_the_stroke_is_told(bend):
     assert not any("penetrate" in warning for warning in bend.warnings)
     soft = AirBending(stroke=1.0, elements_per_thickness=1.0, layers=1, increment=0.025, penetration=0.2)
     deep = air_bending(soft, progress=False, frames=1)
-    assert deep.penetration > 0.04
-    assert any(f"penetration of {deep.penetration:.3g}" in warning for warning in deep.warnings)
-    assert not any("penetrate by" in warning for warning in deep.warnings)
-    less = air_bending(replace(soft, penetration=0.075), progress=False, frames=1)
-    assert 0.04 < less.penetration < 0.06
-    assert any(f"penetrate by {less.penetration:.3g}" in warning for warning in less.warnings)
+    assert 0.04 < deep.penetration < 0.2
+    assert any(f"penetrate by {deep.penetration:.3g}" in warning for warning in deep.warnings)
 
 
 def test_penalty_and_points_may_be_given():

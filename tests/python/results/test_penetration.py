@@ -24,10 +24,10 @@ def about(result, word):
 
 
 def test_a_deep_penetration_is_named_without_an_allowed_one():
-    (text,) = about(pressed(0.0, push=80.0, penalty=100.0), "the penetration of")
+    (text,) = about(pressed(0.0, push=240.0, penalty=100.0), "the penetration of")
     assert "contact punch" in text and "% of the thickness 1" in text
     stiffer = float(text.split("a penalty of ")[1].split()[0])
-    assert about(pressed(0.0, push=80.0, penalty=stiffer), "penetration") == []
+    assert about(pressed(0.0, push=240.0, penalty=stiffer), "penetration") == []
 
 
 @pytest.mark.parametrize(("to", "above"), [(-2.0, 0.5), (0.3, 0.5)])
@@ -50,6 +50,6 @@ def test_a_tool_at_rest_may_stay_apart():
 
 
 def test_the_penetration_of_a_run_before_is_not_named_again():
-    result = pressed(0.05, penalty=100.0)
+    result = pressed(0.2, penalty=100.0)
     again = uf.solve(result.model, uf.Move(result.model.controls[0], 0.0, steps=2), frames=0, progress=False)
     assert about(result, "penetration") and about(again, "penetration") == []
