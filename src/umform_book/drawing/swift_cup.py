@@ -12,7 +12,7 @@ from umform_book.page import Page
 
 _VOCE = Voce(125.95, 314.98, 12.22)
 #: Largest difference of heights that Newton's tolerance and the rounding of the order of elimination leave, mm.
-_SYMMETRIC = 1e-5
+_SYMMETRIC = 1e-9
 
 
 def hill_of(metal: Metal) -> Metal:

@@ -241,7 +241,8 @@ class Cup:
         ram = model.tool("punch", Revolved(punch))
         model.contact("upper", ram, name="under_punch", **rule)
         stroke = model.drive(ram, "-z", name="stroke")
-        gauge = model.hold_rigid(name="gauge")
+        # On the axis: while the punch still holds the part, the gauge may carry a force, and must keep the symmetry.
+        gauge = model.hold_rigid(lambda x, y, z: x**2 + y**2 < 1e-18, name="gauge")
         # On the punch, an ironed wall cannot buckle while the forces of the die decrease, see theory 4.18.
         return model, Press(hold, stroke, self.way, gauge, (("die", "holder"), ("punch",)))
 
