@@ -7,7 +7,7 @@ from typing import Any
 
 from umform.errors import InvalidValue
 
-_NO_NUMBER = re.compile(r"'(?P<value>.*)' is not a valid (?P<kind>float|integer|int)\b", re.DOTALL)
+_NO_NUMBER = re.compile(r"'(?P<value>[^']*)' is not a valid (?P<kind>float|integer|int)\b")
 _COMMA = re.compile(r"[-+]?\d*,\d+")
 _UNIT = re.compile(r"(?P<number>[-+]?\d+(?:\.\d+)?)\s*[^\W\d]\w*")
 
