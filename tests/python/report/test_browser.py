@@ -323,7 +323,8 @@ def test_on_a_small_screen_no_value_is_cut(browser, result, tmp_path):
     visit.page.set_viewport_size({"width": 390, "height": 800})
     visit.page.wait_for_selector(READY, state="attached")
     visit.page.locator("table.pairs td").last.evaluate(f"(cell) => (cell.textContent = '{LONG}')")
-    visit.page.locator("details:not(#history-all) summary").click()
+    for summary in visit.page.locator("details:not(#history-all) summary").all():
+        summary.click()
     cut = "(all) => all.filter((e) => e.scrollWidth > e.clientWidth).map((e) => e.innerText.slice(0, 40))"
     assert visit.page.eval_on_selector_all(".wide:not(.tall), h1, pre, main", cut) == []
     visit.context.close()
