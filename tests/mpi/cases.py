@@ -147,7 +147,7 @@ def beaded():
 
 
 def closed():
-    """A holder over a loose sheet closes with friction, follows a table of forces onto its blocks and is released."""
+    """A holder over a loose sheet closes with friction, follows a table of forces onto its blocks and eases off."""
     model = uf.Model(strip(20.0, 4.0, 0.8, (14, 2)), material=uf.J2(**STEEL, hardening=uf.Linear(160.0, 500.0)))
     model.symmetry("x0", normal="x")
     model.symmetry("y0", normal="y")
@@ -159,7 +159,8 @@ def closed():
     model.keep_gap(hold, die, 0.79785)
     pull = model.prescribe("x1_lower", "x", "pull")
     table = [(0.0, -160.0), (0.02, -200.0)]
-    steps = [uf.Close(hold, force=-160.0), uf.Move(pull, sliding, steps=4, follow={hold: table}), uf.Release(hold)]
+    pulled = uf.Move(pull, sliding, steps=4, follow={hold: table})
+    steps = [uf.Close(hold, force=-160.0), pulled, uf.Move(hold, -20.0, steps=4)]
     return model, steps, None
 
 

@@ -160,7 +160,7 @@ def test_the_first_rank_alone_reads_the_mesh(tmp_path, mpi):
     words = ("--out", tmp_path / "out", "--solver", "petsc", *short)
     first, other = ((*UMFORM, "run", tmp_path / name / "deck.toml", *words) for name in ("first", "other"))
     mpi.run(1, *first, ":", "-n", 1, sys.executable, *other)
-    alone = mpi.start(0, *other)
+    alone = mpi.start(0, *other, "--overwrite")
     assert alone.returncode == 1
     assert "sheet.inp" in alone.stderr
     np.testing.assert_array_equal(history(tmp_path / "out")["time"][:4], [0.0, 0.5, 1.0, 2.0])
