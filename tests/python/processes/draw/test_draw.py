@@ -67,6 +67,14 @@ def test_a_cup_is_symmetric_and_in_balance():
     assert drawn.forces["holder"][-1] == pytest.approx(20e3, rel=1e-6)
 
 
+def test_the_gauge_of_a_cup_keeps_its_symmetry():
+    """It may carry a force while the punch still holds the part."""
+    model, press = CUP.build()
+    x = model.mesh.points[press.gauge.nodes]
+    assert len(x) == 1
+    np.testing.assert_allclose(x[:, :2], 0.0, atol=1e-9)
+
+
 def test_measures_of_a_cup():
     drawn = cup()
     rows = drawn.measures()
