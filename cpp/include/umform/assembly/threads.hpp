@@ -69,7 +69,7 @@ void for_each_by_colour(const std::vector<std::vector<std::int32_t>>& colours, i
         const int thread = thread_index();
         for (const auto& colour : colours) {
             const int count = static_cast<int>(colour.size());
-#pragma omp for schedule(static)
+#pragma omp for schedule(dynamic, 32)
             for (int k = 0; k < count; ++k) exception.guard([&] { work(colour[k], thread); });
         }
     }
