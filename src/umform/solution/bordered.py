@@ -25,12 +25,18 @@ class Bordered:
         Restricts rows and columns to the unknowns, and sums them over the ranks.
     solver : TimedSolver
         Solver that has analysed the pattern at the nodes.
+
+    Attributes
+    ----------
+    weak : ndarray, shape (n,), optional
+        The displacement that the tangent of a very thin sheet hardly resists, once it has been met.
     """
 
     def __init__(self, system: System, solver: TimedSolver) -> None:
         self.system, self.solver = system, solver
         self._border: Border | None = None
         self._eliminated = False
+        self.weak: Floats | None = None
 
     def factor(self, evaluation: Evaluation, values: Floats | None = None) -> Factorisation:
         """Factorise the tangent of an evaluation, or other values.
@@ -38,9 +44,17 @@ class Bordered:
         Raises
         ------
         SingularMatrix
-            If the tangent is singular.
+            If the tangent is singular, unless it is that of a very thin sheet without a mechanism. eq. (5.99)
         """
-        found = self.solver.factor(evaluation.values if values is None else values)
+        values = evaluation.values if values is None else values
+        try:
+            found = self.solver.factor(values)
+        except SingularMatrix as refusal:
+            thin = refusal.motion is not None and self.system.thin_without_mechanism(values)
+            accepted = self.solver.accept() if thin else None
+            if accepted is None:
+                raise
+            found, self.weak = accepted, refusal.motion
         self._border, self._eliminated = evaluation.border if evaluation.border.unknowns else None, False
         return found
 

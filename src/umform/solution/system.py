@@ -149,5 +149,8 @@ class System(Protocol):
     def shorten(self, part: float) -> None:
         """Scale the last update."""
 
+    def thin_without_mechanism(self, values: Floats) -> bool:
+        """Whether a tangent that looks singular is that of a very thin sheet without a mechanism. eq. (5.99)"""
+
     def revert(self) -> None:
         """Discard all changes since the last commit."""
