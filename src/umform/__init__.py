@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from umform import errors
 
-# Before the kernels are loaded: threads that wait actively take the processors from other programs, and from each other.
+# Before the kernels are loaded: threads that wait actively take the processors from other programs and from each other.
 os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
 if TYPE_CHECKING:
