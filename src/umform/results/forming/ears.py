@@ -87,9 +87,9 @@ class EarProfile:
         """Heights at equal steps of the angle from 0, without waves shorter than so many elements of the rim."""
         nodes = len(self.whole().angle)
         count = 360 * max(1, round(nodes / 36))
-        waves = np.fft.rfft(self.at(np.arange(count) * (360.0 / count)))
+        waves = np.fft.rfft(self.at(np.linspace(0.0, 360.0, count, endpoint=False)))
         waves[nodes // _ELEMENTS + 1 :] = 0.0
-        return np.fft.irfft(waves, count)
+        return np.asarray(np.fft.irfft(waves, count), dtype=float)
 
     def _closed(self) -> tuple[Floats, Floats]:
         return np.append(self.angle, self.angle[0] + 360.0), np.append(self.height, self.height[0])
