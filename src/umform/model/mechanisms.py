@@ -30,8 +30,8 @@ _PARTS, _FREE = 10, 1e-8
 _ROUND_OFF = 1e-14
 
 
-def thin_without_mechanism(model: Assembled, values: Floats) -> bool:
-    """Whether a tangent that looks singular is that of a very thin sheet whose parts cannot move rigidly.
+def mechanism(model: Assembled, values: Floats, motion: Floats) -> Floats | None:
+    """What can move although a tangent looks singular; None for a very thin sheet whose parts cannot move rigidly.
 
     Parameters
     ----------
@@ -39,14 +39,19 @@ def thin_without_mechanism(model: Assembled, values: Floats) -> bool:
         The model.
     values : ndarray
         Entries of the tangent, those of `model.pattern`.
+    motion : ndarray, shape (n,)
+        Displacement of the unknowns that the tangent hardly resists; returned if the sheet is not very thin.
     """
     if model.ranks.size > 1 or model.extent < _THIN * model.thickness:
-        return False
+        return motion
     part = _parts(model.mesh.connectivity, len(model.mesh.points))
     if part.max() >= _PARTS:  # their motions would take much memory
-        return False
+        return motion
     motions, sizes = _motions_of_parts(model, part)
-    return len(motions) == 0 or _least_resistance(model.pattern, values, motions, sizes) > _ROUND_OFF
+    if len(motions) == 0:
+        return None
+    resistance, weakest = _least_resistance(model.pattern, values, motions, sizes)
+    return None if resistance > _ROUND_OFF else weakest
 
 
 def _parts(cells: Ids, nodes: int) -> NDArray[np.int32]:
@@ -89,10 +94,11 @@ def _motions_of_parts(model: Assembled, part: NDArray[np.int32]) -> tuple[Floats
     return free @ unknowns, np.abs(unknowns).sum(axis=0)
 
 
-def _least_resistance(pattern: Pattern, values: Floats, motions: Floats, sizes: Floats) -> float:
-    """Resistance to the motion that is resisted least, relative to the sizes of its terms. eq. (5.100)"""
+def _least_resistance(pattern: Pattern, values: Floats, motions: Floats, sizes: Floats) -> tuple[float, Floats]:
+    """Resistance to the motion that is resisted least, relative to the sizes of its terms; and it. eq. (5.100)"""
     matrix = sparse.csr_matrix((values, pattern.indices, pattern.indptr), shape=(pattern.n, pattern.n))
     if pattern.symmetric:
         matrix = matrix + sparse.triu(matrix, 1).T
     part = (matrix @ motions.T) / np.maximum(abs(matrix) @ sizes, np.finfo(np.float64).tiny)[:, None]
-    return float(np.abs(part @ np.linalg.svd(part, full_matrices=False)[2][-1]).max())
+    weakest = np.linalg.svd(part, full_matrices=False)[2][-1]
+    return float(np.abs(part @ weakest).max()), weakest @ motions

@@ -248,8 +248,8 @@ class Model(Standing):
         check_model(self)
         check_kept_gaps(self)
 
-    def thin_without_mechanism(self, values: NDArray[np.float64]) -> bool:
-        """Whether a tangent that looks singular is that of a very thin sheet without a mechanism. eq. (5.99)"""
-        from umform.model.mechanisms import thin_without_mechanism  # imports scipy: slow
+    def mechanism(self, values: NDArray[np.float64], motion: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """What can move although a tangent looks singular; None for a very thin sheet that is held. eq. (5.99)"""
+        from umform.model.mechanisms import mechanism  # imports scipy: slow
 
-        return thin_without_mechanism(self, values)
+        return mechanism(self, values, motion)

@@ -50,13 +50,20 @@ class Bordered:
         try:
             found = self.solver.factor(values)
         except SingularMatrix as refusal:
-            thin = refusal.motion is not None and self.system.thin_without_mechanism(values)
-            accepted = self.solver.accept() if thin else None
-            if accepted is None:
-                raise
-            found, self.weak = accepted, refusal.motion
+            found, self.weak = self._accepted(refusal, values), refusal.motion
         self._border, self._eliminated = evaluation.border if evaluation.border.unknowns else None, False
         return found
+
+    def _accepted(self, refusal: SingularMatrix, values: Floats) -> Factorisation:
+        """Factors of the tangent of a very thin sheet; or raise the error, which then names the mechanism."""
+        if refusal.motion is None:
+            raise refusal
+        motion = self.system.mechanism(values, refusal.motion)
+        accepted = self.solver.accept() if motion is None else None
+        if accepted is None:
+            refusal.motion = refusal.motion if motion is None else motion
+            raise refusal
+        return accepted
 
     def _eliminate(self, border: Border, at_nodes: Floats) -> Floats:
         """Eliminate the nodal unknowns from the border, together with a first right-hand side; return its solution."""

@@ -149,8 +149,11 @@ class System(Protocol):
     def shorten(self, part: float) -> None:
         """Scale the last update."""
 
-    def thin_without_mechanism(self, values: Floats) -> bool:
-        """Whether a tangent that looks singular is that of a very thin sheet without a mechanism. eq. (5.99)"""
+    def mechanism(self, values: Floats, motion: Floats) -> Floats | None:
+        """What can move although a tangent looks singular, by default the motion given.
+
+        None for a very thin sheet that is held: its tangent resists bending less than round-off. eq. (5.99)
+        """
 
     def revert(self) -> None:
         """Discard all changes since the last commit."""
