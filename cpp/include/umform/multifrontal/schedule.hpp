@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "panels.hpp"
 #include "plan.hpp"
 #include "umform/assembly/threads.hpp"
-#include "updates.hpp"
 
 namespace umform {
 
@@ -95,7 +95,7 @@ class Schedule {
     }
 
     static std::size_t update_size(const Plan& plan, int f) {
-        return UpdateLayout(plan.fronts[f].updates(), 0, plan.symmetric).size();
+        return Panels::of_update(plan.fronts[f].updates(), 0, plan.symmetric).size();
     }
 
     /// What the stacks of a unit hold at most.

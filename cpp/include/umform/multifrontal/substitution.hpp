@@ -64,7 +64,7 @@ class Substitution {
     void forward(int f, Scratch& scratch) {
         const Front& planned = plan_.fronts[f];
         const Eliminated& front = factors_.front(f);
-        const int u = planned.updates(), p = front.pivots, q = front.done, m = front.size;
+        const int u = planned.updates(), p = front.pivots, q = front.done;
         double* hand_on = carried_.data() + planned.rows * columns_;
         std::fill_n(hand_on, static_cast<std::size_t>(u) * columns_, 0.0);
         for (int k = plan_.children_start[f]; k < plan_.children_start[f + 1]; ++k)
@@ -74,9 +74,14 @@ class Substitution {
         for (int j = 0; j < columns_; ++j)
             for (int t = 0; t < p; ++t) y[j * p + t] = right(factors_.row(f, t), j);
         const char unit = factors_.kind() == Kind::Positive ? 'N' : 'U';
-        blas().divide('L', 'N', unit, q, front.a, m, y.data(), p, columns_);
-        blas().subtract('N', p - q, q, front.a + q, m, y.data(), p, y.data() + q, p, columns_);
-        blas().subtract('N', u, q, front.a + p, m, y.data(), p, hand_on, u, columns_);
+        for (int k = 0, next = 0; k < q; k = next) {
+            next = k + front.a.together(k, q - k);
+            const int width = next - k, ld = front.a.stride(k);
+            double* mine = y.data() + k;
+            blas().divide('L', 'N', unit, width, front.a.at(k, k), ld, mine, p, columns_);
+            blas().subtract('N', p - next, width, front.a.at(next, k), ld, mine, p, y.data() + next, p, columns_);
+            blas().subtract('N', u, width, front.a.at(p, k), ld, mine, p, hand_on, u, columns_);
+        }
         if (factors_.kind() == Kind::Symmetric) divide_by_diagonal(front, y.data(), p);
         for (int j = 0; j < columns_; ++j)
             for (int t = 0; t < p; ++t) right(factors_.row(f, t), j) = y[j * p + t];
@@ -100,12 +105,12 @@ class Substitution {
 
     void divide_by_diagonal(const Eliminated& front, double* y, int ld) {
         for (int t = 0; t < front.done; ++t) {
-            const double* d = front.a + t + static_cast<std::ptrdiff_t>(t) * front.size;
+            const double d = *front.a.at(t, t);
             if (front.below[t] == 0.0) {
-                for (int j = 0; j < columns_; ++j) y[j * ld + t] /= *d;
+                for (int j = 0; j < columns_; ++j) y[j * ld + t] /= d;
                 continue;
             }
-            const TwoByTwo pivot(*d, front.below[t], d[front.size + 1]);
+            const TwoByTwo pivot(d, front.below[t], *front.a.at(t + 1, t + 1));
             for (int j = 0; j < columns_; ++j) pivot.solve(y[j * ld + t], y[j * ld + t + 1]);
             ++t;
         }
@@ -123,18 +128,28 @@ class Substitution {
             for (int t = left; t < order; ++t) z[j * order + t] = found(plan_.rows[planned.rows + t - left], j);
         }
         if (factors_.kind() == Kind::Unsymmetric) {
-            const double* beside = front.a + static_cast<std::ptrdiff_t>(q) * m;
-            blas().subtract('N', q, left, beside, m, z.data(), order, y.data(), q, columns_);
+            blas().subtract('N', q, left, front.a.column(q), m, z.data(), order, y.data(), q, columns_);
             blas().subtract('T', m - p, q, front.b(), std::max(1, m - p), z.data() + left, order, y.data(), q,
                             columns_);
-            blas().divide('U', 'N', 'N', q, front.a, m, y.data(), q, columns_);
+            blas().divide('U', 'N', 'N', q, front.a.data, m, y.data(), q, columns_);
         } else {
-            blas().subtract('T', order, q, front.a + q, m, z.data(), order, y.data(), q, columns_);
-            blas().divide('L', 'T', factors_.kind() == Kind::Positive ? 'N' : 'U', q, front.a, m, y.data(), q,
-                          columns_);
+            back_by_panels(front, y.data(), z.data());
         }
         for (int j = 0; j < columns_; ++j)
             for (int t = 0; t < q; ++t) found(factors_.column(f, t), j) = y[j * q + t];
+    }
+
+    /// y := L11^-T (y - L21^T z), from the last panel of columns to the first.
+    void back_by_panels(const Eliminated& front, double* y, const double* z) {
+        const int q = front.done, order = front.order();
+        const char unit = factors_.kind() == Kind::Positive ? 'N' : 'U';
+        for (int end = q, k = 0; end > 0; end = k) {
+            k = front.a.begin(end - 1);
+            const int width = end - k, ld = front.a.stride(k);
+            blas().subtract('T', order, width, front.a.at(q, k), ld, z, order, y + k, q, columns_);
+            blas().subtract('T', q - end, width, front.a.at(end, k), ld, y + end, q, y + k, q, columns_);
+            blas().divide('L', 'T', unit, width, front.a.at(k, k), ld, y + k, q, columns_);
+        }
     }
 };
 
