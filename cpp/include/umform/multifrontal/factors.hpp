@@ -31,12 +31,11 @@ struct Outcome {
 /// What a front has become. Rows and columns that could not be eliminated here, since no pivot among them was stable, are
 /// eliminated in the front of the parent: they follow its own pivots.
 struct Eliminated {
-    int pivots = 0, size = 0, done = 0;  // with those that the children have left; of them eliminated
-    DenseColumns a;                      // of the factor; rows of the other one follow
-    Block own;                           // where they are longer than planned
-    DenseColumns update;                 // for the parent: rows that are left, then those of ancestors
-    Block own_update;
-    bool stacked = false;
+    int pivots = 0, size = 0, done = 0;       // with those that the children have left; of them eliminated
+    DenseColumns a;                           // of the factor; rows of the other one follow
+    Block own;                                // where they are longer than planned
+    DenseColumns update;                      // for the parent: rows that are left, then those of ancestors
+    Room room;                                // of the update, unless it is in the stacks of its subtree
     std::vector<std::int32_t> rows, columns;  // places of the pivots in their order of elimination; empty if as planned
     std::vector<double> below;                // entries beside the diagonal of pivots of two columns
 
@@ -58,8 +57,10 @@ class Factors {
             plan_, threads,
             [&](const Schedule::Unit& unit, int thread) {
                 Worker& worker = workers_[thread];
-                worker.stacks.clear();
+                Room room = Room::of(arena_, pool_, schedule_.stacks, !schedule_.side(unit.root), 0);
+                worker.stacks.use(room.data, schedule_.stacks);
                 for (int f = unit.begin; f <= unit.root; ++f) process(f, worker, f < unit.root);
+                room.release(arena_, pool_);
             },
             [&](int f, int thread) { process(f, workers_[thread], false); });
         return {state_.load(), equation_};
@@ -101,8 +102,9 @@ class Factors {
     Schedule schedule_;
     std::vector<Eliminated> fronts_;
     std::vector<Worker> workers_;
-    Block storage_;
-    Pool pool_;
+    Block storage_;  // the factors as planned, and behind them the arena
+    Arena arena_;    // of updates as planned
+    Pool pool_;      // of those that find no room there
     Kind kind_ = Kind::Positive;
     const double* values_ = nullptr;
     Scaling scaling_;
@@ -114,11 +116,11 @@ class Factors {
     /// Takes all memory that is planned, or throws: before any product is made, since BLAS may not come back where none is left.
     std::optional<Buffers> reserve(int threads) {
         const int team = schedule_.worth_a_team ? threads : 1;
-        storage_.grow(plan_.factor_size);
+        storage_.grow(schedule_.end);
+        arena_.reset(storage_.data() + schedule_.begin, schedule_.end - schedule_.begin);
         if (static_cast<int>(workers_.size()) < threads) workers_ = std::vector<Worker>(threads);
-        for (int t = 0; t < team; ++t) workers_[t].stacks.reserve(schedule_.even, schedule_.odd);
         if (!schedule_.worth_a_team) return {};
-        const std::size_t above = schedule_.peak > pool_.held() ? schedule_.peak - pool_.held() : 0;
+        const std::size_t more = team == 1 ? 0 : schedule_.peak, above = more > pool_.held() ? more - pool_.held() : 0;
         return std::optional<Buffers>(std::in_place, team, above);
     }
 
@@ -324,12 +326,15 @@ class Factors {
     void make_update(int f, Eliminated& front, Worker& worker, bool stack) {
         const int left = front.left();
         front.update.panels = Panels::of_update(front.order(), left, kind_ != Kind::Unsymmetric);
-        front.stacked = stack && left == 0 && front.pivots == plan_.fronts[f].pivots;
-        if (front.stacked) {
-            front.update.data = worker.stacks.push(schedule_.depth[f], front.update.panels.size());
+        const std::size_t size = front.update.panels.size();
+        if (stack && left == 0 && front.pivots == plan_.fronts[f].pivots) {
+            front.room = Room();
+            front.update.data = worker.stacks.push(schedule_.depth[f], size);
         } else {
-            front.own_update = pool_.take(front.update.panels.size());
-            front.update.data = front.own_update.data();
+            const bool into_last = plan_.fronts[f].parent == schedule_.last;
+            const std::size_t floor = into_last ? schedule_.floor - schedule_.begin : 0;
+            front.room = Room::of(arena_, pool_, size, schedule_.side(f), floor);
+            front.update.data = front.room.data;
         }
         if (left > 0) copy_left(front);
         const int beyond = front.size - front.pivots, width = block_of(front), blocks = (beyond + width - 1) / width;
@@ -402,12 +407,10 @@ class Factors {
     void release(int f, Worker& worker) {
         Eliminated& front = fronts_[f];
         if (front.order() == 0) return;
-        if (front.stacked) {
+        if (front.room.data == nullptr)
             worker.stacks.pop(schedule_.depth[f], front.update.panels.size());
-        } else {
-            pool_.give(std::move(front.own_update));
-            front.own_update = Block();
-        }
+        else
+            front.room.release(arena_, pool_);
         front.update.data = nullptr;
     }
 };
