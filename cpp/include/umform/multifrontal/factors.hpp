@@ -71,6 +71,10 @@ class Factors {
     const Scaling& scaling() const { return scaling_; }
     const Schedule& schedule() const { return schedule_; }
     const Eliminated& front(int f) const { return fronts_[f]; }
+    /// Memory for so many numbers: that of updates, which are gone after a factorisation.
+    Lent lend(std::size_t size) const {
+        return {lent_, storage_.data() + schedule_.floor, schedule_.end - schedule_.floor, size};
+    }
 
     /// Place of the row and of the column of a pivot of a front.
     int row(int f, int k) const { return fronts_[f].rows.empty() ? plan_.fronts[f].first + k : fronts_[f].rows[k]; }
@@ -105,6 +109,7 @@ class Factors {
     Block storage_;  // the factors as planned, and behind them the arena
     Arena arena_;    // of updates as planned
     Pool pool_;      // of those that find no room there
+    mutable std::atomic_flag lent_;
     Kind kind_ = Kind::Positive;
     const double* values_ = nullptr;
     Scaling scaling_;

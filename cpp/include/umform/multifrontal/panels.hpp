@@ -15,12 +15,12 @@ class Panels {
 
     /// Columns of the factor of a front: `columns` of `rows` rows.
     static Panels of_factor(std::size_t rows, std::size_t columns, bool symmetric) {
-        return {rows, columns, 0, symmetric ? std::max(kWide, (columns / kPanels + 15) / 16 * 16) : 0};
+        return {rows, columns, 0, symmetric ? std::max(kNarrow, (columns / kPanels + 15) / 16 * 16) : 0};
     }
     /// A square matrix, of which all rows of the first columns are stored: those that could not be eliminated. Panels are narrow
     /// in small updates.
     static Panels of_update(std::size_t order, std::size_t left, bool symmetric) {
-        return {order, order, left, !symmetric ? 0 : order - left < 400 ? kWide / 2 : kWide};
+        return {order, order, left, !symmetric ? 0 : order - left < 400 ? kNarrow : kWide};
     }
 
     /// Numbers of all columns.
@@ -41,13 +41,15 @@ class Panels {
     std::size_t stride(std::size_t j) const {
         return width_ == 0 || j < left_ ? rows_ : rows_ - left_ - (j - left_) / width_ * width_;
     }
-    /// First column behind the panel of a column.
-    std::size_t end(std::size_t j) const {
-        if (j < left_) return left_;
-        return width_ == 0 ? columns_ : std::min(columns_, left_ + ((j - left_) / width_ + 1) * width_);
+    /// First column of the panel of a column.
+    std::size_t begin(std::size_t j) const {
+        return width_ == 0 || j < left_ ? 0 : left_ + (j - left_) / width_ * width_;
     }
-    /// First column of the panel of a column that is stored by panels.
-    std::size_t begin(std::size_t j) const { return width_ == 0 ? 0 : left_ + (j - left_) / width_ * width_; }
+    /// First column behind it.
+    std::size_t end(std::size_t j) const {
+        if (width_ == 0) return columns_;
+        return j < left_ ? left_ : std::min(columns_, begin(j) + width_);
+    }
     /// Columns of a panel; 0 where all rows of all columns are stored.
     std::size_t width() const { return width_; }
     /// Are there rows that are not stored?
@@ -63,7 +65,7 @@ class Panels {
 
   private:
     /// Wide enough for products that are as fast as those of all columns; so many panels leave a sixteenth above the diagonal.
-    static constexpr std::size_t kWide = 96, kPanels = 8;
+    static constexpr std::size_t kNarrow = 48, kWide = 96, kPanels = 8;
     std::size_t rows_ = 0, columns_ = 0, left_ = 0, width_ = 0;
 
     Panels(std::size_t rows, std::size_t columns, std::size_t left, std::size_t width)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdlib>
 #include <iterator>
@@ -145,6 +146,28 @@ class Arena {
         }
         return nullptr;
     }
+};
+
+/// Memory that is free between factorisations, for one user at a time; a block of its own where it is too small or taken.
+class Lent {
+  public:
+    Lent(std::atomic_flag& taken, double* data, std::size_t there, std::size_t size) : data_(data) {
+        if (size <= there && !taken.test_and_set(std::memory_order_acquire))
+            taken_ = &taken;
+        else
+            own_ = Block(size), data_ = own_.data();
+    }
+    ~Lent() {
+        if (taken_ != nullptr) taken_->clear(std::memory_order_release);
+    }
+    Lent(const Lent&) = delete;
+    Lent& operator=(const Lent&) = delete;
+    double* data() const { return data_; }
+
+  private:
+    std::atomic_flag* taken_ = nullptr;
+    double* data_;
+    Block own_;
 };
 
 /// Memory for an update, or for the stacks of a subtree.

@@ -18,8 +18,9 @@ class Substitution {
 
     Substitution(const Factors& factors, int columns, int threads)
         : factors_(factors), plan_(factors.plan()), columns_(columns), threads_(threads),
-          right_(static_cast<std::size_t>(plan_.n) * columns), found_(right_.size()),
-          carried_(plan_.rows.size() * static_cast<std::size_t>(columns)), scratch_(threads) {}
+          memory_(factors.lend((2 * static_cast<std::size_t>(plan_.n) + plan_.rows.size()) * columns)),
+          right_(memory_.data()), found_(right_ + static_cast<std::ptrdiff_t>(plan_.n) * columns),
+          carried_(found_ + static_cast<std::ptrdiff_t>(plan_.n) * columns), scratch_(threads) {}
 
     /// Columns of b and x are `n` long, in the order of the equations.
     void run(const double* b, double* x) {
@@ -55,7 +56,8 @@ class Substitution {
     const Factors& factors_;
     const Plan& plan_;
     int columns_, threads_;
-    std::vector<double> right_, found_, carried_;  // by places; what fronts hand on to their parents
+    Lent memory_;
+    double *right_, *found_, *carried_;  // by places; what fronts hand on to their parents
     std::vector<Scratch> scratch_;
 
     double& right(int place, int j) { return right_[static_cast<std::size_t>(j) * plan_.n + place]; }
@@ -65,7 +67,7 @@ class Substitution {
         const Front& planned = plan_.fronts[f];
         const Eliminated& front = factors_.front(f);
         const int u = planned.updates(), p = front.pivots, q = front.done;
-        double* hand_on = carried_.data() + planned.rows * columns_;
+        double* hand_on = carried_ + planned.rows * columns_;
         std::fill_n(hand_on, static_cast<std::size_t>(u) * columns_, 0.0);
         for (int k = plan_.children_start[f]; k < plan_.children_start[f + 1]; ++k)
             take_over(plan_.children[k], planned, hand_on);
@@ -91,7 +93,7 @@ class Substitution {
     void take_over(int child, const Front& parent, double* hand_on) {
         const Front& planned = plan_.fronts[child];
         const int u = planned.updates(), there = parent.updates();
-        const double* from = carried_.data() + planned.rows * columns_;
+        const double* from = carried_ + planned.rows * columns_;
         const std::int32_t* seat = plan_.seat.data() + planned.rows;
         for (int j = 0; j < columns_; ++j)
             for (int i = 0; i < u; ++i) {
