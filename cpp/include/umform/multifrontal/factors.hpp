@@ -221,10 +221,10 @@ class Factors {
         const Front& planned = plan_.fronts[f];
         const int delayed = front.pivots - planned.pivots, p = planned.pivots, m = planned.size;
         if (delayed == 0 && !front.a.panels.parted()) {
-            plan_.entries.for_each(f, m, [&](int source, int target) { front.a.data[target] += values_[source]; });
+            plan_.entries.for_each(f, m, p, [&](int source, int target) { front.a.data[target] += values_[source]; });
             return;
         }
-        plan_.entries.for_each(f, m, [&](int source, int target) {
+        plan_.entries.for_each(f, m, p, [&](int source, int target) {
             if (target < p * m) {
                 const int row = target % m, column = target / m;
                 *front.a.at(row < p ? row : row + delayed, column) += values_[source];

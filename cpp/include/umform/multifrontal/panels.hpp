@@ -64,8 +64,8 @@ class Panels {
     }
 
   private:
-    /// Wide enough for products that are as fast as those of all columns; so many panels leave a sixteenth above the diagonal.
-    static constexpr std::size_t kNarrow = 48, kWide = 96, kPanels = 8;
+    /// Wide enough for products that are as fast as those of all columns; so many panels leave little above the diagonal.
+    static constexpr std::size_t kNarrow = 48, kWide = 96, kPanels = 16;
     std::size_t rows_ = 0, columns_ = 0, left_ = 0, width_ = 0;
 
     Panels(std::size_t rows, std::size_t columns, std::size_t left, std::size_t width)

@@ -58,7 +58,7 @@ struct Plan {
         std::vector<std::int32_t> owner(n), local(n, 0);
         for (std::size_t f = 0; f < fronts.size(); ++f)
             std::fill_n(owner.begin() + fronts[f].first, fronts[f].pivots, static_cast<std::int32_t>(f));
-        entries = EntryRuns(matrix, place, owner, fronts.size());
+        entries = EntryRuns(matrix, symmetric, place, owner, fronts.size());
         for (std::size_t f = 0; f < fronts.size(); ++f) {
             const Front& front = fronts[f];
             const int m = front.size, p = front.pivots;
