@@ -101,7 +101,7 @@ void bind_multifrontal(nb::module_& m) {
         .def_prop_ro(
             "fill", [](const Multifrontal& s) { return s.plan().fill; }, "Entries of the factors.")
         .def_prop_ro(
-            "bytes", [](Multifrontal& s) { return 8 * (s.plan().factor_size + s.factors().schedule().peak); },
+            "bytes", [](Multifrontal& s) { return 8 * s.factors().schedule().end; },
             "Memory of the factors and of what is on the way to them, on one thread.")
         .def(
             "factor",

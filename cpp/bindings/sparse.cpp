@@ -52,7 +52,7 @@ void bind_sparse(nb::module_& m) {
             "add", &add_matrices, nb::arg("matrices"), nb::arg("values"),
             nb::sig("def add(self, matrices: NDArray[float64], values: NDArray[float64]) -> None"),
             "Add matrices (elements, 3 nodes, 3 nodes), in the order 3 * node + direction, to the entries of the pattern.")
-        .def_prop_ro("bytes", [](const Scatter& s) { return s.position.size() * sizeof(s.position[0]); });
+        .def_prop_ro("bytes", &Scatter::bytes);
     nb::class_<Pattern>(m, "Pattern", "Sparse pattern over the free degrees of freedom (upper triangle if symmetric).")
         .def(
             "__init__",

@@ -44,8 +44,8 @@ def linear_solution(
     evaluation = model.evaluate(np.zeros(u.size), u)
     if evaluation.failed >= 0:
         raise SolveError(f"an element {evaluation.failure}", where=f"cell {evaluation.failed}")
-    rhs = np.broadcast_to(loads, u.shape) - evaluation.predictor
     linear = make_solver(model.pattern, solver)
     linear.factor(evaluation.values)
+    rhs = np.broadcast_to(loads, u.shape) - evaluation.predictor
     u += model.extend(linear.solve(model.restrict(rhs)))
     return u.reshape(-1, 3)

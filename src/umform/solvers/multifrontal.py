@@ -66,12 +66,10 @@ class Multifrontal:
                 outcome = factors.factor(values, False)
             if not outcome.done:
                 raise singular(self.name, outcome.equation if outcome.equation >= 0 else None)
-            pivots = factors.pivots()
-            size = values[self._pattern.indptr[:-1]] if self._with_cholesky else factors.column_sizes
-            lost = self._loose(pivots.size, size, values)
-        self._positive = symmetric and pivots.negative == 0
+            negative, odd, lost = self._inspected(values)
+        self._positive = symmetric and negative == 0
         self._values = None if self._with_cholesky else values
-        self._found = Factorisation(pivots.negative if symmetric else None, factors.fill, pivots.odd)
+        self._found = Factorisation(negative if symmetric else None, factors.fill, odd)
         self._ready = lost is None
         if lost is not None:
             raise singular(self.name, lost.equation, lost.motion)
@@ -106,16 +104,22 @@ class Multifrontal:
         """Restore the kind of factors of a run."""
         self._positive = kind == 1 and self._pattern.symmetric
 
-    def _loose(self, pivots: FloatArray, size: FloatArray, values: FloatArray) -> Loose | None:
-        """Displacement without resistance: from a weak pivot, or for the first matrix of a pattern from a solution."""
-        iteration = self._iteration(values)
-        lost = weak_pivot(pivots, size, iteration.resistance)
+    def _inspected(self, values: FloatArray) -> tuple[int, bool, Loose | None]:
+        """Negative pivots, sign of the determinant, and a displacement without resistance.
+
+        That is found from a weak pivot, or for the first matrix of a pattern from a solution.
+        """
+        pivots, iteration = self._factors.pivots(), self._iteration(values)
+        negative, odd = pivots.negative, pivots.odd
+        size = values[self._pattern.indptr[:-1]] if self._with_cholesky else self._factors.column_sizes
+        lost = weak_pivot(pivots.size, size, iteration.resistance)
+        del pivots, size  # a solution needs as much memory again
         if lost is None and not self._asked:
-            lost = large_solution(len(pivots), partial(iteration.resistance, solves=1), iteration.resistance)
+            lost = large_solution(self._pattern.n, partial(iteration.resistance, solves=1), iteration.resistance)
         self._asked = True
-        if lost is None or lost.motion is None:
-            return lost
-        return Loose(lost.equation, iteration.column * lost.motion)
+        if lost is not None and lost.motion is not None:
+            lost = Loose(lost.equation, iteration.column * lost.motion)
+        return negative, odd, lost
 
     def _iteration(self, values: FloatArray) -> Iteration:
         """Inverse iteration with the factors."""

@@ -110,7 +110,9 @@ class Iteration:
         """|K w| / ||K| |w|| for the w of least resistance after some solves, and w, all scaled."""
         w = start / float(np.linalg.norm(start))
         for _ in range(solves):
-            w = self.solve(w / self.row) / self.column
+            w /= self.row  # in place: a vector is as long as the model
+            w = self.solve(w)
+            w /= self.column
             length = float(np.linalg.norm(w))
             if not np.isfinite(length):
                 return 0.0, start

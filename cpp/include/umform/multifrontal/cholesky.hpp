@@ -6,6 +6,7 @@
 
 #include "blas.hpp"
 #include "panel_solve.hpp"
+#include "panels.hpp"
 
 namespace umform {
 
@@ -46,17 +47,36 @@ inline void update_lower(int rows, int n, int k, const double* a, int lda, const
     }
 }
 
-/// L of the first columns of a front: L11 L11^T = A11, L21 = A21 L11^-T. Returns the place of the first pivot that is not
-/// positive, or -1. Halves of the columns follow each other, so that nearly all work is in products.
-inline int cholesky(double* a, int ld, int rows, int columns) {
-    if (columns <= panel_width) return detail::narrow_cholesky(a, ld, rows, columns);
-    const int left = (columns / 2 + 15) / 16 * 16, right = columns - left;
-    int failed = cholesky(a, ld, rows, left);
+/// Columns from `first` to `last` of a front without what `count` others from `begin` on contribute: C -= A B^T on and below
+/// the diagonal. b(row, column, ld) are rows of B from `row` on.
+template <class Other>
+void update_columns(const DenseColumns& a, int rows, int begin, int count, int first, int last, const Other& b) {
+    for (int j = first, width = 0; j < last; j += width) {
+        width = a.together(j, last - j);
+        for (int k = begin, some = 0; k < begin + count; k += some) {
+            some = a.together(k, begin + count - k);
+            int ldb = 0;
+            const double* other = b(j, k, ldb);
+            update_lower(rows - j, width, some, a.at(j, k), a.stride(k), other, ldb, a.at(j, j), a.stride(j));
+        }
+    }
+}
+
+/// L of columns of a front: L11 L11^T = A11, L21 = A21 L11^-T. Returns the place of the first pivot that is not positive, or -1.
+/// Halves of the columns follow each other, so that nearly all work is in products.
+inline int cholesky(const DenseColumns& a, int rows, int begin, int count) {
+    if (count <= panel_width) {
+        const int failed = detail::narrow_cholesky(a.at(begin, begin), a.stride(begin), rows - begin, count);
+        return failed < 0 ? -1 : begin + failed;
+    }
+    const int left = a.panels.half(begin, count), next = begin + left;
+    const int failed = cholesky(a, rows, begin, left);
     if (failed >= 0) return failed;
-    double* rest = a + left + static_cast<std::ptrdiff_t>(left) * ld;
-    update_lower(rows - left, right, left, a + left, ld, a + left, ld, rest, ld);
-    failed = cholesky(rest, ld, rows - left, right);
-    return failed < 0 ? -1 : left + failed;
+    update_columns(a, rows, begin, left, next, begin + count, [&](int row, int column, int& ld) {
+        ld = a.stride(column);
+        return a.at(row, column);
+    });
+    return cholesky(a, rows, next, count - left);
 }
 
 }  // namespace umform

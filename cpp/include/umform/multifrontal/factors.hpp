@@ -12,11 +12,11 @@
 #include "cholesky.hpp"
 #include "equilibration.hpp"
 #include "indefinite.hpp"
+#include "panels.hpp"
 #include "plan.hpp"
 #include "schedule.hpp"
 #include "storage.hpp"
 #include "unsymmetric.hpp"
-#include "updates.hpp"
 
 namespace umform {
 
@@ -31,21 +31,17 @@ struct Outcome {
 /// What a front has become. Rows and columns that could not be eliminated here, since no pivot among them was stable, are
 /// eliminated in the front of the parent: they follow its own pivots.
 struct Eliminated {
-    int pivots = 0, size = 0, done = 0;  // with those that the children have left; of them eliminated
-    double* a = nullptr;                 // columns of the factor, `size` rows each; rows of the other one follow
-    Block own;                           // where they are longer than planned
-    double* update = nullptr;            // for the parent: rows that are left, then those of ancestors
-    UpdateLayout layout;
-    Block own_update;
-    bool stacked = false;
+    int pivots = 0, size = 0, done = 0;       // with those that the children have left; of them eliminated
+    DenseColumns a;                           // of the factor; rows of the other one follow
+    Block own;                                // where they are longer than planned
+    DenseColumns update;                      // for the parent: rows that are left, then those of ancestors
+    Room room;                                // of the update, unless it is in the stacks of its subtree
     std::vector<std::int32_t> rows, columns;  // places of the pivots in their order of elimination; empty if as planned
     std::vector<double> below;                // entries beside the diagonal of pivots of two columns
 
     int left() const { return pivots - done; }
     int order() const { return size - done; }
-    double* b() const { return a + static_cast<std::ptrdiff_t>(size) * pivots; }
-    /// Row 0 of a column of the update, of which the lower triangle is there if it is symmetric.
-    double* update_column(int j) const { return update + layout.column(j); }
+    double* b() const { return a.data + a.panels.size(); }
 };
 
 /// Numeric factors of matrices with one pattern.
@@ -61,8 +57,10 @@ class Factors {
             plan_, threads,
             [&](const Schedule::Unit& unit, int thread) {
                 Worker& worker = workers_[thread];
-                worker.stacks.clear();
+                Room room = Room::of(arena_, pool_, schedule_.stacks, !schedule_.side(unit.root), 0);
+                worker.stacks.use(room.data, schedule_.stacks);
                 for (int f = unit.begin; f <= unit.root; ++f) process(f, worker, f < unit.root);
+                room.release(arena_, pool_);
             },
             [&](int f, int thread) { process(f, workers_[thread], false); });
         return {state_.load(), equation_};
@@ -73,6 +71,10 @@ class Factors {
     const Scaling& scaling() const { return scaling_; }
     const Schedule& schedule() const { return schedule_; }
     const Eliminated& front(int f) const { return fronts_[f]; }
+    /// Memory for so many numbers: that of updates, which are gone after a factorisation.
+    Lent lend(std::size_t size) const {
+        return {lent_, storage_.data() + schedule_.floor, schedule_.end - schedule_.floor, size};
+    }
 
     /// Place of the row and of the column of a pivot of a front.
     int row(int f, int k) const { return fronts_[f].rows.empty() ? plan_.fronts[f].first + k : fronts_[f].rows[k]; }
@@ -104,8 +106,10 @@ class Factors {
     Schedule schedule_;
     std::vector<Eliminated> fronts_;
     std::vector<Worker> workers_;
-    Block storage_;
-    Pool pool_;
+    Block storage_;  // the factors as planned, and behind them the arena
+    Arena arena_;    // of updates as planned
+    Pool pool_;      // of those that find no room there
+    mutable std::atomic_flag lent_;
     Kind kind_ = Kind::Positive;
     const double* values_ = nullptr;
     Scaling scaling_;
@@ -117,11 +121,11 @@ class Factors {
     /// Takes all memory that is planned, or throws: before any product is made, since BLAS may not come back where none is left.
     std::optional<Buffers> reserve(int threads) {
         const int team = schedule_.worth_a_team ? threads : 1;
-        storage_.grow(plan_.factor_size);
+        storage_.grow(schedule_.end);
+        arena_.reset(storage_.data() + schedule_.begin, schedule_.end - schedule_.begin);
         if (static_cast<int>(workers_.size()) < threads) workers_ = std::vector<Worker>(threads);
-        for (int t = 0; t < team; ++t) workers_[t].stacks.reserve(schedule_.even, schedule_.odd);
         if (!schedule_.worth_a_team) return {};
-        const std::size_t above = schedule_.peak > pool_.held() ? schedule_.peak - pool_.held() : 0;
+        const std::size_t more = team == 1 ? 0 : schedule_.peak, above = more > pool_.held() ? more - pool_.held() : 0;
         return std::optional<Buffers>(std::in_place, team, above);
     }
 
@@ -155,18 +159,20 @@ class Factors {
         for (int k = 0; k < count; ++k) delayed += fronts_[plan_.children[begin + k]].left();
         front.pivots = planned.pivots + delayed, front.size = planned.size + delayed;
         front.rows.clear(), front.columns.clear();
-        const std::size_t p = front.pivots, m = front.size, beside = kind_ == Kind::Unsymmetric ? p * (m - p) : 0;
+        const std::size_t p = front.pivots, m = front.size;
+        front.a.panels = Panels::of_factor(m, p, kind_ != Kind::Unsymmetric);
+        const std::size_t all = front.a.panels.size() + (kind_ == Kind::Unsymmetric ? p * (m - p) : 0);
         if (delayed == 0) {
             front.own = Block();
-            front.a = storage_.data() + planned.factor;
+            front.a.data = storage_.data() + planned.factor;
         } else {
-            front.own.grow(m * p + beside);
-            front.a = front.own.data();
+            front.own.grow(all);
+            front.a.data = front.own.data();
         }
         if (kind_ == Kind::Unsymmetric)
-            std::fill_n(front.a, m * p + beside, 0.0);
+            std::fill_n(front.a.data, all, 0.0);
         else
-            for (std::size_t j = 0; j < p; ++j) std::fill_n(front.a + j * m + j, m - j, 0.0);
+            for (std::size_t j = 0; j < p; ++j) std::fill_n(front.a.at(j, j), m - j, 0.0);
         int next = planned.pivots;
         for (int k = 0; k < count; ++k) {
             const int c = plan_.children[begin + k];
@@ -214,13 +220,14 @@ class Factors {
     void add_entries(int f, Eliminated& front) {
         const Front& planned = plan_.fronts[f];
         const int delayed = front.pivots - planned.pivots, p = planned.pivots, m = planned.size;
-        plan_.entries.for_each(f, m, [&](int source, int target) {
-            if (delayed == 0) {
-                front.a[target] += values_[source];
-            } else if (target < p * m) {
+        if (delayed == 0 && !front.a.panels.parted()) {
+            plan_.entries.for_each(f, m, p, [&](int source, int target) { front.a.data[target] += values_[source]; });
+            return;
+        }
+        plan_.entries.for_each(f, m, p, [&](int source, int target) {
+            if (target < p * m) {
                 const int row = target % m, column = target / m;
-                front.a[(row < p ? row : row + delayed) + static_cast<std::ptrdiff_t>(column) * front.size] +=
-                    values_[source];
+                *front.a.at(row < p ? row : row + delayed, column) += values_[source];
             } else {
                 front.b()[target - p * m] += values_[source];
             }
@@ -239,7 +246,7 @@ class Factors {
             r[at] = scaling_.row[i], c[at] = scaling_.column[i];
         }
         for (int j = 0; j < p; ++j) {
-            double* column = front.a + static_cast<std::ptrdiff_t>(j) * m;
+            double* column = front.a.column(j);
             for (int i = kind_ == Kind::Unsymmetric ? 0 : j; i < m; ++i) column[i] *= r[i] * c[j];
             if (kind_ != Kind::Unsymmetric) continue;
             double* row = front.b() + static_cast<std::ptrdiff_t>(j) * beyond;
@@ -251,14 +258,14 @@ class Factors {
     void add_pivots(const Child& child, Eliminated& front) {
         if (!child.sorted) return add_unsorted(child, front, true);
         for (int j = 0; j < child.split; ++j) {
-            const double* column = child.front->update_column(j);
-            double* to = front.a + static_cast<std::ptrdiff_t>(child.seat[j]) * front.size;
+            const double* column = child.front->update.column(j);
+            double* to = front.a.column(child.seat[j]);
             add_column(child, column, to, kind_ == Kind::Unsymmetric ? 0 : j);
         }
         if (kind_ != Kind::Unsymmetric) return;
         const int beyond = front.size - front.pivots;
         for (int j = child.split; j < child.order; ++j) {
-            const double* column = child.front->update_column(j);
+            const double* column = child.front->update.column(j);
             double* to = front.b() + child.seat[j] - front.pivots;
             for (int i = 0; i < child.split; ++i) to[static_cast<std::ptrdiff_t>(child.seat[i]) * beyond] += column[i];
         }
@@ -279,14 +286,14 @@ class Factors {
         const int p = front.pivots, shift = front.left() - p, beyond = front.size - p;
         for (int j = 0; j < child.order; ++j)
             for (int i = kind_ == Kind::Unsymmetric ? 0 : j; i < child.order; ++i) {
-                const double value = child.front->update_column(j)[i];
+                const double value = *child.front->update.at(i, j);
                 int row = child.seat[i], column = child.seat[j];
                 if (kind_ != Kind::Unsymmetric && row < column) std::swap(row, column);
                 if ((std::min(row, column) < p) != pivots) continue;
                 if (!pivots)
-                    front.update_column(column + shift)[row + shift] += value;
+                    *front.update.at(row + shift, column + shift) += value;
                 else if (column < p)
-                    front.a[row + static_cast<std::ptrdiff_t>(column) * front.size] += value;
+                    *front.a.at(row, column) += value;
                 else
                     front.b()[column - p + static_cast<std::ptrdiff_t>(row) * beyond] += value;
             }
@@ -294,7 +301,7 @@ class Factors {
 
     bool eliminate(int f, Eliminated& front) {
         if (kind_ == Kind::Positive) {
-            const int failed = cholesky(front.a, front.size, front.size, front.pivots);
+            const int failed = cholesky(front.a, front.size, 0, front.pivots);
             front.done = front.pivots;
             if (failed >= 0) stop(Outcome::NotPositive, plan_.fronts[f].first + failed);
             return failed < 0;
@@ -307,7 +314,7 @@ class Factors {
             exchanged |= work.exchanged();
             front.rows = front.columns;
         } else {
-            Unsymmetric work(front.a, front.b(), front.size, front.pivots, front.rows, front.columns);
+            Unsymmetric work(front.a.data, front.b(), front.size, front.pivots, front.rows, front.columns);
             front.done = work.run(empty);
             exchanged |= work.exchanged();
         }
@@ -323,13 +330,16 @@ class Factors {
     /// What is left for the parent.
     void make_update(int f, Eliminated& front, Worker& worker, bool stack) {
         const int left = front.left();
-        front.layout = UpdateLayout(front.order(), left, kind_ != Kind::Unsymmetric);
-        front.stacked = stack && left == 0 && front.pivots == plan_.fronts[f].pivots;
-        if (front.stacked) {
-            front.update = worker.stacks.push(schedule_.depth[f], front.layout.size());
+        front.update.panels = Panels::of_update(front.order(), left, kind_ != Kind::Unsymmetric);
+        const std::size_t size = front.update.panels.size();
+        if (stack && left == 0 && front.pivots == plan_.fronts[f].pivots) {
+            front.room = Room();
+            front.update.data = worker.stacks.push(schedule_.depth[f], size);
         } else {
-            front.own_update = pool_.take(front.layout.size());
-            front.update = front.own_update.data();
+            const bool into_last = plan_.fronts[f].parent == schedule_.last;
+            const std::size_t floor = into_last ? schedule_.floor - schedule_.begin : 0;
+            front.room = Room::of(arena_, pool_, size, schedule_.side(f), floor);
+            front.update.data = front.room.data;
         }
         if (left > 0) copy_left(front);
         const int beyond = front.size - front.pivots, width = block_of(front), blocks = (beyond + width - 1) / width;
@@ -346,38 +356,44 @@ class Factors {
 
     /// Columns of an update that are worked on at a time.
     static int block_of(const Eliminated& front) {
-        return front.layout.width == 0 ? 192 : static_cast<int>(front.layout.width);
+        const std::size_t width = front.update.panels.width();
+        return width == 0 ? 192 : static_cast<int>(width);
     }
 
     /// Rows and columns that could not be eliminated.
     void copy_left(Eliminated& front) {
         const int order = front.order(), left = front.left(), beyond = order - left;
         for (int j = 0; j < left; ++j) {
-            const double* column = front.a + static_cast<std::ptrdiff_t>(front.done + j) * front.size + front.done;
-            std::copy_n(column, order, front.update_column(j));
+            const int first = kind_ == Kind::Unsymmetric ? 0 : j;
+            std::copy_n(front.a.at(front.done + first, front.done + j), order - first, front.update.at(first, j));
             if (kind_ != Kind::Unsymmetric) continue;
             const double* row = front.b() + static_cast<std::ptrdiff_t>(front.done + j) * beyond;
-            for (int i = 0; i < beyond; ++i) front.update_column(left + i)[j] = row[i];
+            for (int i = 0; i < beyond; ++i) *front.update.at(j, left + i) = row[i];
         }
     }
 
     /// Columns of the update: - L21 L21^T, - L21 D L21^T or - L21 U12.
     void multiply(Eliminated& front, int first, int last) {
         const int p = front.pivots, m = front.size, left = front.left(), q = front.done;
-        const int stride = static_cast<int>(front.layout.stride(left + first));
-        double* c = front.update_column(left + first) + left;
-        const double* a = front.a + p;
-        if (kind_ == Kind::Positive) {
-            blas().gemm('N', 'T', m - p - first, last - first, q, -1.0, a + first, m, a + first, m, 0.0, c + first,
-                        stride);
-        } else if (kind_ == Kind::Symmetric) {
-            std::vector<std::int32_t> none;
-            std::vector<double> scaled;
-            Indefinite(front.a, m, p, front.below, none).scale_rows(0, q, p + first, last - first, scaled);
-            blas().gemm('N', 'T', m - p - first, last - first, q, -1.0, a + first, m, scaled.data(), last - first, 0.0,
-                        c + first, stride);
-        } else {
-            blas().gemm('N', 'T', m - p, last - first, q, -1.0, a, m, front.b() + first, m - p, 0.0, c, stride);
+        const int width = last - first, stride = front.update.stride(left + first);
+        double* c = front.update.at(left, left + first);
+        if (kind_ == Kind::Unsymmetric) {
+            const double* a = front.a.data + p;
+            blas().gemm('N', 'T', m - p, width, q, -1.0, a, m, front.b() + first, m - p, 0.0, c, stride);
+            return;
+        }
+        std::vector<std::int32_t> none;
+        std::vector<double> scaled;
+        if (kind_ == Kind::Symmetric)
+            Indefinite(front.a, m, p, front.below, none).scale_rows(0, q, p + first, width, scaled);
+        for (int k = 0, next = 0; k == 0 || k < q; k = next) {
+            next = k + std::max(1, front.a.together(k, q - k));
+            const double* a = front.a.at(p + first, k);
+            const int ld = front.a.stride(k);
+            const bool positive = kind_ == Kind::Positive;
+            blas().gemm('N', 'T', m - p - first, width, std::min(next, q) - k, -1.0, a, ld,
+                        positive ? a : scaled.data() + static_cast<std::size_t>(k) * width, positive ? ld : width,
+                        k == 0 ? 0.0 : 1.0, c + first, stride);
         }
     }
 
@@ -387,8 +403,8 @@ class Factors {
         const auto* end = child.seat + child.order;
         int j = static_cast<int>(std::lower_bound(child.seat + child.split, end, front.pivots + first) - child.seat);
         for (; j < child.order && child.seat[j] < front.pivots + last; ++j) {
-            const double* column = child.front->update_column(j);
-            double* to = front.update_column(child.seat[j] + shift) + shift;
+            const double* column = child.front->update.column(j);
+            double* to = front.update.at(shift, child.seat[j] + shift);
             add_column(child, column, to, kind_ == Kind::Unsymmetric ? child.split : j);
         }
     }
@@ -396,13 +412,11 @@ class Factors {
     void release(int f, Worker& worker) {
         Eliminated& front = fronts_[f];
         if (front.order() == 0) return;
-        if (front.stacked) {
-            worker.stacks.pop(schedule_.depth[f], front.layout.size());
-        } else {
-            pool_.give(std::move(front.own_update));
-            front.own_update = Block();
-        }
-        front.update = nullptr;
+        if (front.room.data == nullptr)
+            worker.stacks.pop(schedule_.depth[f], front.update.panels.size());
+        else
+            front.room.release(arena_, pool_);
+        front.update.data = nullptr;
     }
 };
 

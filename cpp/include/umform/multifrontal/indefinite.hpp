@@ -27,9 +27,10 @@ class Indefinite : ByHalves<Indefinite> {
   public:
     static constexpr double tolerance = 0.01;
 
-    /// Lower triangle of `columns` columns of `rows` rows; `below` gets the entry beside the diagonal of each pivot of two
+    /// Lower triangles of `columns` columns of `rows` rows; `below` gets the entry beside the diagonal of each pivot of two
     /// columns, `order` the columns in their order of elimination.
-    Indefinite(double* a, int rows, int columns, std::vector<double>& below, std::vector<std::int32_t>& order)
+    Indefinite(const DenseColumns& a, int rows, int columns, std::vector<double>& below,
+               std::vector<std::int32_t>& order)
         : a_(a), rows_(rows), columns_(columns), below_(below), order_(order) {}
 
     /// Number of columns that were eliminated. `empty` is a column without entries, or -1: the matrix is singular.
@@ -45,18 +46,20 @@ class Indefinite : ByHalves<Indefinite> {
     bool exchanged() const { return exchanged_; }
 
   private:
-    double* a_;
+    DenseColumns a_;
     int rows_, columns_, done_ = 0, next_ = 0;  // where the search continues
     bool exchanged_ = false;
     std::vector<double>& below_;
     std::vector<std::int32_t>& order_;
     std::vector<double> scaled_, kept_;
 
-    double* at(int i, int j) { return a_ + i + static_cast<std::ptrdiff_t>(j) * rows_; }
+    double* at(int i, int j) { return a_.at(i, j); }
+    const Panels& panels() const { return a_.panels; }
 
     /// Eliminates a block up to the first column that fails; returns how many.
     int try_block(int begin, int count) {
-        BunchKaufman block(at(begin, begin), rows_, count);
+        const int ld = a_.stride(begin);
+        BunchKaufman block(at(begin, begin), ld, count);
         for (int k = 0; k < count; ++k)
             if (block.exchange[k] > k) exchange(begin + k, begin + block.exchange[k]);
         const int under = begin + count, height = rows_ - under;
@@ -65,7 +68,7 @@ class Indefinite : ByHalves<Indefinite> {
             std::copy_n(at(begin, begin + k), rows_ - begin, &kept_[k * std::size_t(rows_ - begin)]);
         SmallTriangle triangle;
         take_triangle(block.entry[0], panel_width, block.done, true, triangle);
-        solve_rows(triangle, block.done, at(under, begin), rows_, height);
+        solve_rows(triangle, block.done, at(under, begin), ld, height);
         int good = 0;
         while (good < block.done) {
             const int size = block.below[good] != 0.0 ? 2 : 1;
@@ -92,7 +95,7 @@ class Indefinite : ByHalves<Indefinite> {
             const double inverse = 1.0 / block.diagonal[k];
             for (int i = 0; i < height; ++i) x[i] *= inverse, largest = std::max(largest, std::abs(x[i]));
         } else {
-            double* y = x + rows_;
+            double* y = at(under, begin + k + 1);
             const TwoByTwo pivot(block.diagonal[k], block.below[k], block.diagonal[k + 1]);
             for (int i = 0; i < height; ++i) {
                 pivot.solve(x[i], y[i]);
@@ -106,8 +109,10 @@ class Indefinite : ByHalves<Indefinite> {
     void update(int begin, int count, int first, int last) {
         if (count == 0 || first == last) return;
         scale_rows(begin, count, first, last - first, scaled_);
-        update_lower(rows_ - first, last - first, count, at(first, begin), rows_, scaled_.data(), last - first,
-                     at(first, first), rows_);
+        update_columns(a_, rows_, begin, count, first, last, [&](int row, int column, int& ld) {
+            ld = last - first;
+            return &scaled_[static_cast<std::size_t>(column - begin) * ld + (row - first)];
+        });
     }
 
   public:
@@ -122,7 +127,7 @@ class Indefinite : ByHalves<Indefinite> {
                 ++k;
                 continue;
             }
-            const double *y = x + rows_, f = *at(begin + k + 1, begin + k + 1);
+            const double *y = at(first, begin + k + 1), f = *at(begin + k + 1, begin + k + 1);
             for (int i = 0; i < height; ++i) to[i] = d * x[i] + e * y[i], to[height + i] = e * x[i] + f * y[i];
             k += 2;
         }
@@ -135,10 +140,11 @@ class Indefinite : ByHalves<Indefinite> {
         if (p > q) std::swap(p, q);
         exchanged_ = true;
         std::swap(order_[p], order_[q]);
-        for (int j = 0; j < p; ++j) std::swap(*at(p, j), *at(q, j));
+        a_.for_row(p, 0, p, [&, across = q - p](double& entry, int) { std::swap(entry, *(&entry + across)); });
         std::swap(*at(p, p), *at(q, q));
-        for (int k = p + 1; k < q; ++k) std::swap(*at(k, p), *at(q, k));
-        std::swap_ranges(at(q, p) + 1, at(0, p) + rows_, at(q, q) + 1);
+        double* column = a_.column(p);
+        a_.for_row(q, p + 1, q, [&](double& entry, int k) { std::swap(entry, column[k]); });
+        std::swap_ranges(column + q + 1, column + rows_, at(q, q) + 1);
     }
 
     /// Entry of the rest of the matrix, which is stored below the diagonal.

@@ -22,7 +22,7 @@ struct Pivots {
         for (int f = 0; f < static_cast<int>(plan.fronts.size()); ++f) {
             const Eliminated& front = factors.front(f);
             for (int t = 0; t < front.done; ++t) {
-                const double d = front.a[t + static_cast<std::ptrdiff_t>(t) * front.size];
+                const double d = *front.a.at(t, t);
                 const int column = factors.column(f, t);
                 partner[factors.row(f, t)] = column;
                 double& here = size[plan.equation[column]];
@@ -31,7 +31,7 @@ struct Pivots {
                     negative += here < 0.0 ? 1 : 0;
                     continue;
                 }
-                const double e = front.below[t], g = front.a[t + 1 + static_cast<std::ptrdiff_t>(t + 1) * front.size];
+                const double e = front.below[t], g = *front.a.at(t + 1, t + 1);
                 const double largest = std::max({std::abs(d), std::abs(e), std::abs(g)});
                 const double determinant = (d / largest) * g - (e / largest) * e;
                 const int other = factors.column(f, ++t);

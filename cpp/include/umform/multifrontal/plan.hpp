@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "entries.hpp"
+#include "panels.hpp"
 #include "structure.hpp"
 #include "supernodes.hpp"
 #include "umform/ordering/quotient.hpp"
@@ -27,8 +28,8 @@ struct Front {
 
 /// Everything about a factorisation that does not depend on values. Places count equations in their order of elimination.
 ///
-/// The columns of a front of size m are stored by `pivots` columns of m entries. If the matrix is not symmetric, the rows
-/// of the other factor follow behind the diagonal block in the same way, transposed.
+/// Of a front of size m the factor has `pivots` columns, stored by panels. If the matrix is not symmetric, these have m entries,
+/// and the rows of the other factor follow behind the diagonal block in the same way, transposed.
 struct Plan {
     int n = 0;
     bool symmetric = true;
@@ -57,7 +58,7 @@ struct Plan {
         std::vector<std::int32_t> owner(n), local(n, 0);
         for (std::size_t f = 0; f < fronts.size(); ++f)
             std::fill_n(owner.begin() + fronts[f].first, fronts[f].pivots, static_cast<std::int32_t>(f));
-        entries = EntryRuns(matrix, place, owner, fronts.size());
+        entries = EntryRuns(matrix, symmetric, place, owner, fronts.size());
         for (std::size_t f = 0; f < fronts.size(); ++f) {
             const Front& front = fronts[f];
             const int m = front.size, p = front.pivots;
@@ -101,7 +102,8 @@ struct Plan {
             front.factor = factor_size;
             const std::int64_t p = front.pivots, m = front.size;
             if (2 * p * m > std::numeric_limits<std::int32_t>::max()) throw std::bad_alloc();
-            factor_size += p * m + (symmetric ? 0 : p * (m - p));
+            factor_size += static_cast<std::int64_t>(Panels::of_factor(m, p, symmetric).size());
+            if (!symmetric) factor_size += p * (m - p);
             fill += p * m - p * (p - 1) / 2;
             for (std::int64_t k = 0; k < p; ++k) front.work += (m - k) * (m - k) / (symmetric ? 2 : 1);
             fronts.push_back(front);

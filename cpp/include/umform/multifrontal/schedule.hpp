@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "panels.hpp"
 #include "plan.hpp"
+#include "storage.hpp"
 #include "umform/assembly/threads.hpp"
-#include "updates.hpp"
 
 namespace umform {
 
@@ -22,9 +23,14 @@ class Schedule {
     std::vector<Unit> units;
     std::vector<std::uint8_t> above;  // [front] is it above the units?
     std::vector<std::uint8_t> depth;  // even or odd
-    std::size_t even = 0, odd = 0;    // numbers in the two stacks of a unit
-    std::size_t peak = 0;             // numbers in updates at one time, on one thread
+    std::size_t stacks = 0;           // numbers in the two stacks of a unit, at most
+    std::size_t peak = 0;             // numbers in stacks and updates at one time, on one thread
     bool worth_a_team = false;
+
+    /// Where the memory for updates begins and ends: behind the factors and, where all fronts have one ancestor, in its columns
+    /// until they are assembled. What that front takes over lies behind `floor`.
+    std::size_t begin = 0, floor = 0, end = 0;
+    int last = -1;  // that ancestor
 
     explicit Schedule(const Plan& plan) : above(plan.fronts.size(), 0), depth(plan.fronts.size(), 0) {
         const int count = static_cast<int>(plan.fronts.size());
@@ -48,7 +54,11 @@ class Schedule {
         }
         for (const Unit& unit : units) measure(plan, unit);
         find_peak(plan);
+        place(plan);
     }
+
+    /// Side of the memory for updates from which that of a front is taken.
+    bool side(int f) const { return depth[f] != 0; }
 
     /// Calls alone(unit, thread) for each unit and together(front, thread) for each front above, children first.
     template <class Alone, class Together>
@@ -85,27 +95,51 @@ class Schedule {
     static constexpr std::int64_t kUnits = 48;
 
     void find_peak(const Plan& plan) {
-        std::size_t held = 0;
-        for (std::size_t f = 0; f < plan.fronts.size(); ++f) {
-            held += update_size(plan, static_cast<int>(f));
-            peak = std::max(peak, held);
-            for (int k = plan.children_start[f]; k < plan.children_start[f + 1]; ++k)
-                held -= update_size(plan, plan.children[k]);
+        std::size_t held = 0, unit = 0;
+        for (int f = 0; f < static_cast<int>(plan.fronts.size()); ++f) {
+            if (above[f] != 0) {
+                held += Arena::padded(update_size(plan, f));
+                peak = std::max(peak, held);
+                held -= taken_over(plan, f);
+            } else if (f == units[unit].root) {
+                held += Arena::padded(update_size(plan, f));
+                peak = std::max(peak, held + Arena::padded(stacks));
+                ++unit;
+            }
         }
     }
 
+    /// Numbers in the updates of the children of a front.
+    static std::size_t taken_over(const Plan& plan, int f) {
+        std::size_t sum = 0;
+        for (int k = plan.children_start[f]; k < plan.children_start[f + 1]; ++k)
+            sum += Arena::padded(update_size(plan, plan.children[k]));
+        return sum;
+    }
+
+    void place(const Plan& plan) {
+        const int count = static_cast<int>(plan.fronts.size());
+        const auto roots = std::count_if(plan.fronts.begin(), plan.fronts.end(), [](auto& f) { return f.parent < 0; });
+        floor = begin = Arena::padded(plan.factor_size);
+        if (roots == 1 && above[count - 1] != 0) {
+            last = count - 1;
+            begin = Arena::padded(plan.fronts[last].factor);
+        }
+        end = std::max(begin + peak, floor + (last < 0 ? 0 : taken_over(plan, last)));
+    }
+
     static std::size_t update_size(const Plan& plan, int f) {
-        return UpdateLayout(plan.fronts[f].updates(), 0, plan.symmetric).size();
+        return Panels::of_update(plan.fronts[f].updates(), 0, plan.symmetric).size();
     }
 
     /// What the stacks of a unit hold at most.
     void measure(const Plan& plan, const Unit& unit) {
-        std::size_t held[2] = {0, 0};
+        std::size_t held = 0;
         for (int f = unit.begin; f <= unit.root; ++f) {
-            if (f < unit.root) held[depth[f]] += update_size(plan, f);
-            even = std::max(even, held[0]), odd = std::max(odd, held[1]);
+            if (f < unit.root) held += update_size(plan, f);
+            stacks = std::max(stacks, held);
             for (int k = plan.children_start[f]; k < plan.children_start[f + 1]; ++k)
-                held[depth[f] ^ 1U] -= update_size(plan, plan.children[k]);
+                held -= update_size(plan, plan.children[k]);
         }
     }
 };

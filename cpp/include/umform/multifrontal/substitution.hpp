@@ -18,8 +18,9 @@ class Substitution {
 
     Substitution(const Factors& factors, int columns, int threads)
         : factors_(factors), plan_(factors.plan()), columns_(columns), threads_(threads),
-          right_(static_cast<std::size_t>(plan_.n) * columns), found_(right_.size()),
-          carried_(plan_.rows.size() * static_cast<std::size_t>(columns)), scratch_(threads) {}
+          memory_(factors.lend((2 * static_cast<std::size_t>(plan_.n) + plan_.rows.size()) * columns)),
+          right_(memory_.data()), found_(right_ + static_cast<std::ptrdiff_t>(plan_.n) * columns),
+          carried_(found_ + static_cast<std::ptrdiff_t>(plan_.n) * columns), scratch_(threads) {}
 
     /// Columns of b and x are `n` long, in the order of the equations.
     void run(const double* b, double* x) {
@@ -55,7 +56,8 @@ class Substitution {
     const Factors& factors_;
     const Plan& plan_;
     int columns_, threads_;
-    std::vector<double> right_, found_, carried_;  // by places; what fronts hand on to their parents
+    Lent memory_;
+    double *right_, *found_, *carried_;  // by places; what fronts hand on to their parents
     std::vector<Scratch> scratch_;
 
     double& right(int place, int j) { return right_[static_cast<std::size_t>(j) * plan_.n + place]; }
@@ -64,8 +66,8 @@ class Substitution {
     void forward(int f, Scratch& scratch) {
         const Front& planned = plan_.fronts[f];
         const Eliminated& front = factors_.front(f);
-        const int u = planned.updates(), p = front.pivots, q = front.done, m = front.size;
-        double* hand_on = carried_.data() + planned.rows * columns_;
+        const int u = planned.updates(), p = front.pivots, q = front.done;
+        double* hand_on = carried_ + planned.rows * columns_;
         std::fill_n(hand_on, static_cast<std::size_t>(u) * columns_, 0.0);
         for (int k = plan_.children_start[f]; k < plan_.children_start[f + 1]; ++k)
             take_over(plan_.children[k], planned, hand_on);
@@ -74,9 +76,14 @@ class Substitution {
         for (int j = 0; j < columns_; ++j)
             for (int t = 0; t < p; ++t) y[j * p + t] = right(factors_.row(f, t), j);
         const char unit = factors_.kind() == Kind::Positive ? 'N' : 'U';
-        blas().divide('L', 'N', unit, q, front.a, m, y.data(), p, columns_);
-        blas().subtract('N', p - q, q, front.a + q, m, y.data(), p, y.data() + q, p, columns_);
-        blas().subtract('N', u, q, front.a + p, m, y.data(), p, hand_on, u, columns_);
+        for (int k = 0, next = 0; k < q; k = next) {
+            next = k + front.a.together(k, q - k);
+            const int width = next - k, ld = front.a.stride(k);
+            double* mine = y.data() + k;
+            blas().divide('L', 'N', unit, width, front.a.at(k, k), ld, mine, p, columns_);
+            blas().subtract('N', p - next, width, front.a.at(next, k), ld, mine, p, y.data() + next, p, columns_);
+            blas().subtract('N', u, width, front.a.at(p, k), ld, mine, p, hand_on, u, columns_);
+        }
         if (factors_.kind() == Kind::Symmetric) divide_by_diagonal(front, y.data(), p);
         for (int j = 0; j < columns_; ++j)
             for (int t = 0; t < p; ++t) right(factors_.row(f, t), j) = y[j * p + t];
@@ -86,7 +93,7 @@ class Substitution {
     void take_over(int child, const Front& parent, double* hand_on) {
         const Front& planned = plan_.fronts[child];
         const int u = planned.updates(), there = parent.updates();
-        const double* from = carried_.data() + planned.rows * columns_;
+        const double* from = carried_ + planned.rows * columns_;
         const std::int32_t* seat = plan_.seat.data() + planned.rows;
         for (int j = 0; j < columns_; ++j)
             for (int i = 0; i < u; ++i) {
@@ -100,12 +107,12 @@ class Substitution {
 
     void divide_by_diagonal(const Eliminated& front, double* y, int ld) {
         for (int t = 0; t < front.done; ++t) {
-            const double* d = front.a + t + static_cast<std::ptrdiff_t>(t) * front.size;
+            const double d = *front.a.at(t, t);
             if (front.below[t] == 0.0) {
-                for (int j = 0; j < columns_; ++j) y[j * ld + t] /= *d;
+                for (int j = 0; j < columns_; ++j) y[j * ld + t] /= d;
                 continue;
             }
-            const TwoByTwo pivot(*d, front.below[t], d[front.size + 1]);
+            const TwoByTwo pivot(d, front.below[t], *front.a.at(t + 1, t + 1));
             for (int j = 0; j < columns_; ++j) pivot.solve(y[j * ld + t], y[j * ld + t + 1]);
             ++t;
         }
@@ -123,18 +130,28 @@ class Substitution {
             for (int t = left; t < order; ++t) z[j * order + t] = found(plan_.rows[planned.rows + t - left], j);
         }
         if (factors_.kind() == Kind::Unsymmetric) {
-            const double* beside = front.a + static_cast<std::ptrdiff_t>(q) * m;
-            blas().subtract('N', q, left, beside, m, z.data(), order, y.data(), q, columns_);
+            blas().subtract('N', q, left, front.a.column(q), m, z.data(), order, y.data(), q, columns_);
             blas().subtract('T', m - p, q, front.b(), std::max(1, m - p), z.data() + left, order, y.data(), q,
                             columns_);
-            blas().divide('U', 'N', 'N', q, front.a, m, y.data(), q, columns_);
+            blas().divide('U', 'N', 'N', q, front.a.data, m, y.data(), q, columns_);
         } else {
-            blas().subtract('T', order, q, front.a + q, m, z.data(), order, y.data(), q, columns_);
-            blas().divide('L', 'T', factors_.kind() == Kind::Positive ? 'N' : 'U', q, front.a, m, y.data(), q,
-                          columns_);
+            back_by_panels(front, y.data(), z.data());
         }
         for (int j = 0; j < columns_; ++j)
             for (int t = 0; t < q; ++t) found(factors_.column(f, t), j) = y[j * q + t];
+    }
+
+    /// y := L11^-T (y - L21^T z), from the last panel of columns to the first.
+    void back_by_panels(const Eliminated& front, double* y, const double* z) {
+        const int q = front.done, order = front.order();
+        const char unit = factors_.kind() == Kind::Positive ? 'N' : 'U';
+        for (int end = q, k = 0; end > 0; end = k) {
+            k = front.a.begin(end - 1);
+            const int width = end - k, ld = front.a.stride(k);
+            blas().subtract('T', order, width, front.a.at(q, k), ld, z, order, y + k, q, columns_);
+            blas().subtract('T', q - end, width, front.a.at(end, k), ld, y + end, q, y + k, q, columns_);
+            blas().divide('L', 'T', unit, width, front.a.at(k, k), ld, y + k, q, columns_);
+        }
     }
 };
 

@@ -48,6 +48,7 @@ class Unsymmetric : ByHalves<Unsymmetric> {
     std::vector<double> kept_;
 
     double* at(int i, int j) { return a_ + i + static_cast<std::ptrdiff_t>(j) * rows_; }
+    Panels panels() const { return Panels::of_factor(rows_, columns_, false); }
     double* row_beyond(int i) { return b_ + static_cast<std::ptrdiff_t>(i) * beyond_; }
 
     /// Eliminates a block up to the first column that fails; returns how many.
