@@ -55,7 +55,7 @@ class Model(Standing):
         law does not see.
     **options
         Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
-        compatible_E12.
+        compatible_E12, plane_strain.
 
     Raises
     ------
