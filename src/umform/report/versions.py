@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import platform
+from functools import cache
 from importlib.metadata import version
 
 import numpy
@@ -11,6 +12,7 @@ import umform
 from umform.solvers import available
 
 
+@cache
 def versions() -> dict[str, str]:
     """Versions of umform and of the packages that affect its numbers."""
     return {
