@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.errors import ModelError
+from umform.mesh.numbers import unique
 from umform.model.body import Body
 from umform.model.evaluated import Evaluated
 
@@ -50,7 +51,8 @@ def _check_body(body: Body, held: NDArray[np.bool_]) -> None:
             cause="plane_strain takes s, from the first to the fourth node of a cell, for the direction across",
             remedy="number the nodes so that s runs along x, y or z, or leave plane_strain out",
         )
-    free = np.setdiff1d(nodes, np.flatnonzero(held[:, axis]))
+    free = unique(nodes)
+    free = free[~held[free, axis]]
     if len(free):
         name = "xyz"[axis]
         raise ModelError(

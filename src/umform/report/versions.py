@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import platform
 from functools import cache
-from importlib.metadata import version
 
 import numpy
+import scipy
 
 import umform
 from umform.solvers import available
@@ -19,7 +19,7 @@ def versions() -> dict[str, str]:
         "umform": umform.__version__,
         "python": platform.python_version(),
         "numpy": numpy.__version__,
-        "scipy": version("scipy"),  # without importing it
+        "scipy": scipy.__version__,  # of the package alone, whose parts are not loaded
         "platform": platform.platform(),
         "solvers": ", ".join(name for name, here in available().items() if here),
     }
