@@ -17,7 +17,7 @@ def in_plane_strain(made: Element) -> Element:
 
     One Gauss point less in s is exact for the forces of a uniform stress, and the shear strains at these points still
     resist all displacements that vary along s: E_12 and E_23 are compatible, since a tied one would leave mechanisms.
-    E_11, E_33 and E_13 are tied at these points in s. docs/theory, 2.12
+    E_11, E_33 and E_13 are tied at these points in s. docs/theory, 2.11
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ _FROM, _TO = (0, 1), (3, 2)
 
 
 def check_plane_strain(model: Evaluated) -> None:
-    """Check the bodies whose element has fewer Gauss points across. docs/theory, 2.12
+    """Check the bodies whose element has fewer Gauss points across. docs/theory, 2.11
 
     Raises
     ------

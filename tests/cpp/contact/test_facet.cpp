@@ -56,9 +56,10 @@ int main() {
         check<4>({{points, points}, false});
         check<9>({{points, points}, false});
     }
+    check<9>({{5, 2}, false});
     check<4>({{1, 1}, true});
     check<9>({{1, 1}, true});
-    const FacetPoints<9> fine(one<9>(), rectangle<9>(), {3, false});
+    const FacetPoints<9> fine(one<9>(), rectangle<9>(), {{3, 3}, false});
     CHECK(fine.largest_motion() > 1.2);  // the quadratic functions have two signs
     return report("contact facet");
 }
