@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
@@ -100,3 +103,15 @@ def test_two_models_evaluate_in_two_python_threads(build, rng):
         together = list(pool.map(evaluate, (0, 1)))
     assert together == expected
     assert [len(one) for one in together] == [1, 1]
+
+
+@pytest.mark.parametrize(("given", "expected"), [(None, "PASSIVE"), ("active", "ACTIVE")])
+def test_threads_wait_passively_unless_the_user_wants_otherwise(given, expected):
+    environment = {name: value for name, value in os.environ.items() if name != "OMP_WAIT_POLICY"}
+    environment |= {"OMP_DISPLAY_ENV": "true"} | ({} if given is None else {"OMP_WAIT_POLICY": given})
+    code = "import umform; umform.threads()"
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    shown = [line for line in done.stderr.splitlines() if "OMP_WAIT_POLICY" in line]
+    if not shown:
+        pytest.skip("the kernels were built without OpenMP, or its library does not show its settings")
+    assert expected in shown[0].upper()

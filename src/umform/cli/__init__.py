@@ -30,6 +30,7 @@ def main() -> None:
     """Start the command line; it ends quietly if the reader of its output stops, as in ``umform new | head -1``."""
     try:
         gc.set_threshold(_COLLECT_AFTER)
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # more threads would only wait, actively
         _prepare_streams()
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # the signal of batch systems: handled as Ctrl-C
         importlib.import_module("umform.cli.commands").application(sys.argv[1:])(prog_name="umform")

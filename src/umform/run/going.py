@@ -19,6 +19,7 @@ from umform.run.result import Result
 from umform.run.watching import show
 from umform.solution.newton import Newton
 from umform.solution.options import NewtonOptions
+from umform.solvers.one_thread import one_thread
 from umform.steps import Step
 from umform.steps.arc_length.arc import Arc, Following
 from umform.steps.close import Close, Closing
@@ -85,7 +86,7 @@ def taken(
     """Execute the steps from ``run.number``; after the last one, add the final notes and warnings."""
     result = run.result
     start = clock.perf_counter() - result.seconds
-    with gentle_interrupt() as stop:
+    with gentle_interrupt() as stop, one_thread():
         run.tick, run.pause = tick, lambda: _pause(run, start, checkpoints, stop)
         try:
             while run.number <= len(steps):

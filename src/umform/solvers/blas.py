@@ -6,6 +6,7 @@ import ctypes
 import functools
 import sys
 import threading
+from collections.abc import Callable
 from importlib import import_module, util
 from importlib.machinery import PathFinder
 from pathlib import Path
@@ -13,8 +14,13 @@ from types import ModuleType
 
 from .. import _core
 
-# Functions that set the number of threads of OpenBLAS: as built for SciPy, and by others.
-_PREFIXES = ("scipy_openblas", "openblas")
+# Functions that set and get the number of threads of OpenBLAS, as built for SciPy, for NumPy (64-bit integers), or by
+# others.
+_CONTROLS = [
+    (f"{prefix}_set_num_threads{suffix}", f"{prefix}_get_num_threads{suffix}")
+    for prefix in ("scipy_openblas", "openblas")
+    for suffix in ("", "64_")
+]
 _first = threading.Lock()
 
 
@@ -47,10 +53,17 @@ def _module(name: str) -> ModuleType:
 
 def _thread_control(module: ModuleType) -> tuple[int, int]:
     """Addresses of the functions that set and get the number of threads of BLAS; 0 if there are none."""
-    library = ctypes.CDLL(str(module.__file__))  # search linked libraries as well
-    for prefix in _PREFIXES:
-        names = (f"{prefix}_set_num_threads", f"{prefix}_get_num_threads")
-        if all(hasattr(library, name) for name in names):
-            set_threads, get_threads = (ctypes.cast(getattr(library, name), ctypes.c_void_p).value for name in names)
-            return set_threads or 0, get_threads or 0
-    return 0, 0
+    functions = thread_functions(module)
+    if functions is None:
+        return 0, 0
+    set_threads, get_threads = (ctypes.cast(one, ctypes.c_void_p).value for one in functions)  # type: ignore[arg-type]
+    return set_threads or 0, get_threads or 0
+
+
+def thread_functions(module: ModuleType) -> tuple[Callable[[int], None], Callable[[], int]] | None:
+    """Functions that set and get the number of threads of the OpenBLAS that a compiled module is linked to."""
+    library = ctypes.CDLL(str(module.__file__))  # searches linked libraries as well
+    for pair in _CONTROLS:
+        if all(hasattr(library, name) for name in pair):
+            return getattr(library, pair[0]), getattr(library, pair[1])
+    return None

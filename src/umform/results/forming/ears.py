@@ -15,6 +15,8 @@ Floats = NDArray[np.float64]
 
 #: An ear stands out of its valleys by this part of the largest difference of heights, at least.
 _PROMINENCE = 0.1
+#: Elements of the rim in the shortest ear; shorter waves come from the mesh.
+_ELEMENTS = 6
 
 
 @dataclass(frozen=True)
@@ -75,11 +77,19 @@ class EarProfile:
     def _extremes(self, sign: float) -> Floats:
         from scipy.signal import find_peaks  # slow to import
 
-        whole = self.whole()
-        count = len(whole.angle)
+        height = self._smooth()
+        count = len(height)
         least = max(_PROMINENCE * self.amplitude, 1e-9 * abs(self.mean))
-        peaks, _ = find_peaks(sign * np.tile(whole.height, 3), prominence=least)
-        return np.sort(whole.angle[peaks[(peaks >= count) & (peaks < 2 * count)] - count] % 360.0)
+        peaks, _ = find_peaks(sign * np.tile(height, 3), prominence=least)
+        return np.asarray(360.0 / count * (peaks[(peaks >= count) & (peaks < 2 * count)] - count))
+
+    def _smooth(self) -> Floats:
+        """Heights at equal steps of the angle from 0, without waves shorter than so many elements of the rim."""
+        nodes = len(self.whole().angle)
+        count = 360 * max(1, round(nodes / 36))
+        waves = np.fft.rfft(self.at(np.linspace(0.0, 360.0, count, endpoint=False)))
+        waves[nodes // _ELEMENTS + 1 :] = 0.0
+        return np.asarray(np.fft.irfft(waves, count), dtype=float)
 
     def _closed(self) -> tuple[Floats, Floats]:
         return np.append(self.angle, self.angle[0] + 360.0), np.append(self.height, self.height[0])
