@@ -250,6 +250,6 @@ class Model(Standing):
 
     def mechanism(self, values: NDArray[np.float64], motion: NDArray[np.float64]) -> NDArray[np.float64] | None:
         """What can move although a tangent looks singular; None for a very thin sheet that is held. eq. (5.99)"""
-        from umform.model.mechanisms import mechanism  # imports scipy: slow
+        from umform.model.mechanisms import mechanism
 
         return mechanism(self, values, motion)
