@@ -86,7 +86,7 @@ template <int Nodes>
 void count(const Technology& technology) {
     const int surface_points = read_count(), layers = read_count();
     const std::vector<double> t = read(layers), weights = read(layers);
-    const SolidShell<Nodes, Counted> element(technology, surface_points, {t, weights}, true);
+    const SolidShell<Nodes, Counted> element(technology, {surface_points, surface_points}, {t, weights}, true);
     const std::vector<double> law = read(read_count()), X = read(3 * Nodes), u = read(3 * Nodes);
     typename SolidShell<Nodes, Counted>::Nodal local_X, local_u;
     std::copy(X.begin(), X.end(), local_X.begin());

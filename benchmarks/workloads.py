@@ -39,8 +39,8 @@ def cpu_seconds(work: Callable[[], object]) -> float:
     return time.process_time() - start
 
 
-def start_up(*words: str) -> float:
-    """CPU seconds of five starts of Python with these words, after one that leaves byte code, as pip does."""
+def start_up(*words: str, times: int = 5) -> float:
+    """CPU seconds of some starts of Python with these words, after one that leaves byte code, as pip does."""
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
 
     def start() -> None:
@@ -48,7 +48,7 @@ def start_up(*words: str) -> float:
 
     start()
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    for _ in range(5):
+    for _ in range(times):
         start()
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
@@ -90,6 +90,13 @@ def bent_plate() -> object:
     return uf.solve(model, uf.Move(edge, to=8.0, steps=2), frames=0, progress=False)
 
 
+def bend_of_the_readme() -> float:
+    """CPU seconds of `umform bend` with the options of the README: search, pictures, fields and report."""
+    options = "--thickness 2 --opening 16 --die-radius 2 --punch-radius 1.5 --material DC04 --angle 90 --overwrite"
+    with TemporaryDirectory() as folder:
+        return start_up("-m", "umform", "bend", *options.split(), "--out", f"{folder}/bend", times=1)
+
+
 def files_seconds() -> float:
     """CPU seconds that the files of the run take."""
     result = free_bending(frames=60)
@@ -107,6 +114,7 @@ WORKLOADS: dict[str, Callable[[], float]] = {
     "evaluate MI9K3DEAS, J2": lambda: cpu_seconds(evaluations("MI9K3DEAS", (16, 16))),
     "free bending 24x1": lambda: cpu_seconds(free_bending),
     "files of free bending 24x1": files_seconds,
+    "umform bend of the README": bend_of_the_readme,
     "bent plate 50x50": lambda: cpu_seconds(bent_plate),
 }
 

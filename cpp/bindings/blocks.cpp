@@ -1,3 +1,4 @@
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
@@ -12,8 +13,8 @@ namespace {
 
 Rule to_rule(const Input& x, const Input& w) { return {to_vector(x), to_vector(w)}; }
 
-std::unique_ptr<ShellBlock> shell_block(const Technology& technology, int surface_points, const Input& t,
-                                        const Input& w, std::shared_ptr<Material> material,
+std::unique_ptr<ShellBlock> shell_block(const Technology& technology, const SurfacePoints& surface_points,
+                                        const Input& t, const Input& w, std::shared_ptr<Material> material,
                                         const InputIds& connectivity, const Input& X,
                                         const std::optional<Input>& rolling) {
     Connectivity part = to_connectivity(connectivity);
@@ -229,6 +230,6 @@ void bind_blocks(nb::module_& m) {
         "shell_block", &shell_block, nb::arg("technology"), nb::arg("surface_points"), nb::arg("t"), nb::arg("w"),
         nb::arg("material"), nb::arg("connectivity"), nb::arg("X"), nb::arg("rolling") = nb::none(),
         nb::sig(
-            "def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64], rolling: NDArray[float64] | None = None) -> ShellBlock"),
+            "def shell_block(technology: Technology, surface_points: tuple[int, int], t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64], rolling: NDArray[float64] | None = None) -> ShellBlock"),
         "Solid-shells on the cells of a mesh; rolling: direction of e_1, one vector (3,) or one for each cell (cells, 3).");
 }

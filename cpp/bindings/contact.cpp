@@ -33,8 +33,8 @@ std::unique_ptr<ContactBlock> block_of(const InputIds& facets, const Input& X, t
     throw std::invalid_argument("a facet has 4 or 9 nodes");
 }
 
-std::unique_ptr<ContactBlock> contact_block(const InputIds& facets, const Input& X, int points, bool at_nodes,
-                                            const SharedSurface& surface, const SharedLaw& law) {
+std::unique_ptr<ContactBlock> contact_block(const InputIds& facets, const Input& X, const SurfacePoints& points,
+                                            bool at_nodes, const SharedSurface& surface, const SharedLaw& law) {
     return block_of<AtPoints>(facets, X, {points, at_nodes}, surface, law);
 }
 
@@ -354,7 +354,7 @@ void bind_contact(nb::module_& m) {
         "contact_block", &contact_block, nb::arg("facets"), nb::arg("X"), nb::arg("points"), nb::arg("at_nodes"),
         nb::arg("surface"), nb::arg("law"),
         nb::sig(
-            "def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface, law: ContactLaw) -> ContactBlock"));
+            "def contact_block(facets: NDArray[int32], X: NDArray[float64], points: tuple[int, int], at_nodes: bool, surface: Surface, law: ContactLaw) -> ContactBlock"));
     m.def(
         "contact_cells", &contact_cells, nb::arg("facets"), nb::arg("X"), nb::arg("cells"), nb::arg("surface"),
         nb::arg("law"),

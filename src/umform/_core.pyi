@@ -513,7 +513,7 @@ def point_stresses(E: NDArray[float64], S: NDArray[float64], frame: NDArray[floa
     From what point_fields gives, (points, 6): Cauchy stress in the local frame and in global axes, S in global axes.
     """
 
-def shell_block(technology: Technology, surface_points: int, t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64], rolling: NDArray[float64] | None = None) -> ShellBlock:
+def shell_block(technology: Technology, surface_points: tuple[int, int], t: NDArray[float64], w: NDArray[float64], material: Material, connectivity: NDArray[int32], X: NDArray[float64], rolling: NDArray[float64] | None = None) -> ShellBlock:
     """
     Solid-shells on the cells of a mesh; rolling: direction of e_1, one vector (3,) or one for each cell (cells, 3).
     """
@@ -816,7 +816,7 @@ class ContactBlock:
     def restore(self, state: NDArray[float64]) -> None:
         """Put a stored history back."""
 
-def contact_block(facets: NDArray[int32], X: NDArray[float64], points: int, at_nodes: bool, surface: Surface, law: ContactLaw) -> ContactBlock: ...
+def contact_block(facets: NDArray[int32], X: NDArray[float64], points: tuple[int, int], at_nodes: bool, surface: Surface, law: ContactLaw) -> ContactBlock: ...
 
 def contact_cells(facets: NDArray[int32], X: NDArray[float64], cells: int, surface: Surface, law: ContactLaw) -> ContactBlock:
     """Contact integrated over cells x cells cells of each facet."""

@@ -46,7 +46,7 @@ class OneElement:
         self.X = self.natural_nodes() + self.rng.normal(size=(self.nodes, 3)) * (0.1, 0.1, 0.02)
         self.block = _core.shell_block(
             self.element.technology(),
-            self.element.surface_points,
+            self.element.surface_rule,
             *elements.thickness_rule(thickness_points),
             material.law(),
             np.arange(self.nodes, dtype=np.int32)[None],

@@ -16,14 +16,14 @@ from typing import Any
 #: Exit codes for a program that is ended by SIGPIPE (128 + 13), and by Ctrl-C.
 CLOSED_PIPE, INTERRUPTED = 141, 130
 #: New objects between two searches for cycles: with Python's 700 they cost some per cent of a bend, mostly in imports.
-_COLLECT_AFTER = 20_000
+_COLLECT_AFTER = 200_000
 
 
 def __getattr__(name: str) -> Any:
     """Import the commands when they are first used."""
     if name != "app":
         raise AttributeError(f"module 'umform.cli' has no attribute {name!r}")
-    return importlib.import_module("umform.cli.commands").app
+    return importlib.import_module("umform.cli.commands").application()
 
 
 def main() -> None:
@@ -33,7 +33,7 @@ def main() -> None:
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # more threads would only wait, actively
         _prepare_streams()
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # the signal of batch systems: handled as Ctrl-C
-        importlib.import_module("umform.cli.commands").app(prog_name="umform")
+        importlib.import_module("umform.cli.commands").application(sys.argv[1:])(prog_name="umform")
     except KeyboardInterrupt:  # before the first command
         print("umform: interrupted", file=sys.stderr)
         sys.exit(INTERRUPTED)
@@ -42,6 +42,8 @@ def main() -> None:
             raise
         _lead_to_nowhere(1, 2)
         sys.exit(CLOSED_PIPE)
+    finally:
+        gc.freeze()  # the end of the process frees its memory: a last search for cycles costs some per cent of a bend
 
 
 class _Closed(io.TextIOBase):

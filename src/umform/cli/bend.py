@@ -111,10 +111,8 @@ def bend(
     """
     from umform.io.folders import folder_for
     from umform.io.staging import staging
-    from umform.pool import check_processes
     from umform.processes.air_bending.bottoming import check_force, press_to_force, with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
-    from umform.processes.air_bending.budget import error_budget
     from umform.processes.air_bending.case import air_bending
     from umform.processes.air_bending.checks import check_angle, check_tolerance
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
@@ -130,7 +128,10 @@ def bend(
         stroke = strokes[-1]
     check_tolerance(tolerance)
     check_length(length)
-    check_processes(processes)
+    if processes is not None:
+        from umform.pool import check_processes  # the import is slow
+
+        check_processes(processes)
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
     case = AirBending(
         thickness=thickness,
@@ -196,7 +197,10 @@ def bend(
                 done = find_stroke(case, angle, tolerance=tolerance, brake=brake).bend
         errors = None
         try:
-            errors = error_budget(done.case, done.measures, processes=processes) if budget else None
+            if budget:
+                from umform.processes.air_bending.budget import error_budget
+
+                errors = error_budget(done.case, done.measures, processes=processes)
             with printing(f"the files of the bend are in {place}"):
                 _show(done, rows, errors, note, length)
         except KeyboardInterrupt as stop:

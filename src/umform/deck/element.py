@@ -29,6 +29,8 @@ class ElementPart(Part):
     """Tie the thickness strain."""
     compatible_E12: bool | None = None
     """Omit the tying of E_12 in MI9K3DEAS or BEND18."""
+    plane_strain: bool | None = None
+    """Fewer Gauss points across a strip of one element whose nodes are all held across it; same results."""
     thickness_points: Annotated[int, Field(ge=2, le=20)] | None = None
     """Points through the thickness; by default those of the material."""
     thickness_rule: Literal["gauss", "lobatto", "split", "graded"] | None = None

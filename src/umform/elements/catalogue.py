@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable
 from typing import TypedDict
 
+from umform.elements.plane_strain import in_plane_strain
 from umform.elements.technology import SPRINGBACK, Element, Mode, Term, Tying
 from umform.elements.through_thickness import MOST_POINTS
 from umform.errors import InvalidValue
@@ -133,6 +134,7 @@ def _build(
         membrane_modes_count: int = membrane,
         tie_E33: bool = tied,
         compatible_E12: bool = False,
+        plane_strain: bool = False,
     ) -> Element:
         complete = thickness > 0 and thickness_order is None
         thickness_order = order if thickness_order is None else thickness_order
@@ -145,7 +147,7 @@ def _build(
         modes = membrane_modes(membrane_modes_count)
         if thickness > 0:
             modes += thickness_modes(thickness_modes_count, thickness_order, order_modes_count)
-        return Element(
+        made = Element(
             name=name,
             cell=cell,
             tying=rows + (ANS_THICKNESS[cell] if tie_E33 else ()),
@@ -164,6 +166,7 @@ def _build(
                 "compatible_E12": compatible_E12,
             },
         )
+        return in_plane_strain(made) if plane_strain else made
 
     return make
 
@@ -218,6 +221,7 @@ def element(
     membrane_modes: int | None = None,
     tie_E33: bool | None = None,
     compatible_E12: bool | None = None,
+    plane_strain: bool | None = None,
 ) -> Element:
     """An element of the catalogue.
 
@@ -238,6 +242,8 @@ def element(
         Tie E_33 at the corners (18 nodes: at the nodes) against curvature-thickness locking; BEND8 and BEND18 do.
     compatible_E12 : bool, optional
         Omit the tying of E_12 in MI9K3DEAS or BEND18.
+    plane_strain : bool, optional
+        Take one Gauss point less in s, for cells that do not move along s and whose displacements do not vary along s.
 
     Raises
     ------
@@ -251,6 +257,7 @@ def element(
         "membrane_modes_count": membrane_modes,
         "tie_E33": tie_E33,
         "compatible_E12": compatible_E12,
+        "plane_strain": plane_strain,
     }
     given = {key: value for key, value in options.items() if value is not None}
     if isinstance(name, Element):

@@ -9,6 +9,7 @@ import numpy as np
 
 from umform import _core
 from umform.elements.catalogue import thickness_modes
+from umform.elements.plane_strain import uniform_modes
 from umform.elements.technology import Element, Mode
 
 
@@ -41,21 +42,27 @@ def _exchanged(made: Element, order: int) -> dict[str, Any] | None:
     options: dict[str, Any] = made.options
     if not options.get("thickness_modes"):
         return None
-    old, count, per_order = options["thickness_order"], options["thickness_modes"], options["order_modes"]
-    listed = thickness_modes(count, old, per_order)
+    listed = _listed(made, options["thickness_order"])
     at = next((k for k in range(len(made.modes)) if made.modes[k : k + len(listed)] == listed), None)
     if at is None:
         return None
     before, after = made.modes[:at], made.modes[at + len(listed) :]
     if any(term.component == "33" for mode in before + after for term in mode):
         return None
-    modes = before + thickness_modes(count, order, per_order) + after
+    modes = before + _listed(made, order) + after
     return {"modes": modes, "options": options | {"thickness_order": order}}
+
+
+def _listed(made: Element, order: int) -> tuple[Mode, ...]:
+    """Modes of E_33 of an element of the catalogue up to an order."""
+    options: dict[str, Any] = made.options
+    modes = thickness_modes(options["thickness_modes"], order, options["order_modes"])
+    return uniform_modes(modes) if made.plane_strain else modes
 
 
 def _missing(made: Element, order: int) -> tuple[Mode, ...]:
     """Modes of the complete order, constant in the surface of 8 nodes, that those of an element do not span."""
-    count = 9 if made.cell == "hex18" and made.surface_points == 3 else 1
+    count = 9 if made.cell == "hex18" and made.surface_rule == (3, 3) else 1
     t, w = _core.gauss(max(order, made.thickness_order) + 1)
     full = replace(made, modes=made.modes + thickness_modes(count, order, count), thickness_order=0)
     values = full.mode_values(t, w)

@@ -78,15 +78,15 @@ class Term:
         """Value at natural coordinates."""
         return self.factor * r**self.a * s**self.b * legendre(self.c, t)
 
-    def mean(self, points: int) -> float:
-        """Mean under the rule of as many Gauss points per direction of the surface. eq. (2.12)
+    def mean(self, points: tuple[int, int]) -> float:
+        """Mean under the rule of as many Gauss points in r and in s. eq. (2.12)
 
         The kernels take the mean under the rule in t from P_c, c > 0. eq. (2.48)
         """
         if self.c > 0:
             return 0.0
-        x, w = _core.gauss(points)
-        return float(self.factor * (w @ x**self.a) * (w @ x**self.b) / 4.0)
+        (r, wr), (s, ws) = (_core.gauss(count) for count in points)
+        return float(self.factor * (wr @ r**self.a) * (ws @ s**self.b) / 4.0)
 
 
 Mode = tuple[Term, ...]
@@ -108,6 +108,8 @@ class Element:
         Enhanced strains.
     surface_points : int
         Gauss points per direction of the surface; default 2 with 8 nodes, 3 with 18.
+    width_points : int
+        Gauss points in s, if they are others than in r.
     thickness_order : int
         Highest order in t of the enhanced thickness strain (0: none), at least that of the modes, the default; it needs
         order + 1 thickness points.
@@ -137,6 +139,7 @@ class Element:
     citation: str = ""
     plastic_points: tuple[int, str] | None = None
     complete: bool | None = None
+    width_points: int = 0
     options: dict[str, object] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
@@ -163,6 +166,8 @@ class Element:
                 raise InvalidValue("the abscissae of a tying row must be distinct", where=self.name, value=row)
         if self.surface_points == 0:
             object.__setattr__(self, "surface_points", 2 if self.cell == "hex8" else 3)
+        if self.width_points == 0:
+            object.__setattr__(self, "width_points", self.surface_points)
         for mode in self.modes:
             self._check_mode(mode)
         orders = [term.c for mode in self.modes for term in mode if term.component == "33"]
@@ -181,16 +186,26 @@ class Element:
         if not mode or any(term.component not in COMPONENTS for term in mode):
             raise InvalidValue("a mode is a tuple of terms in known components", where=self.name, value=mode)
         for component in {term.component for term in mode}:
-            mean = sum(term.mean(self.surface_points) for term in mode if term.component == component)
+            mean = sum(term.mean(self.surface_rule) for term in mode if term.component == component)
             if abs(mean) > 1e-12:
                 raise InvalidValue(
                     "the mean of an enhanced mode over the element must vanish",
                     where=self.name,
-                    value=f"{mode}: mean {mean:.3g} at {self.surface_points} x {self.surface_points} Gauss points",
+                    value=f"{mode}: mean {mean:.3g} at {self.surface_points} x {self.width_points} Gauss points",
                     cause="such a mode takes part in constant strain: the patch test is lost",
                     remedy="odd powers of r or s, or Legendre order c > 0; or subtract the mean at these points "
                     "by another term",
                 )
+
+    @property
+    def surface_rule(self) -> tuple[int, int]:
+        """Gauss points in r and in s."""
+        return self.surface_points, self.width_points
+
+    @property
+    def plane_strain(self) -> bool:
+        """Whether its cells do not move along s, and their displacements do not vary along s."""
+        return bool(self.options.get("plane_strain"))
 
     @property
     def raised(self) -> bool:
@@ -211,8 +226,8 @@ class Element:
 
     def mode_values(self, t: NDArray[np.float64], w: NDArray[np.float64]) -> NDArray[np.float64]:
         """Modes at all points as the kernels have them, shape (6 points, modes), for a rule in t. eq. (2.48)"""
-        x = _core.gauss(self.surface_points)[0]
-        r, s, layers = (grid.ravel() for grid in np.meshgrid(x, x, t, indexing="ij"))
+        along, across = (_core.gauss(count)[0] for count in self.surface_rule)
+        r, s, layers = (grid.ravel() for grid in np.meshgrid(along, across, t, indexing="ij"))
         values = np.zeros((len(COMPONENTS), len(r), len(self.modes)))
         for k, mode in enumerate(self.modes):
             for term in mode:
@@ -229,7 +244,7 @@ class Element:
         InvalidValue
             If the parameters of the modes are not unique.
         """
-        values, points = self.mode_values(t, w), f"{self.surface_points} x {self.surface_points} x {len(t)} points"
+        values, points = self.mode_values(t, w), f"{self.surface_points} x {self.width_points} x {len(t)} points"
         for mode, largest in zip(self.modes, np.abs(values).max(axis=0), strict=True):
             if largest <= 1e-10 * max(abs(term.factor) for term in mode):
                 raise InvalidValue(

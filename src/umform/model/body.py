@@ -73,7 +73,7 @@ class Body(Term):
         law does not see.
     **options
         Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
-        compatible_E12.
+        compatible_E12, plane_strain.
 
     Raises
     ------
@@ -190,7 +190,7 @@ class Body(Term):
         if self.elsewhere:
             raise not_here("the history of the elements")
         (t, w), technology, law = self._through, self.element.technology(), self.material.law()
-        points, cells, X = self.element.surface_points, self.connectivity, self.mesh.points
+        points, cells, X = self.element.surface_rule, self.connectivity, self.mesh.points
         try:
             block = _core.shell_block(technology, points, t, w, law, cells, X, self.rolling)
         except ValueError as error:

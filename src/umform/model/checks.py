@@ -14,6 +14,7 @@ from umform.model import forces
 from umform.model.contact import Contact, ContactFound
 from umform.model.evaluated import Evaluated
 from umform.model.evaluation import Evaluation
+from umform.model.plane_strain_check import check_plane_strain
 from umform.model.term import At
 
 Floats = NDArray[np.float64]
@@ -28,8 +29,11 @@ def check_model(model: Evaluated) -> None:
         If supports and touching tools leave a rigid-body motion free, or a node belongs to no cell.
     ToolSwallowsSheet
         If a tool overlaps the sheet by more than half of its thickness.
+    ModelError
+        If a body in plane strain may move across.
     """
     check_nodes(model.mesh)
+    check_plane_strain(model)
     check_held(model)
 
 

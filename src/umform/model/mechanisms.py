@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 
 from umform.mesh import Ids
 from umform.mesh.numbers import unique
@@ -56,6 +54,9 @@ def mechanism(model: Assembled, values: Floats, motion: Floats) -> Floats | None
 
 def _parts(cells: Ids, nodes: int) -> NDArray[np.int32]:
     """Part of each cell: cells that share a face belong to one."""
+    from scipy import sparse  # imported for very thin sheets only: slow
+    from scipy.sparse.csgraph import connected_components
+
     count, width = cells.shape
     ones = np.ones(cells.size, dtype=np.int32)
     of_cell = sparse.csr_matrix((ones, cells.ravel(), np.arange(0, cells.size + 1, width)), shape=(count, nodes))
@@ -96,6 +97,8 @@ def _motions_of_parts(model: Assembled, part: NDArray[np.int32]) -> tuple[Floats
 
 def _least_resistance(pattern: Pattern, values: Floats, motions: Floats, sizes: Floats) -> tuple[float, Floats]:
     """Resistance to the motion that is resisted least, relative to the sizes of its terms; and it. eq. (5.100)"""
+    from scipy import sparse
+
     matrix = sparse.csr_matrix((values, pattern.indices, pattern.indptr), shape=(pattern.n, pattern.n))
     if pattern.symmetric:
         matrix = matrix + sparse.triu(matrix, 1).T

@@ -56,7 +56,7 @@ class Model(Standing):
         law does not see.
     **options
         Options of the element: thickness_modes, thickness_order, order_modes, membrane_modes, tie_E33,
-        compatible_E12.
+        compatible_E12, plane_strain.
 
     Raises
     ------
@@ -250,6 +250,6 @@ class Model(Standing):
 
     def mechanism(self, values: NDArray[np.float64], motion: NDArray[np.float64]) -> NDArray[np.float64] | None:
         """What can move although a tangent looks singular; None for a very thin sheet that is held. eq. (5.99)"""
-        from umform.model.mechanisms import mechanism  # imports scipy: slow
+        from umform.model.mechanisms import mechanism
 
         return mechanism(self, values, motion)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import count
 
 import numpy as np
 
 from umform.errors import InvalidValue
-from umform.materials import Material
 from umform.mesh import Mesh, Selector
 from umform.model.body import Body
 from umform.model.contact.encounter import sheet_thickness
@@ -123,11 +123,12 @@ class Touched(Tooled):
         if isinstance(surface, UserSurface):
             facets = self.mesh.facets(faces)[:, :4]
             check_beside(surface, self.mesh.points[facets], sheet_thickness(self.mesh), f"contact {name}")
+        body = self._body_of(faces)
         settings = contact_settings(
             self.mesh,
             faces,
             surface,
-            self._law_of(faces),
+            body.material,
             penalty=penalty,
             penetration=penetration,
             points=points,
@@ -138,6 +139,8 @@ class Touched(Tooled):
             slip=slip,
             where=f"contact {name}",
         )
+        if body.element.plane_strain and not augmented and settings.cells is None and self._one_side(faces):
+            settings = replace(settings, width_points=body.element.width_points)
         touched = tool if isinstance(tool, Tool) else Tool(name, tool, self.now)
         contact = Contact(self.mesh, faces, touched, settings, name)
         new = contact if isinstance(tool, Tool) else touched
@@ -153,7 +156,11 @@ class Touched(Tooled):
         taken = {pair.name for pair in self.contacts} | {tool.name for tool in self.tools}
         return next(name for k in count(len(taken) + 1) if (name := f"tool{k}") not in taken)
 
-    def _law_of(self, faces: Selector) -> Material:
-        """Law of the body that most of the faces belong to."""
+    def _one_side(self, faces: Selector) -> bool:
+        """Whether faces are all lower ones, or all upper ones."""
+        return len(set(self.mesh.face_set(faces)[:, 1].tolist())) == 1
+
+    def _body_of(self, faces: Selector) -> Body:
+        """Body that most of the faces belong to."""
         cells = self.mesh.face_set(faces)[:, 0]
-        return max(self.bodies, key=lambda body: int(np.isin(cells, body.cells).sum())).material
+        return max(self.bodies, key=lambda body: int(np.isin(cells, body.cells).sum()))

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import platform
-from importlib.metadata import version
+from functools import cache
 
 import numpy
+import scipy
 
 import umform
 from umform.solvers import available
 
 
+@cache
 def versions() -> dict[str, str]:
     """Versions of umform and of the packages that affect its numbers."""
     return {
         "umform": umform.__version__,
         "python": platform.python_version(),
         "numpy": numpy.__version__,
-        "scipy": version("scipy"),  # without importing it
+        "scipy": scipy.__version__,  # of the package alone, whose parts are not loaded
         "platform": platform.platform(),
         "solvers": ", ".join(name for name, here in available().items() if here),
     }

@@ -25,11 +25,7 @@ def _deepest(result: History, contact: Contact, first: int = 0) -> float:
 
 def _said(contact: Contact, deepest: float) -> str:
     allowed = "" if contact.allowed is None else f", {contact.allowed:.3g} allowed"
-    rule = (
-        "at the nodes"
-        if contact.points == "nodes"
-        else f"{contact.points} x {contact.points} contact points on each facet"
-    )
+    rule = "at the nodes" if contact.points == "nodes" else "{} x {} contact points on each facet".format(*contact.rule)
     return f"penetration up to {deepest:.3g}{allowed}; penalty {contact.penalty:.3g}, {rule}"
 
 

@@ -47,7 +47,7 @@ struct Skewed {
 /// One facet of unit area on a sphere of radius 5 whose top is 0.01 above its middle.
 std::unique_ptr<ContactBlock> facet(std::shared_ptr<ContactLaw> law) {
     auto tool = std::make_shared<SurfaceOf<Sphere>>(Sphere{{0.5, 0.5, -4.99}, 5.0, false});
-    return std::make_unique<ContactBlockOf<4>>(Connectivity{4, {0, 1, 2, 3}}, X, ContactRule{2, false}, tool, law);
+    return std::make_unique<ContactBlockOf<4>>(Connectivity{4, {0, 1, 2, 3}}, X, ContactRule{{2, 2}, false}, tool, law);
 }
 std::unique_ptr<ContactBlock> facet() { return facet(std::make_shared<ContactLawOf<Penalty>>(Penalty{50.0})); }
 std::unique_ptr<ContactBlock> skewed() { return facet(std::make_shared<ContactLawOf<Skewed>>(Skewed{50.0, 0.3})); }

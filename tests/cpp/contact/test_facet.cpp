@@ -29,7 +29,7 @@ Connectivity one() {
 template <int Nodes>
 void check(ContactRule rule) {
     const FacetPoints<Nodes> facet(one<Nodes>(), rectangle<Nodes>(), rule);
-    CHECK(facet.count() == (rule.at_nodes ? Nodes : rule.points * rule.points));
+    CHECK(facet.count() == (rule.at_nodes ? Nodes : rule.points[0] * rule.points[1]));
     double total = 0.0;
     for (const double area : facet.area) total += area;
     CHECK_NEAR(total, 6.0, 1e-14);
@@ -53,12 +53,13 @@ void check(ContactRule rule) {
 
 int main() {
     for (const int points : {1, 2, 3, 7}) {
-        check<4>({points, false});
-        check<9>({points, false});
+        check<4>({{points, points}, false});
+        check<9>({{points, points}, false});
     }
-    check<4>({1, true});
-    check<9>({1, true});
-    const FacetPoints<9> fine(one<9>(), rectangle<9>(), {3, false});
+    check<9>({{5, 2}, false});
+    check<4>({{1, 1}, true});
+    check<9>({{1, 1}, true});
+    const FacetPoints<9> fine(one<9>(), rectangle<9>(), {{3, 3}, false});
     CHECK(fine.largest_motion() > 1.2);  // the quadratic functions have two signs
     return report("contact facet");
 }

@@ -52,7 +52,7 @@ Sheet sheet() {
 
 std::unique_ptr<ContactBlock> block(const std::shared_ptr<Surface>& surface) {
     const Sheet s = sheet();
-    return std::make_unique<ContactBlockOf<4>>(s.part, s.X, ContactRule{3, false}, surface,
+    return std::make_unique<ContactBlockOf<4>>(s.part, s.X, ContactRule{{3, 3}, false}, surface,
                                                std::make_shared<ContactLawOf<Penalty>>(Penalty{50.0}));
 }
 

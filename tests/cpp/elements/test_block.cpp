@@ -63,7 +63,7 @@ struct Row {
 
 template <class Law>
 ShellBlockOf<8> block(const Row& row, Law law, std::vector<double> rolling = {}) {
-    return {{}, 2, gauss(2), std::make_shared<MaterialOf<Law>>(law), row.part, row.X, std::move(rolling)};
+    return {{}, {2, 2}, gauss(2), std::make_shared<MaterialOf<Law>>(law), row.part, row.X, std::move(rolling)};
 }
 
 Outcome evaluate(ShellBlock& block, const Row& row) {

@@ -161,7 +161,9 @@ def test_a_uniform_pressure_gives_its_consistent_forces_on_any_faces(cell, cells
     """A plane 0.01 deep: the same as by Gauss points that integrate exactly."""
     mesh = plate(cell, amount=0.25)
     tool = Plane((0.0, 0.0, 0.01), (0.0, 0.0, 1.0))
-    exact = _core.contact_block(mesh.facets("lower"), mesh.points, 6, False, tool.kernel(), _core.penalty_law(PENALTY))
+    exact = _core.contact_block(
+        mesh.facets("lower"), mesh.points, (6, 6), False, tool.kernel(), _core.penalty_law(PENALTY)
+    )
     u = np.zeros(mesh.points.size)
     np.testing.assert_allclose(respond(block_over(mesh, tool, cells), u), respond(exact, u), atol=1e-13)
 
@@ -194,7 +196,7 @@ def test_the_resultant_of_cells_is_where_the_tool_touches(round_, exact, graded)
         law = _core.penalty_law(PENALTY)
         blocks = {
             "cells": block_over(mesh, tool, 3),
-            "points": _core.contact_block(mesh.facets("lower"), mesh.points, 2, False, tool.kernel(), law),
+            "points": _core.contact_block(mesh.facets("lower"), mesh.points, (2, 2), False, tool.kernel(), law),
         }
         for name, block in blocks.items():
             respond(block, u)
@@ -213,7 +215,7 @@ def test_the_resultant_on_distorted_faces_is_nearer_to_where_the_tool_touches_th
         tool, law = Cylinder((x, 0.0, -4.98), "y", 5.0), _core.penalty_law(PENALTY)
         blocks = {
             "cells": block_over(mesh, tool, 3),
-            "points": _core.contact_block(mesh.facets("lower"), mesh.points, 5, False, tool.kernel(), law),
+            "points": _core.contact_block(mesh.facets("lower"), mesh.points, (5, 5), False, tool.kernel(), law),
         }
         for name, block in blocks.items():
             respond(block, u)
@@ -231,7 +233,7 @@ def test_the_force_has_no_stairs():
     for x in np.linspace(3.0, 4.0, 201):
         tool = Cylinder((x, 0.0, -9.99), "y", 10.0)
         law = _core.penalty_law(PENALTY)
-        points = _core.contact_block(mesh.facets("lower"), mesh.points, 3, False, tool.kernel(), law)
+        points = _core.contact_block(mesh.facets("lower"), mesh.points, (3, 3), False, tool.kernel(), law)
         force["points"].append(respond(points, u)[2::3].sum())
         force["cells"].append(respond(block_over(mesh, tool, 3), u)[2::3].sum())
     bend = {name: np.abs(np.diff(values, 2)).max() for name, values in force.items()}

@@ -13,7 +13,7 @@ from umform.surfaces import Cylinder, Sphere, UserSurface
 def facets_on(tool, penalty=100.0, points=2, cells=(24, 24)):
     mesh = strip(24.0, 24.0, 1.0, cells)
     law = _core.penalty_law(penalty)
-    return _core.contact_block(mesh.facets("lower"), mesh.points, points, False, tool.kernel(), law), mesh
+    return _core.contact_block(mesh.facets("lower"), mesh.points, (points, points), False, tool.kernel(), law), mesh
 
 
 def forces(block, mesh, u):

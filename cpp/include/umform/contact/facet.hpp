@@ -10,9 +10,9 @@
 
 namespace umform {
 
-/// Where a facet is checked: at points x points Gauss points, or at its nodes with tributary areas.
+/// Where a facet is checked: at Gauss points, with their numbers along r and s, or at its nodes with tributary areas.
 struct ContactRule {
-    int points = 2;
+    SurfacePoints points{2, 2};
     bool at_nodes = false;
 };
 
@@ -63,13 +63,15 @@ struct FacetPoints {
     double largest_motion() const { return umform::largest_motion<Nodes>(N); }
 
   private:
-    void gaussian(const Connectivity& part, const std::vector<double>& X, const Rule& rule) {
-        for (int is = 0; is < rule.size(); ++is)
-            for (int ir = 0; ir < rule.size(); ++ir) N.push_back(face_shape<Nodes>(rule.x[ir], rule.x[is]).N);
+    void gaussian(const Connectivity& part, const std::vector<double>& X, const SurfaceRule& rule) {
+        const auto& [along_r, along_s] = rule;
+        for (const double s : along_s.x)
+            for (const double r : along_r.x) N.push_back(face_shape<Nodes>(r, s).N);
         for (int e = 0; e < part.size(); ++e)
-            for (int is = 0; is < rule.size(); ++is)
-                for (int ir = 0; ir < rule.size(); ++ir)
-                    area.push_back(rule.w[ir] * rule.w[is] * face_jacobian<Nodes>(part[e], X, rule.x[ir], rule.x[is]));
+            for (int is = 0; is < along_s.size(); ++is)
+                for (int ir = 0; ir < along_r.size(); ++ir)
+                    area.push_back(along_r.w[ir] * along_s.w[is]
+                                   * face_jacobian<Nodes>(part[e], X, along_r.x[ir], along_s.x[is]));
     }
 
     /// Tributary areas int N_a dA: 1/4 of a plane 4-node facet, 1/36, 4/36 and 16/36 of a plane 9-node facet. eq. (4.12)

@@ -1,6 +1,7 @@
 // Quadrature on [-1, 1]: Gauss, Lobatto, and Gauss split at the middle.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -12,6 +13,15 @@ struct Rule {
     std::vector<double> x, w;
     int size() const { return static_cast<int>(x.size()); }
 };
+
+/// Rules along the coordinates r and s of the surface.
+struct SurfaceRule {
+    Rule r, s;
+    int size() const { return r.size() * s.size(); }
+};
+
+/// Numbers of Gauss points along r and s.
+using SurfacePoints = std::array<int, 2>;
 
 /// Legendre polynomial P_n and its derivative at x.
 struct Legendre {
@@ -43,6 +53,8 @@ inline Rule gauss(int n) {
     }
     return rule;
 }
+
+inline SurfaceRule gauss(const SurfacePoints& points) { return {gauss(points[0]), gauss(points[1])}; }
 
 /// Gauss-Lobatto rule with both ends, exact to degree 2n - 3.
 inline Rule lobatto(int n) {

@@ -15,7 +15,8 @@ class ShellProducts : public ShellRows<Nodes, Real> {
     using typename Rows::Workspace;
 
     /// `symmetric`: whether the tangent CC of the law is.
-    ShellProducts(const Technology& technology, int surface_points, const Rule& thickness, bool symmetric)
+    ShellProducts(const Technology& technology, const SurfacePoints& surface_points, const Rule& thickness,
+                  bool symmetric)
         : Rows(technology, surface_points, thickness), symmetric_(symmetric) {}
 
     bool symmetric() const { return symmetric_; }

@@ -16,7 +16,7 @@ class ShellRows : public ShellStrains<Nodes, Real> {
     using typename Strains::Vectors;
     using typename Strains::Workspace;
 
-    ShellRows(const Technology& technology, int surface_points, const Rule& thickness)
+    ShellRows(const Technology& technology, const SurfacePoints& surface_points, const Rule& thickness)
         : Strains(technology, surface_points, thickness) {
         first_extra_ = first_shear_row;
         for (int p = 0; p < first_shear_row; ++p)

@@ -13,7 +13,7 @@ class ShellStrains {
     using Nodal = typename Workspace::Nodal;
     using Vectors = std::array<Vec<Real, 3>, 3>;
 
-    ShellStrains(const Technology& technology, int surface_points, const Rule& thickness)
+    ShellStrains(const Technology& technology, const SurfacePoints& surface_points, const Rule& thickness)
         : tables_(technology, gauss(surface_points), thickness) {}
 
     int points() const { return tables_.points(); }

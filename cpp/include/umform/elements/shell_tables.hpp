@@ -43,8 +43,8 @@ struct ShellTables {
         int first, size, offset;
     };
 
-    ShellTables(const Technology& technology, const Rule& surface_rule, const Rule& thickness)
-        : surface(surface_rule.size() * surface_rule.size()), layers(thickness.size()), t(thickness.x) {
+    ShellTables(const Technology& technology, const SurfaceRule& surface_rule, const Rule& thickness)
+        : surface(surface_rule.size()), layers(thickness.size()), t(thickness.x) {
         tabulate_gauss_points(technology, surface_rule, thickness);
         for (const Tying& tying : technology.tying) tabulate_tying(tying, surface_rule);
         centre = place(0.0, 0.0);
@@ -78,25 +78,25 @@ struct ShellTables {
         return static_cast<int>(places.size()) - 1;
     }
 
-    void tabulate_gauss_points(const Technology& technology, const Rule& surface_rule, const Rule& thickness) {
+    void tabulate_gauss_points(const Technology& technology, const SurfaceRule& surface_rule, const Rule& thickness) {
         row_of.fill(-1);
         for (std::size_t row = 0; row < technology.tying.size(); ++row)
             row_of[technology.tying[row].component] = static_cast<int>(row);
-        for (const double s : surface_rule.x)
-            for (const double r : surface_rule.x) place(r, s);
+        for (const double s : surface_rule.s.x)
+            for (const double r : surface_rule.r.x) place(r, s);
         for (const double wt : thickness.w)
-            for (const double ws : surface_rule.w)
-                for (const double wr : surface_rule.w) weight.push_back(wr * ws * wt);
+            for (const double ws : surface_rule.s.w)
+                for (const double wr : surface_rule.r.w) weight.push_back(wr * ws * wt);
     }
 
-    void tabulate_tying(const Tying& tying, const Rule& surface_rule) {
+    void tabulate_tying(const Tying& tying, const SurfaceRule& surface_rule) {
         std::vector<Sample>& samples = tying.at_layer ? layer_samples : mid_samples;
         const int first = static_cast<int>(samples.size());
         for (const double s : tying.s)
             for (const double r : tying.r) samples.push_back({tying.component, place(r, s)});
         Row row{tying.at_layer, {}};
-        for (const double s : surface_rule.x)
-            for (const double r : surface_rule.x) {
+        for (const double s : surface_rule.s.x)
+            for (const double r : surface_rule.r.x) {
                 std::vector<Share>& shares = row.shares.emplace_back();
                 int sample = first;
                 for (const double ws : lagrange(tying.s, s))
@@ -109,7 +109,7 @@ struct ShellTables {
         rows.push_back(std::move(row));
     }
 
-    void tabulate_modes(const Technology& technology, const Rule& surface_rule, const Rule& thickness) {
+    void tabulate_modes(const Technology& technology, const SurfaceRule& surface_rule, const Rule& thickness) {
         modes = static_cast<int>(technology.modes.size());
         std::array<int, 6> position;
         position.fill(-1);
@@ -121,8 +121,8 @@ struct ShellTables {
                 }
         const std::vector<double> means = legendre_means(technology, thickness);
         for (const double t : thickness.x)
-            for (const double s : surface_rule.x)
-                for (const double r : surface_rule.x) {
+            for (const double s : surface_rule.s.x)
+                for (const double r : surface_rule.r.x) {
                     std::vector<ModeEntry>& of_point = entries.emplace_back();
                     for (int m = 0; m < modes; ++m)
                         add_entries(technology.modes[m], m, {r, s, t}, means, position, of_point);

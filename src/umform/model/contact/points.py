@@ -61,6 +61,12 @@ class PairPoints(Term):
         self.refuse("points", value)
 
     @property
+    def rule(self) -> tuple[int, int]:
+        """Gauss points (or cells) along and across a facet; they differ in plane strain only. (1, 1) at nodes."""
+        along = 1 if isinstance(self.points, str) else self.points
+        return along, min(along, self._settings.width_points or along)
+
+    @property
     def cells(self) -> int | None:
         """Cells per direction and facet over which the pressure is integrated; None for points."""
         return self._settings.cells
@@ -119,8 +125,10 @@ class PairPoints(Term):
         if self.cells is not None:
             return _core.contact_cells(*where, self.cells, tool, law)
         if isinstance(self.points, str):
-            return _core.contact_block(*where, 1, True, tool, law)
-        return _core.contact_block(*where, self.points, False, tool, law)
+            return _core.contact_block(*where, (1, 1), True, tool, law)
+        along, across = self.rule
+        lower = len(self.faces) > 0 and self.faces[0, 1] == 0  # whose r runs across: it is seen from below
+        return _core.contact_block(*where, (across, along) if lower else (along, across), False, tool, law)
 
     def _law(self) -> _core.ContactLaw:
         if self.friction is None:

@@ -61,6 +61,8 @@ class ContactSettings:
         Cells per direction and facet; None at points.
     ripple : float, optional
         Expected relative ripple of the force with cells; None for points, and if the law gives no estimate.
+    width_points : int, optional
+        Gauss points across facets of a body in plane strain, where nothing varies; None elsewhere.
     """
 
     penalty: float
@@ -72,6 +74,7 @@ class ContactSettings:
     ratio: float = 0.0
     cells: int | None = None
     ripple: float | None = None
+    width_points: int | None = None
 
 
 def contact_settings(

@@ -36,6 +36,7 @@ def build(case: AirBending) -> tuple[Model, Control]:
         material=case.material,
         thickness_points=case.thickness_points,
         rolling=case.rolling_direction,
+        plane_strain=case.plane_strain,
     )
     model.symmetry("x0", normal="x")
     if case.width is None:

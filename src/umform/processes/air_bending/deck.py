@@ -47,7 +47,14 @@ def deck_of(case: AirBending) -> str:
 def _entries(case: AirBending, stroke: float) -> Iterator[Entry]:
     lines = dict(zip("xyz", (line.tolist() for line in lines_of(case)), strict=True))
     yield "[mesh]", {"generator": "grid", **lines}
-    yield "[element]", {"name": _element_name(case), "thickness_points": case.thickness_points}
+    yield (
+        "[element]",
+        {
+            "name": _element_name(case),
+            "thickness_points": case.thickness_points,
+            "plane_strain": case.plane_strain,
+        },
+    )
     rolling = None if case.rolling is None else {"angle": float(case.rolling)}
     yield "[material]", law_keys(case.material, rolling)
     yield "[tools.die]", _die(case)

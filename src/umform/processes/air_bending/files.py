@@ -7,20 +7,22 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from umform.elements import element
 from umform.errors import InvalidValue
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
 from umform.processes.air_bending.bend import AirBend
-from umform.processes.air_bending.budget import Budget
 from umform.processes.air_bending.deck import deck_of
 from umform.processes.air_bending.formulas import shop_forces, strength
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
 from umform.processes.air_bending.words import columns
 from umform.report.versions import versions
+
+if TYPE_CHECKING:
+    from umform.processes.air_bending.budget import Budget
 
 _DATA = ("curve.csv", "table.csv", "bend.json", "bend.vtkhdf", "bend.toml")
 _PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "drawing.png", "drawing.svg", "report.html")

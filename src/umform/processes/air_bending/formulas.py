@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from umform.materials import J2, Metal, Table
@@ -40,6 +42,7 @@ def uniform_strain(material: J2 | Metal, angle: float = 0.0) -> float:
     return float(strains[np.argmax([curve(float(e))[0] * np.exp(-e) for e in strains])])
 
 
+@lru_cache(maxsize=8)
 def strength(case: AirBending) -> float:
     """Tensile strength of a bar across the bend line."""
     return tensile_strength(case.material, 0.0 if case.rolling is None else 90.0 - case.rolling)

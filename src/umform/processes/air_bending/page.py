@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
 from umform.elements import element
 from umform.processes.air_bending.bend import AirBend
-from umform.processes.air_bending.budget import Budget
 from umform.processes.air_bending.formulas import shop_forces
 from umform.processes.air_bending.measures import Measures
 from umform.processes.air_bending.parameters import AirBending
@@ -20,6 +20,9 @@ from umform.report.live import Live, style
 from umform.report.materials import material_text
 from umform.report.page import closing, parameter_parts, settings
 from umform.report.repeats import counted
+
+if TYPE_CHECKING:
+    from umform.processes.air_bending.budget import Budget
 
 _BUDGET = (
     "± is the root of the sum of squares of the changes by the refinements beside it: the uncertainty from mesh, "

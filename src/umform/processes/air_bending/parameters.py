@@ -134,6 +134,12 @@ class AirBending:
         return None if self.rolling is None else rolling_at(self.rolling)
 
     @property
+    def plane_strain(self) -> bool | None:
+        """Option of the element; None for a sheet of finite width, and for one that shears along the bend."""
+        shears = getattr(self.material, "directional", False) and self.rolling not in (0.0, 90.0)
+        return None if self.width is not None or shears or isinstance(self.element, Element) else True
+
+    @property
     def way(self) -> float:
         """Way of the punch in one increment, in mm."""
         return self.increment * self.opening

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import asdict
+from typing import TYPE_CHECKING
 
-from umform.processes.air_bending.budget import Budget
 from umform.processes.air_bending.measures import QUANTITIES, Measures
+
+if TYPE_CHECKING:
+    from umform.processes.air_bending.budget import Budget
 
 #: What stands for a number that cannot be told.
 _UNTOLD = "–"

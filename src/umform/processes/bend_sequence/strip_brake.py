@@ -56,6 +56,7 @@ class StripBrake(Brake):
             material=case.material,
             thickness_points=case.thickness_points,
             rolling=case.rolling_direction,
+            plane_strain=case.plane_strain,
         )
         u = np.zeros(3 * len(self.mesh.points)) if self.before is None else self.before.model.u
         lying = Strip.of(self.mesh, u).at(bend.position, over=bend.over).laid(case.reach)

@@ -83,6 +83,7 @@ def in_press(case: Hemming, first: Part) -> tuple[Model, Control, float]:
         material=sheet.material,
         thickness_points=sheet.thickness_points,
         rolling=sheet.rolling_direction,
+        plane_strain=sheet.plane_strain,
     )
     continued(model, before, _on_the_table(case, first))
     x = mesh.points + model.u.reshape(-1, 3)
