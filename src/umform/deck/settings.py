@@ -69,4 +69,9 @@ class Output(Part):
         if self.forming_limit is not None and (len(minor) < 2 or sorted(set(minor)) != minor):
             text = "a forming limit has two points or more, pairs of minor and major strain, the minor ones ascending"
             raise PydanticCustomError("forming_limit", text)
+        from umform.results.forming.limits import LARGEST_STRAIN  # NumPy loads slowly
+
+        if any(abs(strain) > LARGEST_STRAIN for pair in self.forming_limit or () for strain in pair):
+            text = "the strains of a forming limit are logarithmic, not per cent: 0.262 = ln(1.3) for 30 %"
+            raise PydanticCustomError("forming_limit", text)
         return self

@@ -211,7 +211,10 @@ def test_elements_beyond_the_forming_limit_are_a_warning(deck, tmp_path):
         assert ("beyond the forming limit" in page) is torn
 
 
-def test_a_forming_limit_that_is_not_sorted_is_refused(deck, tmp_path):
-    limit = "output.forming_limit=[[0.2, 0.5], [-0.2, 0.4]]"
-    answer = umform("run", deck, "--out", tmp_path / "out", "--set", limit)
-    assert answer.exit_code == 1 and "ascending" in answer.output
+@pytest.mark.parametrize(
+    ("limit", "why"), [("[[0.2, 0.5], [-0.2, 0.4]]", "ascending"), ("[[-20, 50], [20, 40]]", "not per cent")]
+)
+def test_a_forming_limit_that_is_not_sorted_or_in_per_cent_is_refused(deck, tmp_path, limit, why):
+    answer = umform("run", deck, "--out", tmp_path / "out", "--set", f"output.forming_limit={limit}")
+    assert answer.exit_code == 1 and why in answer.output
+    assert not (tmp_path / "out").exists()

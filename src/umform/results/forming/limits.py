@@ -18,6 +18,8 @@ FormingLimit = Callable[[Floats], Floats]
 
 #: Thickness in mm beyond which the curve of Keeler and Brazier does not rise any more, and the largest n that counts.
 _THICKEST, _LARGEST_N = 3.1, 0.21
+#: Logarithmic strain that no sheet reaches before it tears; a table in per cent exceeds it.
+LARGEST_STRAIN = 3.0
 
 
 @dataclass(frozen=True)
@@ -88,6 +90,14 @@ class LimitTable:
                 value=f"minor {self.minor!r}, major {self.major!r}",
                 cause="strains that are not sorted, or a value that is missing",
                 remedy="LimitTable(minor=[-0.2, 0, 0.2], major=[0.5, 0.3, 0.4])",
+            )
+        if abs(points).max() > LARGEST_STRAIN:
+            raise InvalidValue(
+                "the strains of a forming limit are logarithmic",
+                where="LimitTable",
+                value=f"up to {abs(points).max():.4g}",
+                cause="per cent",
+                remedy="0.262 = ln(1.3) for an elongation of 30 %",
             )
         object.__setattr__(self, "_points", points)
 
