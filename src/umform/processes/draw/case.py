@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import logging
+import math
+from typing import cast
 
-from umform.errors import NoConvergence
+from umform.errors import ModelError, NoConvergence, SolveError
+from umform.materials import Metal
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.endings import Ending, ending_of
 from umform.processes.draw.u_bend import UBend
 from umform.results.forming import FormingLimit, KeelerBrazier, add_forming_fields
 from umform.run import Result, solve
+from umform.sheet_metals.tension_test import tension_test
 
 log = logging.getLogger("umform")
 
@@ -64,8 +68,8 @@ def draw(
     if failure is None:
         try:
             released = solve(model, press.opening(model), frames=2, solver=solver, progress=progress)
-        except NoConvergence as error:
-            ending = Ending("release", f"the part could not be taken out of the tools: {error}")
+        except (SolveError, ModelError) as error:  # a wrinkled sheet may lie on the wrong side of a tool
+            ending = ending or Ending("release", f"the part cannot be taken out of the tools: {error}")
         else:
             add_forming_fields(released, limit)
     return Drawn(case, limit, result, u, released, ending)
@@ -80,7 +84,12 @@ def _reached(error: NoConvergence) -> Result:
 
 def uniform_strain(case: Cup | UBend) -> float:
     """Hardening exponent: true plastic strain at which a tensile bar necks, where slope and stress are equal."""
-    curve = case.material.hardening.curve()
+    law = case.material
+    if getattr(law, "back_stress", None) is not None:  # which hardens the bar too
+        test = tension_test(cast(Metal, law))
+        stretch = 1.0 + test.uniform_elongation + test.tensile_strength / law.E
+        return max(math.log(stretch) - test.tensile_strength * stretch / law.E, 1e-3)
+    curve = law.hardening.curve()
     low, high = 1e-6, 1.0
     for _ in range(60):
         middle = 0.5 * (low + high)

@@ -13,7 +13,14 @@ from umform.materials.j2 import Plastic
 from umform.mesh import Bent, Mesh, Sizes, bending_sizes, disc
 from umform.model import Model
 from umform.processes.draw.press import Press, held_by
-from umform.processes.draw.rules import COMMON, check_clearance, layers_by_rule, tight
+from umform.processes.draw.rules import (
+    COMMON,
+    check_clearance,
+    check_stiffness,
+    layers_by_rule,
+    tight,
+    unusual_pressure,
+)
 from umform.processes.rules import check_rules, length, whole
 from umform.surfaces import Plane, Profile, Revolved
 
@@ -97,6 +104,7 @@ class Cup:
     def __post_init__(self) -> None:
         values = self.record()
         check_rules({name: values[name] for name in _RULES}, _RULES)
+        check_stiffness(self.material)
         if not (whole(self.around, 2) and self.around % 2 == 0):
             raise InvalidValue(
                 "the number of elements on a quarter of the rim is even, two at least",
@@ -147,7 +155,9 @@ class Cup:
     def warnings(self) -> list[str]:
         """Unusual parameters."""
         wanted = 2.0 * (self.punch_radius + CLEARANCE * self.thickness)
-        return tight(self.clearance, self.thickness, what="an opening", wanted=wanted)
+        flange = math.pi * (self.blank_radius**2 - (self.die_radius + self.die_edge) ** 2)
+        pressure = unusual_pressure(self.holder_force, flange, self.material)
+        return [*tight(self.clearance, self.thickness, what="an opening", wanted=wanted), *pressure]
 
     @property
     def gap(self) -> float:

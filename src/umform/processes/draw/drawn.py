@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.processes.draw.cup import Cup
-from umform.processes.draw.endings import Ending
+from umform.processes.draw.endings import Ending, tears_from
 from umform.processes.draw.u_bend import UBend
 from umform.results.forming import (
     EarProfile,
@@ -92,6 +93,16 @@ class Drawn:
             raise InvalidValue("a U-bend has no ears", where="ears")
         return ear_profile(self.result.model.mesh, self.u_free)
 
+    @property
+    def has_ears(self) -> bool:
+        """Whether the rim has ears: a cup without a flange, of a metal with directions.
+
+        In another metal, differences in height are those of the mesh.
+        """
+        if not isinstance(self.case, Cup) or not getattr(self.case.material, "directional", False):
+            return False
+        return bool(np.linalg.norm(self.outline.after, axis=1).max() < self.case.die_radius)
+
     @cached_property
     def sections(self) -> dict[str, Section]:
         """Section at y = 0 at the end of the stroke and after release."""
@@ -157,22 +168,28 @@ class Drawn:
     def warnings(self) -> list[str]:
         """Warnings."""
         own = [] if self.ending is None else [self.ending.text]
+        if isinstance(self.case, UBend) and self.released is not None and self.angles is None:
+            why = "is too short" if self.case.heights is None else "has sprung back to below the heights of its points"
+            own.append(f"theta1, theta2 and the radius of the wall are left out: the wall {why}")
         more = [] if self.released is None else self.released.warnings
         return list(dict.fromkeys([*own, *self.case.warnings, *self.result.warnings, *more]))
 
     def measures(self) -> dict[str, tuple[float, str]]:
         """Measures of the part by name, with units."""
-        found = self.fields
+        found, punch = self.fields, self.forces["punch"]
         rows: dict[str, tuple[float, str]] = {
-            "largest punch force": (float(self.forces["punch"].max()) / 1000.0, "kN"),
+            "largest punch force": (float(punch.max()) / 1000.0, "kN"),
+            "at a stroke of": (float(self.stroke[punch.argmax()]), "mm"),
             "largest holder force": (float(self.forces["holder"].max()) / 1000.0, "kN"),
             "draw-in, mean": (float(self.outline.draw_in.mean()), "mm"),
             "largest thinning": (float(found["thinning"].max()), "%"),
             "largest thickening": (float(-found["thinning"].min()), "%"),
             "largest major strain": (float(found["major_middle"].max()), ""),
             "margin to the forming limit": (float(found["limit_margin"].min()), ""),
-            "work of friction": (self.friction_share, "%"),
+            "work of friction": (self.friction_share, "% of the work"),
         }
+        if math.isfinite(torn := tears_from(self.result)):
+            rows["stroke at the forming limit"] = (torn, "mm")
         if self.released is not None:
             rows["largest springback"] = (self.springback.largest, "mm")
         if isinstance(self.case, Cup):
@@ -181,8 +198,9 @@ class Drawn:
                 "height, mean": (ears.mean, "mm"),
                 "height, lowest": (float(ears.height.min()), "mm"),
                 "height, highest": (float(ears.height.max()), "mm"),
-                "number of ears": (float(len(ears.ears())), ""),
             }
+            if self.has_ears:
+                rows["number of ears"] = (float(len(ears.ears())), "")
         elif self.angles is not None:
             rows |= {
                 "theta1": (self.angles.theta1, "degrees"),

@@ -163,10 +163,11 @@ def outline(drawn: Drawn) -> Figure:
 
 
 def sections(drawn: Drawn) -> Figure:
-    """Section of the part at the end of the stroke and after release."""
+    """Section of the part at the end of the stroke and, if it was released, after release."""
+    cuts = {name: cut for name, cut in drawn.sections.items() if name == "drawn" or drawn.released is not None}
     with house_style():
         figure, axes = _axes("x in mm", "z in mm")
-        for (name, cut), colour, line in zip(drawn.sections.items(), COLOURS, ("--", "-"), strict=False):
+        for (name, cut), colour, line in zip(cuts.items(), COLOURS, ("--", "-"), strict=False):
             axes.plot(*cut.lower[:, [0, 2]].T, line, color=colour, label=name)
             axes.plot(*cut.upper[:, [0, 2]].T, line, color=colour)
         if drawn.angles is not None and isinstance(drawn.case, UBend) and drawn.case.heights is not None:
@@ -185,9 +186,9 @@ def ears(drawn: Drawn) -> Figure:
     whole = drawn.ears.whole()
     with house_style():
         figure, axes = _axes("angle to the rolling direction in degrees", "height of the cup in mm")
-        axes.plot(whole.angle, whole.height)
-        axes.axhline(drawn.ears.mean, color=INK, linewidth=0.8, linestyle=":")
-        axes.annotate(f"mean {drawn.ears.mean:.2f}", (2.0, drawn.ears.mean), va="bottom", fontsize=8)
+        axes.plot(np.append(whole.angle, whole.angle[0] + 360.0), np.append(whole.height, whole.height[0]))
+        axes.axhline(drawn.ears.mean, color=INK, linewidth=0.8, linestyle=":", label=f"mean {drawn.ears.mean:.2f}")
+        axes.legend()
         axes.set_xticks(np.arange(0, 361, 45))
     return figure
 
