@@ -2,6 +2,7 @@ import csv
 from html import escape
 
 import meshio
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -200,6 +201,13 @@ def test_fields_of_forming(deck, tmp_path):
     assert answer.exit_code == 0, answer.output
     with h5py.File(tmp_path / "out" / "fields.vtkhdf") as file:
         assert {"major_lower", "minor_upper", "thinning", "limit_margin"} <= set(file["VTKHDF/CellData"])
+        last = file["VTKHDF/CellData/thinning"][:][-int(file["VTKHDF/NumberOfCells"][-1]) :]
+    table = np.genfromtxt(tmp_path / "out" / "fields.csv", delimiter=",", names=True)
+    np.testing.assert_allclose(table["thinning"], last, atol=1e-6)
+    assert {"x", "y", "z", "limit_margin"} <= set(table.dtype.names)
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "Forming limit diagram" in page and f"{table['limit_margin'].min():.4g}" in page
+    assert (tmp_path / "out" / "limits.png").read_bytes()[1:4] == b"PNG"
 
 
 def test_elements_beyond_the_forming_limit_are_a_warning(deck, tmp_path):

@@ -15,6 +15,7 @@ from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
 from umform.processes.sizes_picture import sizes_figure
+from umform.report.forming import limit_diagram
 from umform.results.forming import lay_by_best_fit, lay_on_three_points
 from umform.results.forming.u_bend import crossing
 from umform.results.shape import Shape, outer_quads
@@ -40,7 +41,7 @@ def pictures(drawn: Drawn) -> dict[str, Figure]:
     made |= {name: coloured(shape, name, label) for name, label in FIELDS.items()}
     if drawn.released is not None:
         made["gauge"] = in_gauge(drawn, shape)
-    made |= {"limits": limits(drawn), "outline": outline(drawn), "section": sections(drawn)}
+    made |= {"limits": limit_diagram(drawn.fields, drawn.limit), "outline": outline(drawn), "section": sections(drawn)}
     if isinstance(drawn.case, Cup):
         made["ears"] = ears(drawn)
     return made
@@ -131,21 +132,6 @@ def coloured(shape: Shape, name: str, label: str) -> Figure:
         bar = figure.colorbar(drawn, ax=figure.axes, shrink=0.75, aspect=25, pad=0.02)
         bar.set_label(label)
         bar.outline.set_visible(False)
-    return figure
-
-
-def limits(drawn: Drawn) -> Figure:
-    """Forming limit diagram: strains of all elements on both skins and in the middle, and the limit curve."""
-    found = drawn.fields
-    with house_style():
-        figure, axes = _axes("minor strain, logarithmic", "major strain, logarithmic")
-        for name, colour in zip(("lower", "upper", "middle"), (COLOURS[5], COLOURS[4], COLOURS[0]), strict=True):
-            axes.plot(found[f"minor_{name}"], found[f"major_{name}"], ".", color=colour, markersize=2.5, label=name)
-        low, high = axes.get_xlim()
-        minor = np.linspace(min(low, -0.1), max(high, 0.1), 200)
-        axes.plot(minor, drawn.limit(minor), color=COLOURS[1], label="forming limit")
-        axes.plot([0.0, min(low, 0.0)], [0.0, max(-low, 0.0)], color="#999999", linewidth=0.8, label="no thinning")
-        axes.legend()
     return figure
 
 
