@@ -14,6 +14,7 @@ from umform.deck.deck import Deck
 from umform.deck.findings import Finding, error, ok, warning
 from umform.deck.material import FromLibrary
 from umform.deck.placement import out_of_the_sheet
+from umform.deck.planes import planes
 from umform.deck.plausible import of_model
 from umform.deck.problem import Problem
 from umform.deck.references import references
@@ -65,6 +66,7 @@ def before_run(deck: Deck, problem: Problem) -> Iterator[Finding]:
         yield from clearances(deck, problem)
         yield from away(deck, problem)
         yield from drawings(problem)
+        yield from planes(deck.contents, problem.model)
         yield from idle(deck)
 
 
