@@ -161,8 +161,8 @@ class _Near:
 
     def __init__(self, size: float | Callable[[float, float], float], arcs: Sequence[Any]) -> None:
         self._size = size
-        self._arcs = [
-            (*map(float, arc.centre), float(arc.radius), [*map(float, arc.start)], [*map(float, arc.end)],
+        self._arcs: list[tuple[float, float, float, _Point, _Point, float, float, float]] = [
+            (float(arc.centre[0]), float(arc.centre[1]), float(arc.radius), _pair(arc.start), _pair(arc.end),
              math.atan2(arc.start[1] - arc.centre[1], arc.start[0] - arc.centre[0]), float(arc.turn), float(arc.angle))
             for arc in arcs
         ]  # fmt: skip
@@ -177,6 +177,10 @@ class _Near:
                 far = min(math.dist((x, y), start), math.dist((x, y), end))
             size = min(size, _SPAN * radius + _GROWTH * far)
         return size
+
+
+def _pair(point: Any) -> _Point:
+    return float(point[0]), float(point[1])
 
 
 def _meshed(gmsh: Any, size: Callable[[float, float], float], order: int) -> tuple[Floats, Whole, Whole]:

@@ -32,6 +32,9 @@ from umform.run import Result
 
 Floats = NDArray[np.float64]
 
+#: Part of the height of a released wall up to which it is measured: beyond, the edge of the die has bent it.
+_HIGHEST = 0.85
+
 
 @dataclass(frozen=True)
 class Drawn:
@@ -110,13 +113,27 @@ class Drawn:
         return {"drawn": section(mesh, self.u), "released": section(mesh, self.u_free)}
 
     @cached_property
+    def wall_heights(self) -> tuple[float, float, float] | None:
+        """Heights at which the wall of a U-bend is measured; None without a wall.
+
+        A wall that springs back to below those of the case is measured at the same parts of its height.
+        """
+        if not isinstance(self.case, UBend) or self.case.heights is None:
+            return None
+        low, middle, high = self.case.heights
+        line = self.sections["released"].middle[:, 2]
+        rise = float(line.max() - line[0])
+        part = 1.0 if rise > high else _HIGHEST * rise / high
+        return part * low, part * middle, part * high
+
+    @cached_property
     def angles(self) -> UBendAngles | None:
         """Angles and radius of a U-bend; None if its wall is too short."""
-        if not isinstance(self.case, UBend) or self.case.heights is None:
+        if self.wall_heights is None:
             return None
         line = self.sections["released"].middle[:, [0, 2]]
         try:
-            return u_bend_angles(line, self.case.heights, flange=max(len(line) // 12, 2))
+            return u_bend_angles(line, self.wall_heights, flange=max(len(line) // 12, 2))
         except InvalidValue:
             return None
 
@@ -168,11 +185,19 @@ class Drawn:
     def warnings(self) -> list[str]:
         """Warnings."""
         own = [] if self.ending is None else [self.ending.text]
-        if isinstance(self.case, UBend) and self.released is not None and self.angles is None:
-            why = "is too short" if self.case.heights is None else "has sprung back to below the heights of its points"
-            own.append(f"theta1, theta2 and the radius of the wall are left out: the wall {why}")
+        if isinstance(self.case, UBend) and self.released is not None:
+            own += self._about_the_wall()
         more = [] if self.released is None else self.released.warnings
         return list(dict.fromkeys([*own, *self.case.warnings, *self.result.warnings, *more]))
+
+    def _about_the_wall(self) -> list[str]:
+        """Notes on the angles of a U-bend that are left out or measured elsewhere."""
+        if self.angles is None or self.wall_heights is None:
+            return ["theta1, theta2 and the radius of the wall are left out: the wall is too short"]
+        if self.wall_heights == self.case.heights:  # type: ignore[union-attr]
+            return []
+        heights = ", ".join(f"{height:.3g}" for height in self.wall_heights)
+        return [f"the wall has sprung back below the usual heights: its angles and radius are those at {heights} mm"]
 
     def measures(self) -> dict[str, tuple[float, str]]:
         """Measures of the part by name, with units."""

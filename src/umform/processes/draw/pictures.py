@@ -156,9 +156,9 @@ def sections(drawn: Drawn) -> Figure:
         for (name, cut), colour, line in zip(cuts.items(), COLOURS, ("--", "-"), strict=False):
             axes.plot(*cut.lower[:, [0, 2]].T, line, color=colour, label=name)
             axes.plot(*cut.upper[:, [0, 2]].T, line, color=colour)
-        if drawn.angles is not None and isinstance(drawn.case, UBend) and drawn.case.heights is not None:
+        if drawn.angles is not None and drawn.wall_heights is not None:
             middle = drawn.sections["released"].middle[:, [0, 2]]
-            wall = np.array([crossing(middle, height) for height in drawn.case.heights])
+            wall = np.array([crossing(middle, height) for height in drawn.wall_heights])
             axes.plot(*wall.T, "o", color=INK, markersize=4, label="points of the wall")
             theta1, theta2, radius = drawn.angles.theta1, drawn.angles.theta2, drawn.angles.radius
             axes.set_title(f"theta1 {theta1:.1f}°, theta2 {theta2:.1f}°, radius of the wall {radius:.0f} mm")

@@ -3,6 +3,7 @@
 import json
 from dataclasses import dataclass, replace
 from functools import cache
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -12,7 +13,7 @@ from typer.testing import CliRunner
 import umform as uf
 from umform.cli import app
 from umform.errors import InvalidValue
-from umform.processes.draw import Cup, UBend, draw, write_files
+from umform.processes.draw import Cup, Drawn, UBend, draw, write_files
 from umform.processes.draw.case import uniform_strain
 from umform.processes.draw.endings import ending_of
 from umform.processes.draw.files import draw_blank
@@ -113,6 +114,25 @@ def test_a_short_u_bend():
     assert drawn.forces["holder"][-1] == pytest.approx(2450.0, rel=1e-6)
     assert abs(drawn.released["punch_fz"][-1]) < 1e-9
     assert drawn.outline.draw_in[0] > 1.0
+
+
+def test_a_wall_that_springs_back_far_is_measured_lower():
+    """The wall curls to half of a circle of 20 mm: it is lower than the third height of the case."""
+    case = replace(U, length=350.0, stroke=70.0)
+    mesh = case.blank()
+    s = np.clip(mesh.points[:, 0] - 25.0, 0.0, 20.0 * np.pi)
+    flange = np.maximum(mesh.points[:, 0] - 25.0 - 20.0 * np.pi, 0.0)
+    middle = np.column_stack(
+        [np.minimum(mesh.points[:, 0], 25.0) + 20.0 * (1 - np.cos(s / 20.0)), 20.0 * np.sin(s / 20.0)]
+    )
+    u = np.zeros_like(mesh.points)
+    u[:, 0], u[:, 2] = middle[:, 0] - mesh.points[:, 0], middle[:, 1] - flange
+    model = SimpleNamespace(mesh=mesh, u=u.ravel())
+    run = SimpleNamespace(model=model, warnings=[])
+    drawn = Drawn(case, lambda minor: minor, run, u.ravel(), run, None)
+    assert drawn.wall_heights == pytest.approx([17.0 * part / 55.0 for part in (15.0, 35.0, 55.0)], rel=0.02)
+    assert drawn.angles is not None and drawn.angles.radius == pytest.approx(20.0, rel=0.05)
+    assert any("sprung back below" in text for text in drawn.warnings)
 
 
 @pytest.mark.long
