@@ -15,6 +15,8 @@ Floats = NDArray[np.float64]
 
 #: An ear stands out of its valleys by this part of the largest difference of heights, at least.
 _PROMINENCE = 0.1
+#: Elements of the rim in the shortest ear; shorter waves come from the mesh.
+_ELEMENTS = 6
 
 
 @dataclass(frozen=True)
@@ -73,38 +75,24 @@ class EarProfile:
         return self._extremes(-1.0)
 
     def _extremes(self, sign: float) -> Floats:
-        """Angles where the height times a sign is largest, between places that are lower by the prominence."""
-        whole = self.whole()
+        from scipy.signal import find_peaks  # slow to import
+
+        height = self._smooth()
+        count = len(height)
         least = max(_PROMINENCE * self.amplitude, 1e-9 * abs(self.mean))
-        start = int(np.argmin(sign * whole.height))  # closed there, so that no ear is cut in two
-        angle = np.append(np.roll(whole.angle, -start), whole.angle[start])
-        height = sign * np.append(np.roll(whole.height, -start), whole.height[start])
-        places = [_top(np.unwrap(angle[part], period=360.0), height[part]) for part in _rises(height, least)]
-        return np.sort(np.round(np.array(places), 9) % 360.0)
+        peaks, _ = find_peaks(sign * np.tile(height, 3), prominence=least)
+        return np.asarray(360.0 / count * (peaks[(peaks >= count) & (peaks < 2 * count)] - count))
+
+    def _smooth(self) -> Floats:
+        """Heights at equal steps of the angle from 0, without waves shorter than so many elements of the rim."""
+        nodes = len(self.whole().angle)
+        count = 360 * max(1, round(nodes / 36))
+        waves = np.fft.rfft(self.at(np.linspace(0.0, 360.0, count, endpoint=False)))
+        waves[nodes // _ELEMENTS + 1 :] = 0.0
+        return np.asarray(np.fft.irfft(waves, count), dtype=float)
 
     def _closed(self) -> tuple[Floats, Floats]:
         return np.append(self.angle, self.angle[0] + 360.0), np.append(self.height, self.height[0])
-
-
-def _rises(height: Floats, least: float) -> list[slice]:
-    """Parts of a curve, which begins and ends at its lowest point, that rise and then fall by a height at least."""
-    parts, low, top = [], 0, -1
-    for k, value in enumerate(height):
-        if top < 0:
-            low = k if value < height[low] else low
-            top = k if value >= height[low] + least else -1
-        elif value <= height[top] - least:
-            parts.append(slice(low, k + 1))
-            low, top = k, -1
-        elif value > height[top]:
-            top = k
-    return parts
-
-
-def _top(angle: Floats, height: Floats) -> float:
-    """Angle of the highest point; the middle of equally high ones, such as mirror images at 0 or 90 degrees."""
-    top = angle[height >= height.max() - 1e-6 * np.ptp(height)]
-    return float(0.5 * (top[0] + top[-1]))
 
 
 def ear_profile(mesh: Mesh, u: Floats, rim: Selector = "rim", *, bottom: Selector = "all") -> EarProfile:
