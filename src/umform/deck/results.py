@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,13 +20,15 @@ from umform.errors import UmformError
 from umform.io.atomic import write_problem
 from umform.io.staging import Staging
 from umform.io.tables import write_csv
+from umform.model.contact.encounter import sheet_thickness
 from umform.processes.decks import toml
 from umform.run import Result
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from umform.results.forming import LimitTable
+    from umform.materials import Plastic
+    from umform.results.forming import FormingLimit
 
 Floats = NDArray[np.float64]
 
@@ -82,15 +84,20 @@ class _Forming:
     """Fields of forming at the end of a run, by element, and the limit that its deck gives."""
 
     fields: dict[str, Floats]
-    limit: LimitTable | None
+    limit: FormingLimit | None
 
     @classmethod
-    def of(cls, result: Result, points: list[tuple[float, float]] | None) -> _Forming:
+    def of(cls, result: Result, wanted: str | list[tuple[float, float]] | None) -> _Forming:
         """Add the fields to the frames; warn of elements beyond the limit."""
-        from umform.results.forming import LimitTable, add_forming_fields, forming_fields
+        from umform.results.forming import KeelerBrazier, LimitTable, add_forming_fields, forming_fields
         from umform.results.forming.strains import beyond_limit
 
-        limit, mesh = None if points is None else LimitTable(*zip(*points, strict=True)), result.model.mesh
+        mesh = result.model.mesh
+        limit: FormingLimit | None = None
+        if isinstance(wanted, str):
+            limit = KeelerBrazier.of(sheet_thickness(mesh), cast("Plastic", result.model.material))
+        elif wanted is not None:
+            limit = LimitTable(*zip(*wanted, strict=True))
         add_forming_fields(result, limit)
         fields = forming_fields(mesh, result.model.u, limit)
         text = None if limit is None else beyond_limit(mesh, fields)

@@ -7,10 +7,14 @@ import pytest
 from typer.testing import CliRunner
 
 from umform import cli
+from umform.deck import load
 from umform.deck.templates import template_file
+from umform.results.forming import KeelerBrazier
 from umform.solution.newton import Newton
 
 FILES = {"history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", "as-run.toml"}
+#: n - offset = 0.19 is the uniform strain.
+SWIFT = '{curve="Swift", strength=520.0, offset=0.01, exponent=0.2}'
 
 
 def umform(*words):
@@ -217,6 +221,19 @@ def test_elements_beyond_the_forming_limit_are_a_warning(deck, tmp_path):
         assert answer.exit_code == 0, answer.output
         page = (tmp_path / "out" / "report.html").read_text()
         assert ("beyond the forming limit" in page) is torn
+
+
+def test_a_forming_limit_of_keeler_and_brazier(deck, tmp_path):
+    changes = ["--set", "steps.0.increments=2", "--set", "output.forming_limit=Keeler-Brazier", "--set"]
+    elastic, steel = (f"material={{{law}, E=210e3, nu=0.3}}" for law in ('law="SVK"', f'law="J2", hardening={SWIFT}'))
+    refused = umform("run", deck, "--out", tmp_path / "out", *changes, elastic)
+    assert refused.exit_code == 1 and "needs the hardening" in refused.output
+    answer = umform("run", deck, "--out", tmp_path / "out", *changes, steel)
+    assert answer.exit_code == 0, answer.output
+    table = np.genfromtxt(tmp_path / "out" / "fields.csv", delimiter=",", names=True)
+    thickness = float(np.ptp(load(deck).build().model.mesh.points[:, 2]))
+    left = KeelerBrazier(thickness, 0.19)(table["minor_middle"]) - table["major_middle"]
+    np.testing.assert_allclose(table["limit_margin"], left, atol=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import logging
-import math
-from typing import cast
 
 from umform.errors import ModelError, NoConvergence, SolveError
-from umform.materials import Metal
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.endings import Ending, ending_of
 from umform.processes.draw.u_bend import UBend
 from umform.results.forming import FormingLimit, KeelerBrazier, add_forming_fields
 from umform.run import Result, solve
-from umform.sheet_metals.tension_test import tension_test
 
 log = logging.getLogger("umform")
 
@@ -55,7 +51,7 @@ def draw(
     for warning in case.warnings:
         log.warning(warning)
     model, press = case.build()
-    limit = limit or KeelerBrazier(case.thickness, uniform_strain(case))
+    limit = limit or KeelerBrazier.of(case.thickness, case.material)
     released: Result | None = None
     failure: NoConvergence | None = None
     try:
@@ -80,19 +76,3 @@ def _reached(error: NoConvergence) -> Result:
     if not isinstance(result, Result):
         raise error
     return result
-
-
-def uniform_strain(case: Cup | UBend) -> float:
-    """Hardening exponent: true plastic strain at which a tensile bar necks, where slope and stress are equal."""
-    law = case.material
-    if getattr(law, "back_stress", None) is not None:  # which hardens the bar too
-        test = tension_test(cast(Metal, law))
-        stretch = 1.0 + test.uniform_elongation + test.tensile_strength / law.E
-        return max(math.log(stretch) - test.tensile_strength * stretch / law.E, 1e-3)
-    curve = law.hardening.curve()
-    low, high = 1e-6, 1.0
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        stress, slope = curve(middle)
-        low, high = (middle, high) if slope > stress else (low, middle)
-    return max(low, 1e-3)

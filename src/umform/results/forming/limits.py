@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import InvalidValue
+from umform.materials import Metal, Plastic
 from umform.materials.checks import check_finite
+from umform.sheet_metals.tension_test import tension_test
 
 Floats = NDArray[np.float64]
 
@@ -49,6 +53,11 @@ class KeelerBrazier:
                     remedy="thickness in mm, and n of about 0.1 to 0.25; a table for other metals",
                 )
 
+    @classmethod
+    def of(cls, thickness: float, material: Plastic) -> KeelerBrazier:
+        """The curve of a metal: n is the true plastic strain at which slope and stress are equal in tension."""
+        return cls(thickness, _necking_strain(material))
+
     @property
     def plane_strain(self) -> float:
         """Largest major strain without a minor one, logarithmic."""
@@ -62,6 +71,21 @@ class KeelerBrazier:
         right = 100.0 * np.expm1(self.plane_strain) + percent * (0.784854 - 0.008565 * percent)
         limit: Floats = np.where(minor < 0.0, left, np.log1p(right / 100.0))
         return limit
+
+
+def _necking_strain(law: Plastic) -> float:
+    """True plastic strain at which a tensile bar necks."""
+    if getattr(law, "back_stress", None) is not None:  # which hardens the bar too
+        test = tension_test(cast(Metal, law))
+        stretch = 1.0 + test.uniform_elongation + test.tensile_strength / law.E
+        return max(math.log(stretch) - test.tensile_strength * stretch / law.E, 1e-3)
+    curve = law.hardening.curve()
+    low, high = 1e-6, 1.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        stress, slope = curve(middle)
+        low, high = (middle, high) if slope > stress else (low, middle)
+    return max(low, 1e-3)
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,6 @@ import umform as uf
 from umform.cli import app
 from umform.errors import InvalidValue
 from umform.processes.draw import Cup, Drawn, UBend, draw, write_files
-from umform.processes.draw.case import uniform_strain
 from umform.processes.draw.endings import ending_of
 from umform.processes.draw.files import draw_blank
 from umform.processes.draw.pictures import pictures, sections
@@ -161,16 +160,6 @@ def test_the_stroke_at_the_forming_limit():
     assert ending is not None and f"from a stroke of about {middle:.3g}" in ending.text
     assert drawn.measures()["stroke at the forming limit"][0] == pytest.approx(middle)
     cup.cache_clear()
-
-
-@pytest.mark.parametrize("name", ["SPFC", "TRIP1180"])
-def test_the_hardening_exponent_of_a_metal_with_back_stress(name):
-    """The yield surface has a constant size; the uniform elongation of tension gives n."""
-    metal = uf.sheet_metals.get(name)
-    found = uniform_strain(replace(U, material=metal.law))
-    assert found == pytest.approx(np.log1p(metal.uniform_elongation), abs=0.003) and found > 0.05
-    constant = metal.law.hardening.curve()
-    assert constant(0.0)[0] == pytest.approx(constant(0.3)[0])
 
 
 def test_only_ears_of_a_metal_with_directions_and_without_a_flange_count():
