@@ -117,7 +117,8 @@ class Cup:
 
     def _check_tools(self) -> None:
         wanted = self.punch_radius + CLEARANCE * self.thickness
-        check_clearance(self.clearance, self.thickness, where="die_radius", value=self.die_radius, wanted=wanted)
+        remedy = f"about {wanted:.4g}, a diameter of {2.0 * wanted:.4g}"
+        check_clearance(self.clearance, self.thickness, where="die_radius", value=self.die_radius, remedy=remedy)
         if not self.punch_edge < 0.9 * self.punch_radius:
             raise InvalidValue(
                 "the edge of the punch is larger than the punch",
@@ -132,7 +133,7 @@ class Cup:
                 where="blank_radius",
                 value=self.blank_radius,
                 cause=f"the die begins at {self.die_radius + self.die_edge:.4g}",
-                remedy="a larger blank",
+                remedy=f"a larger blank: a diameter above {2.0 * self.die_radius + self.die_edge:.4g}",
             )
         if self.gap < self.thickness:
             raise InvalidValue(

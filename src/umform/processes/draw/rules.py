@@ -105,7 +105,7 @@ def unusual_pressure(force: float | None, flange: float, material: Plastic) -> l
     return [f"{what}, above the yield stress {strength:.4g}; 1 to 5 MPa are usual"]
 
 
-def check_clearance(air: float, thickness: float, *, where: str, value: float, wanted: float) -> None:
+def check_clearance(air: float, thickness: float, *, where: str, value: float, remedy: str) -> None:
     """Refuse a clearance between punch and die that does not fit the sheet.
 
     Parameters
@@ -116,7 +116,7 @@ def check_clearance(air: float, thickness: float, *, where: str, value: float, w
         Thickness of the sheet.
     where, value : str, float
         Parameter of the die, for the message.
-    wanted : float
+    remedy : str
         Its usual value.
     """
     if _TIGHTEST * thickness <= air < _LOOSEST * thickness:
@@ -127,7 +127,7 @@ def check_clearance(air: float, thickness: float, *, where: str, value: float, w
         value=value,
         cause=f"a gap of {air:.4g} beside the punch for a sheet of {thickness:g}; "
         + ("tools of a thinner sheet" if air < thickness else "a diameter for a radius"),
-        remedy=f"about {wanted:.4g}",
+        remedy=remedy,
     )
 
 

@@ -96,7 +96,8 @@ class UBend:
         if self.holder_force is None:
             raise InvalidValue("a U-bend has a holder that is pressed", where="holder_force", remedy="a force in N")
         wanted = self.punch_width + 2.0 * CLEARANCE * self.thickness
-        check_clearance(self.clearance, self.thickness, where="opening", value=self.opening, wanted=wanted)
+        remedy = f"about {wanted:.4g}"
+        check_clearance(self.clearance, self.thickness, where="opening", value=self.opening, remedy=remedy)
         if not 0.5 * self.length > 0.5 * self.opening + self.die_edge + self.way:
             raise InvalidValue(
                 "the blank is drawn off the die before the end of the stroke",
