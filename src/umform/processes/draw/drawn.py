@@ -114,11 +114,11 @@ class Drawn:
 
     @cached_property
     def wall_heights(self) -> tuple[float, float, float] | None:
-        """Heights at which the wall of a U-bend is measured; None without a wall.
+        """Heights at which the wall of a released U-bend is measured; None without a wall.
 
         A wall that springs back to below those of the case is measured at the same parts of its height.
         """
-        if not isinstance(self.case, UBend) or self.case.heights is None:
+        if not isinstance(self.case, UBend) or self.case.heights is None or self.released is None:
             return None
         low, middle, high = self.case.heights
         line = self.sections["released"].middle[:, 2]

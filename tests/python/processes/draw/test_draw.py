@@ -132,6 +132,7 @@ def test_a_wall_that_springs_back_far_is_measured_lower():
     assert drawn.wall_heights == pytest.approx([17.0 * part / 55.0 for part in (15.0, 35.0, 55.0)], rel=0.02)
     assert drawn.angles is not None and drawn.angles.radius == pytest.approx(20.0, rel=0.05)
     assert any("sprung back below" in text for text in drawn.warnings)
+    assert replace(drawn, released=None).angles is None
 
 
 @pytest.mark.long
