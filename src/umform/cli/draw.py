@@ -191,24 +191,32 @@ def _chosen(given: Any, coarse: bool, first: Any, usual: Any) -> Any:
 
 
 def _limit(file: Path | None) -> Any:
+    """The forming limit of a CSV file; lines that are no numbers, such as a heading, are left out."""
     if file is None:
         return None
     import numpy as np
 
-    from umform.errors import FileProblem
+    from umform.errors import FileProblem, InvalidValue
     from umform.results.forming import LimitTable
 
     try:
         rows = np.genfromtxt(file, delimiter=",", comments="#")
-    except (OSError, ValueError) as error:
+        rows = rows[np.isfinite(rows).all(axis=-1)] if rows.ndim == 2 else rows
+        return LimitTable(*(rows.T if rows.ndim == 2 and rows.shape[1] == 2 else (rows, rows)))
+    except (OSError, ValueError, InvalidValue) as error:
         raise FileProblem(
             "the forming limit cannot be read",
             where=str(file),
-            cause=str(error),
-            remedy="a CSV file with two columns: minor and major logarithmic strain",
+            value=getattr(error, "value", None),
+            cause=_why(error),
+            remedy="a CSV file with two columns, a comma between them, decimal points: minor and major logarithmic "
+            "strain, the minor ones ascending",
         ) from error
-    rows = rows[np.isfinite(rows).all(axis=-1)] if rows.ndim == 2 else rows
-    return LimitTable(*(rows.T if rows.ndim == 2 and rows.shape[1] == 2 else (rows, rows)))
+
+
+def _why(error: Exception) -> str:
+    """The cause in a line: NumPy lists each line of a file whose columns differ in number."""
+    return str(getattr(error, "what", "")) or ", ".join(line.strip() for line in str(error).splitlines()[:3])
 
 
 def _run(
@@ -238,7 +246,7 @@ def _run(
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(drawn.result.timing)
-    if drawn.ending is not None and drawn.ending.early:
+    if drawn.released is None:
         raise typer.Exit(1)
 
 

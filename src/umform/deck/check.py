@@ -14,12 +14,14 @@ from umform.deck.deck import Deck
 from umform.deck.findings import Finding, error, ok, warning
 from umform.deck.material import FromLibrary
 from umform.deck.placement import out_of_the_sheet
+from umform.deck.planes import planes
 from umform.deck.plausible import of_model
 from umform.deck.problem import Problem
 from umform.deck.references import references
 from umform.deck.resolution import resolution
 from umform.deck.steps import Move
 from umform.errors import NotFinite, RigidBodyMotion, SingularMatrix, ToolSwallowsSheet
+from umform.materials import Plastic
 from umform.model.contact.encounter import sheet_thickness
 from umform.run.loose import carried, carried_motions
 from umform.sheet_metals import get
@@ -65,6 +67,8 @@ def before_run(deck: Deck, problem: Problem) -> Iterator[Finding]:
         yield from clearances(deck, problem)
         yield from away(deck, problem)
         yield from drawings(problem)
+        yield from planes(deck.contents, problem.model)
+        yield from forming_limit(deck.contents, problem)
         yield from idle(deck)
 
 
@@ -104,6 +108,13 @@ def drawings(problem: Problem) -> Iterator[Finding]:
             own = own.tool
         if isinstance(own, CadTool | Triangulated):
             yield ok(f"tool {name}", str(own))
+
+
+def forming_limit(contents: Contents, problem: Problem) -> Iterator[Finding]:
+    """Refuse the curve of Keeler and Brazier without a flow curve that gives its n."""
+    if isinstance(contents.output.forming_limit, str) and not isinstance(problem.model.material, Plastic):
+        text = f"{contents.output.forming_limit} needs the hardening of one plastic material"
+        yield error("output", text, "forming_limit = [[-0.2, 0.5], [0.0, 0.3], [0.2, 0.4]], strains of a test")
 
 
 def idle(deck: Deck) -> Iterator[Finding]:

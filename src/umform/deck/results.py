@@ -5,7 +5,13 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+from numpy.typing import NDArray
 
 from umform.deck.before import write_state
 from umform.deck.deck import Deck
@@ -13,8 +19,18 @@ from umform.deck.problem import Problem
 from umform.errors import UmformError
 from umform.io.atomic import write_problem
 from umform.io.staging import Staging
+from umform.io.tables import write_csv
+from umform.model.contact.encounter import sheet_thickness
 from umform.processes.decks import toml
 from umform.run import Result
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from umform.materials import Plastic
+    from umform.results.forming import FormingLimit
+
+Floats = NDArray[np.float64]
 
 #: The deck of the run, beside its results.
 COPY = "as-run.toml"
@@ -22,7 +38,9 @@ COPY = "as-run.toml"
 CHECKPOINT = "checkpoint.h5"
 #: Final state, with which the deck of the next operation begins.
 STATE = "state.h5"
-FILES = ("history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", STATE, COPY)
+_DATA = ("history.csv", "fields.vtkhdf", "fields.csv", STATE)
+_PAGE = ("report.html", "curve.png", "shape.png", "limits.png")
+FILES = (*_DATA, *_PAGE, COPY)
 #: Files that mark a folder as that of a run.
 RESULTS = (*FILES, CHECKPOINT)
 
@@ -34,40 +52,77 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole
     """
     wanted, waiting, text = deck.contents.output, stage.waiting, as_run(deck)
     (waiting / COPY).write_text(text, encoding="utf-8")
-    if wanted.forming or wanted.forming_limit is not None:
-        _add_forming(result, wanted.forming_limit)
+    forming = _Forming.of(result, wanted.forming_limit) if wanted.forming or wanted.forming_limit is not None else None
+    if forming is not None and wanted.csv:
+        forming.write(waiting / "fields.csv", result)
     if wanted.csv:
         result.write(waiting / "history.csv")
     if wanted.vtkhdf:
         result.write(waiting / "fields.vtkhdf")
     if wanted.state and whole:
         write_state(problem.model, waiting / STATE, deck.source.data)
-    files = stage.commit([COPY, "history.csv", "fields.vtkhdf", STATE])
+    files = stage.commit([COPY, *_DATA])
     if wanted.pictures:
         from umform.deck.pictures import draw_curve, draw_shape  # matplotlib loads slowly
+        from umform.plotting import save
 
         draw_curve(problem, result, waiting / "curve.png")
         draw_shape(result, waiting / "shape.png")
+        if forming is not None:
+            save(forming.diagram, waiting / "limits.png", dpi=120)
     if wanted.report:
         from umform.report.page import write_report
 
         metal = getattr(deck.contents.material, "note", "")
-        write_report(result, waiting / "report.html", deck=text, title=deck.contents.title, note=metal)
-    return [*files, *stage.commit(["report.html", "curve.png", "shape.png"])]
+        more = () if forming is None else forming.parts()
+        write_report(result, waiting / "report.html", deck=text, title=deck.contents.title, note=metal, more=more)
+    return [*files, *stage.commit(_PAGE)]
 
 
-def _add_forming(result: Result, points: list[tuple[float, float]] | None) -> None:
-    """Add the fields of forming to the frames; warn of elements beyond the limit."""
-    from umform.results.forming import LimitTable, add_forming_fields, forming_fields
-    from umform.results.forming.strains import beyond_limit
+@dataclass(frozen=True)
+class _Forming:
+    """Fields of forming at the end of a run, by element, and the limit that its deck gives."""
 
-    limit = None if points is None else LimitTable(*zip(*points, strict=True))
-    add_forming_fields(result, limit)
-    if limit is not None:
+    fields: dict[str, Floats]
+    limit: FormingLimit | None
+
+    @classmethod
+    def of(cls, result: Result, wanted: str | list[tuple[float, float]] | None) -> _Forming:
+        """Add the fields to the frames; warn of elements beyond the limit."""
+        from umform.results.forming import KeelerBrazier, LimitTable, add_forming_fields, forming_fields
+        from umform.results.forming.strains import beyond_limit
+
         mesh = result.model.mesh
-        text = beyond_limit(mesh, forming_fields(mesh, result.model.u, limit))
+        limit: FormingLimit | None = None
+        if isinstance(wanted, str):
+            limit = KeelerBrazier.of(sheet_thickness(mesh), cast("Plastic", result.model.material))
+        elif wanted is not None:
+            limit = LimitTable(*zip(*wanted, strict=True))
+        add_forming_fields(result, limit)
+        fields = forming_fields(mesh, result.model.u, limit)
+        text = None if limit is None else beyond_limit(mesh, fields)
         if text is not None:
             result.warn(f"the sheet tears: {text}")
+        return cls(fields, limit)
+
+    def write(self, path: Path, result: Result) -> None:
+        """Write the fields, with the middles of the elements in the blank."""
+        mesh = result.model.mesh
+        middle = mesh.points[mesh.connectivity].mean(axis=1)
+        write_csv(path, dict(zip("xyz", middle.T, strict=True)) | self.fields)
+
+    @cached_property
+    def diagram(self) -> Figure:
+        """Forming limit diagram."""
+        from umform.report.forming import limit_diagram
+
+        return limit_diagram(self.fields, self.limit)
+
+    def parts(self) -> Iterator[str]:
+        """What the report has of it."""
+        from umform.report.forming import forming_parts
+
+        return forming_parts(self.fields, self.diagram)
 
 
 def as_run(deck: Deck) -> str:

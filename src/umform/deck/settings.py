@@ -60,13 +60,21 @@ class Output(Part):
     """Final state as state.h5, the start of a deck with a table before."""
     forming: bool = False
     """Strains of both skins and of the middle, thinning and wrinkling among the fields."""
-    forming_limit: list[Pair] | None = None
-    """Forming limit: logarithmic minor and major strains, the minor ones ascending; adds the margin as a field."""
+    forming_limit: Literal["Keeler-Brazier"] | list[Pair] | None = None
+    """Forming limit: logarithmic minor and major strains, the minor ones ascending, or Keeler-Brazier (of the thickness
+    in mm and the hardening of a plastic material); adds the margin as a field."""
 
     @model_validator(mode="after")
     def _ascending(self) -> Output:
-        minor = [pair[0] for pair in self.forming_limit or ()]
-        if self.forming_limit is not None and (len(minor) < 2 or sorted(set(minor)) != minor):
+        if self.forming_limit is None or isinstance(self.forming_limit, str):
+            return self
+        minor = [pair[0] for pair in self.forming_limit]
+        if len(minor) < 2 or sorted(set(minor)) != minor:
             text = "a forming limit has two points or more, pairs of minor and major strain, the minor ones ascending"
+            raise PydanticCustomError("forming_limit", text)
+        from umform.results.forming.limits import LARGEST_STRAIN  # NumPy loads slowly
+
+        if any(abs(strain) > LARGEST_STRAIN for pair in self.forming_limit for strain in pair):
+            text = "the strains of a forming limit are logarithmic, not per cent: 0.262 = ln(1.3) for 30 %"
             raise PydanticCustomError("forming_limit", text)
         return self

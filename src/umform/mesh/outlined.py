@@ -19,6 +19,8 @@ from umform.mesh.neighbours import Whole
 #: Types of quadrilaterals and of triangles in gmsh, by the order of the nodes.
 _QUADS, _TRIANGLES = {1: 3, 2: 10}, (2, 9)
 _Point = tuple[float, float]
+#: Largest angle of an arc of the outline or of a hole that an element spans, and the growth of the sizes away from it.
+_SPAN, _GROWTH = math.radians(30.0), 0.5
 
 
 class Closed(Protocol):
@@ -51,7 +53,8 @@ def blank(
     thickness : float
         Of the sheet.
     size : float or callable
-        Length of the sides of elements, or a function (x, y) -> length.
+        Length of the sides of elements, or a function (x, y) -> length. Near arcs it is smaller where an element would
+        span more than 30 degrees.
     holes : sequence of Profile
         Closed curves inside of it.
     cell : {"hex8", "hex18"}
@@ -84,7 +87,8 @@ def blank(
         edges = [_loop(gmsh, curve) for curve in (outline, *holes)]
         gmsh.model.geo.addPlaneSurface([loop for loop, _ in edges])
         gmsh.model.geo.synchronize()
-        points, quads, ids = _meshed(gmsh, size, order)
+        arcs = [part for curve in (outline, *holes) for part in curve.segments if hasattr(part, "centre")]
+        points, quads, ids = _meshed(gmsh, _Near(size, arcs), order)
         on = {f"edge_{k}": _nodes_on(gmsh, tags, ids) for k, tags in enumerate(edges[0][1])}
         on["rim"] = np.any(list(on.values()), axis=0)
         for k, (_, tags) in enumerate(edges[1:]):
@@ -152,12 +156,39 @@ def _parts(arc: Any) -> list[Floats]:
     return [start, *between, np.asarray(arc.end, dtype=float)]
 
 
-def _meshed(gmsh: Any, size: float | Callable[[float, float], float], order: int) -> tuple[Floats, Whole, Whole]:
+class _Near:
+    """Sizes that follow the arcs of a blank."""
+
+    def __init__(self, size: float | Callable[[float, float], float], arcs: Sequence[Any]) -> None:
+        self._size = size
+        self._arcs: list[tuple[float, float, float, _Point, _Point, float, float, float]] = [
+            (float(arc.centre[0]), float(arc.centre[1]), float(arc.radius), _pair(arc.start), _pair(arc.end),
+             math.atan2(arc.start[1] - arc.centre[1], arc.start[0] - arc.centre[0]), float(arc.turn), float(arc.angle))
+            for arc in arcs
+        ]  # fmt: skip
+
+    def __call__(self, x: float, y: float) -> float:
+        """Size at a point."""
+        size = float(self._size(x, y)) if callable(self._size) else self._size
+        for cx, cy, radius, start, end, first, turn, angle in self._arcs:
+            if turn * (math.atan2(y - cy, x - cx) - first) % (2.0 * math.pi) <= angle:
+                far = abs(math.hypot(x - cx, y - cy) - radius)
+            else:
+                far = min(math.dist((x, y), start), math.dist((x, y), end))
+            size = min(size, _SPAN * radius + _GROWTH * far)
+        return size
+
+
+def _pair(point: Any) -> _Point:
+    return float(point[0]), float(point[1])
+
+
+def _meshed(gmsh: Any, size: Callable[[float, float], float], order: int) -> tuple[Floats, Whole, Whole]:
     """Points (n, 2), quadrilaterals, and the number of each node of gmsh."""
 
     def length(dimension: int, tag: int, x: float, y: float, z: float, before: float) -> float:
         del dimension, tag, z, before
-        return float(size(x, y)) if callable(size) else size
+        return size(x, y)
 
     gmsh.model.mesh.setSizeCallback(length)
     try:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,7 +18,15 @@ if TYPE_CHECKING:
     from umform.results.history import History
 
 
-def write_report(result: History, path: str | Path, *, deck: str = "", title: str = "", note: str = "") -> Path:
+def write_report(
+    result: History,
+    path: str | Path,
+    *,
+    deck: str = "",
+    title: str = "",
+    note: str = "",
+    more: Iterable[str] = (),
+) -> Path:
     """Write one self-contained page about a result.
 
     Parameters
@@ -33,6 +41,8 @@ def write_report(result: History, path: str | Path, *, deck: str = "", title: st
         Heading of the page; default: element and number of increments.
     note : str, optional
         Name, source and limits of the material.
+    more : iterable of str, optional
+        Parts of the page that follow the curves.
 
     Returns
     -------
@@ -52,11 +62,11 @@ def write_report(result: History, path: str | Path, *, deck: str = "", title: st
     )
     title, lead = (title, f"{size}; {effort}") if title else (size, effort)
     live = Live.of(result)
-    content = _parts(result, live, deck, note)
+    content = _parts(result, live, deck, note, more)
     return parts.write_html(path, title, lead, content, style=style(), scripts=live.scripts)
 
 
-def _parts(result: History, live: Live, deck: str, note: str) -> Iterator[str]:
+def _parts(result: History, live: Live, deck: str, note: str, more: Iterable[str]) -> Iterator[str]:
     for message in counted(result.warnings):
         yield parts.note(message, bad=True)
     yield parts.heading("Shape")
@@ -64,6 +74,7 @@ def _parts(result: History, live: Live, deck: str, note: str) -> Iterator[str]:
     yield from map(parts.note, live.notes)
     yield parts.heading("Curves")
     yield live.curves
+    yield from more
     if result.events:
         yield parts.heading("Events")
         yield parts.items(counted(result.events))

@@ -57,6 +57,15 @@ def test_sizes_follow_the_tools_and_are_printed_and_drawn(tmp_path):
     assert picture.read_bytes()[1:4] == b"PNG"
 
 
+def test_a_symmetry_of_nodes_in_no_plane_is_a_warning(tmp_path):
+    """The arc of a radius is an edge too, so that the one at x = 0 is edge_4."""
+    file = tmp_path / "deck.toml"
+    for edge, wrong in (("edge_4", False), ("edge_3", True)):
+        file.write_text(deck_text().replace("edge_4", edge).replace("size = 6.0", "size = 12.0"))
+        shown = " ".join(CliRunner().invoke(app, ["check", str(file)]).stdout.split())
+        assert ("in no plane" in shown) is wrong
+
+
 def test_mistakes():
     with pytest.raises(DeckError, match="another unit"):
         Deck.read(deck_text().replace("size = 6.0", "size = 1e-3")).build()

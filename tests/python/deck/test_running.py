@@ -2,14 +2,19 @@ import csv
 from html import escape
 
 import meshio
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from umform import cli
+from umform.deck import load
 from umform.deck.templates import template_file
+from umform.results.forming import KeelerBrazier
 from umform.solution.newton import Newton
 
 FILES = {"history.csv", "fields.vtkhdf", "report.html", "curve.png", "shape.png", "as-run.toml"}
+#: n - offset = 0.19 is the uniform strain.
+SWIFT = '{curve="Swift", strength=520.0, offset=0.01, exponent=0.2}'
 
 
 def umform(*words):
@@ -200,6 +205,13 @@ def test_fields_of_forming(deck, tmp_path):
     assert answer.exit_code == 0, answer.output
     with h5py.File(tmp_path / "out" / "fields.vtkhdf") as file:
         assert {"major_lower", "minor_upper", "thinning", "limit_margin"} <= set(file["VTKHDF/CellData"])
+        last = file["VTKHDF/CellData/thinning"][:][-int(file["VTKHDF/NumberOfCells"][-1]) :]
+    table = np.genfromtxt(tmp_path / "out" / "fields.csv", delimiter=",", names=True)
+    np.testing.assert_allclose(table["thinning"], last, atol=1e-6)
+    assert {"x", "y", "z", "limit_margin"} <= set(table.dtype.names)
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "Forming limit diagram" in page and f"{table['limit_margin'].min():.4g}" in page
+    assert (tmp_path / "out" / "limits.png").read_bytes()[1:4] == b"PNG"
 
 
 def test_elements_beyond_the_forming_limit_are_a_warning(deck, tmp_path):
@@ -211,7 +223,23 @@ def test_elements_beyond_the_forming_limit_are_a_warning(deck, tmp_path):
         assert ("beyond the forming limit" in page) is torn
 
 
-def test_a_forming_limit_that_is_not_sorted_is_refused(deck, tmp_path):
-    limit = "output.forming_limit=[[0.2, 0.5], [-0.2, 0.4]]"
-    answer = umform("run", deck, "--out", tmp_path / "out", "--set", limit)
-    assert answer.exit_code == 1 and "ascending" in answer.output
+def test_a_forming_limit_of_keeler_and_brazier(deck, tmp_path):
+    changes = ["--set", "steps.0.increments=2", "--set", "output.forming_limit=Keeler-Brazier", "--set"]
+    elastic, steel = (f"material={{{law}, E=210e3, nu=0.3}}" for law in ('law="SVK"', f'law="J2", hardening={SWIFT}'))
+    refused = umform("run", deck, "--out", tmp_path / "out", *changes, elastic)
+    assert refused.exit_code == 1 and "needs the hardening" in refused.output
+    answer = umform("run", deck, "--out", tmp_path / "out", *changes, steel)
+    assert answer.exit_code == 0, answer.output
+    table = np.genfromtxt(tmp_path / "out" / "fields.csv", delimiter=",", names=True)
+    thickness = float(np.ptp(load(deck).build().model.mesh.points[:, 2]))
+    left = KeelerBrazier(thickness, 0.19)(table["minor_middle"]) - table["major_middle"]
+    np.testing.assert_allclose(table["limit_margin"], left, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("limit", "why"), [("[[0.2, 0.5], [-0.2, 0.4]]", "ascending"), ("[[-20, 50], [20, 40]]", "not per cent")]
+)
+def test_a_forming_limit_that_is_not_sorted_or_in_per_cent_is_refused(deck, tmp_path, limit, why):
+    answer = umform("run", deck, "--out", tmp_path / "out", "--set", f"output.forming_limit={limit}")
+    assert answer.exit_code == 1 and why in answer.output
+    assert not (tmp_path / "out").exists()

@@ -42,6 +42,16 @@ def test_outline_with_a_hole(cell):
     assert set(blank.nodes("edge_0")) <= set(blank.nodes("rim"))
 
 
+def test_sizes_follow_the_arcs_of_the_blank():
+    """With 8 mm everywhere the hole would be a hexagon."""
+    blank = uf.mesh.blank(OUTLINE, 1.0, 8.0, holes=[HOLE])
+    around = blank.points[blank.nodes("hole_0_lower"), :2] - [20.0, 10.0]
+    angles = np.sort(np.arctan2(*around.T[::-1]))
+    assert np.diff(angles, append=angles[0] + 2 * np.pi).max() < np.radians(31.0)
+    away = [0.0, 0.0] - blank.points[blank.connectivity[:, :4], :2].mean(axis=1)
+    assert _area(blank)[np.linalg.norm(away, axis=1).argmin()] > 20.0
+
+
 def test_sizes_follow_a_function_and_the_mesh_is_the_same_each_time():
     fine = uf.mesh.blank(OUTLINE, 1.0, lambda x, y: 1.0 if x > 30 else 4.0)
     again = uf.mesh.blank(OUTLINE, 1.0, lambda x, y: 1.0 if x > 30 else 4.0)

@@ -118,8 +118,11 @@ def _faces(path):
     return Shape(path).faces(0.05, 0.3)
 
 
-def test_iges_files_and_scale(tmp_path, rng):
-    tool = read_tool(write(rounded(box(), 2.0), tmp_path / "box.igs"), scale=0.1)
+def test_iges_files_and_scale(tmp_path, rng, capfd):
+    path = write(rounded(box(), 2.0), tmp_path / "box.igs")
+    capfd.readouterr()  # of the writer
+    tool = read_tool(path, scale=0.1)
+    assert capfd.readouterr() == ("", "")
     true = Box((2, 1.5, 0.5), (4, 3, 1), 0.2)
     x = rng.uniform((-0.2, -0.2, -0.2), (4.2, 3.2, 1.2), (500, 3))
     x = x[true.gap(x)[0] > -0.15]

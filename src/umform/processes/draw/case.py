@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 
-from umform.errors import NoConvergence
+from umform.errors import ModelError, NoConvergence, SolveError
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.endings import Ending, ending_of
@@ -51,7 +51,7 @@ def draw(
     for warning in case.warnings:
         log.warning(warning)
     model, press = case.build()
-    limit = limit or KeelerBrazier(case.thickness, uniform_strain(case))
+    limit = limit or KeelerBrazier.of(case.thickness, case.material)
     released: Result | None = None
     failure: NoConvergence | None = None
     try:
@@ -64,8 +64,8 @@ def draw(
     if failure is None:
         try:
             released = solve(model, press.opening(model), frames=2, solver=solver, progress=progress)
-        except NoConvergence as error:
-            ending = Ending("release", f"the part could not be taken out of the tools: {error}")
+        except (SolveError, ModelError) as error:  # a wrinkled sheet may lie on the wrong side of a tool
+            ending = ending or Ending("release", f"the part cannot be taken out of the tools: {error}")
         else:
             add_forming_fields(released, limit)
     return Drawn(case, limit, result, u, released, ending)
@@ -76,14 +76,3 @@ def _reached(error: NoConvergence) -> Result:
     if not isinstance(result, Result):
         raise error
     return result
-
-
-def uniform_strain(case: Cup | UBend) -> float:
-    """Hardening exponent: true plastic strain at which a tensile bar necks, where slope and stress are equal."""
-    curve = case.material.hardening.curve()
-    low, high = 1e-6, 1.0
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        stress, slope = curve(middle)
-        low, high = (middle, high) if slope > stress else (low, middle)
-    return max(low, 1e-3)

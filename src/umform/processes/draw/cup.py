@@ -13,7 +13,14 @@ from umform.materials.j2 import Plastic
 from umform.mesh import Bent, Mesh, Sizes, bending_sizes, disc
 from umform.model import Model
 from umform.processes.draw.press import Press, held_by
-from umform.processes.draw.rules import COMMON, check_clearance, layers_by_rule, tight
+from umform.processes.draw.rules import (
+    COMMON,
+    check_clearance,
+    check_stiffness,
+    layers_by_rule,
+    tight,
+    unusual_pressure,
+)
 from umform.processes.rules import check_rules, length, whole
 from umform.surfaces import Plane, Profile, Revolved
 
@@ -97,6 +104,7 @@ class Cup:
     def __post_init__(self) -> None:
         values = self.record()
         check_rules({name: values[name] for name in _RULES}, _RULES)
+        check_stiffness(self.material)
         if not (whole(self.around, 2) and self.around % 2 == 0):
             raise InvalidValue(
                 "the number of elements on a quarter of the rim is even, two at least",
@@ -109,7 +117,8 @@ class Cup:
 
     def _check_tools(self) -> None:
         wanted = self.punch_radius + CLEARANCE * self.thickness
-        check_clearance(self.clearance, self.thickness, where="die_radius", value=self.die_radius, wanted=wanted)
+        remedy = f"about {wanted:.4g}, a diameter of {2.0 * wanted:.4g}"
+        check_clearance(self.clearance, self.thickness, where="die_radius", value=self.die_radius, remedy=remedy)
         if not self.punch_edge < 0.9 * self.punch_radius:
             raise InvalidValue(
                 "the edge of the punch is larger than the punch",
@@ -124,7 +133,7 @@ class Cup:
                 where="blank_radius",
                 value=self.blank_radius,
                 cause=f"the die begins at {self.die_radius + self.die_edge:.4g}",
-                remedy="a larger blank",
+                remedy=f"a larger blank: a diameter above {2.0 * self.die_radius + self.die_edge:.4g}",
             )
         if self.gap < self.thickness:
             raise InvalidValue(
@@ -147,7 +156,9 @@ class Cup:
     def warnings(self) -> list[str]:
         """Unusual parameters."""
         wanted = 2.0 * (self.punch_radius + CLEARANCE * self.thickness)
-        return tight(self.clearance, self.thickness, what="an opening", wanted=wanted)
+        flange = math.pi * (self.blank_radius**2 - (self.die_radius + self.die_edge) ** 2)
+        pressure = unusual_pressure(self.holder_force, flange, self.material)
+        return [*tight(self.clearance, self.thickness, what="an opening", wanted=wanted), *pressure]
 
     @property
     def gap(self) -> float:

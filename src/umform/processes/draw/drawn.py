@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from umform.errors import InvalidValue
 from umform.processes.draw.cup import Cup
-from umform.processes.draw.endings import Ending
+from umform.processes.draw.endings import Ending, tears_from
 from umform.processes.draw.u_bend import UBend
 from umform.results.forming import (
     EarProfile,
@@ -30,6 +31,9 @@ from umform.results.forming import (
 from umform.run import Result
 
 Floats = NDArray[np.float64]
+
+#: Part of the height of a released wall up to which it is measured: beyond, the edge of the die has bent it.
+_HIGHEST = 0.85
 
 
 @dataclass(frozen=True)
@@ -92,6 +96,16 @@ class Drawn:
             raise InvalidValue("a U-bend has no ears", where="ears")
         return ear_profile(self.result.model.mesh, self.u_free)
 
+    @property
+    def has_ears(self) -> bool:
+        """Whether the rim has ears: a cup without a flange, of a metal with directions.
+
+        In another metal, differences in height are those of the mesh.
+        """
+        if not isinstance(self.case, Cup) or not getattr(self.case.material, "directional", False):
+            return False
+        return bool(np.linalg.norm(self.outline.after, axis=1).max() < self.case.die_radius)
+
     @cached_property
     def sections(self) -> dict[str, Section]:
         """Section at y = 0 at the end of the stroke and after release."""
@@ -99,13 +113,27 @@ class Drawn:
         return {"drawn": section(mesh, self.u), "released": section(mesh, self.u_free)}
 
     @cached_property
+    def wall_heights(self) -> tuple[float, float, float] | None:
+        """Heights at which the wall of a released U-bend is measured; None without a wall.
+
+        A wall that springs back to below those of the case is measured at the same parts of its height.
+        """
+        if not isinstance(self.case, UBend) or self.case.heights is None or self.released is None:
+            return None
+        low, middle, high = self.case.heights
+        line = self.sections["released"].middle[:, 2]
+        rise = float(line.max() - line[0])
+        part = 1.0 if rise > high else _HIGHEST * rise / high
+        return part * low, part * middle, part * high
+
+    @cached_property
     def angles(self) -> UBendAngles | None:
         """Angles and radius of a U-bend; None if its wall is too short."""
-        if not isinstance(self.case, UBend) or self.case.heights is None:
+        if self.wall_heights is None:
             return None
         line = self.sections["released"].middle[:, [0, 2]]
         try:
-            return u_bend_angles(line, self.case.heights, flange=max(len(line) // 12, 2))
+            return u_bend_angles(line, self.wall_heights, flange=max(len(line) // 12, 2))
         except InvalidValue:
             return None
 
@@ -157,22 +185,36 @@ class Drawn:
     def warnings(self) -> list[str]:
         """Warnings."""
         own = [] if self.ending is None else [self.ending.text]
+        if isinstance(self.case, UBend) and self.released is not None:
+            own += self._about_the_wall()
         more = [] if self.released is None else self.released.warnings
         return list(dict.fromkeys([*own, *self.case.warnings, *self.result.warnings, *more]))
 
+    def _about_the_wall(self) -> list[str]:
+        """Notes on the angles of a U-bend that are left out or measured elsewhere."""
+        if self.angles is None or self.wall_heights is None:
+            return ["theta1, theta2 and the radius of the wall are left out: the wall is too short"]
+        if self.wall_heights == self.case.heights:  # type: ignore[union-attr]
+            return []
+        heights = ", ".join(f"{height:.3g}" for height in self.wall_heights)
+        return [f"the wall has sprung back below the usual heights: its angles and radius are those at {heights} mm"]
+
     def measures(self) -> dict[str, tuple[float, str]]:
         """Measures of the part by name, with units."""
-        found = self.fields
+        found, punch = self.fields, self.forces["punch"]
         rows: dict[str, tuple[float, str]] = {
-            "largest punch force": (float(self.forces["punch"].max()) / 1000.0, "kN"),
+            "largest punch force": (float(punch.max()) / 1000.0, "kN"),
+            "at a stroke of": (float(self.stroke[punch.argmax()]), "mm"),
             "largest holder force": (float(self.forces["holder"].max()) / 1000.0, "kN"),
             "draw-in, mean": (float(self.outline.draw_in.mean()), "mm"),
             "largest thinning": (float(found["thinning"].max()), "%"),
             "largest thickening": (float(-found["thinning"].min()), "%"),
             "largest major strain": (float(found["major_middle"].max()), ""),
             "margin to the forming limit": (float(found["limit_margin"].min()), ""),
-            "work of friction": (self.friction_share, "%"),
+            "work of friction": (self.friction_share, "% of the work"),
         }
+        if math.isfinite(torn := tears_from(self.result)):
+            rows["stroke at the forming limit"] = (torn, "mm")
         if self.released is not None:
             rows["largest springback"] = (self.springback.largest, "mm")
         if isinstance(self.case, Cup):
@@ -181,8 +223,9 @@ class Drawn:
                 "height, mean": (ears.mean, "mm"),
                 "height, lowest": (float(ears.height.min()), "mm"),
                 "height, highest": (float(ears.height.max()), "mm"),
-                "number of ears": (float(len(ears.ears())), ""),
             }
+            if self.has_ears:
+                rows["number of ears"] = (float(len(ears.ears())), "")
         elif self.angles is not None:
             rows |= {
                 "theta1": (self.angles.theta1, "degrees"),

@@ -15,6 +15,7 @@ from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
 from umform.processes.sizes_picture import sizes_figure
+from umform.report.forming import limit_diagram
 from umform.results.forming import lay_by_best_fit, lay_on_three_points
 from umform.results.forming.u_bend import crossing
 from umform.results.shape import Shape, outer_quads
@@ -40,7 +41,7 @@ def pictures(drawn: Drawn) -> dict[str, Figure]:
     made |= {name: coloured(shape, name, label) for name, label in FIELDS.items()}
     if drawn.released is not None:
         made["gauge"] = in_gauge(drawn, shape)
-    made |= {"limits": limits(drawn), "outline": outline(drawn), "section": sections(drawn)}
+    made |= {"limits": limit_diagram(drawn.fields, drawn.limit), "outline": outline(drawn), "section": sections(drawn)}
     if isinstance(drawn.case, Cup):
         made["ears"] = ears(drawn)
     return made
@@ -134,21 +135,6 @@ def coloured(shape: Shape, name: str, label: str) -> Figure:
     return figure
 
 
-def limits(drawn: Drawn) -> Figure:
-    """Forming limit diagram: strains of all elements on both skins and in the middle, and the limit curve."""
-    found = drawn.fields
-    with house_style():
-        figure, axes = _axes("minor strain, logarithmic", "major strain, logarithmic")
-        for name, colour in zip(("lower", "upper", "middle"), (COLOURS[5], COLOURS[4], COLOURS[0]), strict=True):
-            axes.plot(found[f"minor_{name}"], found[f"major_{name}"], ".", color=colour, markersize=2.5, label=name)
-        low, high = axes.get_xlim()
-        minor = np.linspace(min(low, -0.1), max(high, 0.1), 200)
-        axes.plot(minor, drawn.limit(minor), color=COLOURS[1], label="forming limit")
-        axes.plot([0.0, min(low, 0.0)], [0.0, max(-low, 0.0)], color="#999999", linewidth=0.8, label="no thinning")
-        axes.legend()
-    return figure
-
-
 def outline(drawn: Drawn) -> Figure:
     """Edge of the blank before drawing and at the end of the stroke."""
     edge = drawn.outline
@@ -163,15 +149,16 @@ def outline(drawn: Drawn) -> Figure:
 
 
 def sections(drawn: Drawn) -> Figure:
-    """Section of the part at the end of the stroke and after release."""
+    """Section of the part at the end of the stroke and, if it was released, after release."""
+    cuts = {name: cut for name, cut in drawn.sections.items() if name == "drawn" or drawn.released is not None}
     with house_style():
         figure, axes = _axes("x in mm", "z in mm")
-        for (name, cut), colour, line in zip(drawn.sections.items(), COLOURS, ("--", "-"), strict=False):
+        for (name, cut), colour, line in zip(cuts.items(), COLOURS, ("--", "-"), strict=False):
             axes.plot(*cut.lower[:, [0, 2]].T, line, color=colour, label=name)
             axes.plot(*cut.upper[:, [0, 2]].T, line, color=colour)
-        if drawn.angles is not None and isinstance(drawn.case, UBend) and drawn.case.heights is not None:
+        if drawn.angles is not None and drawn.wall_heights is not None:
             middle = drawn.sections["released"].middle[:, [0, 2]]
-            wall = np.array([crossing(middle, height) for height in drawn.case.heights])
+            wall = np.array([crossing(middle, height) for height in drawn.wall_heights])
             axes.plot(*wall.T, "o", color=INK, markersize=4, label="points of the wall")
             theta1, theta2, radius = drawn.angles.theta1, drawn.angles.theta2, drawn.angles.radius
             axes.set_title(f"theta1 {theta1:.1f}°, theta2 {theta2:.1f}°, radius of the wall {radius:.0f} mm")
@@ -185,9 +172,9 @@ def ears(drawn: Drawn) -> Figure:
     whole = drawn.ears.whole()
     with house_style():
         figure, axes = _axes("angle to the rolling direction in degrees", "height of the cup in mm")
-        axes.plot(whole.angle, whole.height)
-        axes.axhline(drawn.ears.mean, color=INK, linewidth=0.8, linestyle=":")
-        axes.annotate(f"mean {drawn.ears.mean:.2f}", (2.0, drawn.ears.mean), va="bottom", fontsize=8)
+        axes.plot(np.append(whole.angle, whole.angle[0] + 360.0), np.append(whole.height, whole.height[0]))
+        axes.axhline(drawn.ears.mean, color=INK, linewidth=0.8, linestyle=":", label=f"mean {drawn.ears.mean:.2f}")
+        axes.legend()
         axes.set_xticks(np.arange(0, 361, 45))
     return figure
 

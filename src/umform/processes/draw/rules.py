@@ -15,9 +15,19 @@ from umform.processes.rules import FRICTION, Rule, contact_points, length, numbe
 #: Clearances beside the punch in thicknesses: less is a wrong number rather than ironing, more leaves the sheet loose.
 _TIGHTEST, _LOOSEST = 0.9, 20.0
 
+#: Thickness in mm and Young's modulus in MPa of sheet metal; beyond, another unit is meant.
+_THICKNESS, _YOUNG = (0.01, 100.0), (1e3, 1e6)
+#: Least pressure of a holder in MPa: one in kN is a thousandth of one in N. The largest is the yield stress.
+_LEAST_PRESSURE = 0.02
+
 #: Rules for both cups and U-bends.
 COMMON: dict[str, Rule] = {
-    "thickness": length("the thickness of the sheet", "in mm, such as 1"),
+    "thickness": Rule(
+        lambda value: number(value) and _THICKNESS[0] <= value <= _THICKNESS[1],
+        f"the thickness of the sheet lies between {_THICKNESS[0]:g} and {_THICKNESS[1]:g} mm",
+        "metres in place of millimetres, or a sign",
+        "in mm, such as 1",
+    ),
     "material": plastic_material("drawing"),
     "punch_edge": length("the radius of the edge of the punch", "in mm, such as 5"),
     "die_edge": length("the radius of the edge of the die", "in mm, such as 10"),
@@ -25,7 +35,7 @@ COMMON: dict[str, Rule] = {
         positive,
         "the force of the holder must be positive",
         "a sign",
-        "in N, such as 40e3; omit it for a holder that keeps its distance",
+        "in N, such as 40e3; None (on the command line 0) for a holder of a cup that keeps its distance",
     ).optional(),
     "friction": FRICTION,
     "stroke": length("the stroke", "in mm; omit it for a whole cup or the usual U-bend").optional(),
@@ -60,7 +70,42 @@ def layers_by_rule(name: str, material: Plastic, points: int | None, thickness: 
     return layers_for(order, thickness, radius, material.kappa / float(yield_stress))
 
 
-def check_clearance(air: float, thickness: float, *, where: str, value: float, wanted: float) -> None:
+def check_stiffness(material: Plastic) -> None:
+    """Refuse a Young's modulus that is not in MPa."""
+    if not _YOUNG[0] <= material.E <= _YOUNG[1]:
+        raise InvalidValue(
+            f"Young's modulus of a metal lies between {_YOUNG[0]:g} and {_YOUNG[1]:g} MPa",
+            where="young",
+            value=f"{material.E:.4g}",
+            cause="GPa, or Pa, in place of MPa",
+            remedy="in MPa: 210e3 for steel, 70e3 for aluminium",
+        )
+
+
+def unusual_pressure(force: float | None, flange: float, material: Plastic) -> list[str]:
+    """Warning of a holder force in another unit: its pressure is far from usual.
+
+    Parameters
+    ----------
+    force : float, optional
+        On the whole holder.
+    flange : float
+        Area of the blank between holder and flat of the die.
+    material : J2 or Metal
+        Law of the sheet.
+    """
+    if force is None or not flange > 0.0:
+        return []
+    pressure, strength = force / flange, float(material.hardening.curve()(0.0)[0])
+    if _LEAST_PRESSURE <= pressure <= strength:
+        return []
+    what = f"the holder force of {force:.4g} N is a pressure of {pressure:.3g} MPa on the flange"
+    if pressure < _LEAST_PRESSURE:
+        return [f"{what}: kN in place of N? The sheet wrinkles under a holder that is too weak; 1 to 5 MPa are usual"]
+    return [f"{what}, above the yield stress {strength:.4g}; 1 to 5 MPa are usual"]
+
+
+def check_clearance(air: float, thickness: float, *, where: str, value: float, remedy: str) -> None:
     """Refuse a clearance between punch and die that does not fit the sheet.
 
     Parameters
@@ -71,7 +116,7 @@ def check_clearance(air: float, thickness: float, *, where: str, value: float, w
         Thickness of the sheet.
     where, value : str, float
         Parameter of the die, for the message.
-    wanted : float
+    remedy : str
         Its usual value.
     """
     if _TIGHTEST * thickness <= air < _LOOSEST * thickness:
@@ -82,7 +127,7 @@ def check_clearance(air: float, thickness: float, *, where: str, value: float, w
         value=value,
         cause=f"a gap of {air:.4g} beside the punch for a sheet of {thickness:g}; "
         + ("tools of a thinner sheet" if air < thickness else "a diameter for a radius"),
-        remedy=f"about {wanted:.4g}",
+        remedy=remedy,
     )
 
 

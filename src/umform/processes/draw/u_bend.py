@@ -15,7 +15,14 @@ from umform.materials.j2 import Plastic
 from umform.mesh import Bent, Mesh, Sizes, bending_sizes, grid
 from umform.model import Model
 from umform.processes.draw.press import Press, held_by
-from umform.processes.draw.rules import COMMON, check_clearance, layers_by_rule, tight
+from umform.processes.draw.rules import (
+    COMMON,
+    check_clearance,
+    check_stiffness,
+    layers_by_rule,
+    tight,
+    unusual_pressure,
+)
 from umform.processes.rules import check_rules, length
 from umform.results.forming.u_bend import HEIGHTS
 from umform.surfaces import Box, Plane, UDie
@@ -85,10 +92,12 @@ class UBend:
     def __post_init__(self) -> None:
         values = self.record()
         check_rules({name: values[name] for name in _RULES}, _RULES)
+        check_stiffness(self.material)
         if self.holder_force is None:
             raise InvalidValue("a U-bend has a holder that is pressed", where="holder_force", remedy="a force in N")
         wanted = self.punch_width + 2.0 * CLEARANCE * self.thickness
-        check_clearance(self.clearance, self.thickness, where="opening", value=self.opening, wanted=wanted)
+        remedy = f"about {wanted:.4g}"
+        check_clearance(self.clearance, self.thickness, where="opening", value=self.opening, remedy=remedy)
         if not 0.5 * self.length > 0.5 * self.opening + self.die_edge + self.way:
             raise InvalidValue(
                 "the blank is drawn off the die before the end of the stroke",
@@ -112,7 +121,9 @@ class UBend:
     def warnings(self) -> list[str]:
         """Unusual parameters."""
         wanted = self.punch_width + 2.0 * CLEARANCE * self.thickness
-        return tight(self.clearance, self.thickness, what="an opening", wanted=wanted)
+        flange = self.width * (self.length - self.opening - 2.0 * self.die_edge)
+        pressure = unusual_pressure(self.holder_force, flange, self.material)
+        return [*tight(self.clearance, self.thickness, what="an opening", wanted=wanted), *pressure]
 
     @property
     def way(self) -> float:

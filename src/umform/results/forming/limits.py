@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import InvalidValue
+from umform.materials import Metal, Plastic
 from umform.materials.checks import check_finite
+from umform.sheet_metals.tension_test import tension_test
 
 Floats = NDArray[np.float64]
 
@@ -18,6 +22,8 @@ FormingLimit = Callable[[Floats], Floats]
 
 #: Thickness in mm beyond which the curve of Keeler and Brazier does not rise any more, and the largest n that counts.
 _THICKEST, _LARGEST_N = 3.1, 0.21
+#: Logarithmic strain that no sheet reaches before it tears; a table in per cent exceeds it.
+LARGEST_STRAIN = 3.0
 
 
 @dataclass(frozen=True)
@@ -47,6 +53,11 @@ class KeelerBrazier:
                     remedy="thickness in mm, and n of about 0.1 to 0.25; a table for other metals",
                 )
 
+    @classmethod
+    def of(cls, thickness: float, material: Plastic) -> KeelerBrazier:
+        """The curve of a metal: n is the true plastic strain at which slope and stress are equal in tension."""
+        return cls(thickness, _necking_strain(material))
+
     @property
     def plane_strain(self) -> float:
         """Largest major strain without a minor one, logarithmic."""
@@ -60,6 +71,21 @@ class KeelerBrazier:
         right = 100.0 * np.expm1(self.plane_strain) + percent * (0.784854 - 0.008565 * percent)
         limit: Floats = np.where(minor < 0.0, left, np.log1p(right / 100.0))
         return limit
+
+
+def _necking_strain(law: Plastic) -> float:
+    """True plastic strain at which a tensile bar necks."""
+    if getattr(law, "back_stress", None) is not None:  # which hardens the bar too
+        test = tension_test(cast(Metal, law))
+        stretch = 1.0 + test.uniform_elongation + test.tensile_strength / law.E
+        return max(math.log(stretch) - test.tensile_strength * stretch / law.E, 1e-3)
+    curve = law.hardening.curve()
+    low, high = 1e-6, 1.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        stress, slope = curve(middle)
+        low, high = (middle, high) if slope > stress else (low, middle)
+    return max(low, 1e-3)
 
 
 @dataclass(frozen=True)
@@ -88,6 +114,14 @@ class LimitTable:
                 value=f"minor {self.minor!r}, major {self.major!r}",
                 cause="strains that are not sorted, or a value that is missing",
                 remedy="LimitTable(minor=[-0.2, 0, 0.2], major=[0.5, 0.3, 0.4])",
+            )
+        if abs(points).max() > LARGEST_STRAIN:
+            raise InvalidValue(
+                "the strains of a forming limit are logarithmic",
+                where="LimitTable",
+                value=f"up to {abs(points).max():.4g}",
+                cause="per cent",
+                remedy="0.262 = ln(1.3) for an elongation of 30 %",
             )
         object.__setattr__(self, "_points", points)
 

@@ -193,6 +193,13 @@ def _static(module: str, name: str, function: str) -> Any:
     return getattr(of, f"{function}_s", None) or getattr(of, function)
 
 
+def _quiet() -> None:
+    """Keep counts of entities of OpenCASCADE, in colours, off the terminal; its failures are printed."""
+    least = importlib.import_module("OCP.Message").Message_Gravity.Message_Fail
+    for printer in _static("Message", "Message", "DefaultMessenger")().Printers():
+        printer.SetTraceLevel(least)
+
+
 def _read(path: Path) -> Any:
     suffix = path.suffix.lower()
     if suffix not in STEP + IGES:
@@ -222,6 +229,7 @@ def _read(path: Path) -> Any:
             cause=str(error),
             remedy='pip install "umform[cad]"',
         ) from error
+    _quiet()
     done = importlib.import_module("OCP.IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone
     shape = None
     if reader.ReadFile(str(path)) == done:

@@ -3,6 +3,7 @@
 import json
 from dataclasses import dataclass, replace
 from functools import cache
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -12,9 +13,10 @@ from typer.testing import CliRunner
 import umform as uf
 from umform.cli import app
 from umform.errors import InvalidValue
-from umform.processes.draw import Cup, UBend, draw, write_files
+from umform.processes.draw import Cup, Drawn, UBend, draw, write_files
+from umform.processes.draw.endings import ending_of
 from umform.processes.draw.files import draw_blank
-from umform.processes.draw.pictures import pictures
+from umform.processes.draw.pictures import pictures, sections
 from umform.processes.draw.words import before_the_run
 from umform.results.forming import ear_profile
 
@@ -107,9 +109,30 @@ def test_a_short_u_bend():
     drawn = draw(replace(U, stroke=8.0), frames=0, progress=False)
     assert drawn.ending is None and drawn.released is not None
     assert drawn.angles is None  # there is no wall yet
+    assert any("the wall is too short" in text for text in drawn.warnings)
     assert drawn.forces["holder"][-1] == pytest.approx(2450.0, rel=1e-6)
     assert abs(drawn.released["punch_fz"][-1]) < 1e-9
     assert drawn.outline.draw_in[0] > 1.0
+
+
+def test_a_wall_that_springs_back_far_is_measured_lower():
+    """The wall curls to half of a circle of 20 mm: it is lower than the third height of the case."""
+    case = replace(U, length=350.0, stroke=70.0)
+    mesh = case.blank()
+    s = np.clip(mesh.points[:, 0] - 25.0, 0.0, 20.0 * np.pi)
+    flange = np.maximum(mesh.points[:, 0] - 25.0 - 20.0 * np.pi, 0.0)
+    middle = np.column_stack(
+        [np.minimum(mesh.points[:, 0], 25.0) + 20.0 * (1 - np.cos(s / 20.0)), 20.0 * np.sin(s / 20.0)]
+    )
+    u = np.zeros_like(mesh.points)
+    u[:, 0], u[:, 2] = middle[:, 0] - mesh.points[:, 0], middle[:, 1] - flange
+    model = SimpleNamespace(mesh=mesh, u=u.ravel())
+    run = SimpleNamespace(model=model, warnings=[])
+    drawn = Drawn(case, lambda minor: minor, run, u.ravel(), run, None)
+    assert drawn.wall_heights == pytest.approx([17.0 * part / 55.0 for part in (15.0, 35.0, 55.0)], rel=0.02)
+    assert drawn.angles is not None and drawn.angles.radius == pytest.approx(20.0, rel=0.05)
+    assert any("sprung back below" in text for text in drawn.warnings)
+    assert replace(drawn, released=None).angles is None
 
 
 @pytest.mark.long
@@ -126,6 +149,42 @@ def test_a_sheet_beyond_its_limit_is_named():
     assert "beyond the forming limit" in drawn.warnings[0]
 
 
+def test_the_stroke_at_the_forming_limit():
+    drawn = cup()
+    strains = [frame.cells["major_middle"].max() for frame in drawn.result.frames]
+    strokes = np.interp([frame.time for frame in drawn.result.frames], drawn.result["time"], drawn.stroke)
+    limit = 0.5 * (strains[-1] + strains[-2])
+    for frame in drawn.result.frames:
+        frame.cells["limit_margin"] = limit - frame.cells["major_middle"]
+    ending = ending_of(CUP, drawn.result, lambda minor: 0.0 * minor + limit, None)
+    middle = 0.5 * (strokes[-1] + strokes[-2])
+    assert ending is not None and f"from a stroke of about {middle:.3g}" in ending.text
+    assert drawn.measures()["stroke at the forming limit"][0] == pytest.approx(middle)
+    cup.cache_clear()
+
+
+def test_only_ears_of_a_metal_with_directions_and_without_a_flange_count():
+    metal = uf.Metal(70e3, 0.33, hardening=STEEL.hardening, yield_function=uf.Hill48(1.2, 0.8, 1.1))
+    wide = {"die_radius": 39.8, "punch_radius": 38.0, "die_edge": 0.2}
+    for changes, counted in (
+        ({}, False),
+        (wide, False),
+        ({"material": metal}, False),
+        (wide | {"material": metal}, True),
+    ):
+        drawn = replace(cup(), case=replace(CUP, **changes))
+        assert drawn.has_ears is counted and ("number of ears" in drawn.measures()) is counted
+
+
+@pytest.mark.parametrize(
+    ("force", "said"), [(20.0, ["kN in place of N"]), (20e3, []), (2e6, ["above the yield stress"])]
+)
+def test_a_holder_force_in_another_unit_is_a_warning(force, said):
+    for case in (CUP, U):
+        found = replace(case, holder_force=force * (1.0 if case is CUP else 0.5)).warnings
+        assert len(found) == len(said) and all(part in text for part, text in zip(said, found, strict=True))
+
+
 @pytest.mark.parametrize(("force", "friction", "kind"), [(500e3, 0.2, "torn"), (800e3, 0.5, "held")])
 def test_a_holder_that_is_too_strong_tears_the_sheet(force, friction, kind):
     drawn = draw(replace(CUP, holder_force=force, stroke=25.0, friction=friction), frames=0, progress=False)
@@ -138,6 +197,16 @@ def test_a_loose_holder_lets_the_flange_wrinkle():
     drawn = draw(replace(CUP, holder_force=3e3, holder_gap=3.0, stroke=12.0), frames=0, progress=False)
     assert drawn.ending is not None and drawn.ending.kind == "wrinkled" and not drawn.ending.early
     assert "stands off both tools" in drawn.warnings[0]
+
+
+def test_wrinkles_lift_the_holder():
+    """The part cannot be taken out, since its folds stand beyond the holder: what was reached is kept."""
+    case = replace(CUP, holder_force=300.0, blank_radius=50.0, around=8, stroke=8.0)
+    drawn = draw(case, limit=lambda minor: 0.0 * minor + 0.25, frames=10, progress=False)
+    assert drawn.ending is not None and drawn.ending.kind == "wrinkled"
+    assert "lifts the holder by" in drawn.ending.text and drawn.ending.text.endswith("a stronger holder")
+    since = float(drawn.ending.text.split("a stroke of about ")[1].split(":")[0])
+    assert 4.0 < since < 8.0
 
 
 def test_no_element_turns_more_than_asked():
@@ -191,6 +260,8 @@ def test_a_punch_that_bottoms_is_named():
         {"around": 5},
         {"friction": 9.0},
         {"thickness": -1.0},
+        {"thickness": 0.001},
+        {"material": uf.J2(E=206.0, nu=0.3, hardening=uf.Perfect(0.2))},
         {"material": uf.SVK(E=1.0, nu=0.3)},
     ],
 )
@@ -234,3 +305,5 @@ def test_a_part_that_stays_in_its_tools_has_no_springback():
     assert "largest springback" in cup().measures()
     kept = replace(cup(), released=None)
     assert "largest springback" not in kept.measures() and "gauge" not in pictures(kept)
+    labels = [line.get_label() for line in sections(kept).axes[0].lines]
+    assert "drawn" in labels and "released" not in labels

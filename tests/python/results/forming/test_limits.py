@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import umform as uf
 from umform.errors import InvalidValue
 from umform.results.forming import KeelerBrazier, LimitTable, limit_margin
 
@@ -39,3 +40,18 @@ def test_margin():
 def test_what_is_no_limit_is_refused(make):
     with pytest.raises(InvalidValue):
         make()
+
+
+@pytest.mark.parametrize("name", ["SPFC", "TRIP1180"])
+def test_the_hardening_exponent_of_a_metal_with_back_stress(name):
+    """The yield surface has a constant size; the uniform elongation of tension gives n."""
+    metal = uf.sheet_metals.get(name)
+    found = KeelerBrazier.of(1.0, metal.law)
+    assert found.n == pytest.approx(np.log1p(metal.uniform_elongation), abs=0.006) and found.n > 0.05
+    constant = metal.law.hardening.curve()
+    assert constant(0.0)[0] == pytest.approx(constant(0.3)[0])
+
+
+def test_the_hardening_exponent_of_a_swift_curve():
+    """Slope and stress of K (e0 + p)^n are equal at p = n - e0."""
+    assert KeelerBrazier.of(1.0, uf.J2(E=210e3, nu=0.3, hardening=uf.Swift(520.0, 0.01, 0.2))).n == pytest.approx(0.19)

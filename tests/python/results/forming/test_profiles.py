@@ -61,6 +61,19 @@ def test_ears_of_a_cup_that_opens_downwards():
     assert ear_profile(blank, u).mean == pytest.approx(20.0, abs=0.02)
 
 
+def test_equally_high_nodes_of_one_ear_are_one_ear():
+    """Mirror images beside 0 and 90 degrees that are higher than the node between them by a trace."""
+    angle = np.linspace(0.0, 90.0, 9)
+    height = 35.0 + 0.09 * np.cos(np.radians(4 * angle))
+    height[[1, -2]] = height[0] + 4e-4
+    ears = EarProfile(angle, height)
+    np.testing.assert_allclose(ears.ears(), [0, 90, 180, 270], atol=1e-6)
+    np.testing.assert_allclose(ears.valleys(), [45, 135, 225, 315], atol=1e-6)
+    eight = EarProfile(np.linspace(0.0, 90.0, 19), 35.0 - np.cos(np.radians(8 * np.linspace(0.0, 90.0, 19))))
+    np.testing.assert_allclose(eight.ears(), np.arange(25.0, 360.0, 45.0) - 2.5, atol=2.6)
+    assert len(EarProfile(angle, np.full(9, 35.0)).ears()) == 0
+
+
 def test_draw_in():
     blank = uf.mesh.disc(10.0, 1.0, (4, 3), part="quarter")
     edge = draw_in(blank, -0.1 * blank.points)
