@@ -16,6 +16,7 @@ from umform.surfaces import Triangles
 
 SIDE, CELLS, GRID, ROUNDS = 100.0, 60, 100, 15
 THROUGH = 5  # points through the thickness
+SLIDE = 0.1  # between two evaluations
 
 
 def die() -> uf.Triangulated:
@@ -40,12 +41,17 @@ def lying(tool: uf.surfaces.Tool | None, points: int) -> uf.Model:
 
 
 def seconds(models: dict[str, uf.Model]) -> dict[str, float]:
-    """CPU time of one evaluation of residual and tangent of each: the least of some rounds, in which all take turns."""
+    """CPU time of one evaluation of residual and tangent of each: the least of some rounds, in which all take turns.
+
+    The sheet slides to and fro on the die from round to round.
+    """
     best = dict.fromkeys(models, np.inf)
-    for _ in range(ROUNDS):
+    for number in range(ROUNDS):
         for name, model in models.items():
+            x = model.x.copy()
+            x[: model.mesh.points.size : 3] += SLIDE * (number % 2)
             start = time.process_time()
-            model.evaluate(model.x)
+            model.evaluate(x)
             best[name] = min(best[name], time.process_time() - start)
     return best
 

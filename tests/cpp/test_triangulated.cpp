@@ -1,4 +1,4 @@
-// Patches of fourth degree: derivatives, feet; the tree of boxes; a flat square with rims.
+// Patches of fourth degree: derivatives, feet; the tree of boxes; searches that begin with what was near before.
 #include "check.hpp"
 #include "umform/surfaces/triangulated.hpp"
 
@@ -89,6 +89,84 @@ void test_tree() {
     }
 }
 
+/// A number between -1 and 1.
+double spread(int i) { return 2.0 * std::fmod(0.6180339887 * i, 1.0) - 1.0; }
+
+/// A wavy square of 8 x 8 cells between -4 and 4, whose thirds bulge; its normals point up.
+Triangulated wavy(Across across) {
+    const auto corner = [](int i, int k) {
+        return Vec3{i - 4.0, k - 4.0, 0.7 * std::sin(1.3 * i) * std::cos(1.1 * k)};
+    };
+    std::vector<Third> thirds;
+    const auto triangle = [&](const std::array<Vec3, 3>& corners) {
+        Vec3 middle{};
+        for (const Vec3& x : corners)
+            for (int j = 0; j < 3; ++j) middle[j] += x[j] / 3.0;
+        for (int side = 0; side < 3; ++side) {
+            const Vec3 &a = corners[side], &b = corners[(side + 1) % 3];
+            Third third{{}, across, -1, {0, 0}, -1};
+            for (int row = 0, at = 0; row < 5; ++row)
+                for (int i = 0; i < 5 - row; ++i, ++at)
+                    for (int j = 0; j < 3; ++j)
+                        third.patch.control[at][j] = 0.25 * ((4 - row - i) * a[j] + i * b[j] + row * middle[j])
+                                                     + (j == 2 ? 0.02 * i * (4 - row - i) : 0.0);
+            thirds.push_back(third);
+        }
+    };
+    for (int i = 0; i < 8; ++i)
+        for (int k = 0; k < 8; ++k) {
+            triangle({corner(i, k), corner(i + 1, k), corner(i + 1, k + 1)});
+            triangle({corner(i, k), corner(i + 1, k + 1), corner(i, k + 1)});
+        }
+    return {thirds, {{{0.0, 0.0, 1.0}, across}}, {}};
+}
+
+/// Points that creep, run and jump, near and far, also along the edges of the triangles, and one that is lost for a while: the
+/// answer has the same bits whatever was found before.
+void test_searches_that_remember(Across across) {
+    constexpr int points = 300;
+    const Triangulated tool = wavy(across);
+    std::vector<double> x(3 * points), g(points), n(3 * points), H(9 * points), again(13 * points);
+    std::vector<Nearby> nearby(points);
+    int seed = 0, known = 0, wrong = 0;
+    for (int round = 0; round < 60; ++round) {
+        const double step = round % 20 == 0 ? 4.0 : round % 5 == 0 ? 0.3 : 0.01;
+        for (int q = 0; q < points; ++q)
+            for (int k = 0; k < 3; ++k) {
+                double& value = x[3 * q + k];
+                value = std::isnan(value) ? 0.0 : value + step * (k == 2 && q % 3 > 0 ? 0.1 : 1.0) * spread(++seed);
+                if (std::abs(value) > 4.5) value *= 0.5;
+                if (q % 5 == 0 && k == 0) value = std::round(value);
+            }
+        if (round % 7 == 3) x[30] = std::nan("");
+        for (const Nearby& one : nearby) known += one.count == Nearby::most ? 1 : 0;
+        tool.gap(points, x.data(), g.data(), n.data(), H.data());
+        tool.gap_again(points, x.data(), nearby.data(), again.data(), &again[points], &again[4 * points]);
+        for (int q = 0; q < points; ++q) {
+            if (std::isnan(x[3 * q])) continue;
+            wrong += g[q] == again[q] ? 0 : 1;
+            for (int k = 0; k < 3; ++k) wrong += n[3 * q + k] == again[points + 3 * q + k] ? 0 : 1;
+            for (int k = 0; k < 9; ++k) wrong += H[9 * q + k] == again[4 * points + 9 * q + k] ? 0 : 1;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(known > 20 * points);
+}
+
+void test_nearby() {
+    Nearby nearby;
+    nearby.clear({1.0, 2.0, 3.0});
+    for (int i = 0; i < 50; ++i) nearby.add(i, std::fmod(7.0 * i, 50.0));
+    CHECK(nearby.count == Nearby::most);
+    for (int k = 0; k < Nearby::most; ++k) {
+        CHECK_NEAR(nearby.least[k], k, 0.0);
+        CHECK_NEAR(std::fmod(7.0 * nearby.part[k], 50.0), k, 0.0);
+        CHECK(nearby.has(nearby.part[k]));
+    }
+    CHECK_NEAR(nearby.others, Nearby::most, 0.0);
+    CHECK(!nearby.has(-1));
+}
+
 }  // namespace
 
 int main() {
@@ -96,5 +174,8 @@ int main() {
     test_flat_foot();
     test_foot();
     test_tree();
+    test_nearby();
+    test_searches_that_remember(Across::Smooth);
+    test_searches_that_remember(Across::Rim);
     return report("triangulated");
 }

@@ -358,3 +358,26 @@ def test_a_strip_over_a_bar_of_triangles():
         forces.append(solve(model, Move(push, -2.0, steps=5), frames=0, progress=False)["push_force"])
     assert abs(forces[0][-1]) > 1.0
     np.testing.assert_allclose(forces[1], forces[0], rtol=1e-3)
+
+
+def test_the_forces_do_not_depend_on_the_way_of_the_sheet():
+    """Points keep the nearest triangles of the evaluations before: a model without them finds the same bits."""
+    x, y = np.meshgrid(np.linspace(-2.0, 12.0, 29), np.linspace(-2.0, 6.0, 17), indexing="ij")
+    at = np.arange(x.size).reshape(x.shape)
+    a, b, c, d = at[:-1, :-1].ravel(), at[1:, :-1].ravel(), at[1:, 1:].ravel(), at[:-1, 1:].ravel()
+    points = np.stack([x, y, 0.3 * np.sin(x) * np.cos(y)], axis=-1).reshape(-1, 3)
+    tool = Triangulated(Triangles(points, np.vstack([np.c_[a, b, c], np.c_[a, c, d]])), open=True).moved((0, 0, 0.1))
+
+    def lying():
+        model = Model(strip(10.0, 4.0, 0.5, (8, 4)), "ANS3DEAS", material=mt.NeoHooke(E=5e3, nu=0.3))
+        model.contact("lower", tool, penalty=100.0, points=2, name="tool")
+        return model
+
+    model = lying()
+    for step in (0.0, 0.05, 0.6, 3.0, -3.0, 0.01, 0.3, 0.02):
+        way = model.x.copy()
+        way[: model.mesh.points.size] += np.tile([step, 0.3 * step, 0.01 * step], len(model.mesh.points))
+        found, fresh = model.evaluate(way), lying().evaluate(way)
+        assert np.array_equal(found.residual, fresh.residual)
+        assert np.array_equal(found.values, fresh.values)
+        assert np.abs(found.residual).max() > 0.1

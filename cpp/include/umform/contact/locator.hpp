@@ -28,6 +28,7 @@ class Locator {
         number_nodes();
         const std::size_t facets = part_.size(), count = facets * points_;
         x_.resize(count), n_.resize(count), H_.resize(count), g_.resize(count);
+        if (surface_->searches()) nearby_.resize(count);
         far_.assign(facets, 0), wanted_.assign(facets, 0);
         bound_.assign(facets, -std::numeric_limits<double>::infinity());
         if (culls_) least_ = bound_, located_at_.resize(facets);
@@ -157,7 +158,12 @@ class Locator {
             int end = begin;
             for (; end < last && wanted_[end] != 0; ++end) place(end);
             const std::size_t from = static_cast<std::size_t>(begin) * points();
-            surface_->gap((end - begin) * points(), x_[from].data(), &g_[from], n_[from].data(), H_[from].a.data());
+            const int count = (end - begin) * points();
+            if (nearby_.empty())
+                surface_->gap(count, x_[from].data(), &g_[from], n_[from].data(), H_[from].a.data());
+            else
+                surface_->gap_again(count, x_[from].data(), &nearby_[from], &g_[from], n_[from].data(),
+                                    H_[from].a.data());
             for (int e = begin; e < end; ++e) finish(e);
             begin = end;
         }
@@ -228,6 +234,7 @@ class Locator {
     std::vector<Vec3> x_, n_;  // [facet][point]
     std::vector<Mat3> H_;
     std::vector<double> g_;
+    std::vector<Nearby> nearby_;  // [facet][point] of a tool that searches
 
     std::vector<std::uint8_t> far_, wanted_;           // [facet]
     std::vector<double> bound_, least_;                // [facet] lower bound now, least gap when last located ...

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "umform/algebra/tensor.hpp"
+#include "umform/surfaces/nearby.hpp"
 
 namespace umform {
 
@@ -30,6 +31,12 @@ class Surface {
     virtual ~Surface() = default;
     /// Arrays x [count][3], g [count], n [count][3], H [count][3][3].
     virtual void gap(int count, const double* x, double* g, double* n, double* H) const = 0;
+    /// Whether `gap_again` gains from what it has found before.
+    virtual bool searches() const { return false; }
+    /// The same values to the last bit for points that are asked for again and again, with what was found near to each.
+    virtual void gap_again(int count, const double* x, Nearby*, double* g, double* n, double* H) const {
+        gap(count, x, g, n, H);
+    }
     virtual bool is_distance() const = 0;
     /// Whether several threads may ask at a time, each for some of the points.
     virtual bool is_concurrent() const = 0;

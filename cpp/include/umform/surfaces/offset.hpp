@@ -14,16 +14,26 @@ class Offset final : public Surface {
     bool is_distance() const override { return tool_->is_distance(); }
     bool is_concurrent() const override { return tool_->is_concurrent(); }
 
-    /// g = s (g - d), n = s n, H = s H. eq. (4.172)
+    bool searches() const override { return tool_->searches(); }
+
     void gap(int count, const double* x, double* g, double* n, double* H) const override {
         tool_->gap(count, x, g, n, H);
+        shift(count, g, n, H);
+    }
+    void gap_again(int count, const double* x, Nearby* nearby, double* g, double* n, double* H) const override {
+        tool_->gap_again(count, x, nearby, g, n, H);
+        shift(count, g, n, H);
+    }
+
+  private:
+    /// g = s (g - d), n = s n, H = s H. eq. (4.172)
+    void shift(int count, double* g, double* n, double* H) const {
         for (int q = 0; q < count; ++q) g[q] = side_ * (g[q] - distance_);
         if (side_ > 0) return;
         for (int i = 0; i < 3 * count; ++i) n[i] = -n[i];
         for (int i = 0; i < 9 * count; ++i) H[i] = -H[i];
     }
 
-  private:
     std::shared_ptr<const Surface> tool_;
     double distance_;
     int side_;

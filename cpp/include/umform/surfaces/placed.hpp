@@ -15,20 +15,35 @@ class Placed final : public Surface {
     bool is_distance() const override { return tool_->is_distance(); }
     bool is_concurrent() const override { return tool_->is_concurrent(); }
 
-    /// g = g_local, n = Q n_local, H = Q H_local Q^T; the tool is evaluated once for all points. eq. (4.18)
+    bool searches() const override { return tool_->searches(); }
+
     void gap(int count, const double* x, double* g, double* n, double* H) const override {
+        tool_->gap(count, to_tool(count, x).data(), g, n, H);
+        to_space(count, n, H);
+    }
+    void gap_again(int count, const double* x, Nearby* nearby, double* g, double* n, double* H) const override {
+        tool_->gap_again(count, to_tool(count, x).data(), nearby, g, n, H);
+        to_space(count, n, H);
+    }
+
+  private:
+    /// The tool is evaluated once for all points. Not inlined, so that both ways have the same bits.
+    [[gnu::noinline]] std::vector<double> to_tool(int count, const double* x) const {
         std::vector<double> local(3 * static_cast<std::size_t>(count));
         for (int q = 0; q < count; ++q)
             for (int k = 0; k < 3; ++k)
                 for (int i = 0; i < 3; ++i) local[3 * q + k] += Q_(i, k) * (x[3 * q + i] - c_[i]);
-        tool_->gap(count, local.data(), g, n, H);
+        return local;
+    }
+
+    /// g = g_local, n = Q n_local, H = Q H_local Q^T. eq. (4.18)
+    [[gnu::noinline]] void to_space(int count, double* n, double* H) const {
         for (int q = 0; q < count; ++q) {
             turn(n + 3 * q);
             turn_both_sides(H + 9 * q);
         }
     }
 
-  private:
     void turn(double* a) const {
         const Vec3 old{a[0], a[1], a[2]};
         for (int i = 0; i < 3; ++i) a[i] = Q_(i, 0) * old[0] + Q_(i, 1) * old[1] + Q_(i, 2) * old[2];

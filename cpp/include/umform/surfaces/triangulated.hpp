@@ -49,16 +49,29 @@ class Triangulated final : public Surface {
     bool is_distance() const override { return true; }
     bool is_concurrent() const override { return true; }
 
+    bool searches() const override { return true; }
+
     /// The patch of the point before bounds the distance of the next one; it changes the way of the search only.
     void gap(int count, const double* x, double* g, double* n, double* H) const override {
         int last = 0;
         for (int q = 0; q < count; ++q) {
-            const Found found = nearest({x[3 * q], x[3 * q + 1], x[3 * q + 2]}, last);
-            const Gap at = gap_at({x[3 * q], x[3 * q + 1], x[3 * q + 2]}, found);
+            const Vec3 at{x[3 * q], x[3 * q + 1], x[3 * q + 2]};
+            const Found found = nearest(at, last);
             last = found.third;
-            g[q] = at.g;
-            std::copy(at.n.begin(), at.n.end(), n + 3 * q);
-            std::copy(at.H.a.begin(), at.H.a.end(), H + 9 * q);
+            put(gap_at(at, found), q, g, n, H);
+        }
+    }
+    void gap_again(int count, const double* x, Nearby* nearby, double* g, double* n, double* H) const override {
+        int last = 0;
+        for (int q = 0; q < count; ++q) {
+            if (q + 1 < count && nearby[q + 1].count > 0) {
+                prefetch(flats_[nearby[q + 1].part[0]]);
+                prefetch(thirds_[nearby[q + 1].part[0]].patch);
+            }
+            const Vec3 at{x[3 * q], x[3 * q + 1], x[3 * q + 2]};
+            const Found found = nearest(at, nearby[q], last);
+            last = found.third;
+            put(gap_at(at, found), q, g, n, H);
         }
     }
 
@@ -81,7 +94,8 @@ class Triangulated final : public Surface {
                 }
             bulge = std::sqrt(out) * (1.0 + 1e-12), lift = std::sqrt(off) * (1.0 + 1e-12);
         }
-        FlatFoot foot(const Vec3& x) const { return foot_on_triangle(x, a, b, c); }
+        /// Not inlined: wherever it is called from it has the same bits.
+        [[gnu::noinline]] FlatFoot foot(const Vec3& x) const { return foot_on_triangle(x, a, b, c); }
     };
 
     struct Found {
@@ -99,52 +113,120 @@ class Triangulated final : public Surface {
     /// First the flat triangles, whose distances bound those of their patches from both sides, then the few patches that may
     /// be nearest. Of equally near ones the first counts, so that the answer does not depend on where the search began.
     /// eq. (4.170)
-    Found nearest(const Vec3& x, int last) const {
-        Found best{-1, {}};
-        best.foot.square = std::numeric_limits<double>::infinity();
-        std::array<Candidate, 64> candidates;
-        std::size_t count = 0;
-        double bound = std::numeric_limits<double>::infinity();
-        const auto look_at = [&](int i) {
-            const Flat& flat = flats_[i];
-            const FlatFoot foot = flat.foot(x);
+    class Search {
+      public:
+        Search(const Triangulated& tool, const Vec3& x) : tool_(tool), x_(x) {
+            best_.foot.square = std::numeric_limits<double>::infinity();
+        }
+
+        /// No patch that has not been looked at counts if it is farther than this.
+        double bound() const { return bound_; }
+
+        /// The least distance that the patch of a third may have.
+        double look_at(int i) {
+            const Flat& flat = tool_.flats_[i];
+            const FlatFoot foot = flat.foot(x_);
             const double distance = std::sqrt(foot.square), least = distance * (1.0 - 1e-12) - flat.bulge;
-            if (least > bound) return;
-            if (count == candidates.size()) settle(x, candidates, count, bound, best);
-            candidates[count++] = {i, least, foot.p};
-            prefetch(thirds_[i].patch);
-            bound = std::min(bound, (distance + flat.lift) * (1.0 + 1e-9));
-        };
-        look_at(last);
+            if (least > bound_) return least;
+            if (count_ == candidates_.size()) settle();
+            candidates_[count_++] = {i, least, foot.p};
+            prefetch(tool_.thirds_[i].patch);
+            bound_ = std::min(bound_, (distance + flat.lift) * (1.0 + 1e-9));
+            return least;
+        }
+
+        const Found& found() {
+            settle();
+            return best_;
+        }
+
+      private:
+        /// Feet on the candidates, those that may lie nearest first.
+        void settle() {
+            while (count_ > 0) {
+                const auto next =
+                    std::min_element(candidates_.begin(), candidates_.begin() + count_,
+                                     [](const Candidate& a, const Candidate& b) { return a.least < b.least; });
+                const Candidate candidate = *next;
+                *next = candidates_[--count_];
+                if (candidate.least > bound_) continue;
+                const PatchFoot foot = tool_.foot_on(candidate, x_);
+                const double best = best_.foot.square;
+                if (foot.square < best || (foot.square == best && candidate.third < best_.third))
+                    best_ = {candidate.third, foot};
+                bound_ = std::min(bound_, std::sqrt(best_.foot.square) * (1.0 + 1e-12));
+            }
+        }
+
+        const Triangulated& tool_;
+        Vec3 x_;
+        std::array<Candidate, 64> candidates_;
+        std::size_t count_ = 0;
+        double bound_ = std::numeric_limits<double>::infinity();
+        Found best_{0, {}};
+    };
+
+    [[gnu::noinline]] PatchFoot foot_on(const Candidate& candidate, const Vec3& x) const {
+        return FootSearch(thirds_[candidate.third].patch, x).from(candidate.start);
+    }
+
+    Found nearest(const Vec3& x, int last) const {
+        Search search(*this, x);
+        search.look_at(last);
         tree_.near_first(
-            x, bound * bound,
+            x, search.bound() * search.bound(),
             [&](int i) {
-                if (i != last) look_at(i);
-                return bound * bound;
+                if (i != last) search.look_at(i);
+                return search.bound() * search.bound();
             },
             [&](int i) { prefetch(flats_[i]); });
-        settle(x, candidates, count, bound, best);
-        return best;
+        return search.found();
     }
 
-    /// Feet on the candidates, those that may lie nearest first.
-    void settle(const Vec3& x, std::array<Candidate, 64>& candidates, std::size_t& count, double& bound,
-                Found& best) const {
-        while (count > 0) {
-            const auto end = candidates.begin() + count;
-            const auto next = std::min_element(
-                candidates.begin(), end, [](const Candidate& a, const Candidate& b) { return a.least < b.least; });
-            const Candidate candidate = *next;
-            *next = candidates[--count];
-            if (candidate.least > bound) continue;
-            const PatchFoot foot = FootSearch(thirds_[candidate.third].patch, x).from(candidate.start);
-            if (foot.square < best.foot.square || (foot.square == best.foot.square && candidate.third < best.third))
-                best = {candidate.third, foot};
-            bound = std::min(bound, std::sqrt(best.foot.square) * (1.0 + 1e-12));
+    /// The nearest one of the parts that are known, if no other part can be as near. Else that of a search: for all parts
+    /// around if the point is no farther from the tool than a triangle is long, which contact asks for again.
+    Found nearest(const Vec3& x, Nearby& nearby, int last) const {
+        if (nearby.count == 0) {
+            const Found found = nearest(x, last);
+            if (is_close(found)) nearby.clear(x), nearby.add(found.third, 0.0), nearby.others = 0.0;
+            return found;
         }
+        const Vec3 d = difference(x, nearby.place);
+        const double way = std::sqrt(dot(d, d)) * (1.0 + 1e-12);
+        Search search(*this, x);
+        for (int k = 0; k < nearby.count && nearby.least[k] - way <= search.bound(); ++k)
+            search.look_at(nearby.part[k]);
+        if (search.bound() < nearby.others - way) return search.found();
+        const Found found = look_around(x, nearby, nearby);
+        if (!is_close(found)) nearby.count = 0;
+        return found;
     }
 
-    Gap gap_at(const Vec3& x, const Found& found) const {
+    bool is_close(const Found& found) const {
+        const Vec3 ab = difference(flats_[found.third].b, flats_[found.third].a);
+        return found.foot.square < dot(ab, ab);
+    }
+
+    /// Searches from some known parts on for all that the next search may need.
+    Found look_around(const Vec3& x, Nearby& nearby, const Nearby start) const {
+        Search search(*this, x);
+        nearby.clear(x);
+        for (int k = 0; k < start.count; ++k) nearby.add(start.part[k], search.look_at(start.part[k]));
+        const auto square = [&] {
+            const double farthest = std::max(search.bound(), nearby.others);
+            return farthest * farthest;
+        };
+        tree_.near_first(
+            x, square(),
+            [&](int i) {
+                if (!start.has(i)) nearby.add(i, search.look_at(i));
+                return square();
+            },
+            [&](int i) { prefetch(flats_[i]); });
+        return search.found();
+    }
+
+    [[gnu::noinline]] Gap gap_at(const Vec3& x, const Found& found) const {
         const Third& third = thirds_[found.third];
         const auto& [u, v] = found.foot.p;
         const Vec3 r = difference(x, found.foot.at.S);
@@ -218,6 +300,12 @@ class Triangulated final : public Surface {
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) gap.H(i, k) = ((i == k ? 1.0 : 0.0) - gap.n[i] * gap.n[k]) / gap.g;
         return gap;
+    }
+
+    static void put(const Gap& gap, int q, double* g, double* n, double* H) {
+        g[q] = gap.g;
+        std::copy(gap.n.begin(), gap.n.end(), n + 3 * q);
+        std::copy(gap.H.a.begin(), gap.H.a.end(), H + 9 * q);
     }
 
     /// A patch lies in the hull of its points, and so does its box.
