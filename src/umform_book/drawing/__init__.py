@@ -1,12 +1,13 @@
 """Drawing: cups beside measured ones and of known symmetry, and a sheet stretched over a punch."""
 
 from umform_book.case import Chapter
-from umform_book.drawing import aa6016_cup, hemispherical_stretch, s_rail, square_cup, swift_cup
+from umform_book.drawing import aa6016_cup, hemispherical_stretch, s_rail, spherical_punch, square_cup, swift_cup
 
 CHAPTER = Chapter(
     "Drawing",
     "Round and square cups beside measured ones, a cup and an S-rail that must be symmetric, a sheet stretched over "
-    "a hemisphere beside a membrane. The [U-bend](friction-u-bend.md) of NUMISHEET 93, and the same with "
-    "[each kind of hardening](material-u-bend.md), are in the chapters on friction and on metals.",
-    (swift_cup.CASE, aa6016_cup.CASE, hemispherical_stretch.CASE, square_cup.CASE, s_rail.CASE),
+    "a hemisphere beside a membrane, a disc drawn by a sphere beside other codes. The [U-bend](friction-u-bend.md) of "
+    "NUMISHEET 93, and the same with [each kind of hardening](material-u-bend.md), are in the chapters on friction and "
+    "on metals.",
+    (swift_cup.CASE, aa6016_cup.CASE, hemispherical_stretch.CASE, spherical_punch.CASE, square_cup.CASE, s_rail.CASE),
 )
