@@ -9,9 +9,9 @@ from umform.processes.draw import Cup
 from umform.results.forming import EarProfile
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
-from umform_book.drawing.aa6016_words import MEASURED, capacity, reading, volume
+from umform_book.drawing.aa6016_words import MEASURED, capacity, ears_on_flange, reading, volume
 from umform_book.drawing.chords import thickness_in_gap
-from umform_book.drawing.cups import COLUMNS, FLANGE, Made, aa6016, esaform, fourth, make
+from umform_book.drawing.cups import COLUMNS, Made, aa6016, esaform, fourth, make
 from umform_book.drawing.rim import compressed_flange
 from umform_book.page import Page
 from umform_book.references import table
@@ -37,6 +37,7 @@ _BUDGET = {
     "penalty 3e5": ("penetration, a third of it", "3 x 3 contact points"),
     "friction 0.1": ("friction, 0.01 more", "3 x 3 contact points"),
     "holder 50 kN": ("force of the holder, 10 kN more", "3 x 3 contact points"),
+    "opening 64 mm": ("no ironing: opening of 64 mm", "15 degrees"),
     "opening 64 mm, holder 2 kN": ("no ironing, and a holder of 2 kN", "15 degrees"),
 }
 _INCREMENTS = {"300 increments": 300}
@@ -60,6 +61,7 @@ def setups() -> dict[str, Cup]:
         "penalty 3e5": esaform(contact_points=3, penalty=3e5),
         "friction 0.1": esaform(contact_points=3, friction=0.1),
         "holder 50 kN": esaform(contact_points=3, holder_force=50e3),
+        "opening 64 mm": esaform(die_radius=32.0),
         "opening 64 mm, holder 2 kN": esaform(die_radius=32.0, holder_force=2e3),
     }
 
@@ -92,7 +94,7 @@ def run(page: Page) -> None:
     _figure(page, found)
     _meshes(page, found)
     same = {name: _profile(teams["angle"], teams[name])[0] for name in ("NTNU Yld2004", "Postech Yld2004")}
-    page.text(reading(found[_FINEST], found[_BASE], same))
+    page.text(reading(found[_FINEST], found[_BASE], found["20 degrees"], same))
     _budget(page, found)
     page.text(volume(found[_FINEST]))
     page.text(capacity())
@@ -121,7 +123,7 @@ def _check_heights(page: Page, found: dict[str, Made], means: list[float]) -> No
         if label in found:
             rim, gap = found[label].wall[1], _gap(setups()[label])
             what = f"{label}: thickness of the rim in the gap, mm, eq. (4.192)"
-            page.check(what, rim, gap, 0.02, relative=False, theory="4.192")
+            page.check(what, rim, gap, 0.02, relative=False)
 
 
 def _check_ears(page: Page, found: dict[str, Made]) -> None:
@@ -130,11 +132,10 @@ def _check_ears(page: Page, found: dict[str, Made]) -> None:
     sizes = [fourth(EarProfile(teams["angle"][:-1], teams[name][:-1]))[0] for name in _names(teams)]
     if _FREE in found:
         size, angle = fourth(found[_FREE].ears)
-        formula = fourth(compressed_flange(aa6016(), *_RADII))[0]
+        formula, there = fourth(compressed_flange(aa6016(), *_RADII))
+        page.check(f"{_FREE}: angle of the ears, degrees", angle, there, 5.0, relative=False)
         what = f"{_FREE}: fourth harmonic beside that of a compressed flange, mm"
         page.check(what, size, formula, 0.2, relative=False)
-        page.check(f"{_FREE}: angle of the ears, degrees", angle, wanted[1], 5.0, relative=False)
-        page.check(f"{_FREE}: fourth harmonic of the height, mm", size, wanted[0], 0.2, relative=False)
     page.check(
         f"{_BASE}: fourth harmonic of the height within that of the teams, mm",
         fourth(found[_BASE].ears)[0],
@@ -149,15 +150,9 @@ def _check_ears(page: Page, found: dict[str, Made]) -> None:
         0.2,
         relative=False,
         known=0.7,
-        cause="stiff tools iron the ears off in the gap of 1.2 mm, as in the results of NTNU and Postech in the table",
+        cause="a flat holder and stiff tools even the ears out, as in the results of NTNU and Postech in the table",
     )
-    text = "Fourth harmonic of the radius of the rim on the flange, at a stroke of {:g} mm, and its angle: {}."
-    there = "; ".join(f"{name} {size:.2f} mm at {angle:.0f}" for name, (size, angle) in _flanges(found).items())
-    page.text(text.format(FLANGE, there))
-
-
-def _flanges(found: dict[str, Made]) -> dict[str, tuple[float, float]]:
-    return {label: fourth(cup.flange) for label, cup in found.items()}
+    page.text(ears_on_flange({label: (*fourth(cup.flange), *fourth(cup.ears)) for label, cup in found.items()}))
 
 
 def _short(page: Page) -> None:
