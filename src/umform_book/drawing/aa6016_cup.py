@@ -9,9 +9,9 @@ from umform.processes.draw import Cup
 from umform.results.forming import EarProfile
 from umform_book.case import Case
 from umform_book.contact.figures import Curve, plot
-from umform_book.drawing.aa6016_words import MEASURED, capacity, ears_on_flange, reading, volume
+from umform_book.drawing.aa6016_words import MEASURED, capacity, ears, reading, volume
 from umform_book.drawing.chords import thickness_in_gap
-from umform_book.drawing.cups import COLUMNS, Made, aa6016, esaform, fourth, make
+from umform_book.drawing.cups import COLUMNS, FLANGE, Made, aa6016, esaform, fourth, make
 from umform_book.drawing.rim import compressed_flange
 from umform_book.page import Page
 from umform_book.references import table
@@ -152,7 +152,20 @@ def _check_ears(page: Page, found: dict[str, Made]) -> None:
         known=0.7,
         cause="a flat holder and stiff tools even the ears out, as in the results of NTNU and Postech in the table",
     )
-    page.text(ears_on_flange({label: (*fourth(cup.flange), *fourth(cup.ears)) for label, cup in found.items()}))
+    rows = [
+        (label, *_angled(found[label].flange), *_angled(found[label].ears))
+        for label in (*_MESHES, "Postech", "opening 64 mm", _FREE)
+        if label in found
+    ]
+    columns = ("", f"of the rim on the flange, stroke {FLANGE:g} mm", "angle", "of the height", "angle")
+    page.table("Fourth harmonic, mm, and its angle, degrees", columns, rows)
+    page.text(ears())
+
+
+def _angled(profile: EarProfile) -> tuple[float, int]:
+    """Fourth harmonic and its angle: a quarter has it at 0 or 45 degrees."""
+    size, angle = fourth(profile)
+    return size, abs(round(angle))
 
 
 def _short(page: Page) -> None:
@@ -180,8 +193,7 @@ def _profile(angle: Floats, height: Floats) -> tuple[float, float, float, float,
 
 
 def _compressed(card: str) -> tuple[float, int]:
-    size, angle = fourth(compressed_flange(aa6016(card), *_RADII))
-    return size, round(angle)
+    return _angled(compressed_flange(aa6016(card), *_RADII))
 
 
 def _figure(page: Page, found: dict[str, Made]) -> None:

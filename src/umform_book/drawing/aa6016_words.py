@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from umform.sheet_metals import balanced, uniaxial
-from umform_book.drawing.cups import FLANGE, WALL, Made, aa6016
+from umform_book.drawing.cups import WALL, Made, aa6016
 
 #: Mean height of the measured cup, mm.
 MEASURED = 34.15
@@ -21,9 +21,10 @@ def reading(fine: Made, base: Made, coarse: Made, teams: dict[str, float]) -> st
         "contact points is near to the measured height by its errors alone: along the radius, elements that turn by "
         "a large angle over an edge need more force, which stretches the bottom; around the cup, elements are chords, "
         "which with 3 x 3 points need more room in the gap beside the punch than the sheet, eq. (4.192), and are "
-        "ironed thinner. With 2 x 2 points the chords do not count. A stronger holder and more friction make the cup "
-        "higher, see the budget; the force of the holder is not known. The largest force of the punch, while it irons, "
-        f"needs the finer meshes more: {coarse.force:.0f} kN on the coarsest, {fine.force:.0f} kN on the finest."
+        "ironed thinner. With 2 x 2 points they keep the gap, and more elements around change little. A stronger "
+        "holder and more friction make the cup higher, see the budget; the force of the holder is not known. "
+        "The largest force of the punch, while it irons, needs the finer meshes more: "
+        f"{coarse.force:.0f} kN on the coarsest, {fine.force:.0f} kN on the finest."
     )
 
 
@@ -53,16 +54,10 @@ def capacity() -> str:
     )
 
 
-def ears_on_flange(harmonics: dict[str, tuple[float, float, float, float]]) -> str:
-    """Size and angle of the fourth harmonic on the flange and of the height, by runs."""
-    there = "; ".join(
-        f"{label} {size:.2f} mm at {abs(angle):.0f}, then {last:.2f} mm at {abs(ends):.0f}"
-        for label, (size, angle, last, ends) in harmonics.items()
-    )
+def ears() -> str:
+    """Where the ears go."""
     return (
-        f"Fourth harmonic of the radius of the rim on the flange, at a stroke of {FLANGE:g} mm, and its angle in "
-        f"degrees, then of the height: {there}. Without ironing and with a weak holder the ears stand where the "
-        "r-values say, as large as those of a flange that is compressed around the cup and nothing else. A flat "
-        "holder bears on the thickest part of the rim, where the flange grows least, and evens the ears out before the "
-        "gap does."
+        "Without ironing and with a weak holder the ears stand where the r-values say, as large as those of a flange "
+        "compressed around the cup and nothing else. A flat holder bears on the thickest part of the rim, where "
+        "the flange grows least, and evens most of the ears out; the gap takes the rest."
     )
