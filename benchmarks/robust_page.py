@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import textwrap
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -118,7 +119,7 @@ def page(outcomes: _Outcomes) -> str:
     check(outcomes, known)
     share, hangs = rate(outcomes), any(one["outcome"] in HANGS for one in outcomes)
     explained = [
-        f"* **Job {one['number']}**, {one['kind']}, {one['outcome']}: {known[one['number']].strip()}"
+        _item(f"**Job {one['number']}**, {one['kind']}, {one['outcome']}: {known[one['number']].strip()}")
         for one in outcomes
         if one["outcome"] != "arrived"
     ]
@@ -130,3 +131,8 @@ def page(outcomes: _Outcomes) -> str:
         table=table(outcomes),
         failures="\n".join(explained or ["All finish."]),
     )
+
+
+def _item(text: str) -> str:
+    """An item of a list, in lines of the length of the house."""
+    return textwrap.fill(text, 120, initial_indent="* ", subsequent_indent="  ", break_on_hyphens=False)

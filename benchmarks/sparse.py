@@ -5,6 +5,9 @@ and with another lower than upper triangle (unsymmetric); scaled ones have equat
 and 1e12. Each measurement has a process of its own, which gives its best of some factorisations; solvers take turns, so
 that a shared machine troubles all alike. Milliseconds of CPU time on one thread, by the clock on several. Memory is
 what the process grows by from the analysis on: the model and its matrix are not counted.
+
+``python benchmarks/sparse.py --page docs/performance-solving.md`` measures the large sheets on one thread and two, and
+writes the multifrontal solver beside PARDISO between the marks of the page; a case without both is left out.
 """
 
 from __future__ import annotations
@@ -37,6 +40,9 @@ CASES = {
     "sheet 316x316": ((316, 316), "hex8", 2),
 }
 KINDS = ("positive", "indefinite", "unsymmetric", "scaled indefinite", "scaled unsymmetric")
+#: What the page shows: large sheets, kinds, solvers, threads.
+LARGE = ("sheet 100x100", "sheet 200x200", "sheet 316x316")
+BESIDE = ("multifrontal", "pardiso")
 #: What is measured: milliseconds, and megabytes.
 COLUMNS = ("analysis", "factor", "solve", "MB")
 TIMES = COLUMNS[:3]
@@ -116,42 +122,67 @@ def rounded(number: float) -> str:
     return f"{number:.0f}" if number >= 100 else f"{number:.3g}"
 
 
+def best_of(case: str, kind: str, names: list[str], threads: int, rounds: int) -> dict[str, dict[str, float]]:
+    """The best measurements of each solver, without those that refuse."""
+    best: dict[str, dict[str, float]] = {}
+    for _ in range(rounds):
+        for name in names:
+            took = apart(case, kind, name, threads=threads)
+            known = best.get(name, took)
+            if took and known:
+                best[name] = {what: min(took[what], known[what]) for what in took}
+    return best
+
+
+def beside(case: str, kind: str, threads: int, best: dict[str, dict[str, float]]) -> str:
+    """Row of the page: the numbers of two solvers beside each other."""
+    sheet = case.removeprefix("sheet ") + (f", {threads} threads" if threads > 1 else "")
+    cells = [rounded(best[name][what]) for what in COLUMNS for name in BESIDE]
+    equations = f"{best[BESIDE[0]]['n']:,.0f}".replace(",", " ")
+    return f"| {sheet} | {equations} | {kind} | {' | '.join(cells)} |"
+
+
 def main() -> None:
     """Run the benchmark."""
     names = [name for name, here in available().items() if here]
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--case", choices=CASES, action="append", help="default: up to 40x40")
-    parser.add_argument("--kind", choices=KINDS, action="append", help="default: positive")
+    parser.add_argument("--case", choices=CASES, action="append", help="default: up to 40x40; with --page the large")
+    parser.add_argument("--kind", choices=KINDS, action="append", help="default: positive; with --page the first three")
     parser.add_argument("--solver", choices=names, action="append", help="default: all that are installed")
-    parser.add_argument("--threads", type=int, nargs="+", default=[1])
+    parser.add_argument("--threads", type=int, nargs="+", help="default: 1; with --page 1 and 2")
     parser.add_argument("--rounds", type=int, default=3, help="processes for each number, of which the best counts")
     parser.add_argument("--one", nargs=4, metavar=("CASE", "KIND", "SOLVER", "THREADS"), help="measure here, as JSON")
+    parser.add_argument("--page", type=Path, help="page that gets the table between its marks")
     record.add_option(parser)
     arguments = parser.parse_args()
     if arguments.one:
         *which, threads = arguments.one
         print(json.dumps(measure(*which, int(threads))))
         return
+    paged = arguments.page is not None
+    if paged and not set(BESIDE) <= set(names):
+        parser.error('the page needs PARDISO: pip install "umform[pardiso]"')
+    solvers = arguments.solver or (list(BESIDE) if paged else names)
     numbers: dict[str, float] = {}
+    heads = " | ".join(f"{what} | PARDISO" for what in COLUMNS)
+    rows = [f"| sheet | equations | matrix | {heads} |", "|---|---:|---|" + "---:|" * 2 * len(COLUMNS)]
     print(f"| sheet | equations | matrix | threads | solver | {' | '.join(COLUMNS)} | fill, 1e6 |")
     print("|---|---:|---|---:|---|---:|---:|---:|---:|---:|")
-    for case in arguments.case or list(CASES)[:5]:
-        for kind in arguments.kind or KINDS[:1]:
-            for threads in arguments.threads:
-                best: dict[str, dict[str, float]] = {}
-                for _ in range(arguments.rounds):
-                    for name in arguments.solver or names:
-                        took = apart(case, kind, name, threads=threads)
-                        known = best.get(name, took)
-                        if took and known:
-                            best[name] = {what: min(took[what], known[what]) for what in took}
+    for threads in arguments.threads or ([1, 2] if paged else [1]):
+        for case in arguments.case or (LARGE if paged else list(CASES)[:5]):
+            for kind in arguments.kind or KINDS[: 3 if paged else 1]:
+                best = best_of(case, kind, solvers, threads, arguments.rounds)
                 for name, took in best.items():
                     cells = " | ".join(rounded(took[what]) for what in COLUMNS)
                     row = f"| {case} | {took['n']:.0f} | {kind} | {threads} | {name} | {cells} | {took['fill']:.3g} |"
                     print(row, flush=True)
                     label = f"{case}, {kind}, {threads} threads, {name}"
                     numbers |= {f"{label}, {what}": took[what] for what in COLUMNS}
+                if set(BESIDE) <= set(best):
+                    rows.append(beside(case, kind, threads, best))
     record.write(arguments.json, "sparse", numbers)
+    if paged:
+        record.put(arguments.page, "sparse", "\n".join(rows))
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from umform.elements import Element, Rolling
 from umform.errors import InvalidValue
@@ -246,3 +247,9 @@ class Model(Standing):
         """Reject a model that cannot be solved, before the run starts, see :func:`umform.model.checks.check_model`."""
         check_model(self)
         check_kept_gaps(self)
+
+    def mechanism(self, values: NDArray[np.float64], motion: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """What can move although a tangent looks singular; None for a very thin sheet that is held. eq. (5.99)"""
+        from umform.model.mechanisms import mechanism  # imports scipy: slow
+
+        return mechanism(self, values, motion)

@@ -25,12 +25,18 @@ class Bordered:
         Restricts rows and columns to the unknowns, and sums them over the ranks.
     solver : TimedSolver
         Solver that has analysed the pattern at the nodes.
+
+    Attributes
+    ----------
+    weak : ndarray, shape (n,), optional
+        The displacement that the tangent of a very thin sheet hardly resists, once it has been met.
     """
 
     def __init__(self, system: System, solver: TimedSolver) -> None:
         self.system, self.solver = system, solver
         self._border: Border | None = None
         self._eliminated = False
+        self.weak: Floats | None = None
 
     def factor(self, evaluation: Evaluation, values: Floats | None = None) -> Factorisation:
         """Factorise the tangent of an evaluation, or other values.
@@ -38,11 +44,26 @@ class Bordered:
         Raises
         ------
         SingularMatrix
-            If the tangent is singular.
+            If the tangent is singular, unless it is that of a very thin sheet without a mechanism. eq. (5.99)
         """
-        found = self.solver.factor(evaluation.values if values is None else values)
+        values = evaluation.values if values is None else values
+        try:
+            found = self.solver.factor(values)
+        except SingularMatrix as refusal:
+            found, self.weak = self._accepted(refusal, values), refusal.motion
         self._border, self._eliminated = evaluation.border if evaluation.border.unknowns else None, False
         return found
+
+    def _accepted(self, refusal: SingularMatrix, values: Floats) -> Factorisation:
+        """Factors of the tangent of a very thin sheet; or raise the error, which then names the mechanism."""
+        if refusal.motion is None:
+            raise refusal
+        motion = self.system.mechanism(values, refusal.motion)
+        accepted = self.solver.accept() if motion is None else None
+        if accepted is None:
+            refusal.motion = refusal.motion if motion is None else motion
+            raise refusal
+        return accepted
 
     def _eliminate(self, border: Border, at_nodes: Floats) -> Floats:
         """Eliminate the nodal unknowns from the border, together with a first right-hand side; return its solution."""

@@ -37,7 +37,9 @@ class Criteria:
         #: Largest entry of the tangent, for evaluations without one.
         self.entry: float | None = None
 
-    def met(self, norm: float, increment: float, u: Floats, evaluation: Evaluation, *, moved: bool) -> bool:
+    def met(
+        self, norm: float, increment: float, u: Floats, evaluation: Evaluation, *, moved: bool, solved: bool
+    ) -> bool:
         """Whether the iteration has converged; to be called once in each.
 
         Parameters
@@ -52,12 +54,14 @@ class Criteria:
             The residual and tangent there.
         moved : bool
             Whether contact points opened or closed; two more iterations are then allowed.
+        solved : bool
+            Whether the last increment is the solution for a residual; a prediction may be zero without equilibrium.
         """
         displacement = largest(self._system, u, evaluation)
         floor = self.floor(displacement, evaluation)
         scale = evaluation.force_scale or 1.0
         small = norm <= max(self._residual * scale, floor) and increment <= self._increment
-        small = small or self._nothing_left(norm, displacement * max(1.0, increment), evaluation)
+        small = small or (solved and self._nothing_left(norm, displacement * max(1.0, increment), evaluation))
         self._at_floor = self._at_floor + 1 if norm <= floor else 0
         if (small and (not moved or self._granted >= 2)) or self._at_floor >= 2:
             return True

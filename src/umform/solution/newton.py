@@ -148,8 +148,10 @@ class Newton:
             what = ", ".join(filter(None, (error.what, error.where)))
             cause = Cause.SINGULAR if isinstance(error, SingularMatrix) else Cause.OTHER
             raise Failed(what, [], cause, getattr(error, "motion", None)) from error
-        except BaseException:  # errors of a user's function and interrupts also leave the system unchanged
+        except BaseException as error:  # errors of a user's function and interrupts also leave the system unchanged
             self.system.revert()
+            if isinstance(error, Failed) and error.motion is None and self._solver is not None:
+                error.motion = self._solver.weak
             raise
 
     def _solve(self, extrapolation: Floats | None, manner: Manner, beyond: Floats | None) -> Converged:
@@ -215,7 +217,8 @@ class Newton:
                 raise Failed("the residual is not finite", iterations)
             entered, left = self._count((status > 0) & (previous == 0)), self._count((status == 0) & (previous > 0))
             moved = bool(entered or left) or system.ranks.any(not np.array_equal(status, previous))
-            if criteria.met(norm, increment, u, evaluation, moved=moved):
+            solved = bool(iterations) or first is not None
+            if criteria.met(norm, increment, u, evaluation, moved=moved, solved=solved):
                 recorder.add(evaluation.flowing, norm / scale, increment, 0.0, entered, left, step_length, pivots)
                 self._check_flight(evaluation, iterations)
                 if lean:

@@ -149,5 +149,11 @@ class System(Protocol):
     def shorten(self, part: float) -> None:
         """Scale the last update."""
 
+    def mechanism(self, values: Floats, motion: Floats) -> Floats | None:
+        """What can move although a tangent looks singular, by default the motion given.
+
+        None for a very thin sheet that is held: its tangent resists bending less than round-off. eq. (5.99)
+        """
+
     def revert(self) -> None:
         """Discard all changes since the last commit."""

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from umform.solvers import Factorisation, Pattern, SparseSolver
+from umform.solvers.protocol import Accepting
 from umform.timing import Timing
 
 Floats = NDArray[np.float64]
@@ -34,6 +35,10 @@ class TimedSolver:
         """See :class:`umform.solvers.SparseSolver`."""
         with self.timing.factorisation:
             return self.solver.factor(values)
+
+    def accept(self) -> Factorisation | None:
+        """See :class:`umform.solvers.protocol.Accepting`; None if the solver cannot."""
+        return self.solver.accept() if isinstance(self.solver, Accepting) else None
 
     def solve(self, rhs: Floats) -> Floats:
         """See :class:`umform.solvers.SparseSolver`."""

@@ -41,10 +41,11 @@ class Multifrontal:
     _ready = False
     _values: FloatArray | None = None  # for refinement, unless the factors are those of Cholesky
     _factors: _core.Multifrontal
+    _found: Factorisation | None = None
 
     def analyse(self, pattern: Pattern) -> None:
         """Order the equations and plan the fronts; a symmetric matrix is first tried with Cholesky."""
-        self._ready, self._values, self._asked = False, None, False
+        self._ready, self._values, self._found, self._asked = False, None, None, False
         blas.hand_over()
         indptr, indices = (np.ascontiguousarray(part, np.int32) for part in (pattern.indptr, pattern.indices))
         self._pattern = pattern
@@ -54,7 +55,7 @@ class Multifrontal:
 
     def factor(self, values: FloatArray) -> Factorisation:
         """Factorise; after a pivot that is not positive, Cholesky is skipped until no pivot is negative."""
-        self._ready, self._values = False, None
+        self._ready, self._values, self._found = False, None, None
         values = self._pattern.checked(values)
         factors, symmetric = self._factors, self._pattern.symmetric
         with _memory(self._pattern, lambda: factors.bytes):
@@ -68,11 +69,20 @@ class Multifrontal:
             pivots = factors.pivots()
             size = values[self._pattern.indptr[:-1]] if self._with_cholesky else factors.column_sizes
             lost = self._loose(pivots.size, size, values)
+        self._positive = symmetric and pivots.negative == 0
+        self._values = None if self._with_cholesky else values
+        self._found = Factorisation(pivots.negative if symmetric else None, factors.fill, pivots.odd)
+        self._ready = lost is None
         if lost is not None:
             raise singular(self.name, lost.equation, lost.motion)
-        self._positive = symmetric and pivots.negative == 0
-        self._ready, self._values = True, None if self._with_cholesky else values
-        return Factorisation(pivots.negative if symmetric else None, factors.fill, pivots.odd)
+        return self._found
+
+    def accept(self) -> Factorisation:
+        """Use the factors of a matrix that was refused for a displacement that it hardly resists."""
+        if self._found is None:
+            raise not_factored()
+        self._ready = True
+        return self._found
 
     def solve(self, rhs: FloatArray) -> FloatArray:
         """Solve; without Cholesky the residual is checked, and the solution refined if necessary."""

@@ -198,6 +198,14 @@ class Remembering(Protocol):
         """Restore this state."""
 
 
+@runtime_checkable
+class Accepting(Protocol):
+    """A solver whose factors can be used although `factor` refused them and named a displacement."""
+
+    def accept(self) -> Factorisation:
+        """Use these factors."""
+
+
 # A pivot below this part of its diagonal entry is rounding error. Rounding leaves 1e-14 and more of a pivot that
 # should vanish, growing with the mesh, so that a loose part of a large one may pass; a sheet that is free as a whole is
 # refused before, by the model. Thin beams that are well held come near: 7e-13 for one of 1/3750 of its length.

@@ -9,7 +9,7 @@ singular one.
 
 The test is made for a weak pivot, and for the first matrix of a pattern if a solution is large relative to its
 right-hand side, eq. (5.75): a mechanism that hardly moves the equations which are eliminated last leaves no weak pivot.
-Bending of very thin sheets resists less than round-off, too, eq. (5.80).
+Bending of very thin sheets resists less than round-off, too, eq. (5.80): the model decides on those, eq. (5.99).
 """
 
 from __future__ import annotations

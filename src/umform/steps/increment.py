@@ -95,13 +95,18 @@ def no_convergence(run: Run, failure: Failed, controls: Sequence[Control], value
     loose = diagnosis(run.model) if failure.cause is Cause.SINGULAR else None
     if loose is not None:
         cause, remedy = f"{cause}: {loose[0]}", loose[1]
-    elif failure.motion is not None:
+    elif failure.motion is not None and failure.cause is Cause.SINGULAR:
         cause = f"{cause}: {loose_part(run.model, failure.motion)}"
         remedy = (
-            "hold what moves with fix(), symmetry() or hinge(), or join its nodes to those of the rest; a sheet that "
-            "is thousands of times as long as thick between its supports needs more of them; at a limit point "
-            "prescribe displacements instead of forces"
+            "hold what moves with fix(), symmetry() or hinge(), or join its nodes to those of the rest; at a limit "
+            "point prescribe displacements instead of forces"
         )
+    elif failure.motion is not None:  # of a very thin sheet, eq. (5.99)
+        slenderness = float(f"{run.model.extent / run.model.thickness:.2g}")
+        cause = (
+            f"{cause}; the sheet is {slenderness:.0f} times as long as thick, and bending resists less than round-off"
+        )
+        remedy = f"hold the sheet in more places, or take a thicker or a shorter one; else {remedy}"
     remedy += own_parts(run.model)
     pressed = pressed_tools(run)
     if pressed:

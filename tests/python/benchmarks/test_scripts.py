@@ -169,6 +169,33 @@ def test_sparse(run):
     assert min(number for name, number in numbers.items() if not name.endswith("MB")) > 0.0
 
 
+def test_the_page_has_two_solvers_beside_each_other(script, monkeypatch, tmp_path):
+    """Each case of the goal on one thread and two; a case that a solver refuses is left out."""
+    sparse, page = script("sparse"), tmp_path / "page.md"
+    page.write_text("before\n<!-- sparse -->\nold\n<!-- /sparse -->\nafter\n")
+
+    def apart(case, kind, name, threads):
+        if (case, kind, name) == ("sheet 100x100", "unsymmetric", "pardiso"):
+            return None
+        number = 100.0 * threads + (name == "pardiso")
+        return {"n": 60600, "fill": 1.0} | dict.fromkeys(sparse.COLUMNS, number)
+
+    monkeypatch.setitem(sparse.main.__globals__, "apart", apart)
+    monkeypatch.setitem(sparse.main.__globals__, "available", lambda: dict.fromkeys(sparse.BESIDE, True))
+    monkeypatch.setattr(sys, "argv", ["sparse.py", "--page", str(page), "--rounds", "1"])
+    sparse.main()
+    before, head, _, *rows, after = page.read_text().replace("<!-- sparse -->\n", "").split("\n")[:-1]
+    rows.remove("<!-- /sparse -->")
+    assert (before, after) == ("before", "after")
+    assert head.count("PARDISO") == len(sparse.COLUMNS)
+    assert len(rows) == 2 * (3 * 3 - 1)
+    assert rows[0] == "| 100x100 | 60 600 | positive | " + " | ".join(["100 | 101"] * 4) + " |"
+    assert rows[-1] == "| 316x316, 2 threads | 60 600 | unsymmetric | " + " | ".join(["200 | 201"] * 4) + " |"
+    monkeypatch.setitem(sparse.main.__globals__, "available", lambda: {"multifrontal": True, "pardiso": False})
+    with pytest.raises(SystemExit):
+        sparse.main()
+
+
 def test_workloads(run, script):
     names = ["python -c pass, 5 times", "free bending 24x1"]
     lines, _ = run("workloads", *(word for name in names for word in ("--only", name)))

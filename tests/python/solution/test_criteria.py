@@ -98,4 +98,14 @@ def test_a_set_that_never_rests_is_granted_two_iterations():
 def test_residual_increment_and_active_set_must_agree(norm, increment, moved, met):
     system = Given([0.0], [[False]])
     criteria = Criteria(system, 1e-9, 1e-6)
-    assert criteria.met(norm, increment, np.ones(1), system.evaluate(system.x), moved=moved) is met
+    assert criteria.met(norm, increment, np.ones(1), system.evaluate(system.x), moved=moved, solved=True) is met
+
+
+@pytest.mark.parametrize("solved", [True, False])
+def test_nothing_has_moved_counts_after_a_solution_only(solved):
+    """eq. (5.40): a predicted increment of zero proves nothing, however small the residual beside the stiffness is."""
+    system = Given([0.0], [[False]])
+    evaluation = system.evaluate(system.x)
+    evaluation.force_scale = 1e-17
+    criteria = Criteria(system, 1e-9, 1e-6)
+    assert criteria.met(1e-17, 0.0, np.zeros(1), evaluation, moved=False, solved=solved) is solved

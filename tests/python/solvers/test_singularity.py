@@ -162,9 +162,10 @@ def test_a_pivot_that_is_nothing_but_rounding_names_what_moves():
     np.testing.assert_allclose(motion / motion[0], np.ones(count), rtol=1e-6)
 
 
-def test_the_error_of_a_run_names_what_moves():
+@pytest.mark.parametrize(("thickness", "count"), [(0.5, 21), (1.2e-3, 18)])  # the upper nodes of the edge move by t
+def test_the_error_of_a_run_names_what_moves(thickness, count):
     """Two plates that share the lower nodes of an edge: one turns about it."""
-    flat = uf.mesh.strip(12.0, 4.0, 0.5, (6, 2))
+    flat = uf.mesh.strip(12.0, 4.0, thickness, (6, 2))
     points, cells = flat.points, flat.connectivity.copy()
     edge = np.flatnonzero((np.abs(points[:, 0] - 6.0) < 1e-9) & (points[:, 2] > 0.0))
     own = np.arange(len(points))
@@ -175,9 +176,9 @@ def test_the_error_of_a_run_names_what_moves():
         uf.Mesh(np.vstack([points, points[edge]]), {"hex8": cells}, flat.sets), material=uf.SVK(E=1e5, nu=0.3)
     )
     model.fix("x0")
-    push = model.force("x1", (0.0, 0.0, -1e-3), "push")
+    push = model.force("x1", (0.0, 0.0, -1e-3 * (thickness / 0.5) ** 3), "push")
     with pytest.raises(
-        NoConvergence, match=r"21 of 45 nodes can move, most of all node \d+ at \(12, .* along \("
+        NoConvergence, match=rf"{count} of 45 nodes can move, most of all node \d+ at \(12, .* along \("
     ) as caught:
         uf.solve(model, uf.Move(push, 1.0, steps=1, cuts=1), progress=False)
     assert "join its nodes" in str(caught.value)
@@ -215,9 +216,69 @@ def test_where_bending_resists_less_than_rounding_a_mechanism_may_resist_more(mo
     assert min(clamped) < np.median(hinged)
 
 
-def test_the_error_of_a_thin_sheet_says_that_it_needs_more_supports():
-    model = uf.Model(uf.mesh.strip(100.0, 1.0, 0.01, (20, 1)), material=uf.SVK(E=210e3, nu=0.0))
+def cantilever(slenderness, turned=0.0, unit=1.0, deflection=1e-3):
+    """Tip of a cantilever under a small force at its end beside P L^3 / (3 E I), and the evaluations."""
+    length, width, thickness = 100.0 * unit, unit, 100.0 * slenderness * unit
+    mesh = uf.mesh.strip(length, width, thickness, (40, 1))
+    flat, (c, s) = mesh.points, (np.cos(turned), np.sin(turned))
+    turn = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    model = uf.Model(uf.Mesh(flat @ turn.T, {"hex8": mesh.connectivity}, mesh.sets), material=uf.SVK(E=210e3, nu=0.0))
     model.fix("x0")
-    push = model.force("x1", (0.0, 0.0, -1e-12), "push")
-    with pytest.raises(NoConvergence, match="thousands of times as long as thick"):
-        uf.solve(model, uf.Move(push, 1.0, steps=1, cuts=1), progress=False)
+    end = flat[:, 0] > length * (1.0 - 1e-9)
+    force = deflection * length * 3.0 * 210e3 * (width * thickness**3 / 12.0) / length**3
+    push = model.force("x1", tuple(turn @ (0.0, 0.0, -force / end.sum())), "push")
+    result = uf.solve(model, uf.Move(push, 1.0, steps=1, cuts=1), progress=False)
+    tip = -(model.u.reshape(-1, 3) @ turn)[end, 2].mean()
+    return tip / (deflection * length), result.timing.attempts.evaluations
+
+
+@pytest.mark.parametrize(("turned", "unit"), [(0.0, 1.0), (0.3, 1.0), (0.3, 1e-6), (1.0, 1e6)])
+def test_a_cantilever_that_resists_less_than_rounding_bends_as_it_should(turned, unit, monkeypatch):
+    """t/L = 1e-4, where eq. (5.53) refuses the tangent of a clamped sheet: forces are exact, Newton converges."""
+    found = []
+    mechanism = uf.Model.mechanism
+    monkeypatch.setattr(uf.Model, "mechanism", lambda *own: found.append(mechanism(*own)) or found[-1])
+    tip, evaluations = cantilever(1e-4, turned, unit)
+    assert found and all(motion is None for motion in found)
+    assert tip == pytest.approx(1.0, rel=1e-3)
+    assert evaluations <= 20
+    found.clear()
+    thicker, evaluations = cantilever(1e-3, turned, unit)
+    assert thicker == pytest.approx(tip, rel=5e-4)
+    assert evaluations <= 5
+    assert not found
+
+
+@pytest.mark.parametrize("element", ["ANS3DEAS", "BEND8"])
+@pytest.mark.parametrize(("slenderness", "accuracy"), [(1e-3, 1e-3), (1e-4, 0.05)])
+def test_the_reaction_of_a_thin_cantilever_is_known_less_well(slenderness, accuracy, element):
+    """A reaction is a residual, which eq. (5.10) knows to the round-off of the largest entry."""
+    mesh = uf.mesh.strip(100.0, 1.0, 100.0 * slenderness, (40, 1))
+    model = uf.Model(mesh, element, material=uf.SVK(E=210e3, nu=0.0))
+    model.fix("x0")
+    end = model.prescribe("x1_lower", "z", name="end")
+    result = uf.solve(model, uf.Move(end, -0.1, steps=2, cuts=2), progress=False)
+    force = 0.1 * 3.0 * 210e3 * ((100.0 * slenderness) ** 3 / 12.0) / 100.0**3
+    assert -result["end_force"][-1] == pytest.approx(force, rel=accuracy)
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-6, 1e6])
+def test_a_tool_bends_a_thin_strip(unit):
+    """t/L = 1e-4: the force of the tool is 3 E I / a^3 times the deflection below it, apart from the penetration."""
+    length, width, thickness, down = 100.0 * unit, 2.0 * unit, 0.01 * unit, 0.2 * unit
+    mesh = uf.mesh.strip(length, width, thickness, (80, 1))
+    model = uf.Model(mesh, material=uf.SVK(E=210e3, nu=0.0))
+    model.fix("x0")
+    stiffness = 3.0 * 210e3 * (width * thickness**3 / 12.0) / (0.8 * length) ** 3
+    tool = uf.Cylinder(centre=(0.8 * length, 0.0, mesh.points[:, 2].max() + 20.0 * unit), axis="y", radius=20.0 * unit)
+    contact = model.contact("upper", tool, penalty=1e4 * stiffness / unit**2, points=2, name="tool")
+    way = model.drive(contact, "z", name="way")
+    result = uf.solve(model, uf.Move(way, to=-down, steps=2, cuts=2), progress=False)
+    assert result["tool_fz"][-1] / (stiffness * down) == pytest.approx(1.0, rel=0.01)
+
+
+def test_the_error_of_a_thin_sheet_says_that_it_needs_more_supports():
+    """t/L = 2e-5: round-off of the tangent hides its resistance to bending."""
+    with pytest.raises(NoConvergence, match="50000 times as long as thick") as caught:
+        cantilever(2e-5)
+    assert "more places" in str(caught.value)
