@@ -16,8 +16,9 @@ def reading(fine: Made, base: Made, coarse: Made, teams: dict[str, float]) -> st
     means = ", ".join(f"{name} {mean:.2f}" for name, mean in teams.items())
     return (
         f"The mean height falls with the mesh to {fine.ears.mean:.2f} mm; the last refinement changed it by "
-        f"{fine.ears.mean - base.ears.mean:+.2f} mm. So the model is {MEASURED - fine.ears.mean:.2f} mm lower than the "
-        f"measured cup, and lower than two teams with the same cards ({means}). A mesh of 15 degrees with 3 x 3 "
+        f"{fine.ears.mean - base.ears.mean:+.2f} mm, so that {base.elements} elements are enough. The "
+        f"model is {MEASURED - fine.ears.mean:.2f} mm lower than the measured cup, and lower than two teams with the "
+        f"same cards ({means}). A mesh of 15 degrees with 3 x 3 "
         "contact points is near to the measured height by its errors alone: along the radius, elements that turn by "
         "a large angle over an edge need more force, which stretches the bottom; around the cup, elements are chords, "
         "which with 3 x 3 points need more room in the gap beside the punch than the sheet, eq. (4.192), and are "
