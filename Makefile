@@ -87,7 +87,7 @@ ubend: env  ## a U-bend with friction, beside CalculiX if it is there (a quarter
 	@$(BIN)/python benchmarks/ubend.py --page docs/performance-codes.md $(ARGS)
 	@$(BIN)/python tools/performance_numbers.py
 
-cup: env  ## the cup of the ESAFORM benchmark 2021 on four meshes (some five minutes)
+cup: env  ## the cup of the ESAFORM benchmark 2021 on four meshes (some ten minutes)
 	$(SAY) 'Drawing the cup'
 	@$(BIN)/python benchmarks/esaform_cup.py --json build/cup.json --page docs/performance-increments.md $(ARGS)
 

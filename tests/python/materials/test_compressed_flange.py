@@ -1,0 +1,33 @@
+"""Ears of a flange in uniaxial compression around the cup."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from umform.materials import Hill48, Metal, Voce
+from umform.sheet_metals import uniaxial
+from umform_book.drawing.cups import aa6016, fourth
+from umform_book.drawing.rim import compressed_flange
+
+BLANK, WALL = 53.75, 30.6
+
+
+def test_isotropic_flange_has_no_ears() -> None:
+    """r = 1: each radius stretches by half of the compression."""
+    metal = Metal(70e3, 0.33, hardening=Voce(126.0, 315.0, 12.0), yield_function=Hill48(1.0, 1.0, 1.0))
+    height = compressed_flange(metal, BLANK, WALL).height
+    assert np.ptp(height) < 1e-9
+    assert height[0] == pytest.approx(quad(lambda radius: np.sqrt(radius / WALL), WALL, BLANK)[0], rel=1e-9)
+
+
+def test_ears_stand_where_the_rim_across_has_a_large_r() -> None:
+    """The height at an angle follows the r-value at right angles to it."""
+    metal = aa6016()
+    profile = compressed_flange(metal, BLANK, WALL)
+    r = [uniaxial(metal.yield_function, angle + 90.0)[1] for angle in profile.angle]
+    assert np.argmax(profile.height) == np.argmax(r)
+    size, angle = fourth(profile)
+    assert size > 0.3
+    assert abs(angle) < 5.0
