@@ -63,7 +63,7 @@ class EntryRuns {
     }
 
   private:
-    static constexpr int kAcross = 128, kLongest = 127, kLongestRow = 255;
+    static constexpr int kAcross = 128, kLongest = 127, kRow = 255;  // longer rows are taken alone
     int shorter_ = 0;                  // entries by which the next row of a node is shorter
     std::vector<std::int64_t> start_;  // [front] -> run
     std::vector<Run> runs_;
@@ -112,7 +112,7 @@ class EntryRuns {
         if (i + 3 > matrix.n) return -1;
         const int mine = place[i];
         const std::int32_t *begin = matrix.indices + matrix.indptr[i], *end = matrix.indices + matrix.indptr[i + 1];
-        if (end - begin > kLongestRow) return -1;
+        if (end - begin > kRow) return -1;
         const std::int32_t* own = std::lower_bound(begin, end, i);
         if (end - own < 3 || own[0] != i || own[1] != i + 1 || own[2] != i + 2) return -1;
         for (int row = 1; row < 3; ++row) {

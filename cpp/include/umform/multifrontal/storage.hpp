@@ -134,7 +134,7 @@ class Arena {
     std::map<std::size_t, std::size_t> free_;  // begin -> end
 
     template <class Iterator>
-    double* take(Iterator range, Iterator end, std::size_t size, bool last, std::size_t floor) {
+    double* take(Iterator range, const Iterator& end, std::size_t size, bool last, std::size_t floor) {
         for (; range != end; ++range) {
             const std::size_t first = std::max(range->first, floor), behind = range->second;
             if (behind < first + size) continue;
