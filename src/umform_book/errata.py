@@ -16,8 +16,8 @@ _LIMITS = """\
 * Statics only: no mass, no inertia.
 * Penalty contact: a sheet penetrates a tool by pressure / penalty. With a penalty of 1000 E/h and more a run may be
   cut into a hundred increments and more; the automatic penalty is softer.
-* A strip 10000 times as long as thick, of elements 300 times as long as thick, has a condition number above 1e16:
-  its first contact ends with a singular matrix.
+* A strip 10000 times as long as thick has a condition number above 1e16: Newton's method needs two to three times as
+  many iterations, and thinner strips may not converge.
 * Air bending: one layer of elements bends more sharply than two or more at the same stroke. Take two layers; their
   angle is some 0.6 degrees smaller than that of a stack of eight ([cause](air-bend-mesh.md)).
 * After the onset of necking, or of a plastic hinge without hardening, results depend on the mesh: the laws have no
