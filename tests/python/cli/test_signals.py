@@ -119,7 +119,7 @@ sys.meta_path.insert(0, Slow())
 """
 
 
-@pytest.mark.parametrize("name", ["typer", "umform.cli.bend", "umform.deck", "numpy"])
+@pytest.mark.parametrize("name", ["typer", "umform.cli.check", "umform.deck", "numpy"])
 @pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
 def test_a_signal_during_the_imports_is_one_line(name, number, deck):
     run = started("check", deck, code=SLOW_IMPORT.format(name=name, signal=number))
