@@ -18,7 +18,7 @@ from umform_book.sharp_bends.over_cylinder import MARKS, PAPER
 from umform_book.sharp_bends.strips import THICKNESS, WIDTH
 
 TITLE = "(a) Strip of J2 bent over a cylinder, plane strain"
-GOAL = 20.0
+GOALS = {"C3D8I": 25.0, "C3D20R": 15.0}
 #: Facets of the tool in CalculiX: 400 give the same forces to 0.1 % and take 1.6 times as long.
 FACETS = 100
 CELLS = {"BEND8": "hex8", "BEND18": "hex18", "EAS3DEAS": "hex8", "C3D8I": "hex8", "C3D20R": "hex20"}
@@ -134,7 +134,7 @@ def comparisons(found: Found) -> list[Comparison]:
     """On the same mesh; and, for each run of CalculiX, the cheapest run of umform that is not further off."""
     rows = measures(found)
     error = {key: row.get("off their mean, %", np.inf) for key, row in rows.items() if key not in FINE}
-    return same_mesh(found) + as_good(found, error, GOAL)
+    return same_mesh(found) + as_good(found, error, GOALS)
 
 
 def same_mesh(found: Found) -> list[Comparison]:

@@ -31,13 +31,14 @@ class Comparison:
     goal: float | None = None
 
 
-def as_good(found: Found, error: Mapping[str, float], goal: float | None = None) -> list[Comparison]:
-    """For each run of another code the cheapest run of umform whose error, in %, is no larger, if there is one."""
+def as_good(found: Found, error: Mapping[str, float], goals: Mapping[str, float] | None = None) -> list[Comparison]:
+    """For each run of another code the cheapest run of umform whose error, in %, is no larger; goals by element."""
     made = []
     for key, off in error.items():
         better = [k for k, e in error.items() if found[k][0].peer == "umform" and e <= off]
         if found[key][0].peer != "umform" and better:
             cheapest = min(better, key=lambda k: found[k][1].cost.cpu)
+            goal = (goals or {}).get(found[key][0].element)
             made.append(Comparison(f"error {error[cheapest]:.2g} % against {off:.2g} %", cheapest, key, goal))
     return made
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bent_strip import GOAL, deviations, entry, forces, same_mesh
+from bent_strip import GOALS, deviations, entry, forces, same_mesh
 from entries import Entry
 from ratios import Comparison, Found, as_good
 
@@ -42,4 +42,4 @@ def comparisons(found: Found) -> list[Comparison]:
     """On the same mesh; and, for each run of CalculiX, the cheapest run of umform that is no further off."""
     rows = measures(found)
     error = {key: row["off umform, %"] for key, row in rows.items() if key != entry(*FINEST).key}
-    return same_mesh(found) + as_good(found, error, GOAL)
+    return same_mesh(found) + as_good(found, error, GOALS)
