@@ -1,4 +1,4 @@
-"""Ctrl-C, SIGTERM and kill at any time: what is told does not contradict itself, and nothing hidden stays behind."""
+"""Ctrl-C, SIGTERM and kill at any time: messages do not contradict each other, and no hidden files stay behind."""
 
 from __future__ import annotations
 
@@ -169,7 +169,7 @@ def test_ctrl_c_in_the_budget_keeps_the_bend(monkeypatch, tmp_path):
 
 
 def test_a_handler_of_the_program_is_left_alone():
-    """Ours goes with the block; one that a program has set is not touched."""
+    """Our handler is removed after the block; one that a program has set is kept."""
     from umform.run.interrupt import gentle_interrupt
 
     before = signal.getsignal(signal.SIGTERM)

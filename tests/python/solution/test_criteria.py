@@ -109,3 +109,12 @@ def test_nothing_has_moved_counts_after_a_solution_only(solved):
     evaluation.force_scale = 1e-17
     criteria = Criteria(system, 1e-9, 1e-6)
     assert criteria.met(1e-17, 0.0, np.zeros(1), evaluation, moved=False, solved=solved) is solved
+
+
+def test_a_displacement_beyond_round_off_must_have_a_small_increment():
+    """eq. (5.40) is for a system that does not move: a small residual alone is not enough for one that does."""
+    system = Given([0.0], [[False]])
+    evaluation = system.evaluate(system.x)
+    evaluation.force_scale = 1e-17
+    criteria = Criteria(system, 1e-9, 1e-6)
+    assert not criteria.met(1e-17, 1e-5, np.ones(1), evaluation, moved=False, solved=True)
