@@ -14,6 +14,7 @@ from umform.plotting import COLOURS, INK, Picture, draw_shape, house_style
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
+from umform.processes.draw.words import angles_text
 from umform.processes.sizes_picture import sizes_figure
 from umform.report.forming import limit_diagram
 from umform.results.forming import lay_by_best_fit, lay_on_three_points
@@ -160,8 +161,7 @@ def sections(drawn: Drawn) -> Figure:
             middle = drawn.sections["released"].middle[:, [0, 2]]
             wall = np.array([crossing(middle, height) for height in drawn.wall_heights])
             axes.plot(*wall.T, "o", color=INK, markersize=4, label="points of the wall")
-            theta1, theta2, radius = drawn.angles.theta1, drawn.angles.theta2, drawn.angles.radius
-            axes.set_title(f"theta1 {theta1:.1f}°, theta2 {theta2:.1f}°, radius of the wall {radius:.0f} mm")
+            axes.set_title(angles_text(drawn))
         axes.set_aspect("equal")
         axes.legend()
     return figure

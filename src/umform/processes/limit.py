@@ -1,11 +1,14 @@
-"""Richardson extrapolation of forces to zero element size from two or three meshes, and its error."""
+"""Richardson extrapolation of a number to zero element size from two or three meshes, and its error."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self
 
+#: Ratio of the element sizes of successive meshes.
+FINER = math.sqrt(2.0)
 #: Two limits may agree by chance: the error is at least this part of the extrapolated difference.
 _LEAST = 0.2
 
@@ -41,10 +44,23 @@ class Limit:
         before, last = cls.of(numbers[0], numbers[1], refined), cls.of(numbers[1], numbers[2], refined)
         return cls(last.value, last.off, max(abs(last.value - before.value), _LEAST * abs(numbers[2] - last.value)))
 
+    @property
+    def inverse(self) -> Limit:
+        """The same for one over the number: the radius of a curvature."""
+        error = None if self.error is None else self.error / self.value**2
+        return Limit(1.0 / self.value, -self.off / (1.0 + self.off), error)
 
-@dataclass(frozen=True)
-class Limits:
-    """Both forces of a bead, extrapolated to zero element size."""
 
-    restraint: Limit
-    uplift: Limit
+def allowed_penetration(length: float, radius: float, thickness: float) -> float:
+    """Penetration whose error vanishes with the mesh as that of the elements does. eq. (4.190)
+
+    Parameters
+    ----------
+    length : float
+        Between neighbouring nodes.
+    radius : float
+        Sharpest radius of the tools.
+    thickness : float
+        Of the sheet: 1/200 of it at least.
+    """
+    return max(length**2 / (16.0 * radius), thickness / 200.0)
