@@ -12,6 +12,7 @@ from umform.deck.contents import Contents
 from umform.deck.drawn_tools import Profiled
 from umform.deck.errors import DeckError
 from umform.deck.foreign import Foreign
+from umform.deck.measures.base import loading_steps
 from umform.deck.metal import J2, Metal
 from umform.deck.outline import Outlined
 from umform.deck.places import Place
@@ -102,6 +103,7 @@ class _Builder:
         options = self._options(model)
         self._raise()
         steps = self._steps(Named(controls, supports, contacts))
+        self._measures(model)
         self._raise()
         return Problem(
             model=model,
@@ -288,6 +290,13 @@ class _Builder:
             with self._at("steps", number):
                 steps.append(part.build(named))
         return steps
+
+    def _measures(self, model: Model) -> None:
+        """Refuse measures that cannot be taken."""
+        kinds = [step.kind for step in self.contents.steps]
+        for name, part in self.contents.measures.items():
+            with self._at("measures", name):
+                part.check(model, released=loading_steps(kinds) < len(kinds))
 
     def _at(self, *path: str | int) -> Place:
         """Context for a part of the deck: errors get its place."""

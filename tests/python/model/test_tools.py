@@ -210,7 +210,7 @@ def test_stops_and_moments_that_make_no_sense_are_refused():
 
 
 def test_a_turn_is_a_control_like_a_translation(rng):
-    """Its pose is that of the motion in time with the same rotation, its force the moment on the sheet about its axis."""
+    """Its pose is that of the motion in time with the same rotation, its force the moment on the sheet."""
     model, punch = beam()
     turn = model.turn(punch, "y", (20.0, 0.0, 0.5), "roll")
     timed, tool = beam()

@@ -35,7 +35,9 @@ def legend(runs: Sequence[Bending]) -> list[str]:
     orders = sorted({run.case.thickness_order for run in runs} - {1})
     lines += [f"order {n}: strain in the thickness direction of degree {n} over it, not linear." for n in orders]
     if any(run.case.tie_E33 for run in runs):
-        lines.append("tied: this strain is that of the nodes, interpolated; an element then does not thin when it bends.")
+        lines.append(
+            "tied: this strain is interpolated from the nodes, so that an element does not thin where it bends."
+        )
     return lines
 
 
