@@ -12,7 +12,6 @@ from umform.deck.contents import Contents
 from umform.deck.drawn_tools import Profiled
 from umform.deck.errors import DeckError
 from umform.deck.foreign import Foreign
-from umform.deck.measures.base import loading_steps
 from umform.deck.metal import J2, Metal
 from umform.deck.outline import Outlined
 from umform.deck.places import Place
@@ -22,6 +21,7 @@ from umform.deck.rolling import direction
 from umform.deck.source import Source
 from umform.deck.steps import Free, Named
 from umform.deck.supports import Rigid
+from umform.deck.unloading import loading_steps
 from umform.elements import Rolling
 from umform.elements.technology import Element
 from umform.errors import UmformError
@@ -293,10 +293,10 @@ class _Builder:
 
     def _measures(self, model: Model) -> None:
         """Refuse measures that cannot be taken."""
-        kinds = [step.kind for step in self.contents.steps]
+        released = loading_steps(self.contents) < len(self.contents.steps)
         for name, part in self.contents.measures.items():
             with self._at("measures", name):
-                part.check(model, released=loading_steps(kinds) < len(kinds))
+                part.check(model, released=released)
 
     def _at(self, *path: str | int) -> Place:
         """Context for a part of the deck: errors get its place."""

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from umform.deck.deck import Deck
 from umform.deck.measures.base import Formed, Measured, Row
 from umform.deck.problem import Problem
+from umform.deck.unloading import loading_steps
 from umform.errors import UmformError
 from umform.io.tables import write_csv
 from umform.run import Result
@@ -48,11 +49,10 @@ class Taken:
         contents = deck.contents
         if not contents.measures or not result.rows:
             return cls()
-        kinds = [step.kind for step in contents.steps]
         tools: dict[str, str] = {}
         for name, contact in contents.contacts.items():
             tools.setdefault(contact.tool, name)
-        part = Formed.of(result, problem, kinds, complete, units=contents.units, tools=tools)
+        part = Formed.of(result, problem, loading_steps(contents), complete, units=contents.units, tools=tools)
         measures = {}
         for name, wanted in contents.measures.items():
             try:

@@ -9,9 +9,9 @@ from typer.testing import CliRunner
 
 from umform.cli import app
 from umform.deck import load
-from umform.deck.measures.base import loading_steps
 from umform.deck.measures.hat import halves
-from umform.deck.templates import template
+from umform.deck.templates import template, template_file
+from umform.deck.unloading import loading_steps
 from umform.errors import InvalidValue
 from umform.report.symmetry import Mirror
 from umform.results.forming import EarProfile, Section, forming_fields, lay_by_best_fit, section
@@ -198,10 +198,9 @@ def test_a_tool_without_contact_is_used_by_a_measure(found):
     assert not found(text + '[measures.ideal]\nkind = "distance"\ntool = "ideal"\n', "tool ideal")
 
 
-def test_steps_at_the_end_that_release():
-    assert loading_steps(["close", "move", "free", "free"]) == 2
-    assert loading_steps(["free", "move", "release"]) == 2
-    assert loading_steps(["move"]) == 1
+@pytest.mark.parametrize(("name", "loading"), [("hat-rail", 2), ("air-bending", 1), ("cup", 1), ("dome", 1)])
+def test_steps_at_the_end_release_the_part(name, loading):
+    assert loading_steps(load(template_file(name)).contents) == loading
 
 
 # Hats ---------------------------------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -27,8 +27,6 @@ _P = TypeVar("_P", Shape, Laid)
 
 #: The states of a part: at the end of the last step before all those that release it, and at the end of the run.
 FORMED, RELEASED = "formed", "released"
-#: Kinds of steps that release a part.
-UNLOADING = ("release", "free")
 #: Width of a strip in plane strain in pictures, as a part of its length.
 _WIDE = 0.3
 
@@ -93,7 +91,7 @@ class Formed:
     tools: dict[str, str] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, result: Result, problem: Problem, kinds: Sequence[str], complete: bool, **names: Any) -> Formed:
+    def of(cls, result: Result, problem: Problem, loading: int, complete: bool, **names: Any) -> Formed:
         """The states of a run.
 
         Parameters
@@ -102,17 +100,17 @@ class Formed:
             The run, with a frame at the end of each step.
         problem : Problem
             Its problem.
-        kinds : sequence of str
-            Kinds of its steps.
+        loading : int
+            Number of its steps before those that release the part.
         complete : bool
             Whether the run has reached its end; a part that is released half is not measured.
         names
             The other attributes.
         """
-        last, loading = len(result.rows) - 1, loading_steps(kinds)
+        last = len(result.rows) - 1
         end = result.model.u.reshape(-1, 3).copy()
         loaded = [frame for frame in result.frames if result.rows[frame.number]["step"] <= loading]
-        if loading == len(kinds) or not loaded or result.rows[last]["step"] <= loading:
+        if not loaded or result.rows[last]["step"] <= loading:
             return cls(result, problem, {FORMED: end}, last, **names)
         states = {FORMED: loaded[-1].points["displacement"]}
         return cls(result, problem, states | ({RELEASED: end} if complete else {}), loaded[-1].number, **names)
@@ -174,11 +172,3 @@ class MeasurePart(Part):
     def take(self, name: str, part: Formed) -> Measured:
         """Measure a part."""
         raise NotImplementedError
-
-
-def loading_steps(kinds: Sequence[str]) -> int:
-    """Number of steps before those at the end that release the part."""
-    count = len(kinds)
-    while count > 0 and kinds[count - 1] in UNLOADING:
-        count -= 1
-    return count
