@@ -121,4 +121,4 @@ def sections(drawn: Drawn) -> Figure:
 
 def ears(drawn: Drawn) -> Figure:
     """Height of the cup over the angle to the rolling direction, which is the x-axis."""
-    return ears_picture(drawn.ears)
+    return ears_picture(drawn.ears, zero="the rolling direction")
