@@ -82,6 +82,8 @@ def main() -> None:
     parser.add_argument("--checkpoints", type=Path, help="folder of checkpoints")
     given = parser.parse_args()
     numbers: dict[str, Any] = {}
+    if given.checkpoints:
+        given.checkpoints.mkdir(parents=True, exist_ok=True)
     print(_HEADER)
     for name in [given.only] if given.only else MESHES:
         file = given.checkpoints and given.checkpoints / f"s_rail {name}.h5"
