@@ -55,7 +55,7 @@ def row(setup: Setup, stroke: float, release: bool, checkpoint: Path | None) -> 
     return {
         "elements": len(model.mesh.connectivity),
         "stroke": float(result["stroke"][drawn]),
-        "force": 1e-3 * abs(float(result["stroke_force"][drawn])),
+        "force": 1e-3 * float(result["stroke_force"][drawn]),
         "thinning": float(forming_fields(model.mesh, model.u)["thinning"].max()),
         "CPU s": time.process_time() - start,
         "iterations": int(result["iterations"].sum()),
