@@ -10,10 +10,11 @@ from umform.surfaces.press_brake import Punch, UDie, VDie, WipingDie
 from umform.surfaces.profile import Profile
 from umform.surfaces.segments import Arc, Line
 from umform.surfaces.simple import Cylinder, Plane, Sphere
+from umform.surfaces.size_map import ToolSizes
 from umform.surfaces.solids import Box, Torus
 from umform.surfaces.swept import Extruded, Revolved
 from umform.surfaces.tool import Offset, Placed, Surface, Tool
-from umform.surfaces.tool_sizes import ToolSizes, tool_sizes
+from umform.surfaces.tool_sizes import tool_sizes
 from umform.surfaces.triangles import Triangles
 from umform.surfaces.triangulated import Triangulated
 from umform.surfaces.user import GapFunction, UserSurface
