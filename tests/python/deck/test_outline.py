@@ -1,5 +1,6 @@
 """Blanks of any outline in decks: holes, sets, and sizes that follow the tools."""
 
+import re
 import tomllib
 
 import numpy as np
