@@ -12,7 +12,6 @@ from umform.mesh import Mesh
 from umform.mesh.fitted.layer import Layer
 from umform.mesh.fitted.sheet import Sheet
 from umform.mesh.mesh import FACES
-from umform.model.body import Body
 from umform.model.model import Model
 from umform.model.transfer import Weights, can_transfer, transferred
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.errors import InvalidValue
 from umform.mesh import Mesh
-from umform.mesh.part import MeshPart
 from umform.mesh.fitted.layer import Layer
 from umform.mesh.fitted.sheet import Sheet
+from umform.mesh.part import MeshPart
 from umform.model.body import Body
+from umform.model.contact import Contact
+from umform.model.contact.kept import KeptContact
 from umform.model.fitted_part import fitted_mesh, move_state
 from umform.model.model import Model
 from umform.model.state import Snapshot
@@ -47,6 +50,8 @@ class ModelPart:
         Number of sides of elements of the cut edge that are not on the line, where it was asked for.
     remark : str
         Why the cut edge follows elements where it was to lie on the line.
+    contacts : dict of str to KeptContact
+        History of the contacts with friction, see :meth:`keep_friction`.
     """
 
     model: Model
@@ -58,7 +63,7 @@ class ModelPart:
     same: NDArray[np.bool_]
     missed: int = 0
     remark: str = ""
-    whole: Model | None = None
+    contacts: dict[str, KeptContact] = field(default_factory=dict)
 
     @property
     def mesh(self) -> Mesh:
@@ -78,7 +83,9 @@ class ModelPart:
         model = _model(whole, part.mesh, part.cells, u)
         same = np.ones(len(part.cells), dtype=bool)
         lost = _removed(whole, model)
-        return cls(model, part.cells, part.nodes, edge_distance, lost, dropped, same, remark=remark, whole=whole)
+        return cls(
+            model, part.cells, part.nodes, edge_distance, lost, dropped, same, remark=remark, contacts=_contacts(whole)
+        )
 
     @classmethod
     def fitted(
@@ -95,7 +102,17 @@ class ModelPart:
         model = _model(whole, made.mesh, made.parents, made.at_nodes(whole.u.reshape(-1, 3)))
         move_state(whole, sheet, x, layer, made, model)
         lost = _removed(whole, model)
-        return cls(model, made.parents, made.nodes, edge_distance, lost, dropped, made.same, layer.missed, whole=whole)
+        return cls(
+            model,
+            made.parents,
+            made.nodes,
+            edge_distance,
+            lost,
+            dropped,
+            made.same,
+            layer.missed,
+            contacts=_contacts(whole),
+        )
 
     def __str__(self) -> str:
         lost = self.removed_energies
@@ -105,6 +122,41 @@ class ModelPart:
             f"the cut edge is at most {self.edge_distance:.4g} from the line; the metal that was "
             f"cut off had the elastic energy {lost.elastic:.4g} and the plastic work {lost.plastic:.4g}"
         )
+
+    def keep_friction(self, contact: Contact, before: str = "") -> int:
+        """Let a tool that stays through the cut keep the friction of its points.
+
+        Elements that stay keep the tractions, the anchors of sticking points, and the distances slid of their points;
+        those that were fitted to the line begin without. The tool must stand where it stood.
+
+        Parameters
+        ----------
+        contact : Contact
+            A pair of the model of this part, with its points and friction of before.
+        before : str
+            Name of the pair in the whole sheet; default: that of ``contact``.
+
+        Returns
+        -------
+        int
+            Number of faces that keep their history.
+
+        Raises
+        ------
+        InvalidValue
+            If there was no such pair with friction, or it had other points.
+        """
+        name = before or contact.name
+        if name not in self.contacts:
+            raise InvalidValue(
+                "the sheet had no contact with friction of this name",
+                where="keep_friction()",
+                value=name,
+                remedy="one of " + (", ".join(self.contacts) or "none: the stage before had no friction"),
+            )
+        self.model.evaluate(self.model.x)
+        contact.begin()
+        return self.contacts[name].put(contact, self.cells, self.same)
 
     def _edge(self) -> str:
         """How the cut edge was made, where it is not all on the line or elements were changed."""
@@ -128,6 +180,11 @@ def _model(whole: Model, mesh: Mesh, parents: Numbers, u: Floats) -> Model:
     }
     model.restore(Snapshot(np.ascontiguousarray(u).ravel(), before.time, terms=terms, began=before.began))
     return model
+
+
+def _contacts(whole: Model) -> dict[str, KeptContact]:
+    """Histories of the contacts with friction."""
+    return {pair.name: KeptContact.of(pair) for pair in whole.pairs_of_tools() if pair.rubs}
 
 
 def _removed(whole: Model, model: Model) -> Energies:

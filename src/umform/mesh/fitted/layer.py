@@ -261,7 +261,7 @@ def _along_rim(sheet: Sheet, x: Floats, start: int, inside: Mask, line: Line) ->
             low, high = 0.0, 1.0
             for _ in range(60):
                 mid = 0.5 * (low + high)
-                beyond = line((x[[at]] + mid * (x[[there]] - x[[at]])))[0][0] >= 0.0
+                beyond = line(x[[at]] + mid * (x[[there]] - x[[at]]))[0][0] >= 0.0
                 low, high = (low, mid) if beyond else (mid, high)
             return np.asarray(x[at] + high * (x[there] - x[at]))
         seen.add(there)
