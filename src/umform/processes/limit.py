@@ -39,10 +39,14 @@ class Limit:
         return cls(value, fine / value - 1.0)
 
     @classmethod
-    def of_three(cls, numbers: Sequence[float], refined: float) -> Self:
-        """From the numbers on three meshes with one ratio of element sizes; the coarser two give the error."""
+    def of_three(cls, numbers: Sequence[float], refined: float, *, least: float = _LEAST) -> Self:
+        """From the numbers on three meshes with one ratio of element sizes; the coarser two give the error.
+
+        The error is at least a part ``least`` of the extrapolated difference: 1 if the order of convergence is not
+        known to be 2, so that it reaches the number on the finest mesh.
+        """
         before, last = cls.of(numbers[0], numbers[1], refined), cls.of(numbers[1], numbers[2], refined)
-        return cls(last.value, last.off, max(abs(last.value - before.value), _LEAST * abs(numbers[2] - last.value)))
+        return cls(last.value, last.off, max(abs(last.value - before.value), least * abs(numbers[2] - last.value)))
 
     @property
     def inverse(self) -> Limit:

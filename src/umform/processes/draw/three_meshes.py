@@ -66,13 +66,16 @@ def extrapolated(
 
 
 def estimates_of(meshes: list[Drawn]) -> dict[str, Limit]:
-    """Limits of the measures of a part on three meshes with one ratio of element sizes, coarsest first."""
+    """Limits of the measures of a part on three meshes with one ratio of element sizes, coarsest first.
+
+    Elements of 18 nodes converge faster than with the square once they are small: the error reaches the finest mesh.
+    """
     measures = [drawn.measures() for drawn in meshes]
     found = {}
     for name in _QUANTITIES:
         numbers = [row[name][0] for row in measures]
         if name == _RADIUS:
-            found[name] = Limit.of_three([1.0 / number for number in numbers], FINER).inverse
+            found[name] = Limit.of_three([1.0 / number for number in numbers], FINER, least=1.0).inverse
         else:
-            found[name] = Limit.of_three(numbers, FINER)
+            found[name] = Limit.of_three(numbers, FINER, least=1.0)
     return found
