@@ -192,8 +192,9 @@ class _Builder:
             return None
         below, above = ([tools[tool] for tool, on in sorted(touching) if on == side] for side in ("lower", "upper"))
         self.sizes = part.sizes(below, above, folder)
-        self.notes.append(f"mesh: {self.sizes}")
-        return part.build(cell, folder, self.sizes)
+        made = part.build(cell, folder, self.sizes)
+        self.notes.append(f"mesh: {self.sizes.on(made)}")
+        return made
 
     def _rolling(self) -> Rolling | None:
         """The rolling direction of a metal that has one."""
