@@ -87,10 +87,13 @@ class Cut(Part):
     """Direction of the view: the coordinates of the line are y, z; x, z; or x, y."""
     formed: bool = True
     """Whether the line lies on the formed part, or on the flat blank."""
+    edge: Literal["line", "elements"] = "line"
+    """Whether the new edge lies on the line, by new elements that take their state from the sheet, or follows edges of
+    elements."""
 
     def build(self, folder: File) -> Trim:
         """The cut."""
-        return Trim(profile_of(self.line, folder), self.view, self.formed)
+        return Trim(profile_of(self.line, folder), self.view, self.formed, self.edge)
 
 
 def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
