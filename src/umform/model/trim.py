@@ -148,7 +148,7 @@ class Trim:
         try:
             return self._fitted(model, sheet, kept, dropped)
         except MeshError as error:
-            return ModelPart.of(model, part, edge, dropped, str(error).splitlines()[0])
+            return ModelPart.of(model, part, edge, dropped, f"{error.what} ({error.value or error.where})")
 
     def _fitted(self, model: Model, view: Floats, kept: NDArray[np.bool_], dropped: int) -> ModelPart:
         """The part with its edge on the line."""
