@@ -25,8 +25,10 @@ from umform.errors import UmformError
 if TYPE_CHECKING:
     from umform.model import Model
     from umform.processes.air_bending.bend import AirBend
+    from umform.processes.air_bending.branches import Brake
     from umform.processes.air_bending.budget import Budget
     from umform.processes.air_bending.measures import Measures
+    from umform.processes.air_bending.parameters import AirBending
     from umform.run import Result
 
 
@@ -111,13 +113,12 @@ def bend(
     """
     from umform.io.folders import folder_for
     from umform.io.staging import staging
-    from umform.processes.air_bending.bottoming import check_force, press_to_force, with_travel
+    from umform.processes.air_bending.bottoming import check_force, with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
-    from umform.processes.air_bending.case import air_bending
     from umform.processes.air_bending.checks import check_angle, check_tolerance
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
     from umform.processes.air_bending.parameters import AirBending
-    from umform.processes.air_bending.search import bending_table, find_stroke
+    from umform.processes.air_bending.search import bending_table
     from umform.timing import Timing, timings
 
     print_warnings_once()
@@ -169,13 +170,7 @@ def bend(
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if print_deck:
-        from umform.deck import deck_of
-
-        if force_per_metre is not None:
-            case = press_to_force(case, force_per_metre, frames=1).case
-        elif angle is not None:
-            case = find_stroke(case, angle, tolerance=tolerance, frames=1).case
-        typer.echo(deck_of(case), nl=False)
+        _print_deck(case, angle, force_per_metre, tolerance)
         return
     if angle is not None:
         check_angle(case, angle)
@@ -189,12 +184,7 @@ def bend(
     with staging(place, FILES):
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
-            if force_per_metre is not None:
-                done = press_to_force(case, force_per_metre, brake=brake).bend
-            elif angle is None:
-                done = air_bending(case, brake=brake)
-            else:
-                done = find_stroke(case, angle, tolerance=tolerance, brake=brake).bend
+            done = _bent(brake, case, angle, force_per_metre, tolerance)
         errors = None
         try:
             if budget:
@@ -213,6 +203,34 @@ def bend(
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
+
+
+def _print_deck(case: AirBending, angle: float | None, force_per_metre: float | None, tolerance: float) -> None:
+    """Print a bend as a deck, with the stroke that its angle or its force needs."""
+    from umform.deck import deck_of
+    from umform.processes.air_bending.bottoming import press_to_force
+    from umform.processes.air_bending.search import find_stroke
+
+    if force_per_metre is not None:
+        case = press_to_force(case, force_per_metre, frames=1).case
+    elif angle is not None:
+        case = find_stroke(case, angle, tolerance=tolerance, frames=1).case
+    typer.echo(deck_of(case), nl=False)
+
+
+def _bent(
+    brake: Brake, case: AirBending, angle: float | None, force_per_metre: float | None, tolerance: float
+) -> AirBend:
+    """Bend to a force, to a stroke, or to an angle after springback."""
+    from umform.processes.air_bending.bottoming import press_to_force
+    from umform.processes.air_bending.case import air_bending
+    from umform.processes.air_bending.search import find_stroke
+
+    if force_per_metre is not None:
+        return press_to_force(case, force_per_metre, brake=brake).bend
+    if angle is not None:
+        return find_stroke(case, angle, tolerance=tolerance, brake=brake).bend
+    return air_bending(case, brake=brake)
 
 
 def _refuse_implausible(model: Model, *, force: bool) -> None:
