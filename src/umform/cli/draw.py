@@ -35,7 +35,6 @@ _DIAMETERS = {
 group = typer.Typer(no_args_is_help=True, help="Draw a part, open the tools and measure it: `umform draw cup`.")
 app.add_typer(group, name="draw")
 
-
 Out = Annotated[str | None, typer.Option(metavar="FOLDER", help="Folder for tables, pictures, fields and report.")]
 LimitCurve = Annotated[Path | None, option("Forming limit: a CSV file of minor and major logarithmic strain.", SHEET)]
 Coarse = Annotated[bool, typer.Option("--coarse", help="Coarse mesh, for a first result in seconds.")]
@@ -148,11 +147,13 @@ def u(
     swift: SwiftCurve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
-    element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND18",
+    element: Annotated[
+        str | None, option("Element of the catalogue; default BEND18, with --coarse BEND8.", SOLUTION)
+    ] = None,
     turn: Turn = None,
     layers: Layers = 1,
     thickness_points: ThicknessPoints = None,
-    contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 4,
+    contact_points: Annotated[int | None, option("Contact points per direction and facet.", SOLUTION)] = None,
     penalty: Annotated[
         float | None, option("Contact pressure per penetration; default by the allowed penetration.", SOLUTION)
     ] = None,
@@ -190,15 +191,14 @@ def u(
         holder_force=holder_force,
         friction=friction,
         stroke=stroke,
-        element=element,
-        turn=_chosen(turn, coarse, 24.0, 12.0),
+        element=_chosen(element, coarse, "BEND8", "BEND18"),
+        turn=_chosen(turn, coarse, 20.0, 12.0),
         layers=layers or None,
         thickness_points=thickness_points,
-        contact_points=contact_points,
+        contact_points=_chosen(contact_points, coarse, 3, 4),
         penalty=penalty,
     )
-    three = not coarse if extrapolate is None else extrapolate
-    how = extrapolated if three else draw
+    how = extrapolated if _chosen(extrapolate, coarse, False, True) else draw
     _run(case, how, out, "u-bend", note, limit_curve, overwrite=overwrite, timing=timing)
 
 
