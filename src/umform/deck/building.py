@@ -21,6 +21,7 @@ from umform.deck.rolling import direction
 from umform.deck.source import Source
 from umform.deck.steps import Free, Named
 from umform.deck.supports import Rigid
+from umform.deck.unloading import loading_steps
 from umform.elements import Rolling
 from umform.elements.technology import Element
 from umform.errors import UmformError
@@ -102,6 +103,7 @@ class _Builder:
         options = self._options(model)
         self._raise()
         steps = self._steps(Named(controls, supports, contacts))
+        self._measures(model)
         self._raise()
         return Problem(
             model=model,
@@ -190,8 +192,9 @@ class _Builder:
             return None
         below, above = ([tools[tool] for tool, on in sorted(touching) if on == side] for side in ("lower", "upper"))
         self.sizes = part.sizes(below, above, folder)
-        self.notes.append(f"mesh: {self.sizes}")
-        return part.build(cell, folder, self.sizes)
+        made = part.build(cell, folder, self.sizes)
+        self.notes.append(f"mesh: {self.sizes.on(made)}")
+        return made
 
     def _rolling(self) -> Rolling | None:
         """The rolling direction of a metal that has one."""
@@ -288,6 +291,13 @@ class _Builder:
             with self._at("steps", number):
                 steps.append(part.build(named))
         return steps
+
+    def _measures(self, model: Model) -> None:
+        """Refuse measures that cannot be taken."""
+        released = loading_steps(self.contents) < len(self.contents.steps)
+        for name, part in self.contents.measures.items():
+            with self._at("measures", name):
+                part.check(model, released=released)
 
     def _at(self, *path: str | int) -> Place:
         """Context for a part of the deck: errors get its place."""

@@ -132,8 +132,8 @@ class Body(Term):
                 cause="fewer points cannot see the highest mode",
                 remedy=f"thickness_points={least} or more",
             )
-        self._through = make_thickness_rule(self.thickness_points, self.thickness_rule)
-        self.element.check_modes(*self._through)
+        self.through = make_thickness_rule(self.thickness_points, self.thickness_rule)
+        self.element.check_modes(*self.through)
         self._selection, self._given_rolling = cells, rolling
         self.elsewhere = False
         self.before = np.empty(0)
@@ -189,7 +189,7 @@ class Body(Term):
         """
         if self.elsewhere:
             raise not_here("the history of the elements")
-        (t, w), technology, law = self._through, self.element.technology(), self.material.law()
+        (t, w), technology, law = self.through, self.element.technology(), self.material.law()
         points, cells, X = self.element.surface_rule, self.connectivity, self.mesh.points
         try:
             block = _core.shell_block(technology, points, t, w, law, cells, X, self.rolling)

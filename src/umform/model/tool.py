@@ -184,7 +184,7 @@ class Tool(Term):
         seen = _Seen(into.residual, into.found, at.values, at.time)
         for press in self._finding():
             k, way = border.number(press.unknown), press.way
-            takes, slope = press.takes(at.values[way], way.force(seen, into.ranks))
+            takes, slope = press.takes(at.values[way], way.of_sheet(seen, into.ranks))
             border.residual[k] = takes - at.values[press.force]
             if press.rigid and (force := bear(press, at, into)) is not None:
                 borne[press.force.name] = force

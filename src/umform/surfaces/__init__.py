@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from umform.surfaces.profile import Profile
     from umform.surfaces.segments import Arc, Line
     from umform.surfaces.simple import Cylinder, Plane, Sphere
-    from umform.surfaces.sizes import ToolSizes, tool_sizes
+    from umform.surfaces.size_map import ToolSizes
+    from umform.surfaces.sizes import tool_sizes
     from umform.surfaces.solids import Box, Torus
     from umform.surfaces.swept import Extruded, Revolved
     from umform.surfaces.tool import Offset, Placed, Surface, Tool
@@ -80,7 +81,7 @@ _HOME = {
     "Surface": "tool",
     "SurfaceCheck": "check",
     "Tool": "tool",
-    "ToolSizes": "sizes",
+    "ToolSizes": "size_map",
     "Torus": "solids",
     "Triangles": "triangles",
     "Triangulated": "triangulated",

@@ -13,6 +13,7 @@ from umform.errors import InvalidValue
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.endings import Ending, tears_from
 from umform.processes.draw.u_bend import UBend
+from umform.report.symmetry import Mirror, with_images
 from umform.results.forming import (
     EarProfile,
     FormingLimit,
@@ -160,10 +161,8 @@ class Drawn:
         """
         X = self.result.model.mesh.points
         part, places = X + self.u_free.reshape(-1, 3), X + self.u.reshape(-1, 3)
-        for axis in self.case.mirrored:
-            sign = np.where(np.arange(3) == axis, -1.0, 1.0)
-            part, places = np.concatenate([part, sign * part]), np.concatenate([places, sign * places])
-        return lay_by_best_fit(part, places)
+        planes = [Mirror(axis, 0.0) for axis in self.case.mirrored]
+        return lay_by_best_fit(with_images(part, planes), with_images(places, planes))
 
     @property
     def friction_share(self) -> float:
