@@ -69,9 +69,9 @@ def fitted_mesh(whole: Mesh, sheet: Sheet, layer: Layer) -> FittedMesh:
     old = np.where(fibres < count, fibres, 0)
     names = np.where((fibres < count)[:, None], sheet.nodes[old], -1).ravel()
     order = np.argsort(np.where(names < 0, len(whole.points) + np.arange(len(names)), names), kind="stable")
-    number = np.empty(len(names), dtype=np.int64)
-    number[order] = np.arange(len(names))
-    number = number.reshape(-1, levels)
+    ranked = np.empty(len(names), dtype=np.int64)
+    ranked[order] = np.arange(len(names))
+    number = ranked.reshape(-1, levels)
     at = np.moveaxis(sheet.nodes[around], 2, 1).reshape(-1, 4)[order]
     shares = np.repeat(share, levels, axis=0)[order]
     corners = number[np.searchsorted(fibres, layer.quads)]  # [stack][corner][level]
@@ -83,9 +83,13 @@ def fitted_mesh(whole: Mesh, sheet: Sheet, layer: Layer) -> FittedMesh:
     kept = np.where(names[order] >= 0)[0]
     still = kept[shares[kept].max(axis=1) == 1.0]
     points[still] = whole.points[at[still, shares[still].argmax(axis=1)]]
-    sets = {name: _members(ids, at, shares, len(whole.points)) for name, ids in whole.sets.items() if name != "cut"}
+    sets = {
+        name: _members(np.asarray(ids), at, shares, len(whole.points))
+        for name, ids in whole.sets.items()
+        if name != "cut"
+    }
     lateral = _LateralFaces(sheet, layer, around, share, fibres)
-    faces = {name: lateral.of(rows, whole, parents) for name, rows in whole.faces.items() if name != "cut"}
+    faces = {name: lateral.of(np.asarray(rows), whole, parents) for name, rows in whole.faces.items() if name != "cut"}
     faces["cut"] = lateral.cut()
     mesh = Mesh(points, {whole.cell: connectivity.astype(np.int32)}, sets, faces)
     return FittedMesh(mesh, parents, names[order], same, (at, shares))
@@ -93,12 +97,12 @@ def fitted_mesh(whole: Mesh, sheet: Sheet, layer: Layer) -> FittedMesh:
 
 def _unmoved(layer: Layer) -> NDArray[np.bool_]:
     """Stacks that are those of the sheet."""
-    moved = np.isin(layer.quads, layer.moved).any(axis=1)
+    moved = np.asarray(np.isin(layer.quads, layer.moved).any(axis=1))
     moved[len(layer.inner) :] = True
-    return ~moved
+    return np.logical_not(moved)
 
 
-def _members(ids: NDArray[np.int32], at: Numbers, shares: Floats, count: int) -> NDArray[np.int32]:
+def _members(ids: NDArray[np.integer], at: Numbers, shares: Floats, count: int) -> NDArray[np.int32]:
     """Nodes that lie between nodes of a set."""
     inside = np.zeros(count, dtype=bool)
     inside[ids] = True
@@ -142,7 +146,7 @@ class _LateralFaces:
         ]
         return np.array(rows, dtype=np.int32).reshape(-1, 2)
 
-    def of(self, rows: NDArray[np.int32], whole: Mesh, parents: Numbers) -> NDArray[np.int32]:
+    def of(self, rows: NDArray[np.integer], whole: Mesh, parents: Numbers) -> NDArray[np.int32]:
         """Faces of a set: lower and upper ones of the parents; lateral ones that lie on the same edges of the rim."""
         found = []
         for face in (0, 1):
@@ -187,7 +191,7 @@ def refuse_unknown(whole: Model) -> None:
 
 
 def move_state(whole: Model, sheet: Sheet, x: Floats, layer: Layer, made: FittedMesh, model: Model) -> None:
-    """Give the changed cells of a model, which have the state of their parents, that of their places. eqs. (1.32), (1.33)"""
+    """Give the changed cells of a model, which have the state of their parents, that of their places. eq. (1.32)"""
     layers = sheet.cells.shape[1]
     stacks = np.flatnonzero(~made.same.reshape(-1, layers)[:, 0])
     there = np.concatenate([x, np.zeros((layer.new, 2))])
@@ -217,7 +221,8 @@ def _settle(model: Model, made: FittedMesh) -> None:
     alpha = [body.block.alpha for body in model.bodies]
     zero = np.zeros_like(model.u)
     for _ in range(_CORRECTIONS):
-        model.evaluate(model.u)
+        if model.evaluate(model.u).failed >= 0:
+            raise MeshError("the state of the sheet cannot be carried by elements that end on the line")
         change = 0.0
         for k, body in enumerate(model.bodies):
             body.recover(zero, False)
@@ -238,5 +243,5 @@ def _around(sheet: Sheet, stacks: Numbers) -> Numbers:
     for _ in range(_RINGS):
         fibres = np.zeros(len(sheet.nodes), dtype=bool)
         fibres[sheet.quads[inside]] = True
-        inside = fibres[sheet.quads].any(axis=1)
+        inside[:] = fibres[sheet.quads].any(axis=1)
     return np.flatnonzero(inside)

@@ -84,7 +84,15 @@ class ModelPart:
         same = np.ones(len(part.cells), dtype=bool)
         lost = _removed(whole, model)
         return cls(
-            model, part.cells, part.nodes, edge_distance, lost, dropped, same, remark=remark, contacts=_contacts(whole)
+            model,
+            part.cells,
+            part.nodes,
+            edge_distance,
+            lost,
+            dropped,
+            same,
+            remark=remark,
+            contacts=_contacts(whole, part.cells, same),
         )
 
     @classmethod
@@ -111,7 +119,7 @@ class ModelPart:
             dropped,
             made.same,
             layer.missed,
-            contacts=_contacts(whole),
+            contacts=_contacts(whole, made.parents, made.same),
         )
 
     def __str__(self) -> str:
@@ -156,7 +164,7 @@ class ModelPart:
             )
         self.model.evaluate(self.model.x)
         contact.begin()
-        return self.contacts[name].put(contact, self.cells, self.same)
+        return self.contacts[name].put(contact)
 
     def _edge(self) -> str:
         """How the cut edge was made, where it is not all on the line or elements were changed."""
@@ -182,9 +190,9 @@ def _model(whole: Model, mesh: Mesh, parents: Numbers, u: Floats) -> Model:
     return model
 
 
-def _contacts(whole: Model) -> dict[str, KeptContact]:
+def _contacts(whole: Model, parents: Numbers, same: NDArray[np.bool_]) -> dict[str, KeptContact]:
     """Histories of the contacts with friction."""
-    return {pair.name: KeptContact.of(pair) for pair in whole.pairs_of_tools() if pair.rubs}
+    return {pair.name: KeptContact.of(pair).left(parents, same) for pair in whole.pairs_of_tools() if pair.rubs}
 
 
 def _removed(whole: Model, model: Model) -> Energies:

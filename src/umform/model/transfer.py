@@ -6,6 +6,7 @@ that is not leaves stresses of the size of the difference. docs/theory, eqs. (1.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -74,10 +75,7 @@ class Weights:
         net = Delaunay(sources)
         simplex = net.find_simplex(targets)
         outside = np.flatnonzero(simplex < 0)
-        share = np.empty((len(targets), 3))
-        for k in np.arange(len(targets)):
-            if simplex[k] >= 0:
-                share[k] = _barycentric(net.transform[[simplex[k]]], targets[k])[0]
+        share = _barycentric(net.transform[simplex], targets)
         for k in outside:  # beyond the last points, on the way to the edge of the sheet
             every = _barycentric(net.transform, targets[k])
             simplex[k] = int(np.nan_to_num(every.min(axis=1), nan=-np.inf).argmax())
@@ -97,9 +95,9 @@ class Weights:
         return out
 
 
-def _barycentric(transform: Floats, point: Floats) -> Floats:
-    """Barycentric coordinates (n, 3) of a point in triangles."""
-    ab = np.einsum("nij,nj->ni", transform[:, :2], point - transform[:, 2])
+def _barycentric(transform: Floats, points: Floats) -> Floats:
+    """Barycentric coordinates (n, 3) of points (n, 2), or of one point, in triangles."""
+    ab = np.einsum("nij,nj->ni", transform[:, :2], points - transform[:, 2])
     return np.column_stack([ab, 1.0 - ab.sum(axis=1)])
 
 
@@ -132,20 +130,18 @@ def transferred(
     if not names:
         return np.zeros((len(own), block.points, 0)), probe.alpha
     parts = _parts(names, history)
-    kinds = isinstance(old.material, J2)
-    logarithms = _logarithm(E)
-    elastic = _elastic(parts, E, logarithms, kinds)
+    j2 = isinstance(old.material, J2)
+    elastic = _elastic(parts, E, _logarithm(E), j2)
 
-    def moved(tensor: Floats, target: Floats) -> Floats:
+    def moved(tensor: Floats) -> Floats:
         """Tensors (.., 3, 3) in the frames of the new points."""
         if old.rolling is not None:
             return weights.mean(tensor)
         world = np.einsum("epki,epkl,eplj->epij", frame, tensor, frame)
-        return np.asarray(np.einsum("epik,epkl,epjl->epij", target, weights.mean(world), target))
+        return np.asarray(np.einsum("epik,epkl,epjl->epij", probe.frame, weights.mean(world), probe.frame))
 
     scalar = {name: weights.mean(values) for name, values in parts.items() if values.ndim == 2}
-    target = probe.frame
-    wanted = moved(elastic, target)
+    wanted = moved(elastic)
     probe.meet(np.trace(wanted, axis1=2, axis2=3))
     state = np.empty((len(own), history.shape[1], history.shape[2]))
     at = 0
@@ -159,7 +155,7 @@ def transferred(
         elif name == "plastic_strain":
             state[..., at : at + 6] = _voigt(new_h - deviator, 2.0)
         else:
-            state[..., at : at + 6] = _voigt(moved(parts[name], target), 1.0)
+            state[..., at : at + 6] = _voigt(moved(parts[name]), 1.0)
         at += size
     virgin = scalar["eqps"] <= _ZERO
     state[virgin] = old.material.law().initial()
@@ -229,21 +225,25 @@ def _elastic(parts: dict[str, Floats], E: Floats, logarithm: Floats, j2: bool) -
     """Logarithmic elastic strains. eq. (1.32)"""
     if not j2:
         return logarithm - parts["plastic_strain"]
-    U = _function(np.eye(3) + 2.0 * E, np.sqrt)
-    return _function(U @ parts["Cp_inv"] @ U, lambda v: 0.5 * np.log(v))
+    U = _function(np.eye(3) + 2.0 * E, lambda v: np.asarray(np.sqrt(v)))
+    return _function(U @ parts["Cp_inv"] @ U, _half_log)
 
 
 def _metric(E: Floats, elastic: Floats) -> Floats:
     """Plastic metric of elastic strains."""
-    inverse = _function(np.eye(3) + 2.0 * E, lambda v: 1.0 / np.sqrt(v))
-    return inverse @ _function(elastic, lambda v: np.exp(2.0 * v)) @ inverse
+    inverse = _function(np.eye(3) + 2.0 * E, lambda v: np.asarray(1.0 / np.sqrt(v)))
+    return np.asarray(inverse @ _function(elastic, lambda v: np.asarray(np.exp(2.0 * v))) @ inverse)
 
 
 def _logarithm(E: Floats) -> Floats:
-    return _function(np.eye(3) + 2.0 * E, lambda v: 0.5 * np.log(v))
+    return _function(np.eye(3) + 2.0 * E, _half_log)
 
 
-def _function(A: Floats, f: np.ufunc) -> Floats:
+def _half_log(v: Floats) -> Floats:
+    return np.asarray(0.5 * np.log(v))
+
+
+def _function(A: Floats, f: Callable[[Floats], Floats]) -> Floats:
     """A function of symmetric tensors (..., 3, 3)."""
     values, vectors = np.linalg.eigh(0.5 * (A + np.swapaxes(A, -1, -2)))
     return np.asarray((vectors * f(values)[..., None, :]) @ np.swapaxes(vectors, -1, -2))

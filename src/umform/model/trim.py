@@ -50,8 +50,9 @@ class AtItsEnd(Protocol):
 class Trim:
     """A cut along a line.
 
-    The elements near the line are replaced by a layer of elements that end on it, eqs. (1.28)-(1.33): 8-node ones of
-    elastic laws, J2 and Metal. Others follow edges of elements, which the part says as its remark. Elements stacked through the thickness are kept or removed together.
+    The elements near the line are replaced by a layer of elements that ends on it, eqs. (1.28)-(1.33). Where this is
+    not possible (18-node elements, laws whose history is unknown), the edge follows elements, and the remark of the
+    part says why. Elements stacked through the thickness are kept or removed together.
 
     Parameters
     ----------
@@ -147,7 +148,7 @@ class Trim:
         try:
             return self._fitted(model, sheet, kept, dropped)
         except MeshError as error:
-            return ModelPart.of(model, part, edge, dropped, str(error).splitlines()[0])
+            return ModelPart.of(model, part, edge, dropped, f"{error.what} ({error.value or error.where})")
 
     def _fitted(self, model: Model, view: Floats, kept: NDArray[np.bool_], dropped: int) -> ModelPart:
         """The part with its edge on the line."""

@@ -20,7 +20,7 @@ Mask = NDArray[np.bool_]
 #: Signed distance (n,), negative inside, and unit normal (n, 2) at places (n, 2).
 Line = Callable[[Floats], tuple[Floats, Floats]]
 
-#: Least distance of the inner stacks from the line, relative to the local size: the least width of the layer. eq. (1.28)
+#: Least distance of the inner stacks from the line, relative to the local size: least width of the layer. eq. (1.28)
 _CLEAR = 0.35
 #: Least sine of the angles of a quadrilateral: from 20 to 160 degrees; and that from which nothing is smoothed.
 _LEAST_SINE, _GOOD_SINE = 0.342, 0.64
@@ -96,7 +96,7 @@ def fitted_layer(sheet: Sheet, x: Floats, kept: Mask, line: Line) -> Layer:
     if (sines(x, sheet.quads[band]) <= 0.05).any():
         raise MeshError("the sheet is steep in the view of the line", value=f"{int(band.sum())} stacks around it")
     made = _attached(sheet, x, inside, line)
-    return _finished(sheet, x, size, made, line, turn)
+    return _finished(sheet, x, size, made, line)
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ class _Attached:
 
 def _attached(sheet: Sheet, x: Floats, inside: Mask, line: Line) -> _Attached:
     """A quadrilateral on each side between inner stacks and others; its outer corners on the line. eq. (1.29)"""
-    edges, number = sheet.edge_stacks
+    edges = sheet.edge_stacks[0]
     stacks, side = np.nonzero(_cut_sides(sheet, inside))
     first, second = sheet.quads[stacks, side], sheet.quads[stacks, (side + 1) % 4]
     chain = np.unique([first, second])
@@ -120,7 +120,7 @@ def _attached(sheet: Sheet, x: Floats, inside: Mask, line: Line) -> _Attached:
     at_rim[edges[sheet.rim]] = True
     ends = at_rim[chain]
     outer = onto(x[chain], line)
-    for k in np.flatnonzero(ends):
+    for k in np.flatnonzero(ends).tolist():
         outer[k] = _along_rim(sheet, x, int(chain[k]), inside, line)
     new = len(x) + np.arange(len(chain))
     of = np.full(len(x), -1)
@@ -132,7 +132,7 @@ def _attached(sheet: Sheet, x: Floats, inside: Mask, line: Line) -> _Attached:
     return _Attached(np.flatnonzero(inside), layer, np.concatenate([x, outer]), chain, ends)
 
 
-def _finished(sheet: Sheet, x: Floats, size: Floats, made: _Attached, line: Line, turn: float) -> Layer:
+def _finished(sheet: Sheet, x: Floats, size: Floats, made: _Attached, line: Line) -> Layer:
     """Smooth the layer where it has to be, and leave out what stays bad."""
     count, inner = len(x), sheet.quads[made.inner]
     quads = np.concatenate([inner, made.layer])
@@ -166,7 +166,6 @@ def _finished(sheet: Sheet, x: Floats, size: Floats, made: _Attached, line: Line
     own = np.where(good[: len(inner)])[0]
     centres = located(at[quads[len(own) :]].mean(axis=1), x, sheet.quads).quad
     parents = np.concatenate([made.inner[own], centres])
-    del turn
     return Layer(made.inner[own], number[quads], len(fresh), number[moved], places, parents, missed)
 
 
@@ -190,9 +189,10 @@ def _smooth(sheet: Sheet, x: Floats, made: _Attached, line: Line) -> Floats:
     free[:count][np.unique(edges)] = False
     slides = count + np.flatnonzero(~made.ends)
     parents = located(made.x[quads].mean(axis=1), x, sheet.quads).quad
-    a, b = corners_of(x, sheet.quads[parents])
+    a = corners_of(x, sheet.quads[parents])[0]
     map_of = np.stack([0.5 * (a[:, 0] - a[:, 2]), 0.5 * (a[:, 1] - a[:, 3])], axis=2)
-    return smoothed(made.x, quads, np.linalg.inv(map_of), free, slides, line)
+    metric: Floats = np.asarray(np.linalg.inv(map_of), dtype=float)
+    return smoothed(made.x, quads, metric, free, slides, line)
 
 
 def _mirrored(line: Line) -> Line:

@@ -1,4 +1,4 @@
-"""Smoothing of quadrilaterals by their shape, measured in the metric of the sheet of which they are a part. eq. (1.30)"""
+"""Smoothing of quadrilaterals by their shape, in the metric of the sheet of which they are a part. eq. (1.30)"""
 
 from __future__ import annotations
 

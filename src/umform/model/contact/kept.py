@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,7 @@ class KeptContact:
     Attributes
     ----------
     faces : ndarray of int, shape (faces, 2)
-        Rows (cell, number of the face) in the whole sheet.
+        Rows (cell, number of the face).
     history : ndarray, shape (faces, points, size)
         That of the points, with places and vectors in global axes.
     names : dict of str to int
@@ -44,25 +44,31 @@ class KeptContact:
         names = contact.block.law.quantities
         return cls(contact.faces.copy(), _turned(contact.state()["history"], names, contact.pose), dict(names))
 
-    def put(self, contact: Contact, parents: Numbers, same: NDArray[np.bool_]) -> int:
-        """Give a pair on the remaining part the history of its points; returns the number of faces that have it.
+    def left(self, parents: Numbers, same: NDArray[np.bool_]) -> KeptContact:
+        """What a part keeps of it.
 
         Parameters
         ----------
-        contact : Contact
-            The pair, with a history of its own.
         parents : ndarray of int
             Cell of the whole sheet for each cell of the part.
         same : ndarray of bool
             Cells that have not changed.
+        """
+        cell = np.full(max(int(parents.max()), int(self.faces[:, 0].max(initial=0))) + 1, -1)
+        cell[parents[same]] = np.flatnonzero(same)
+        kept = np.flatnonzero(cell[self.faces[:, 0]] >= 0)
+        faces = np.stack([cell[self.faces[kept, 0]], self.faces[kept, 1]], axis=1).astype(np.int32)
+        return replace(self, faces=faces, history=self.history[kept])
+
+    def put(self, contact: Contact) -> int:
+        """Give a pair with a history of its own that of its points; returns the number of faces that have it.
 
         Raises
         ------
         InvalidValue
             If it has other points or another law.
         """
-        history = contact.state()["history"]
-        names = dict(contact.block.law.quantities)
+        names, history = dict(contact.block.law.quantities), contact.state()["history"]
         if names != self.names or history.shape[1:] != self.history.shape[1:]:
             raise InvalidValue(
                 "a contact that keeps its history has the points and the law of the one before",
@@ -71,12 +77,11 @@ class KeptContact:
                 cause="other points, nodes or cells, or a contact without friction",
                 remedy="the same points and friction as in the stage before",
             )
-        before = {(int(c), int(f)): k for k, (c, f) in enumerate(self.faces)}
-        rows = np.array([before.get((int(parents[c]), int(f)), -1) if same[c] else -1 for c, f in contact.faces])
+        row = {(int(cell), int(face)): k for k, (cell, face) in enumerate(self.faces)}
+        rows = np.array([row.get((int(cell), int(face)), -1) for cell, face in contact.faces])
         kept = np.flatnonzero(rows >= 0)
         rotation, shift = contact.pose
-        back = rotation.T, -shift @ rotation
-        history[kept] = _turned(self.history[rows[kept]], names, back)
+        history[kept] = _turned(self.history[rows[kept]], names, (rotation.T, -shift @ rotation))
         contact.restore({"history": history})
         return len(kept)
 
