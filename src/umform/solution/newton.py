@@ -10,6 +10,7 @@ import logging
 import math
 import time as clock
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property
 from typing import TypeVar
 
@@ -208,7 +209,7 @@ class Newton:
         status = previous = evaluation.status
         shifted = False
 
-        for _ in range(options.max_iterations):
+        while len(iterations) < prospects.most(options.max_iterations):
             self.check_domain(evaluation, iterations)
             r = system.restrict(evaluation.residual)
             norm = math.sqrt(system.ranks.dot(r, r))
@@ -223,16 +224,19 @@ class Newton:
                 self._check_flight(evaluation, iterations)
                 if lean:
                     system.follow()
-                return Converged(evaluation, iterations)
+                return Converged(evaluation, iterations, jumped=prospects.jumps)
             longest = prospects.longest(evaluation, previous, norm, iterations)
             if not reuse.factors_will_do(norm / scale, increment, settled=manner.reuses and not moved):
                 if lean:
                     evaluation = system.evaluate(u)
                 pivots = reuse.remember(solver.factor(evaluation))
                 prospects.bear(pivots, norm / scale, manner.wary, iterations)
+                if not system.pattern.symmetric and prospects.asks(norm / scale, manner.wary):
+                    pivots = shift.negative_pivots(evaluation)
                 shifted = prospects.shifts(pivots, manner.wary)
                 if shifted:
                     shift.factor(solver, evaluation)
+                manner = replace(manner, line_search=manner.line_search or prospects.jumps)
                 criteria.entry = system.largest_entry(evaluation.values)
             elif lean:
                 system.follow()
@@ -245,7 +249,7 @@ class Newton:
             criteria.entry = criteria.entry if lean else None
             increment = step_length * self._relative(du, evaluation)
             previous, status = status, evaluation.status
-        raise Failed(f"no convergence in {options.max_iterations} iterations", iterations, Cause.ITERATIONS)
+        raise Failed(f"no convergence in {len(iterations)} iterations", iterations, Cause.ITERATIONS)
 
     def _lean(self, reuse: Reuse, manner: Manner) -> bool:
         """Whether an iteration evaluates the forces first: where factors are expensive, it may need no tangent."""

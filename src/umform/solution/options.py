@@ -71,6 +71,12 @@ class Wary(Enum):
     NOT = "it goes on"
     OF_MORE = "it ends where negative pivots become more from one iteration to the next"
     OF_ANY = "it ends at once"
+    UNTIL_DOWNHILL = "it ends at once, unless the iterations go downhill to the next stable state already"
+
+    @property
+    def of_any(self) -> bool:
+        """Whether the last equilibrium was stable: an indefinite tangent is unexpected."""
+        return self in (Wary.OF_ANY, Wary.UNTIL_DOWNHILL)
 
 
 @dataclass(frozen=True)
