@@ -10,7 +10,6 @@ import logging
 import math
 import time as clock
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cached_property
 from typing import TypeVar
 
@@ -198,16 +197,15 @@ class Newton:
         iterations = recorder.iterations
         system.recover(du, manner.mixed)
         u = u + du if beyond is None else u + du + beyond
-        criteria, prospects = Criteria(system, options.residual, options.increment), Prospects(system)
-        shift = Shift(system)
+        criteria, shift = Criteria(system, options.residual, options.increment), Shift(system)
+        prospects = Prospects(system)
         reuse = Reuse(options, system.pattern.n, system.effort)
         pivots = reuse.remember(first.factors) if first is not None else None
         criteria.entry = first.entry if first is not None else None
         lean = first is not None and self._lean(reuse, manner)
         evaluation = system.evaluate(u, tangent=not lean)
-        increment, step_length = self._relative(du, evaluation), 1.0
+        increment, step_length, shifted = self._relative(du, evaluation), 1.0, False
         status = previous = evaluation.status
-        shifted = False
 
         while len(iterations) < prospects.most(options.max_iterations):
             self.check_domain(evaluation, iterations)
@@ -231,12 +229,11 @@ class Newton:
                     evaluation = system.evaluate(u)
                 pivots = reuse.remember(solver.factor(evaluation))
                 prospects.bear(pivots, norm / scale, manner.wary, iterations)
-                if not system.pattern.symmetric and prospects.asks(norm / scale, manner.wary):
-                    pivots = shift.negative_pivots(evaluation)
+                pivots = shift.negative_pivots(evaluation, pivots, asked=prospects.asks(norm / scale, manner.wary))
                 shifted = prospects.shifts(pivots, manner.wary)
                 if shifted:
                     shift.factor(solver, evaluation)
-                manner = replace(manner, line_search=manner.line_search or prospects.jumps)
+                manner = manner.searching(prospects.jumps)
                 criteria.entry = system.largest_entry(evaluation.values)
             elif lean:
                 system.follow()

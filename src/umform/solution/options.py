@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from umform.errors import InvalidValue
@@ -99,3 +99,7 @@ class Manner:
     reuses: bool
     mixed: bool
     wary: Wary = Wary.NOT
+
+    def searching(self, wanted: bool) -> Manner:
+        """The same, with a line search if it is wanted."""
+        return replace(self, line_search=self.line_search or wanted)

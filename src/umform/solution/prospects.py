@@ -40,9 +40,11 @@ class Prospects:
     def asks(self, residual: float, wary: Wary) -> bool:
         """Whether the stability of an unsymmetric tangent is worth the factors of its symmetric part. eq. (5.101)
 
-        It is after a cycle of contact, and near equilibrium at the end of a stable path; parameters as of `bear`.
+        It is after a cycle of contact, on the way down, and near equilibrium in the last attempt; parameters as of
+        `bear`.
         """
-        return self._cycle.met or self.jumps or (wary is Wary.UNTIL_DOWNHILL and residual <= _FAR)
+        last = wary is Wary.UNTIL_DOWNHILL and residual <= _FAR
+        return self._cycle.met or self._downhill or last
 
     def longest(
         self, evaluation: Evaluation, before: NDArray[np.uint8], norm: float, iterations: list[Iteration]

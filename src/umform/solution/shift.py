@@ -45,10 +45,21 @@ class Shift:
     def _symmetric_part(self) -> SymmetricPart:
         return SymmetricPart(self._system.pattern)
 
-    def negative_pivots(self, evaluation: Evaluation) -> int | None:
-        """Number of negative pivots of the symmetric part of an unsymmetric tangent; None if ranks share it."""
-        shared = self._system.ranks.size > 1
-        return None if shared else self._symmetric_part.negative_pivots(evaluation.values)
+    def negative_pivots(self, evaluation: Evaluation, found: int | None, *, asked: bool = True) -> int | None:
+        """Number of negative pivots, of an unsymmetric tangent those of its symmetric part; None if ranks share it.
+
+        Parameters
+        ----------
+        evaluation : Evaluation
+            With the tangent.
+        found : int or None
+            Those of the factors of the tangent.
+        asked : bool
+            Whether the symmetric part may be factorised.
+        """
+        if not asked or self._system.pattern.symmetric or self._system.ranks.size > 1:
+            return found
+        return self._symmetric_part.negative_pivots(evaluation.values)
 
     def factor(self, solver: Bordered, evaluation: Evaluation) -> Factorisation:
         """Factorise a tangent with negative pivots, with the smallest tried shift that removes them.

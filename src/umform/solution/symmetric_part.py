@@ -1,4 +1,4 @@
-"""Symmetric part of an unsymmetric tangent: its factors show negative pivots, those of the tangent do not. eq. (5.101)"""
+"""Symmetric part of an unsymmetric tangent: its factors show whether increments go downhill. eq. (5.101)"""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 class SymmetricPart:
     """Counts the negative eigenvalues of (K + K^T) / 2.
 
-    If there are none, K is positive definite: every solution of K du = -r goes downhill, r . du < 0.
+    If there are none, every solution of K du = -r goes downhill, r . du < 0.
 
     Parameters
     ----------

@@ -10,7 +10,7 @@ import pytest
 from umform.errors import InvalidValue, NoConvergence
 
 #: How many jobs the sample has.
-SAMPLE = 40
+SAMPLE = 42
 
 
 @pytest.fixture

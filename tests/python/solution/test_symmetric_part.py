@@ -19,7 +19,7 @@ N = 24
 
 
 def unsymmetric(weakest):
-    """A banded matrix whose entries come in pairs, its symmetric part with some negative eigenvalues; and its pattern."""
+    """A banded matrix whose symmetric part may have negative eigenvalues, with its pattern and values."""
     rng = np.random.default_rng(7)
     K = np.diag(np.where(np.arange(N) % 8 == 3, weakest, 50.0 + rng.random(N)))
     for k in (1, 5):
@@ -47,11 +47,12 @@ def test_shifted_unsymmetric_tangents_go_downhill_whatever_the_residual():
     system = SimpleNamespace(pattern=pattern, largest_entry=lambda v: float(np.abs(v).max()), ranks=OneRank())
     evaluation = SimpleNamespace(values=values, border=SimpleNamespace(unknowns=()))
     solver, shift = Bordered(system, TimedSolver(make_solver(pattern), Timing())), Shift(system)
-    assert shift.negative_pivots(evaluation) == 3
+    assert shift.negative_pivots(evaluation, None) == 3
     residuals = np.random.default_rng(3).normal(size=(50, N))
     solver.factor(evaluation)
     assert any(r @ solver.solve(-r) > 0.0 for r in residuals)
     shift.factor(solver, evaluation)
     assert all(r @ solver.solve(-r) < 0.0 for r in residuals)
     du = solver.solve(-residuals[0])
-    np.testing.assert_allclose((-residuals[0] - K @ du) / du, np.full(N, (-residuals[0] - K @ du)[0] / du[0]), rtol=1e-6)
+    added = (-residuals[0] - K @ du) / du
+    np.testing.assert_allclose(added, np.full(N, added[0]), rtol=1e-6)
