@@ -55,7 +55,7 @@ def row(setup: Setup, stroke: float, release: bool, checkpoint: Path | None) -> 
     return {
         "elements": len(model.mesh.connectivity),
         "stroke": float(result["stroke"][drawn]),
-        "force": 1e-3 * abs(float(result["stroke_force"][drawn])),
+        "force": 1e-3 * float(result["stroke_force"][drawn]),
         "thinning": float(forming_fields(model.mesh, model.u)["thinning"].max()),
         "CPU s": time.process_time() - start,
         "iterations": int(result["iterations"].sum()),
@@ -82,6 +82,8 @@ def main() -> None:
     parser.add_argument("--checkpoints", type=Path, help="folder of checkpoints")
     given = parser.parse_args()
     numbers: dict[str, Any] = {}
+    if given.checkpoints:
+        given.checkpoints.mkdir(parents=True, exist_ok=True)
     print(_HEADER)
     for name in [given.only] if given.only else MESHES:
         file = given.checkpoints and given.checkpoints / f"s_rail {name}.h5"

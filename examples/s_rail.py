@@ -77,7 +77,7 @@ def main() -> None:
         tools[name] = uf.Triangulated.from_stl(write(section, folder / f"s_rail_{name}.stl"), open=True)
         print(tools[name])
     result = draw(tools, 6.0)
-    force = abs(result["stroke_force"][-1]) / 1e3
+    force = result["stroke_force"][-1] / 1e3
     print(f"force of the punch at {result['stroke'][-1]:.4g} mm: {force:.3g} kN")
 
 

@@ -1,10 +1,11 @@
-"""Write the table of the README from the pages of the verification book: the numbers in it are never typed.
+"""Write the table of the README from the results of the verification book: the numbers in it are never typed.
 
 `make verification` calls it after the run; a test calls it with --check.
 """
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
 
@@ -24,10 +25,8 @@ QUOTED = (
 
 def rows(page: str) -> dict[str, list[str]]:
     """Checks of a page: what -> reference, found, deviation."""
-    text = (BOOK / f"{page}.md").read_text(encoding="utf-8")
-    table = text.split("## Checks")[1].split("\n## ")[0]
-    lines = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table.splitlines() if "|" in line]
-    return {line[0]: line[1:4] for line in lines[2:]}
+    checks = json.loads((BOOK / "results" / f"{page}.json").read_text(encoding="utf-8"))["checks"]
+    return {check["what"]: [check["reference"], check["found"], check["deviation"]] for check in checks}
 
 
 def table() -> str:

@@ -163,6 +163,12 @@ class TurnedNormals(DrawingError):
     id = "drawing.turned-normals"
 
 
+class TurnedFaces(TurnedNormals):
+    """Neighbouring faces of a tool have their normals on different sides."""
+
+    id = "drawing.turned-faces"
+
+
 class HoleInSurface(DrawingError):
     """A surface with a rim that must be closed."""
 

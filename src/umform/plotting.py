@@ -272,10 +272,10 @@ def draw_shape(
     seen = np.flatnonzero(normals @ towards > 0.0)
     depth = corners[seen].mean(axis=1) @ towards
     seen = seen[np.argsort(depth, kind="stable")]
-    flat = corners[seen] @ np.stack([across, up], axis=1)
+    flat: Any = corners[seen] @ np.stack([across, up], axis=1)
     many = len(flat) > _MANY
     edges = "face" if many else "#33333388"
-    faces = PolyCollection(list(flat), edgecolors=edges, linewidths=0.25, rasterized=many)
+    faces = PolyCollection(flat, edgecolors=edges, linewidths=0.25, rasterized=many)
     if values is None:
         faces.set_facecolor("#b8c4d0")
     else:

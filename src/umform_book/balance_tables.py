@@ -17,6 +17,9 @@ from umform_book.printed import bounded
 #: Imbalances up to this are Newton's tolerance and round-off: a bound stands for them.
 _TOLERANCE = 1e-6
 
+#: Columns of the page of all cases.
+WORST = ("runs", "drift", "forces", "moments", "order of Newton")
+
 _MEANING = f"""\
 * **Drift**: largest difference between external work and the sum of stored, dissipated, contact and friction energy,
   over the largest energy of the run. If a sheet starts inside a tool, the drift counts from the first equilibrium.
@@ -27,8 +30,8 @@ _MEANING = f"""\
 
 def balance_line(rows: Sequence[BalanceRow]) -> str:
     """Worst balance of some runs in a sentence."""
-    drift, force, moment, order = _worst(rows)
-    runs = f"{len(rows)} nonlinear run{'s' * (len(rows) > 1)}"
+    number, drift, force, moment, order = worst_balance(rows).values()
+    runs = f"{number} nonlinear run{'s' * (len(rows) > 1)}"
     return (
         f"{runs}: drift of energy {drift}, imbalance of forces {force}, of moments {moment}, order of Newton {order}."
     )
@@ -48,19 +51,20 @@ def balance_page(chapters: Sequence[Chapter], outcomes: Mapping[str, Outcome]) -
     """Markdown of the page with one row for each case."""
     rows = []
     for case in (case for chapter in chapters for case in chapter.cases):
-        found = outcomes[case.name].balances if case.name in outcomes else ()
+        found = outcomes[case.name].balance if case.name in outcomes else None
         if found:
-            rows.append((f"[{case.title}]({case.name}.md)", str(len(found)), *_worst(found)))
-    table = markdown_table(("case", "runs", "drift", "forces", "moments", "order of Newton"), rows)
+            rows.append((f"[{case.title}]({case.name}.md)", *(found[column] for column in WORST)))
+    table = markdown_table(("case", *WORST), rows)
     reasons = "\n".join(f"* *{word}*: {meaning}" for word, meaning in REASONS.items())
     parts = ["# Balance of all nonlinear runs", "The worst run of each case; each page lists its own runs.", table]
     parts += ["## What the columns mean", _MEANING, "Reasons for a low order:", reasons, "[All cases](README.md)"]
     return "\n\n".join(parts) + "\n"
 
 
-def _worst(rows: Sequence[BalanceRow]) -> tuple[str, str, str, str]:
-    drift, force, moment = (max(getattr(row, name) for row in rows) for name in ("drift", "force", "moment"))
-    return _size(drift), _size(force), _size(moment), _order(rows)
+def worst_balance(rows: Sequence[BalanceRow]) -> dict[str, str]:
+    """The number of runs and their worst balance as it is printed, by column of the page of all cases."""
+    sizes = (_size(max(getattr(row, name) for row in rows)) for name in ("drift", "force", "moment"))
+    return dict(zip(WORST, (str(len(rows)), *sizes, _order(rows)), strict=True))
 
 
 def _size(value: float) -> str:

@@ -14,12 +14,14 @@ from pathlib import Path
 from umform.errors import InvalidValue, UmformError
 from umform.io.atomic import write_problem
 from umform.pool import check_processes, run_all
-from umform_book.balance_tables import balance_page
+from umform.report.versions import versions
+from umform_book.balance_tables import balance_page, worst_balance
 from umform_book.case import Case, Chapter
 from umform_book.checks import Verdict
 from umform_book.errata import errata_text
-from umform_book.outcome import Outcome
+from umform_book.outcome import CheckRecord, Outcome
 from umform_book.page import Page
+from umform_book.stored import RESULTS, store, stored
 from umform_book.summary import summary_text
 from umform_book.which_element import which_element_text
 from umform_book.writing import failed_text, page_text, write_text
@@ -84,7 +86,7 @@ class Order:
 
 
 def run_case(order: Order, tick: Callable[[str, float], None] = lambda what, done: None) -> Outcome:
-    """Run a case and write its page and pictures into a folder."""
+    """Run a case and write its page, pictures and results into a folder."""
     case = cases()[order.name]
     logging.getLogger("umform").addHandler(logging.NullHandler())  # no warnings on the console
     page = Page(case, order.folder / "images", order.short, tick)
@@ -94,8 +96,17 @@ def run_case(order: Order, tick: Callable[[str, float], None] = lambda what, don
         largest = max(row.force for row in page.balances)
         page.at_most("resultant of the external forces over their sizes, all runs", largest, BALANCED)
     write_text(order.folder / f"{case.name}.md", page_text(page))
-    seconds = clock.perf_counter() - start
-    return Outcome(case.name, page.verdict, tuple(page.checks), tuple(page.balances), tuple(page.studies), seconds)
+    outcome = Outcome(
+        name=case.name,
+        verdict=page.verdict,
+        checks=tuple(CheckRecord.of(check) for check in page.checks),
+        balance=worst_balance(page.balances) if page.balances else None,
+        studies=tuple(page.studies),
+        versions=_made_with(),
+        seconds=clock.perf_counter() - start,
+    )
+    store(order.folder, outcome)
+    return outcome
 
 
 def run_cases(
@@ -106,7 +117,7 @@ def run_cases(
     processes: int | None = None,
     tick: Callable[[str, float], None] = lambda what, done: None,
 ) -> dict[str, Outcome]:
-    """Run cases and write their pages; if all cases are run, also the summary.
+    """Run cases and write their pages; then write the pages of all cases from what is stored of this run and others.
 
     Parameters
     ----------
@@ -131,12 +142,13 @@ def run_cases(
     InvalidValue
         If there is no such case, or the number of processes is less than 1.
     FileProblem
-        If the folder cannot be made.
+        If the folder cannot be made, or results in it cannot be read.
     """
     check_processes(processes)
     selected = chosen(names)
     try:
-        (folder / "images").mkdir(parents=True, exist_ok=True)
+        for kind in ("images", RESULTS):
+            (folder / kind).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise write_problem(folder, error, what="the folder cannot be made") from error
     orders = [Order(case.name, folder, short) for case in selected]
@@ -149,17 +161,30 @@ def run_cases(
         processes=1 if alone else processes,
         tick=(lambda done: None) if alone else partial(tick, "cases"),
     )
-    outcomes = {outcome.name: outcome for outcome in found}
-    if set(outcomes) == set(cases()):
-        write_text(folder / "README.md", summary_text(chapters(), outcomes))
-        write_text(folder / "balance.md", balance_page(chapters(), outcomes))
-        write_text(folder / "which-element.md", which_element_text(outcomes))
-        write_text(folder / "errata.md", errata_text(outcomes))
-    return outcomes
+    for page, text in pages_of_all(folder).items():
+        write_text(folder / page, text)
+    return {outcome.name: outcome for outcome in found}
+
+
+def pages_of_all(folder: Path) -> dict[str, str]:
+    """The pages of all cases, by file, from the results that are stored in the folder of the book."""
+    outcomes = stored(folder, cases())
+    return {
+        "README.md": summary_text(chapters(), outcomes),
+        "balance.md": balance_page(chapters(), outcomes),
+        "which-element.md": which_element_text(outcomes),
+        "errata.md": errata_text(outcomes),
+    }
 
 
 def _failed(order: Order, error: Exception) -> Outcome:
     """A red case; its page gives the reason and replaces the old one."""
     message = str(error) if isinstance(error, UmformError) else f"{type(error).__name__}: {error}"
     write_text(order.folder / f"{order.name}.md", failed_text(cases()[order.name], message))
-    return Outcome(order.name, Verdict.RED, failure=message)
+    outcome = Outcome(order.name, Verdict.RED, failure=message, versions=_made_with())
+    store(order.folder, outcome)
+    return outcome
+
+
+def _made_with() -> str:
+    return ", ".join(f"{name} {version}" for name, version in versions().items() if name != "platform")

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def verify(
     case: Annotated[list[str] | None, typer.Argument(help="Names of cases; without them, list all.")] = None,
-    everything: Annotated[bool, typer.Option("--all", help="Run all cases and write the summary.")] = False,
+    everything: Annotated[bool, typer.Option("--all", help="Run all cases.")] = False,
     short: Annotated[bool, typer.Option("--short", help="Run the short meshes only.")] = False,
     out: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder for the pages.")] = Path("results/verification"),
     processes: Annotated[int | None, typer.Option(help="Cases at a time; default: the processors.")] = None,
@@ -23,7 +23,7 @@ def verify(
     verbose: Verbose = 0,
     debug: Debug = False,
 ) -> None:
-    """Run cases of the verification book, write their pages, and show them.
+    """Run cases of the verification book, write their pages and the summary of all, and show them.
 
     A red verdict ends with exit code 1.
     """

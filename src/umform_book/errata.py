@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from umform_book.checks import Check, Verdict
+from umform_book.checks import Verdict
 from umform_book.markdown import folded
-from umform_book.outcome import Outcome
+from umform_book.outcome import CheckRecord, Outcome
 from umform_book.writing import worst
 
 _LIMITS = """\
@@ -31,7 +31,7 @@ def errata_text(outcomes: Mapping[str, Outcome]) -> str:
     failed = ", ".join(outcome.name for outcome in outcomes.values() if outcome.failure)
     parts = [
         "# Known defects",
-        "All checks of the last run that miss, by page and cause, with the worst of each cause.",
+        "All checks of the last runs that miss, by page and cause, with the worst of each cause.",
         "## Misses",
         _by_page(outcomes, (Verdict.AMBER, Verdict.RED)) or "None.",
         f"Without a result, because the run failed: {failed}." if failed else "",
@@ -48,7 +48,7 @@ def _by_page(outcomes: Mapping[str, Outcome], verdicts: Sequence[Verdict]) -> st
     """A list of pages; below each, a line for each cause."""
     lines = []
     for outcome in outcomes.values():
-        causes: dict[str, list[Check]] = {}
+        causes: dict[str, list[CheckRecord]] = {}
         for check in outcome.checks:
             if check.verdict in verdicts:
                 causes.setdefault(check.note, []).append(check)
@@ -58,7 +58,7 @@ def _by_page(outcomes: Mapping[str, Outcome], verdicts: Sequence[Verdict]) -> st
     return "\n".join(lines)
 
 
-def _line(cause: str, checks: Sequence[Check]) -> str:
+def _line(cause: str, checks: Sequence[CheckRecord]) -> str:
     """The worst check of a cause, how many there are, and the cause."""
     check = worst(checks)
     assert check is not None

@@ -2,11 +2,50 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from umform_book.balance import BalanceRow
 from umform_book.checks import Check, Verdict
 from umform_book.page import StudyRecord
+
+
+@dataclass(frozen=True)
+class CheckRecord:
+    """A check as its page prints it.
+
+    Attributes
+    ----------
+    what, reference, found, deviation, limit : str
+        Its row in the table of checks.
+    verdict : Verdict
+        Its verdict.
+    share : float
+        Deviation over the largest one that passes, in four digits; infinite for a miss of what must be exact.
+    note : str
+        Why it is not green.
+    """
+
+    what: str
+    reference: str
+    found: str
+    deviation: str
+    limit: str
+    verdict: Verdict
+    share: float
+    note: str = ""
+
+    @classmethod
+    def of(cls, check: Check) -> CheckRecord:
+        """The record of a check."""
+        share = float(f"{round(check.share, 4):.4g}") if math.isfinite(check.share) else math.inf
+        what, reference, found, deviation, limit, _ = check.cells()
+        return cls(what, reference, found, deviation, limit, check.verdict, share, check.note)
+
+    @property
+    def miss(self) -> str:
+        """The deviation as it is printed: that from zero stands as the number itself."""
+        return self.found if self.deviation == "-" else self.deviation
 
 
 @dataclass(frozen=True)
@@ -19,22 +58,25 @@ class Outcome:
         The case.
     verdict : Verdict
         Its verdict.
-    checks : tuple of Check
+    checks : tuple of CheckRecord
         Its checks.
-    balances : tuple of BalanceRow
-        Balance of each nonlinear run.
+    balance : dict of str to str, optional
+        The worst balance of its nonlinear runs, by column of the page of all balances.
     studies : tuple of StudyRecord
         Numbers of each element on each mesh.
-    seconds : float
-        Wall time of the run.
     failure : str
         Why the run failed; empty if it did not.
+    versions : str
+        Software that made it.
+    seconds : float
+        Wall time of the run; not stored.
     """
 
     name: str
     verdict: Verdict
-    checks: tuple[Check, ...] = ()
-    balances: tuple[BalanceRow, ...] = ()
+    checks: tuple[CheckRecord, ...] = ()
+    balance: Mapping[str, str] | None = None
     studies: tuple[StudyRecord, ...] = ()
-    seconds: float = 0.0
     failure: str = ""
+    versions: str = ""
+    seconds: float = 0.0

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from textwrap import shorten
 
-from umform.report.versions import versions
 from umform_book.case import Case, Chapter
-from umform_book.checks import Check, Verdict
+from umform_book.checks import Verdict
 from umform_book.markdown import markdown_table
-from umform_book.outcome import Outcome
+from umform_book.outcome import CheckRecord, Outcome
 from umform_book.writing import worst
 
 #: Characters of the phrase for the worst check.
@@ -37,7 +36,7 @@ def summary_text(chapters: Sequence[Chapter], outcomes: Mapping[str, Outcome]) -
     green = sum(check.verdict is Verdict.GREEN for check in checks)
     parts = [
         "# Verification book",
-        f"**{len(outcomes)} cases: {counts}.** {green} of {len(checks) - expected} checks hold; "
+        f"**{_number(chapters, outcomes)}: {counts}.** {green} of {len(checks) - expected} checks hold; "
         f"{expected} more fail as theory predicts.",
         _INTRODUCTION,
     ]
@@ -46,9 +45,17 @@ def summary_text(chapters: Sequence[Chapter], outcomes: Mapping[str, Outcome]) -
         if rows:
             table = markdown_table(("case", "", "of limit", "worst check"), rows)
             parts += [f"## {chapter.title}", chapter.about, table]
-    used = ", ".join(f"{name} {version}" for name, version in versions().items() if name != "platform")
-    parts += [f"\\* umform computed the reference or a part of it; the page says which.\n\nMade with {used}."]
+    used = "; ".join(dict.fromkeys(outcome.versions for outcome in outcomes.values() if outcome.versions))
+    parts += ["\\* umform computed the reference or a part of it; the page says which."]
+    parts += [f"Made with {used}."] if used else []
     return "\n\n".join(parts) + "\n"
+
+
+def _number(chapters: Sequence[Chapter], outcomes: Mapping[str, Outcome]) -> str:
+    """How many cases there are, and how many of them have been run."""
+    number = sum(len(chapter.cases) for chapter in chapters)
+    cases = f"{number} case{'s' * (number > 1)}"
+    return cases if len(outcomes) == number else f"{len(outcomes)} of {cases}"
 
 
 def _row(case: Case, outcome: Outcome) -> tuple[str, str, str, str]:
@@ -62,7 +69,7 @@ def _row(case: Case, outcome: Outcome) -> tuple[str, str, str, str]:
     return name, sign, _share(check), shorten(check.what, _PHRASE, placeholder=" ...").replace("|", "/")
 
 
-def _share(check: Check) -> str:
+def _share(check: CheckRecord) -> str:
     """Deviation over its limit."""
     if check.share > _FAR:
         return f"> {100 * _FAR:.0f} %"

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 from umform.io.atomic import PendingFile
 from umform_book.balance_tables import balance_line, balance_table
 from umform_book.case import Case
 from umform_book.checks import Check, Verdict
 from umform_book.markdown import folded, markdown_table
+from umform_book.outcome import CheckRecord
 from umform_book.page import Page
+
+Judged = TypeVar("Judged", Check, CheckRecord)
 
 
 def write_text(path: Path, text: str) -> None:
@@ -58,13 +62,13 @@ def counted(checks: Sequence[Check]) -> str:
     return f"{green} of {len(checks) - expected} checks hold{failures}"
 
 
-def worst(checks: Iterable[Check]) -> Check | None:
+def worst(checks: Iterable[Judged]) -> Judged | None:
     """The check that misses most, or is nearest to its limit; expected failures count only if nothing else is there.
 
     Round-off does not choose: of checks far inside of their limits, the first one counts.
     """
 
-    def badness(check: Check) -> tuple[bool, Verdict, float]:
+    def badness(check: Judged) -> tuple[bool, Verdict, float]:
         return check.verdict is not Verdict.EXPECTED, check.verdict, max(round(check.share, 3), 0.01)
 
     return max(checks, key=badness, default=None)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,7 +18,7 @@ from umform_book.errata import errata_text
 from umform_book.linear_algebra import linear_solution
 from umform_book.markdown import unfolded
 from umform_book.newton_order import NewtonOrder
-from umform_book.outcome import Outcome
+from umform_book.outcome import CheckRecord, Outcome
 from umform_book.page import Page, StudyRecord
 from umform_book.variants import SEVEN, VARIANTS, Variant
 from umform_book.which_element import which_element_text
@@ -101,11 +100,6 @@ def test_cases_whose_reference_says_that_it_is_our_own_are_marked():
                 assert case.own, case.name
 
 
-def test_the_summary_is_written_for_the_whole_book_only(small_book, tmp_path):
-    book.run_cases(["bar-stretched"], tmp_path, short=True)
-    assert not (tmp_path / "README.md").exists()
-
-
 def test_verdict_and_picture_stand_first_and_long_tables_are_folded(tmp_path):
     page = Page(STRETCHED, tmp_path)
     stretched(page)
@@ -149,27 +143,12 @@ def test_an_expected_failure_leaves_a_page_green_and_is_listed():
     assert "**🟢 green** · 1 of 1 checks hold, 1 expected failure ·" in text
     assert "Expected failures: 1" in text
     assert "1. it locks (MacNeal 1987)" in text
-    outcome = Outcome("bar", page.verdict, tuple(page.checks))
+    outcome = Outcome("bar", page.verdict, tuple(CheckRecord.of(check) for check in page.checks))
     errata = errata_text({"bar": outcome})
     assert errata.index("None.") < errata.index("## Expected failures") < errata.index("locks: -30.00 %, limit 10 %")
     page.check("locks no more", 0.99, 1.0, 0.1, **theory)
     assert page.verdict is Verdict.AMBER
     assert "passes, but theory predicts a failure: it locks (MacNeal 1987)" in page_text(page)
-
-
-def test_the_readme_reads_its_numbers_from_folded_tables(tmp_path, monkeypatch):
-    path = Path(__file__).parents[2] / "tools" / "readme_numbers.py"
-    spec = importlib.util.spec_from_file_location("readme_numbers", path)
-    numbers = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(numbers)
-    page = Page(STRETCHED, short=True)
-    for number in range(12):
-        page.check(f"load {number}", 1.01, 1.0, 0.1)
-    page.check("poor", 1.3, 1.0, 0.1, known=0.5, cause="the mesh")
-    (tmp_path / "bar.md").write_text(page_text(page), encoding="utf-8")
-    monkeypatch.setattr(numbers, "BOOK", tmp_path)
-    assert numbers.rows("bar")["load 11"] == ["1", "1.01", "+1.00 %"]
-    assert numbers.rows("bar")["poor"] == ["1", "1.3", "+30.00 %"]
 
 
 def test_round_off_does_not_choose_the_worst_check():
@@ -222,10 +201,11 @@ def test_advice_counts_the_problems_that_an_element_meets():
     studies = (study("scordelis-lo", 0.99, 0.9), study("nonlinear-hemisphere", 0.9, 0.99), study("plastic-tube", 1, 1))
     studies += (StudyRecord("pinched-cylinder", "of one of them alone", {"ANS3DEAS, E_33 tied": {8: 1.0}}),)
     checks = Check("right", 1.0, 1.0, 0.01), Check("known", 1.1, 1.0, 0.01, known=0.2, cause="that is why")
+    records = tuple(CheckRecord.of(check) for check in checks)
     told = which_element_text(
         {
             "any": Outcome("any", Verdict.GREEN, studies=studies),
-            "bend-stability": Outcome("bend-stability", Verdict.AMBER, checks=checks),
+            "bend-stability": Outcome("bend-stability", Verdict.AMBER, records),
         }
     )
     assert "| MI9K3DEAS, E_33 tied: 2 of 2, 12 intervals; ANS3DEAS, E_33 tied: 1 of 2, 8 intervals |" in told

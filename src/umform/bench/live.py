@@ -115,7 +115,7 @@ class BendTold:
         self._trials += back and not self._back
         self._back = back
         stroke = result["stroke"]
-        force = force_per_width(brake.case, -result["stroke_force"])
+        force = force_per_width(brake.case, result["stroke_force"])
         thin = max(1, -(-len(stroke) // _MOST))
         return {
             "phase": "unloading" if back else "loading",

@@ -45,7 +45,7 @@ class StripTold:
         if number < len(bends):
             strip = strip.at(bends[number].position, over=bends[number].over)
         stroke = run.result["stroke"]
-        force = -run.result["stroke_force"] / self.sequence.sheet.thickness
+        force = run.result["stroke_force"] / self.sequence.sheet.thickness
         thin = max(1, -(-len(stroke) // _MOST))
         back = len(stroke) > 1 and bool(stroke[-1] < stroke[-2])
         return {

@@ -136,7 +136,7 @@ def _show(outcome: Outcome, out: Path, options: Mapping[str, str], *, timing: bo
     from rich import box
     from rich.table import Table
 
-    from umform.processes.bending.table import header, rows
+    from umform.processes.bending.table import header, legend, rows
     from umform.report.repeats import counted
 
     table = Table(title="Free bending of a strip over a cylinder", box=box.SIMPLE_HEAD)
@@ -146,6 +146,8 @@ def _show(outcome: Outcome, out: Path, options: Mapping[str, str], *, timing: bo
         table.add_row(*row)
     screen = console()
     screen.print(table)
+    for line in legend(outcome.runs):
+        screen.print(line)
     screen.print(RECONSTRUCTION)
     screen.print(f"Written to {out}: {', '.join(file.name for file in outcome.files)}", soft_wrap=True)
     if timing:

@@ -19,6 +19,9 @@ from umform.cli.warnings import echo_warnings, print_warnings_once
 from umform.errors import FileProblem, UmformError
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
+    from umform.deck.measured import Taken
     from umform.deck.running import Outcome
 
 Every = Annotated[float, typer.Option(metavar="SECONDS", help="Seconds between checkpoints; 0: after each increment.")]
@@ -100,12 +103,29 @@ def show(outcome: Outcome) -> None:
         screen.print(part, soft_wrap=True)
     for name, said in penetrations(result.model, result).items():
         screen.print(f"contact {name}: {said}", soft_wrap=True, markup=False)
+    show_measures(outcome.taken, screen)
     for event in result.events:
         screen.print(event, soft_wrap=True, markup=False)
     if outcome.files:
         names = ", ".join(file.name for file in outcome.files)
         screen.print(f"Written to {outcome.files[0].parent}: {names}", soft_wrap=True, markup=False)
     echo_warnings(result.warnings)
+
+
+def show_measures(taken: Taken, screen: Console) -> None:
+    """The table of the measures."""
+    from rich import box
+    from rich.table import Table
+
+    if not taken.measures:
+        return
+    header, *rows = taken.table
+    table = Table(box=box.SIMPLE_HEAD)
+    for name in header:
+        table.add_column(name, justify="right" if name in ("formed", "released") else "left", no_wrap=True)
+    for row in rows:
+        table.add_row(*row)
+    screen.print(table, soft_wrap=True)
 
 
 def end(outcome: Outcome) -> None:

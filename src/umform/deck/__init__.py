@@ -5,8 +5,9 @@
 
 from __future__ import annotations
 
-import importlib
 from typing import TYPE_CHECKING
+
+from umform.first_use import at_first_use
 
 if TYPE_CHECKING:
     from umform.deck.contents import Contents
@@ -26,11 +27,5 @@ _HOME = {
     "load": "deck",
 }
 
-
-def __getattr__(name: str) -> object:
-    """Import a name when it is first used, so that the command line starts quickly."""
-    if name not in _HOME:
-        raise AttributeError(f"module 'umform.deck' has no attribute {name!r}")
-    value = getattr(importlib.import_module(f"umform.deck.{_HOME[name]}"), name)
-    globals()[name] = value
-    return value
+# The command line starts quickly.
+__getattr__ = at_first_use(__name__, _HOME)

@@ -19,9 +19,11 @@ from umform.deck.errors import DeckError, DeckKey
 from umform.deck.parts import Name, Part
 from umform.deck.profiles import ProfilePart, profile_of
 from umform.deck.source import Source
-from umform.errors import FileProblem
+from umform.errors import FileProblem, InvalidValue
 from umform.io.trees import read_tree, write_tree
 from umform.model import Model, Snapshot
+from umform.model.contact import Contact
+from umform.model.contact.kept import KeptContact
 from umform.model.trim import Trim
 
 #: Tables of the previous deck.
@@ -39,6 +41,9 @@ class Before(Part):
     control: Name
     """Name of the control, of value 1, of the unbalanced forces: those of tools and supports of that operation, and of
     removed metal. Steps move it to 0."""
+    keep: list[Name] = []
+    """Names of contacts with friction of that deck and of this one whose points keep their friction: tools that stay
+    where they stood."""
 
     def restore(self, model: Model, folder: File, tables: Mapping[str, Any]) -> None:
         """Restore a model, built from the data of a deck, to the state.
@@ -76,6 +81,50 @@ class Before(Part):
             )
         model.restore(Snapshot(tree["u"], tree["time"], terms=tree["bodies"], began=tree["began"]))
 
+    def kept(self, folder: File) -> dict[str, KeptContact]:
+        """The friction of the contacts that keep it.
+
+        Raises
+        ------
+        FileProblem
+            If the state does not have them.
+        """
+        found = read_tree(folder / self.state, _KIND).get("contacts", {}) if self.keep else {}
+        if missing := [name for name in self.keep if name not in found]:
+            raise FileProblem(
+                "the state has no contact with friction of this name",
+                where=str(folder / self.state),
+                value=", ".join(missing),
+                cause="another name, a contact without friction, or a state of an older program",
+                remedy="one of " + ", ".join(found) if found else f"friction in the contacts of {self.deck}",
+            )
+        return {
+            name: KeptContact(
+                np.asarray(found[name]["faces"]), found[name]["history"], json.loads(found[name]["names"])
+            )
+            for name in self.keep
+        }
+
+    def keep_friction(self, model: Model, kept: Mapping[str, KeptContact], contacts: Mapping[str, Contact]) -> None:
+        """Give contacts of the present deck the friction that they keep.
+
+        Raises
+        ------
+        InvalidValue
+            If one is missing, or has other points.
+        """
+        for name, friction in kept.items():
+            if name not in contacts:
+                raise InvalidValue(
+                    "the deck has no contact that keeps its friction",
+                    where="keep",
+                    value=name,
+                    remedy="one of " + (", ".join(contacts) or "none: there is no contact"),
+                )
+            model.evaluate(model.x)
+            contacts[name].begin()
+            friction.put(contacts[name])
+
 
 class Cut(Part):
     """A cut along a line."""
@@ -87,17 +136,26 @@ class Cut(Part):
     """Direction of the view: the coordinates of the line are y, z; x, z; or x, y."""
     formed: bool = True
     """Whether the line lies on the formed part, or on the flat blank."""
+    edge: Literal["line", "elements"] = "line"
+    """Whether the new edge lies on the line, by new elements that take their state from the sheet, or follows edges of
+    elements."""
 
     def build(self, folder: File) -> Trim:
         """The cut."""
-        return Trim(profile_of(self.line, folder), self.view, self.formed)
+        return Trim(profile_of(self.line, folder), self.view, self.formed, self.edge)
 
 
 def write_state(model: Model, path: File, tables: Mapping[str, Any]) -> None:
     """Write displacements, the history of all bodies, and the data of this deck, for the next operation."""
     state = model.snapshot()
     bodies = {body.key: state.terms[body.key] for body in model.bodies}
+    rubbed = {pair.name: KeptContact.of(pair) for pair in model.pairs_of_tools() if pair.rubs}
+    contacts = {
+        name: {"faces": kept.faces, "history": kept.history, "names": json.dumps(kept.names)}
+        for name, kept in rubbed.items()
+    }
     tree = {"points": model.mesh.points, "u": state.u, "time": state.time, "began": state.began, "bodies": bodies}
+    tree |= {"contacts": contacts} if contacts else {}
     write_tree(path, {**tree, "tables": _written(tables)}, _KIND)
 
 

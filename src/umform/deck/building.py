@@ -12,6 +12,7 @@ from umform.deck.contents import Contents
 from umform.deck.drawn_tools import Profiled
 from umform.deck.errors import DeckError
 from umform.deck.foreign import Foreign
+from umform.deck.measure_checks import check_measures
 from umform.deck.metal import J2, Metal
 from umform.deck.outline import Outlined
 from umform.deck.places import Place
@@ -28,6 +29,7 @@ from umform.materials import Material
 from umform.mesh import Mesh
 from umform.model import Model
 from umform.model.contact import Contact
+from umform.model.contact.kept import KeptContact
 from umform.model.control import Control
 from umform.model.support import Support
 from umform.solution.newton import Newton
@@ -87,6 +89,7 @@ class _Builder:
     errors: list[UmformError] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     sizes: ToolSizes | None = None
+    kept: dict[str, KeptContact] = field(default_factory=dict)
 
     def problem(self) -> Problem:
         tools = self._tools
@@ -97,11 +100,12 @@ class _Builder:
         supports = self._supports(model, rigid=False)
         controls = self._controls(model, contacts)
         supports |= self._supports(model, rigid=True)
-        controls |= self._missing_forces(model, supports)
+        controls |= self._missing_forces(model, supports, contacts)
         self._rest(model)
         options = self._options(model)
         self._raise()
         steps = self._steps(Named(controls, supports, contacts))
+        check_measures(self.contents, model, self._at)
         self._raise()
         return Problem(
             model=model,
@@ -141,15 +145,19 @@ class _Builder:
         with self._at("before"):
             model = self.before.sheet()
             part.restore(model, folder, self.source.data)
+            self.kept = part.kept(folder)
             for number, cut in enumerate(self.contents.trim):
                 with self._at("trim", number):
                     left = cut.build(folder).of(model)
                     self.notes.append(f"trim {number + 1}: {left}")
                     model = left.model
+                    self.kept = {name: kept.left(left.cells, left.same) for name, kept in self.kept.items()}
             return model
         return None
 
-    def _missing_forces(self, model: Model, supports: dict[str, Support]) -> dict[str, Control]:
+    def _missing_forces(
+        self, model: Model, supports: dict[str, Support], contacts: dict[str, Contact]
+    ) -> dict[str, Control]:
         """Unbalanced forces of removed tools, supports and metal; supports that no step activates are activated now."""
         part = self.contents.before
         if part is None or self.errors:
@@ -159,6 +167,7 @@ class _Builder:
             for name, support in supports.items():
                 if support.waits and name not in named:
                     model.put_back(support)
+            part.keep_friction(model, self.kept, contacts)
             return {part.control: model.unbalanced(part.control)}
         return {}
 
@@ -190,8 +199,9 @@ class _Builder:
             return None
         below, above = ([tools[tool] for tool, on in sorted(touching) if on == side] for side in ("lower", "upper"))
         self.sizes = part.sizes(below, above, folder)
-        self.notes.append(f"mesh: {self.sizes}")
-        return part.build(cell, folder, self.sizes)
+        made = part.build(cell, folder, self.sizes)
+        self.notes.append(f"mesh: {self.sizes.on(made)}")
+        return made
 
     def _rolling(self) -> Rolling | None:
         """The rolling direction of a metal that has one."""

@@ -13,9 +13,10 @@ from umform.deck.contacts import ContactPart
 from umform.deck.controls import ControlPart
 from umform.deck.element import ElementPart
 from umform.deck.material import MaterialPart
+from umform.deck.measures import AnyMeasure
 from umform.deck.mesh import MeshPart
 from umform.deck.parts import Name, Part
-from umform.deck.settings import Output, Solution
+from umform.deck.settings import Output, Solution, Units
 from umform.deck.steps import StepPart
 from umform.deck.supports import Support
 from umform.deck.tools import ToolPart
@@ -46,6 +47,10 @@ class Contents(Part):
     """Supports."""
     controls: dict[Name, ControlPart] = {}
     """Quantities that steps move, by name: displacements, loads, tools; the names are history columns."""
+    measures: dict[Name, AnyMeasure] = {}
+    """Measures of the part by name; the names are those of files and fields."""
+    units: Units = Units()
+    """Names of the units."""
     steps: Annotated[list[StepPart], Field(min_length=1)]
     """Steps of the run, in order."""
     solution: Solution = Solution()

@@ -135,7 +135,7 @@ class _OfTool(Part):
 
 
 class Drive(_OfTool):
-    """Translation of the tool of a contact; its force is that of the sheet on the tool."""
+    """Translation of the tool of a contact; its force is that of the tool on the sheet, along the direction."""
 
     kind: Literal["tool"]
     """The word tool."""
@@ -148,7 +148,7 @@ class Drive(_OfTool):
 
 
 class Turn(_OfTool):
-    """Rotation of the tool of a contact about an axis, in radians; its force is the moment of the sheet on the tool."""
+    """Rotation of the tool of a contact about an axis, in radians; its force is the moment of the tool on the sheet."""
 
     kind: Literal["turn"]
     """The word turn."""

@@ -43,6 +43,10 @@ def references(data: dict[str, Any]) -> Iterator[tuple[str, str, Path]]:
                 if isinstance(other := _table(part, "gap").get("to"), str):
                     yield "contacts", other, (kind, name, "gap", "to")
                 yield from _listed(part, "followers", "contacts", (kind, name))
+    for name, measure in _table(data, "measures").items():
+        for key in ("tool", "control"):
+            if isinstance(measure, dict) and isinstance(measure.get(key), str):
+                yield f"{key}s", measure[key], ("measures", name, key)
     steps = data.get("steps")
     for number, step in enumerate(steps if isinstance(steps, list) else []):
         if not isinstance(step, dict):

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 
 from umform.deck.before import write_state
 from umform.deck.deck import Deck
+from umform.deck.measured import TABLE, Taken, data_files, picture_files
 from umform.deck.problem import Problem
 from umform.errors import UmformError
 from umform.io.atomic import write_problem
@@ -38,30 +40,40 @@ COPY = "as-run.toml"
 CHECKPOINT = "checkpoint.h5"
 #: Final state, with which the deck of the next operation begins.
 STATE = "state.h5"
-_DATA = ("history.csv", "fields.vtkhdf", "fields.csv", STATE)
+_DATA = ("history.csv", "fields.vtkhdf", "fields.csv", STATE, TABLE)
 _PAGE = ("report.html", "curve.png", "shape.png", "limits.png")
 FILES = (*_DATA, *_PAGE, COPY)
 #: Files that mark a folder as that of a run.
 RESULTS = (*FILES, CHECKPOINT)
 
 
-def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole: bool) -> list[Path]:
+@dataclass(frozen=True)
+class Written:
+    """The files of a run, and its measures."""
+
+    files: list[Path]
+    taken: Taken
+
+
+def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole: bool) -> Written:
     """Write the files that the deck asks for; data files are complete before pictures are drawn.
 
     With ``whole`` False the run ended early: its state is not written, since no operation may begin with it.
     """
     wanted, waiting, text = deck.contents.output, stage.waiting, as_run(deck)
+    taken = Taken.of(deck, problem, result, complete=whole)
     (waiting / COPY).write_text(text, encoding="utf-8")
     forming = _Forming.of(result, wanted.forming_limit) if wanted.forming or wanted.forming_limit is not None else None
     if forming is not None and wanted.csv:
         forming.write(waiting / "fields.csv", result)
     if wanted.csv:
         result.write(waiting / "history.csv")
+        taken.write(waiting)
     if wanted.vtkhdf:
         result.write(waiting / "fields.vtkhdf")
     if wanted.state and whole:
         write_state(problem.model, waiting / STATE, deck.source.data)
-    files = stage.commit([COPY, *_DATA])
+    files = stage.commit([COPY, *_DATA, *data_files(waiting, stage.folder)])
     if wanted.pictures:
         from umform.deck.pictures import draw_curve, draw_shape  # matplotlib loads slowly
         from umform.plotting import save
@@ -70,13 +82,14 @@ def write(deck: Deck, problem: Problem, result: Result, stage: Staging, *, whole
         draw_shape(result, waiting / "shape.png")
         if forming is not None:
             save(forming.diagram, waiting / "limits.png", dpi=120)
+        taken.draw(waiting)
     if wanted.report:
         from umform.report.page import write_report
 
         metal = getattr(deck.contents.material, "note", "")
-        more = () if forming is None else forming.parts()
+        more = chain(taken.parts(), () if forming is None else forming.parts())
         write_report(result, waiting / "report.html", deck=text, title=deck.contents.title, note=metal, more=more)
-    return [*files, *stage.commit(_PAGE)]
+    return Written([*files, *stage.commit([*_PAGE, *picture_files(waiting, stage.folder)])], taken)
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TypeVar
@@ -13,6 +13,7 @@ from umform.deck.check import before_run
 from umform.deck.deck import Deck
 from umform.deck.findings import accept
 from umform.deck.kept import Kept
+from umform.deck.measured import Taken
 from umform.deck.problem import Problem, Solving
 from umform.deck.results import CHECKPOINT, FILES, RESULTS, says_what_is_kept, write, written_at
 from umform.errors import UmformError
@@ -39,12 +40,15 @@ class Outcome:
         Cause of an early end; None otherwise.
     checkpoint : Path or None
         File to resume the run from; None if there is none.
+    taken : Taken
+        The measures that the deck asks for.
     """
 
     result: Result
     files: list[Path]
     ended_by: BaseException | None
     checkpoint: Path | None = None
+    taken: Taken = field(default_factory=Taken)
 
 
 def folder_of(deck: Deck) -> Path:
@@ -260,11 +264,12 @@ def _written(kept: Kept, problem: Solving, out: Path, checkpoint: Path, solve: C
         with result.timing.files, says_what_is_kept(stage, checkpoint, before):
             if stage.make_again():
                 result.warn(f"the folder {out} was removed during the run; it was made again")
-            files = write(kept.deck, problem, result, stage, whole=ended_by is None)
+            written = write(kept.deck, problem, result, stage, whole=ended_by is None)
         over = ended_by is None or isinstance(ended_by, UmformError)
         if over and checkpoint.resolve() == (kept.out / CHECKPOINT).resolve():
             checkpoint.unlink(missing_ok=True)
-    return Outcome(result, files, ended_by, None if over or not checkpoint.exists() else checkpoint)
+    left = None if over or not checkpoint.exists() else checkpoint
+    return Outcome(result, written.files, ended_by, left, written.taken)
 
 
 def _solved(solve: Callable[[], Result]) -> tuple[Result, BaseException | None]:

@@ -41,6 +41,15 @@ class Solution(Part):
         return NewtonOptions(**self.model_dump(exclude={"solver", "rest"}))
 
 
+class Units(Part):
+    """Names of the units of a deck in tables and pictures of its measures; nothing is converted."""
+
+    length: str = ""
+    """Name of the unit of length."""
+    force: str = ""
+    """Name of the unit of force."""
+
+
 class Output(Part):
     """Output files and folder."""
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import importlib
 from typing import TYPE_CHECKING
+
+from umform.first_use import at_first_use
 
 if TYPE_CHECKING:
     from umform.io.atomic import PendingFile
@@ -31,11 +32,5 @@ _HOME = {
     "write_mesh_arrays": "meshes",
 }
 
-
-def __getattr__(name: str) -> object:
-    """Import a name when it is first used: a table needs neither meshio nor h5py, whose imports are slow."""
-    if name not in _HOME:
-        raise AttributeError(f"module 'umform.io' has no attribute {name!r}")
-    value = getattr(importlib.import_module(f"umform.io.{_HOME[name]}"), name)
-    globals()[name] = value
-    return value
+# A table needs neither meshio nor h5py, whose imports are slow.
+__getattr__ = at_first_use(__name__, _HOME)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import pairwise
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,9 @@ _Point = tuple[float, float]
 #: Largest angle of an arc of the outline or of a hole that an element spans, and the growth of the sizes away from it.
 _SPAN, _GROWTH = math.radians(30.0), 0.5
 
+#: Largest number of meshes until sizes are met.
+_ROUNDS = 15
+
 
 class Closed(Protocol):
     """A closed curve: :class:`umform.surfaces.Profile`."""
@@ -33,6 +36,17 @@ class Closed(Protocol):
     @property
     def closed(self) -> bool:
         """Whether the end of the last one is the start of the first one."""
+
+
+@runtime_checkable
+class Refinable(Protocol):
+    """Sizes that know whether a mesh meets them: :class:`umform.surfaces.ToolSizes`."""
+
+    def __call__(self, x: float, y: float) -> float:
+        """Size at a place."""
+
+    def refined(self, mesh: Mesh) -> Refinable | None:
+        """Smaller sizes where the elements of a mesh are too large; None if there are none."""
 
 
 def blank(
@@ -54,7 +68,8 @@ def blank(
         Of the sheet.
     size : float or callable
         Length of the sides of elements, or a function (x, y) -> length. Near arcs it is smaller where an element would
-        span more than 30 degrees.
+        span more than 30 degrees. gmsh misses sizes by a factor of up to 1.5 (it recombines triangles, then halves the
+        quadrilaterals); :class:`umform.surfaces.ToolSizes` are refined until the elements of the mesh meet them.
     holes : sequence of Profile
         Closed curves inside of it.
     cell : {"hex8", "hex18"}
@@ -82,6 +97,23 @@ def blank(
     for curve in (outline, *holes):
         if not curve.closed:
             raise InvalidValue("the outline of a blank is closed", where="blank", remedy="Profile(..., closed=True)")
+    for _ in range(_ROUNDS):
+        made = _blank(outline, thickness, size, holes, cell, layers)
+        if not isinstance(size, Refinable) or (smaller := size.refined(made)) is None:
+            break
+        size = smaller
+    return made
+
+
+def _blank(
+    outline: Closed,
+    thickness: float,
+    size: float | Callable[[float, float], float],
+    holes: Sequence[Closed],
+    cell: str,
+    layers: int,
+) -> Mesh:
+    """The blank of :func:`blank` for sizes that are not refined."""
     order = order_of(cell)
     with _gmsh() as gmsh:
         edges = [_loop(gmsh, curve) for curve in (outline, *holes)]

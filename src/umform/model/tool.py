@@ -31,6 +31,10 @@ Pose = tuple[Floats, Floats]
 #: time -> translation (3,), or (translation (3,), rotation vector (3,)) about the tool's reference point.
 Motion = Callable[[float], Floats | tuple[Floats, Floats]]
 
+#: Rotation of a tool that has not turned.
+_UPRIGHT = np.eye(3)
+_UPRIGHT.setflags(write=False)
+
 
 class Tool(Term):
     """A rigid tool; made by :meth:`umform.Model.tool`, or by :meth:`umform.Model.contact` for one pair.
@@ -95,7 +99,7 @@ class Tool(Term):
 
         Rotations are applied first, in the order of their definition, then translations and the motion in time.
         """
-        shift, rotation = np.zeros(3), np.eye(3)
+        shift, rotation = np.zeros(3), _UPRIGHT
         for control in self.ways:
             if isinstance(control, ToolMotion):
                 shift += values[control] * np.asarray(control.direction)
@@ -180,7 +184,7 @@ class Tool(Term):
         seen = _Seen(into.residual, into.found, at.values, at.time)
         for press in self._finding():
             k, way = border.number(press.unknown), press.way
-            takes, slope = press.takes(at.values[way], way.force(seen, into.ranks))
+            takes, slope = press.takes(at.values[way], way.of_sheet(seen, into.ranks))
             border.residual[k] = takes - at.values[press.force]
             if press.rigid and (force := bear(press, at, into)) is not None:
                 borne[press.force.name] = force

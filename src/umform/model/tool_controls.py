@@ -23,7 +23,10 @@ Floats = NDArray[np.float64]
 
 @dataclass(eq=False, repr=False)
 class ToolWay(Control):
-    """A rigid motion of a tool, and of the tools that follow it; its force is that of the sheet on all of them.
+    """A rigid motion of a tool, and of the tools that follow it; its force is that of all of them on the sheet.
+
+    The force is conjugate to the value, as that of a prescribed displacement: positive where the sheet resists a motion
+    in the positive sense, and force times travel is the work on the sheet.
 
     Attributes
     ----------
@@ -42,11 +45,15 @@ class ToolWay(Control):
         return [self.tool, *self.followers]
 
     def force(self, evaluation: Seen, ranks: Ranks) -> float:
-        """Conjugate force, or moment, of the sheet on its tools."""
+        """Conjugate force, or moment, of its tools on the sheet."""
+        return 0.0 - self.of_sheet(evaluation, ranks)  # no -0.0
+
+    def of_sheet(self, evaluation: Seen, ranks: Ranks) -> float:
+        """Force, or moment, of the sheet on its tools."""
         return sum(self._force_on(tool, evaluation, ranks) for tool in self.tools)
 
     def row(self, at: At) -> Floats:
-        """Derivative of minus its force with respect to the nodes of this rank, shape (3 n,). eq. (4.62)"""
+        """Derivative of its force with respect to the nodes of this rank, shape (3 n,). eq. (4.62)"""
         rows = [
             pair.block.row(*self._motion(tool, at)) for tool in self.tools for pair in tool.pairs if not pair.tool.open
         ]
@@ -64,7 +71,7 @@ class ToolWay(Control):
         return all(pair.symmetric for tool in self.tools for pair in tool.pairs)
 
     def rate(self, rates: Mapping[Control, float], moved: Mapping[Any, Floats], at: At, into: Into) -> float:
-        """Rate of its force with controls at fixed nodes. eq. (4.63)
+        """Rate of the force of the sheet on its tools with controls at fixed nodes. eq. (4.63)
 
         Parameters
         ----------
@@ -102,7 +109,7 @@ class ToolWay(Control):
 
 @dataclass(eq=False, repr=False)
 class ToolMotion(ToolWay):
-    """Translation of a tool along a direction; its force is that of the sheet on the tool along it."""
+    """Translation of a tool along a direction; its force is that of the tool on the sheet along it."""
 
     direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
 
@@ -121,7 +128,7 @@ class ToolMotion(ToolWay):
 
 @dataclass(eq=False, repr=False)
 class ToolTurn(ToolWay):
-    """Rotation of a tool about an axis, in radians; its force is the moment of the sheet on the tool."""
+    """Rotation of a tool about an axis, in radians; its force is the moment of the tool on the sheet."""
 
     axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
     about: tuple[float, float, float] = (0.0, 0.0, 0.0)

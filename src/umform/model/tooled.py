@@ -39,7 +39,7 @@ class Tooled(Controlled):
         Returns
         -------
         ToolMotion
-            The control whose value (a length) steps move; its force is that of the sheet on the tool along it.
+            The control whose value (a length) steps move; its force is that of the tool on the sheet along it.
         """
         tool = _tool_of(tool)
         way = ToolMotion(name or self._name(tool.name), direction=unit_vector(direction, "drive"), tool=tool)
@@ -67,7 +67,7 @@ class Tooled(Controlled):
         Returns
         -------
         ToolTurn
-            The control whose value (an angle in radians) steps move; its force is the moment of the sheet on the tool.
+            The control whose value (an angle in radians) steps move; its force is the moment of the tool on the sheet.
         """
         tool = _tool_of(tool)
         way = turn_of(name or self._name(f"{tool.name}_turn"), tool, axis, about)

@@ -7,7 +7,7 @@ docs/operations.md
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -15,7 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import EmptySet, InvalidValue, MeshError
 from umform.mesh import Mesh
+from umform.mesh.fitted.layer import fitted_layer
+from umform.mesh.fitted.sheet import Sheet
 from umform.mesh.part import joined_by_faces, part_of_mesh, stacks
+from umform.model.fitted_part import refuse_unknown
 from umform.model.model import Model
 from umform.model.part import ModelPart
 from umform.surfaces import Extruded, Profile
@@ -23,8 +26,11 @@ from umform.surfaces import Extruded, Profile
 Floats = NDArray[np.float64]
 
 #: Coordinates of a view along an axis.
+_EDGES = ("line", "elements")
 _VIEWS = {"x": (1, 2), "y": (0, 2), "z": (0, 1)}
 _STEP = 1e-6
+#: Distance from the line that counts as zero, relative to the size of the sheet.
+_ON = 1e-9
 #: Largest share of the cells that stay in pieces that hang by an edge or a node: they are the teeth of a slanting cut.
 _TEETH = 0.05
 
@@ -42,9 +48,11 @@ class AtItsEnd(Protocol):
 
 @dataclass(frozen=True)
 class Trim:
-    """A cut along a line: the elements whose centres lie beyond it are removed.
+    """A cut along a line.
 
-    The cut follows edges of elements. Elements stacked through the thickness are kept or removed together.
+    The elements near the line are replaced by a layer of elements that ends on it, eqs. (1.28)-(1.33). Where this is
+    not possible (18-node elements, laws whose history is unknown), the edge follows elements, and the remark of the
+    part says why. Elements stacked through the thickness are kept or removed together.
 
     Parameters
     ----------
@@ -57,6 +65,9 @@ class Trim:
         Direction of the view: the coordinates of the line are x, y; y, z; or x, z.
     formed : bool
         Whether the line is given on the formed part, or on the flat blank.
+    edge : {"line", "elements"}
+        Whether the new edge lies on the line, by a layer of new elements that take their state from the sheet, or
+        follows edges of elements, which keep theirs.
 
     Raises
     ------
@@ -80,8 +91,16 @@ class Trim:
     line: Line
     view: str = "z"
     formed: bool = True
+    edge: str = "line"
 
     def __post_init__(self) -> None:
+        if self.edge not in _EDGES:
+            raise InvalidValue(
+                "the edge of a part lies on the line or follows elements",
+                where="Trim, edge",
+                value=self.edge,
+                remedy='edge="line" or edge="elements"',
+            )
         if self.view not in _VIEWS:
             raise InvalidValue("a part is trimmed in a view along x, y or z", where="Trim, view", value=self.view)
         if not callable(self.line):
@@ -123,8 +142,25 @@ class Trim:
                 cause="a line that crosses the sheet twice, or metal beside the part that is to be cut off as well",
                 remedy="trim along one line after the other, or along a closed curve around one piece",
             )
-        edge = self._distance(sheet[part.nodes[part.mesh.nodes("cut")]])
-        return ModelPart.of(model, part, float(np.abs(edge).max()), dropped)
+        edge = float(np.abs(self._met(sheet[part.nodes[part.mesh.nodes("cut")]])[0]).max())
+        if self.edge == "elements" or edge <= _ON * float(np.ptp(sheet, axis=0).max()):
+            return ModelPart.of(model, part, edge, dropped)
+        try:
+            return self._fitted(model, sheet, kept, dropped)
+        except MeshError as error:
+            return ModelPart.of(model, part, edge, dropped, f"{error.what} ({error.value or error.where})")
+
+    def _fitted(self, model: Model, view: Floats, kept: NDArray[np.bool_], dropped: int) -> ModelPart:
+        """The part with its edge on the line."""
+        refuse_unknown(model)
+        sheet = Sheet.of(model.mesh)
+        x = view[sheet.nodes[:, [0, -1]]].mean(axis=1)
+        layer = fitted_layer(sheet, x, kept[sheet.cells[:, 0]], self._met)
+        part = ModelPart.fitted(model, sheet, x, layer, 0.0, dropped)
+        made = Sheet.of(part.mesh)
+        there = self._in_view(part.model)[made.nodes[:, [0, -1]]].mean(axis=1)
+        on = np.isin(made.nodes[:, 0], part.mesh.nodes("cut"))
+        return replace(part, edge_distance=float(np.abs(self._met(there[on])[0]).max()))
 
     def _in_view(self, model: Model) -> Floats:
         points = model.mesh.points
@@ -188,15 +224,16 @@ class Trim:
             return values
         return self._tool().gap(np.column_stack([xy, np.zeros(len(xy))]))[0]
 
-    def _distance(self, xy: Floats) -> Floats:
-        """Distance from the line; for a function its value over its slope, to first order."""
-        values = self._values(xy)
+    def _met(self, xy: Floats) -> tuple[Floats, Floats]:
+        """Distance from the line and its normal; for a function its value over its slope, to first order."""
         if not callable(self.line):
-            return values
-        step = _STEP * max(float(np.ptp(xy, axis=0).max()), 1e-300)
+            distance, normal, _ = self._tool().gap(np.column_stack([xy, np.zeros(len(xy))]))
+            return distance, normal[:, :2]
+        step = _STEP * max(float(np.ptp(xy, axis=0).max()), 1e-3)
         shifts = step * np.eye(2)
         slope = np.stack([self._values(xy + s) - self._values(xy - s) for s in shifts], axis=1) / (2.0 * step)
-        return np.asarray(values / np.maximum(np.linalg.norm(slope, axis=1), 1e-300))
+        steep = np.maximum(np.linalg.norm(slope, axis=1), 1e-300)
+        return np.asarray(self._values(xy) / steep), np.asarray(slope / steep[:, None])
 
 
 def _hanging(mesh: Mesh, kept: NDArray[np.bool_]) -> NDArray[np.int64]:

@@ -6,8 +6,9 @@ the whole picture: tables, curves, fields and a report.
 
 from __future__ import annotations
 
-import importlib
 from typing import TYPE_CHECKING
+
+from umform.first_use import at_first_use
 
 if TYPE_CHECKING:
     from umform.processes.bending.case import Bending, free_bending
@@ -16,13 +17,12 @@ if TYPE_CHECKING:
 
 __all__ = ["Bending", "FreeBending", "demo", "free_bending"]
 
-_HOME = {"Bending": "case", "FreeBending": "parameters", "demo": "showcase", "free_bending": "case"}
+_HOME = {
+    "Bending": "bending.case",
+    "FreeBending": "bending.parameters",
+    "demo": "bending.showcase",
+    "free_bending": "bending.case",
+}
 
-
-def __getattr__(name: str) -> object:
-    """Import a name when it is first used, so that the command line starts quickly."""
-    if name not in _HOME:
-        raise AttributeError(f"module 'umform.processes' has no attribute {name!r}")
-    value = getattr(importlib.import_module(f"umform.processes.bending.{_HOME[name]}"), name)
-    globals()[name] = value
-    return value
+# The command line starts quickly.
+__getattr__ = at_first_use(__name__, _HOME)

@@ -15,6 +15,7 @@ from umform.errors import UmformError
 from umform.report.facets import smooth_groups
 from umform.report.packing import Quantised, pack
 from umform.report.symmetry import Mirror, is_symmetric, mirrors
+from umform.results.forming.tool_distance import pose_in
 from umform.results.shape import outer_quads
 from umform.surfaces import Tool
 from umform.surfaces.sampled import sampled
@@ -234,11 +235,7 @@ def _poses(result: History) -> Iterator[Poses]:
             rotation, shift = tool.pose_now
             yield rotation[None], shift[None]
             continue
-        rows = [result.rows[frame.number] for frame in result.frames]
-        places = [
-            tool.pose({way: row[way.name] for way in tool.ways}, frame.time)
-            for row, frame in zip(rows, result.frames, strict=True)
-        ]
+        places = [pose_in(tool, result.rows[frame.number]) for frame in result.frames]
         rotations, shifts = zip(*places, strict=True)
         yield np.stack(rotations), np.stack(shifts)
 

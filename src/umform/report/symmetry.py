@@ -93,6 +93,13 @@ def whole(shape: Shape, planes: Sequence[Mirror]) -> Shape:
     return shape
 
 
+def with_images(x: Floats, planes: Sequence[Mirror]) -> Floats:
+    """Positions (n, 3) and behind them their mirror images: those of the whole part."""
+    for plane in planes:
+        x = np.concatenate([x, plane.image(x)])
+    return x
+
+
 def is_symmetric(gap: Callable[[Floats], Floats], plane: Mirror, box: tuple[Floats, Floats]) -> bool:
     """Whether a tool is its own mirror image.
 

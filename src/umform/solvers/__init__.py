@@ -10,10 +10,7 @@ import logging
 from collections.abc import Callable
 
 from ..errors import InvalidValue
-from . import pardiso
-from .banded import Banded
 from .multifrontal import Multifrontal
-from .pardiso import Pardiso
 from .protocol import Factorisation, Pattern, SparseSolver
 
 __all__ = ["Factorisation", "Pattern", "SparseSolver", "available", "make_solver", "register"]
@@ -21,16 +18,29 @@ __all__ = ["Factorisation", "Pattern", "SparseSolver", "available", "make_solver
 _log = logging.getLogger("umform.solvers")
 
 
+def _pardiso() -> SparseSolver:
+    from .pardiso import Pardiso
+
+    return Pardiso()
+
+
+def _banded() -> SparseSolver:
+    from .banded import Banded
+
+    return Banded()
+
+
 def _superlu() -> SparseSolver:
-    from .superlu import SuperLU  # the import is slow
+    from .superlu import SuperLU
 
     return SuperLU()
 
 
+# Only the solver in use is imported.
 _factories: dict[str, Callable[[], SparseSolver]] = {
     "multifrontal": Multifrontal,
-    "pardiso": Pardiso,
-    "banded": Banded,
+    "pardiso": _pardiso,
+    "banded": _banded,
     "superlu": _superlu,
 }
 
@@ -52,6 +62,8 @@ def register(name: str, factory: Callable[[], SparseSolver]) -> None:
 
 def available() -> dict[str, bool]:
     """For each solver, whether it can run on this machine."""
+    from . import pardiso
+
     return {name: name != "pardiso" or pardiso.available() for name in _factories}
 
 

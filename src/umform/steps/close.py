@@ -261,7 +261,7 @@ class Closing:
 
 def _takes(run: Run, press: Press) -> float:
     """Force of the press for equilibrium of its tool in the present position."""
-    return press.takes(press.way.value, press.way.force(run.evaluation, run.model.ranks))[0]
+    return press.takes(press.way.value, press.way.of_sheet(run.evaluation, run.model.ranks))[0]
 
 
 def _touches(run: Run, press: Press) -> bool:

@@ -168,7 +168,7 @@ class Releasing:
             return
         self.before, self.taken, self.force = (value, self.force), target - value, force
         if isinstance(step.control, ToolForce):
-            step.control.value = model.press_of(step.control).takes(target, force)[0]
+            step.control.value = model.press_of(step.control).takes(target, -force)[0]
         self.done = zero or target == 0.0
         if self.bound is None and abs(2.0 * self.size) <= abs(self.start_value) / 20.0 and _at_ease(converged):
             self.size *= 2.0

@@ -16,6 +16,7 @@ import umform
 from umform.deck import Deck, running
 from umform.deck.kept import Kept
 from umform.deck.results import CHECKPOINT
+from umform.deck.unloading import UNLOADING
 from umform.errors import FileProblem, UmformError
 from umform.io.tables import write_json
 from umform.run import Result
@@ -25,7 +26,6 @@ from umform.sweeps.measures import Function, Record, number_of, springback, stat
 RECORD = "job.json"
 #: Output that a job omits by default: pictures and pages.
 _NUMBERS_ONLY = {"output.frames": 1, "output.vtkhdf": False, "output.report": False, "output.pictures": False}
-_UNLOADING = ("release", "free")
 
 
 @dataclass(frozen=True)
@@ -161,7 +161,7 @@ def _outcome(job: Job) -> running.Outcome:
 def _numbers(job: Job, result: Result) -> dict[str, Any]:
     """All numbers of a finished job that may become measures."""
     steps = [step.kind for step in job.deck.contents.steps]
-    unloading = next((number for number, kind in enumerate(steps, 1) if kind in _UNLOADING), None)
+    unloading = next((number for number, kind in enumerate(steps, 1) if kind in UNLOADING), None)
     return {
         "controls": [control.name for control in result.model.controls],
         "history": stats(result),

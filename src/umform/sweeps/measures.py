@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from umform.deck.errors import slip
 from umform.errors import InvalidValue
-from umform.report.symmetry import mirrors
+from umform.report.symmetry import mirrors, with_images
 from umform.results.forming import lay_by_best_fit
 from umform.run import Result
 
@@ -149,9 +149,8 @@ def springback(result: Result, unloading: int) -> float | None:
     X = result.model.mesh.points
     loaded = X + result.frames[before[-1]].points["displacement"]
     left = X + result.model.u.reshape(-1, 3)
-    for plane in mirrors(result.model):
-        loaded, left = (np.concatenate([x, plane.image(x)]) for x in (loaded, left))
-    return lay_by_best_fit(left, loaded).largest
+    planes = mirrors(result.model)
+    return lay_by_best_fit(with_images(left, planes), with_images(loaded, planes)).largest
 
 
 def _finite(value: float) -> float | None:

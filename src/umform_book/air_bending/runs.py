@@ -75,7 +75,7 @@ def load(page: Page, label: str, case: AirBending, stroke: float, way: float | N
     steps = math.ceil(stroke / (way or case.way) - 1e-9)
     result = page.solve(label, model, Move(punch, to=stroke, steps=steps), options=OPTIONS, frames=frames)
     contacts = result.frames[-1].contacts
-    force = force_per_width(case, -result["stroke_force"])
+    force = force_per_width(case, result["stroke_force"])
     section = Section.of(model.mesh, model.u)
     return Loading(case, result["stroke"], force, section, contacts, against_flank(case, contacts), result)
 

@@ -119,7 +119,7 @@ def _run(page: Page, event: Event, rule: str) -> Run:
         for start, end, way in zip(starts, event.strokes, event.ways, strict=True)
     ]
     result = page.solve(f"{event.name}, {rule}", model, steps, options=OPTIONS, frames=8)
-    return Run(event, result["stroke"], force_per_width(event.case, -result["stroke_force"]), result)
+    return Run(event, result["stroke"], force_per_width(event.case, result["stroke_force"]), result)
 
 
 def beyond_smooth(u: Floats, F: Floats) -> tuple[float, float]:

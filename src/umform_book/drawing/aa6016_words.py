@@ -11,9 +11,12 @@ from umform_book.drawing.cups import WALL, Made, aa6016
 MEASURED = 34.15
 
 
-def reading(fine: Made, base: Made, coarse: Made, teams: dict[str, float]) -> str:
+def reading(found: dict[str, Made], teams: dict[str, float]) -> str:
     """What the meshes say: why they differ, and where the converged height lies."""
+    fine, base, coarse = (found[label] for label in ("7.5 degrees", "10 degrees", "20 degrees"))
     means = ", ".join(f"{name} {mean:.2f}" for name, mean in teams.items())
+    held = found.get("holder 60 kN")
+    strong = f" (to {held.ears.mean:.2f} mm with 60 kN on 10 degrees)" if held else ""
     return (
         f"The mean height falls with the mesh to {fine.ears.mean:.2f} mm; the last refinement changed it by "
         f"{fine.ears.mean - base.ears.mean:+.2f} mm, so that {base.elements} elements are enough. The "
@@ -23,7 +26,8 @@ def reading(fine: Made, base: Made, coarse: Made, teams: dict[str, float]) -> st
         "a large angle over an edge need more force, which stretches the bottom; around the cup, elements are chords, "
         "which with 3 x 3 points need more room in the gap beside the punch than the sheet, eq. (4.192), and are "
         "ironed thinner. With 2 x 2 points they keep the gap, and more elements around change little. A stronger "
-        "holder and more friction make the cup higher, see the budget; the force of the holder is not known. "
+        f"holder{strong} and more friction make the cup higher, see the budget; the force of the holder is not known, "
+        "and was not fitted to the height. "
         "The largest force of the punch, while it irons, needs the finer meshes more: "
         f"{coarse.force:.0f} kN on the coarsest, {fine.force:.0f} kN on the finest."
     )

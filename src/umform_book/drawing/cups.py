@@ -21,11 +21,12 @@ from umform_book.page import Page
 Floats = NDArray[np.float64]
 
 
-def aa6016(card: str = "", exponent: float | None = None) -> Metal:
-    """AA6016-T4 of the library: a card of Yld2004, or with Hill48 and the same hardening; perhaps another exponent."""
-    law, function = get("AA6016-T4").law, get(f"AA6016-T4 {card}".strip()).law.yield_function  # type: ignore[union-attr]
+def aa6016(card: str = "", exponent: float | None = None, hardening: str = "") -> Metal:
+    """AA6016-T4 with the yield function of a card, perhaps another exponent; hardening of another card, or of NTNU."""
+    function = get(f"AA6016-T4 {card}".strip()).law.yield_function  # type: ignore[union-attr]
     if card == "Postech":
-        law = get("AA6016-T4 Postech").law
+        hardening = card
+    law = get(f"AA6016-T4 {hardening}".strip()).law
     if exponent is not None and isinstance(function, Yld2004):
         function = replace(function, exponent=exponent)
     return Metal(law.E, law.nu, hardening=law.hardening, yield_function=function)

@@ -159,7 +159,7 @@ def make(page: Page, label: str, setup: Setup, stroke: float = STROKE) -> tuple[
     mesh, u = model.mesh, model.u.reshape(-1, 3)
     edge = mesh.nodes("y1")
     at = [edge[np.isclose(mesh.points[edge, 0], x, atol=1e-6 * LENGTH)] for x in (0.0, 0.5 * LENGTH, LENGTH)]
-    way, forces = np.asarray(result["stroke"]), 1e-3 * np.abs(result["stroke_force"])
+    way, forces = np.asarray(result["stroke"]), 1e-3 * result["stroke_force"]
     made = Made(
         len(mesh.connectivity),
         len(result) - 1,

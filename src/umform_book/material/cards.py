@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 import umform as uf
 from umform.materials import Metal
-from umform.materials.point_path import point_path, tension
+from umform.materials.paths import point_path, tension
 from umform.model import Model
 from umform.model.control import Prescribed
 from umform.plotting import COLOURS

@@ -8,12 +8,12 @@ if sys.argv[1] == "command":
     without_help_texts()
 import matplotlib.artist as artist
 counted, text_of = [], artist.kwdoc
-artist.kwdoc = lambda artist: (counted.append(artist), text_of(artist))[1]
+artist.kwdoc = lambda artist: (counted.append(text_of(artist)), counted[-1])[1]
 from umform.plotting import Figure, save
 figure = Figure(figsize=(2, 1))
 figure.add_subplot().plot([0, 1], [1, 0], label="line")
 save(figure, sys.argv[2])
-print(len(counted))
+print(sum(map(bool, counted)))
 """
 
 
@@ -26,5 +26,5 @@ def help_texts(kind, picture):
 def test_a_command_draws_the_same_without_help_texts(tmp_path):
     few, quick = help_texts("command", tmp_path / "quick.png")
     many, usual = help_texts("library", tmp_path / "usual.png")
-    assert few < many / 2
+    assert few == 0 < many
     assert quick == usual

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import shutil
 from pathlib import Path
 
@@ -108,6 +109,18 @@ def test_a_deck_goes_on_where_another_has_ended(drawn):
     np.testing.assert_array_equal(problem.model.u, expected.model.u)
     np.testing.assert_array_equal(result["elastic_energy"], expected["elastic_energy"])
     assert result["elastic_energy"][-1] < 1e-8 * result["elastic_energy"][0]
+
+
+def test_a_trimmed_part_is_measured_before_and_after_its_forces_have_gone(drawn):
+    measure = '\n[measures.along]\nkind = "section"\n[measures.fit]\nkind = "gauge"\n'
+    (drawn / "measured.toml").write_text(SECOND + measure + OUTPUT)
+    answer = umform("run", drawn / "measured.toml", "--out", drawn / "measured")
+    assert answer.exit_code == 0, answer.output
+    with (drawn / "measured" / "measures.csv").open() as file:
+        rows = {row["quantity"]: row for row in csv.DictReader(file)}
+    along = rows["length of the mid-surface"]
+    assert float(along["released"]) < float(along["formed"])  # the pulled strip springs back
+    assert float(rows["largest distance from the gauge"]["released"]) > 0.0
 
 
 def test_what_was_cut_off_is_said_of_a_run_that_ends_early_too(drawn):

@@ -279,8 +279,8 @@ def test_a_driven_tool_feels_the_force_along_its_way(build):
         return result, case
 
     tool, sheet = run(True), run(False)
-    np.testing.assert_allclose(tool[0]["ram_force"], tool[0]["tool_fz"], atol=1e-12)
-    assert tool[0]["ram_force"][-1] == pytest.approx(sheet[0]["tool_fz"][-1], rel=1e-7)
+    np.testing.assert_allclose(tool[0]["ram_force"], -tool[0]["tool_fz"], atol=1e-12)
+    assert tool[0]["ram_force"][-1] == pytest.approx(-sheet[0]["tool_fz"][-1], rel=1e-7)
     u_tool, u_sheet = (case.model.u.reshape(-1, 3) for _, case in (tool, sheet))
     np.testing.assert_allclose(u_tool - (0, 0, 1.0), u_sheet, atol=1e-6)
 

@@ -41,7 +41,7 @@ def test_a_punch_that_a_force_presses_stands_where_a_driven_one_has_this_force()
     driven, tool = beam(mt.SVK(E=210e3, nu=0.3))
     way = driven.drive(tool, "z", "way")
     other = solve(driven, Move(way, float(result["press_way"][-1]), steps=6), options=TIGHT)
-    assert other["way_force"][-1] == pytest.approx(150.0, rel=1e-9)
+    assert other["way_force"][-1] == pytest.approx(-150.0, rel=1e-9)
     np.testing.assert_allclose(model.u, driven.u, atol=1e-9 * np.abs(driven.u).max())
 
 
@@ -87,7 +87,7 @@ def test_a_spring_shares_the_force_with_the_sheet():
     force = model.spring(punch, "-z", stiffness=40.0, preload=30.0, name="pad")
     result = solve(model, Move(force, 25.0, steps=5), options=TIGHT)
     pushed = 30.0 - 40.0 * result["pad_way"] + result["pad"]  # what spring and press exert along -z
-    np.testing.assert_allclose(-result["pad_way_force"][1:], pushed[1:], rtol=1e-9)
+    np.testing.assert_allclose(result["pad_way_force"][1:], pushed[1:], rtol=1e-9)
     assert result["pad_way"][-1] > 0.05
 
 
@@ -153,7 +153,7 @@ def test_a_moment_turns_a_tool_until_the_sheet_answers():
     model, punch = beam(mt.SVK(E=210e3, nu=0.3))
     moment = model.press_turn(punch, "y", (0.0, 0.0, 10.0), "moment")
     result = solve(model, Move(moment, 2000.0, steps=4), options=TIGHT)
-    np.testing.assert_allclose(result["moment_way_force"][1:], -result["moment"][1:], rtol=1e-9)
+    np.testing.assert_allclose(result["moment_way_force"][1:], result["moment"][1:], rtol=1e-9)
     about = result["punch_my"] - 10.0 * result["punch_fx"]  # at (0, 0, 10)
     np.testing.assert_allclose(about[1:], -2000.0 * np.array([0.25, 0.5, 0.75, 1.0]), rtol=1e-9)
     assert 1e-4 < result["moment_way"][-1] < 0.2
@@ -186,7 +186,7 @@ def test_a_tool_follows_the_way_of_another_one_at_its_distance():
     result = solve(model, Move(stroke, -0.3, steps=4), options=TIGHT)
     assert pad.pose_now[1][2] == pytest.approx(-0.3 + result["gas_way"][-1], abs=1e-12)
     np.testing.assert_allclose(result["pad_fz"][1:], -(20.0 - 500.0 * result["gas_way"])[1:], rtol=1e-8)
-    np.testing.assert_allclose(result["stroke_force"], result["punch_fz"] + result["pad_fz"], rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(-result["stroke_force"], result["punch_fz"] + result["pad_fz"], rtol=1e-12, atol=1e-12)
     assert np.abs(result.balance().drift).max() < 0.02
     for wrong in (stroke, model.controls[-1]):
         with pytest.raises(InvalidValue, match="follows the way"):
@@ -210,7 +210,7 @@ def test_stops_and_moments_that_make_no_sense_are_refused():
 
 
 def test_a_turn_is_a_control_like_a_translation(rng):
-    """Its pose is that of the motion in time with the same rotation, its force the moment about its axis."""
+    """Its pose is that of the motion in time with the same rotation, its force the moment on the sheet."""
     model, punch = beam()
     turn = model.turn(punch, "y", (20.0, 0.0, 0.5), "roll")
     timed, tool = beam()
@@ -221,7 +221,7 @@ def test_a_turn_is_a_control_like_a_translation(rng):
     evaluation = model.evaluate(model.x)
     force, moment = punch.resultant(evaluation.found, model.ranks)
     expected = (moment - np.cross([20.0, 0.0, 0.5], force))[1]
-    assert turn.force(evaluation, model.ranks) == pytest.approx(expected, abs=1e-12)
+    assert turn.force(evaluation, model.ranks) == pytest.approx(-expected, abs=1e-12)
 
 
 @pytest.mark.parametrize("friction", [None, 0.3])

@@ -194,7 +194,7 @@ def test_the_printed_deck_gives_the_curve_of_the_bend_and_its_way_back(scale, ch
     curve, history = columns_of(tmp_path / "bend" / "curve.csv"), columns_of(tmp_path / "run" / "history.csv")
     assert set(curve["step"]) == {0.0, 1.0, 2.0}
     assert np.array_equal(curve["stroke"], history["stroke"])
-    assert np.array_equal(curve["force"], -scale * history["stroke_force"])
+    assert np.array_equal(curve["force"], scale * history["stroke_force"])
 
 
 def test_a_failed_refinement_does_not_spoil_the_files(tmp_path, bend):

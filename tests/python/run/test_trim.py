@@ -35,11 +35,13 @@ def bent():
 
 
 def test_a_part_on_which_nothing_acts_stays_as_it_was(bent):
-    part = uf.Trim(BEYOND_13, formed=False).of(bent)
+    part = uf.Trim(BEYOND_13, formed=False, edge="elements").of(bent)
     whole = bent.model
     np.testing.assert_array_equal(part.model.block.state, whole.block.state[part.cells])
     np.testing.assert_array_equal(part.model.u, whole.u.reshape(-1, 3)[part.nodes].ravel())
-    made, step = trim(bent)
+    made = part.model
+    made.fix("x0", here=True)
+    step = uf.Move(made.unbalanced("cut"), 0.0, steps=2)
     result = uf.solve(made, step, frames=0)
     before = whole.u.reshape(-1, 3)[part.nodes].ravel()
     assert np.abs(before).max() > 0.1  # it was bent for good
@@ -48,7 +50,7 @@ def test_a_part_on_which_nothing_acts_stays_as_it_was(bent):
 
 
 def test_energies_of_the_part_and_of_what_was_cut_off_make_the_whole(bent):
-    part = uf.Trim(lambda x, y: x - 4.5, formed=False).of(bent)  # through the metal that has yielded
+    part = uf.Trim(lambda x, y: x - 4.5, formed=False, edge="elements").of(bent)  # through the metal that has yielded
     assert len(part.cells) == 2 and part.edge_distance == pytest.approx(0.5)
     part.model.fix("x0", here=True)
     result = uf.solve(part.model, uf.Move(part.model.unbalanced("cut"), 0.0, steps=2), frames=0)
@@ -112,7 +114,7 @@ def test_elastic_metal_is_as_new_without_the_plastic_metal_that_kept_it_stressed
 def test_a_hole_by_a_circle_and_stacks_that_stay_together():
     sheet = uf.mesh.plate(8.0, 8.0, 0.5, (8, 8), layers=2)
     model = uf.Model(sheet, material=uf.SVK(E=210e3, nu=0.3))
-    part = uf.Trim(uf.Profile.circle((4.0, 4.0), 2.0, hole=True)).of(model)
+    part = uf.Trim(uf.Profile.circle((4.0, 4.0), 2.0, hole=True), edge="elements").of(model)
     gone = np.setdiff1d(np.arange(128), part.cells)
     centres = sheet.points[sheet.connectivity[gone]].mean(axis=1)
     assert len(gone) == 24 and (np.hypot(*(centres[:, :2] - 4.0).T) < 2.0).all()

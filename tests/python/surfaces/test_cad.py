@@ -10,6 +10,7 @@ from umform.surfaces import Box, CadTool, Profile, Revolved, check_surface, read
 
 pytest.importorskip("OCP")
 
+from OCP.BRep import BRep_Builder
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
 from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
 from OCP.BRepFilletAPI import BRepFilletAPI_MakeFillet
@@ -21,7 +22,7 @@ from OCP.IGESControl import IGESControl_Writer
 from OCP.STEPControl import STEPControl_StepModelType, STEPControl_Writer
 from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp_Explorer
-from OCP.TopoDS import TopoDS
+from OCP.TopoDS import TopoDS, TopoDS_Compound
 
 
 def write(shape, path):
@@ -141,6 +142,30 @@ def test_open_faces(tmp_path):
 
 def _first_face(shape):
     return TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE).Current()
+
+
+def _faces_beside(shape, left_out=()):
+    """A compound of the faces of a shape, which have no common orientation in a file."""
+    builder, compound, at, number = BRep_Builder(), TopoDS_Compound(), _faces_of(shape), 0
+    builder.MakeCompound(compound)
+    while at.More():
+        if number not in left_out:
+            builder.Add(compound, at.Current())
+        number += 1
+        at.Next()
+    return compound
+
+
+def _faces_of(shape):
+    return TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE)
+
+
+def test_a_compound_of_faces_is_a_tool_and_a_missing_face_is_called_a_hole(tmp_path):
+    tool = CadTool.read(write(_faces_beside(rounded(box(), 2.0)), tmp_path / "faces.step"))
+    assert tool.kinds == {"Cylinder": 12, "Plane": 6, "Sphere": 8}
+    path = write(_faces_beside(rounded(box(), 2.0), left_out=[0]), tmp_path / "hole.step")
+    with pytest.raises(HoleInSurface, match=r"rim of length 64, 4 open edges, around \(.*, 15, 5\)(?s:.*)missing face"):
+        CadTool.read(path)
 
 
 def test_what_cannot_be_read(tmp_path):

@@ -54,6 +54,13 @@ concept SeesStep =
     requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, Vec<Lanes, 6>& S, Mat<Lanes, 6, 6>& CC,
              Lanes* trial, double step) { law.respond(E, state, S, CC, trial, step); };
 
+/// A law that answers for its elastic energy at one point a lane, apart from its plastic work.
+template <class L>
+concept StoresInLanes = requires(const L& law, const Vec<Lanes, 6>& E, const Lanes* state, const double* history) {
+    { law.stored(E, state) } -> std::same_as<Lanes>;
+    { law.spent(history) } -> std::same_as<double>;
+};
+
 /// A law whose tangent is not symmetric says so by a member function `symmetric`.
 template <class L>
 bool has_symmetric_tangent(const L& law) {
@@ -165,7 +172,22 @@ class MaterialOf final : public Material {
     }
 
     void energy(int n, const Voigt* E, const double* state, Energy* energies, std::int32_t) const override {
-        for (int q = 0; q < n; ++q) energies[q] = law_.energy(E[q], state + q * law_.state_size);
+        const auto history = [&](int q) { return state + q * law_.state_size; };
+        if constexpr (!StoresInLanes<Law>) {
+            for (int q = 0; q < n; ++q) energies[q] = law_.energy(E[q], history(q));
+        } else {
+            for (int first = 0; first < n; first += lane_count) {  // points instead of elements in the lanes
+                const auto point = [&](int lane) { return std::min(first + lane, n - 1); };
+                Vec<Lanes, 6> strain;
+                std::array<Lanes, Law::state_size> here;
+                for (int p = 0; p < 6; ++p) strain[p] = by_lane([&](int lane) { return E[point(lane)][p]; });
+                for (int k = 0; k < Law::state_size; ++k)
+                    here[k] = by_lane([&](int lane) { return history(point(lane))[k]; });
+                const Lanes stored = law_.stored(strain, here.data());
+                for (int q = first; q < std::min(first + lane_count, n); ++q)
+                    energies[q] = {stored[q - first], law_.spent(history(q))};
+            }
+        }
     }
 
   private:

@@ -71,17 +71,25 @@ struct J2 {
     }
 
     /// Energy of the logarithmic elastic strains, and the work done against the yield stress. eqs. (3.38), (3.39)
-    Energy energy(const Voigt& strain, const double* state) const {
-        const LogarithmicSeries<double> series(strain, plastic_metric(state));
-        double trace = series.trace, square = series.square;
-        if (!series.small) {
-            ElasticStrain<double> elastic;
-            if (!elastic.set(strain, state)) return {};
-            trace = elastic.volumetric;
-            square = dot(elastic.eps, elastic.eps);
+    Energy energy(const Voigt& strain, const double* state) const { return {stored(strain, state), spent(state)}; }
+
+    /// Energy of the logarithmic elastic strains; NaN where C is not positive definite. eq. (3.38)
+    template <class Real>
+    Real stored(const Vec<Real, 6>& strain, const Real* state) const {
+        const LogarithmicSeries<Real> series(strain, plastic_metric(state));
+        Real trace = series.trace, square = series.square;
+        if (!all(series.small)) {
+            ElasticStrain<Real> elastic;
+            const Mask<Real> positive = elastic.set(strain, state);
+            const Real unknown = std::numeric_limits<double>::quiet_NaN();
+            trace = select(series.small, trace, select(positive, elastic.volumetric, unknown));
+            square = select(series.small, square, dot(elastic.eps, elastic.eps));
         }
-        return {0.5 * kappa * trace * trace + mu * (square - trace * trace / 3.0), plastic_work(hardening, state[6])};
+        return 0.5 * kappa * trace * trace + mu * (square - trace * trace * (1.0 / 3.0));
     }
+
+    /// Work done against the yield stress. eq. (3.39)
+    double spent(const double* state) const { return plastic_work(hardening, state[6]); }
 
   private:
     /// A converged plastic point lies on the yield surface up to round-off. Without this margin chance would make it plastic

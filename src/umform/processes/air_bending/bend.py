@@ -98,7 +98,7 @@ class AirBend:
             measures=measures,
             step=step,
             stroke=stroke,
-            force=force_per_width(case, -result["stroke_force"]),
+            force=force_per_width(case, result["stroke_force"]),
             loaded=loaded.section,
             released=Section.of(model.mesh, model.u),
             path=np.array([[stroke[frame.number], angle] for frame, angle in zip(under_load, angles, strict=True)]),

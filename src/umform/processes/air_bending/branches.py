@@ -70,7 +70,7 @@ class Brake:
 
     def forces(self) -> Floats:
         """Force of the punch in N for each mm of the bend, all increments up to now."""
-        return force_per_width(self.case, -self.run.result["stroke_force"])
+        return force_per_width(self.case, self.run.result["stroke_force"])
 
     def load(self, stroke: float, tick: Tick = silent) -> Loaded:
         """Load to a stroke, from the nearest kept state below it.

@@ -38,7 +38,7 @@ def deck_of(case: AirBending) -> str:
     remarks = [
         f"Air bending of a sheet of {case.thickness:g} mm, {kind}, over an opening of {case.opening:g} mm: down by "
         f"{stroke:.6g} mm, and back to zero force. Units: mm, N, MPa.",
-        f"Half of the sheet, {modelled:g} mm of its width: the force for each mm of the bend is -stroke_force times "
+        f"Half of the sheet, {modelled:g} mm of its width: the force for each mm of the bend is stroke_force times "
         f"{2.0 / modelled:.6g}.",
     ]
     return deck_text("Air bending", remarks, _entries(case, stroke))

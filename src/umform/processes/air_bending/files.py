@@ -29,6 +29,8 @@ _PAGE = ("curve.png", "curve.svg", "shape.png", "shape.svg", "drawing.png", "dra
 #: Files of a bend; they also mark a folder as that of a bend, with the files of a run that ended early.
 FILES = (*_DATA, *_PAGE)
 RESULTS = (*FILES, "history.csv")
+#: Dots per inch of the PNG files, for screens; the SVG files serve for print. Most of the time compresses dots.
+_DPI = 120
 
 
 def write_files(
@@ -79,8 +81,8 @@ def write_files(
         files = stage.commit(_DATA)  # a failure of a picture must not lose the numbers
         figures = {"curve": curves(bend, table), "shape": shapes(bend), "drawing": drawing(bend)}
         for name, figure in figures.items():
-            for ending in (".png", ".svg"):
-                save(figure, here / (name + ending))
+            save(figure, here / f"{name}.png", dpi=_DPI)
+            save(figure, here / f"{name}.svg")
         write_page(here / "report.html", bend, figures, table, budget, deck, note)
         return [*files, *stage.commit(_PAGE)]
 

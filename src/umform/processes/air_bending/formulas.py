@@ -22,9 +22,7 @@ def tensile_strength(material: J2 | Metal, angle: float = 0.0) -> float:
     """
     if isinstance(material, Metal):
         return tension_test(material, angle).tensile_strength
-    curve = material.hardening.curve()
-    strains = np.linspace(0.0, 2.0, 4001)
-    return float(max(curve(float(e))[0] * np.exp(-e) for e in strains))
+    return _most(material)[1]
 
 
 def uniform_strain(material: J2 | Metal, angle: float = 0.0) -> float:
@@ -37,9 +35,16 @@ def uniform_strain(material: J2 | Metal, angle: float = 0.0) -> float:
         return float(np.log1p(test.uniform_elongation))
     if isinstance(material.hardening, Table):
         return float(material.hardening.eqps[-1])
-    curve = material.hardening.curve()
-    strains = np.linspace(0.0, 2.0, 4001)
-    return float(strains[np.argmax([curve(float(e))[0] * np.exp(-e) for e in strains])])
+    return _most(material)[0]
+
+
+@lru_cache(maxsize=8)
+def _most(material: J2) -> tuple[float, float]:
+    """Strain and value of the maximum of y(e) exp(-e)."""
+    curve, strains = material.hardening.curve(), np.linspace(0.0, 2.0, 4001)
+    nominal = np.array([curve(e)[0] for e in strains.tolist()]) * np.exp(-strains)
+    at = int(np.argmax(nominal))
+    return float(strains[at]), float(nominal[at])
 
 
 @lru_cache(maxsize=8)

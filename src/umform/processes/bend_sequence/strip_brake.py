@@ -103,7 +103,7 @@ class StripBrake(Brake):
 
     def forces(self) -> Floats:
         """Force of the punch per length of bend in N/mm, all increments so far."""
-        found: Floats = -self.run.result["stroke_force"] / self.case.thickness
+        found: Floats = self.run.result["stroke_force"] / self.case.thickness
         return found
 
     def load(self, stroke: float, tick: Tick = silent) -> Loaded:

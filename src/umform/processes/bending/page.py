@@ -66,7 +66,7 @@ def write_page(folder: Path, runs: Sequence[Bending], pictured: Bending) -> list
         *map(parts.paragraph, _explanations(runs)),
         parts.heading("Numbers"),
         parts.table(table.header(runs), table.rows(runs)),
-        parts.paragraph("Forces in N at displacements in mm."),
+        parts.paragraph(" ".join(["Forces in N at displacements in mm.", *table.legend(runs)])),
         *_deformed(_compared(runs, pictured)),
         *_moving(pictured),
         parts.heading("Settings"),

@@ -29,6 +29,18 @@ def rows(runs: Sequence[Bending]) -> list[list[str]]:
     ]
 
 
+def legend(runs: Sequence[Bending]) -> list[str]:
+    """What the words of the table mean: one line for the columns, one for each word in the names of the runs."""
+    lines = ["J: largest jump of the force within 0.1 mm; rms: distance of the force from a smooth curve."]
+    orders = sorted({run.case.thickness_order for run in runs} - {1})
+    lines += [f"order {n}: strain in the thickness direction of degree {n} over it, not linear." for n in orders]
+    if any(run.case.tie_E33 for run in runs):
+        lines.append(
+            "tied: this strain is interpolated from the nodes, so that an element does not thin where it bends."
+        )
+    return lines
+
+
 def _number(value: float | None, digits: int) -> str:
     return "–" if value is None else f"{value:.{digits}f}"
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -13,6 +14,8 @@ from umform.errors import InvalidValue
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.endings import Ending, tears_from
 from umform.processes.draw.u_bend import UBend
+from umform.processes.limit import Limit
+from umform.report.symmetry import Mirror, with_images
 from umform.results.forming import (
     EarProfile,
     FormingLimit,
@@ -54,6 +57,10 @@ class Drawn:
         The opening of the tools; None if the run ended earlier.
     ending : Ending, optional
         What went wrong; None if nothing did.
+    estimates : mapping of str to Limit
+        Measures extrapolated to zero element size; empty for one mesh.
+    coarser : tuple of Drawn
+        The same part on coarser meshes, the coarsest first, that gave the estimates.
     """
 
     case: Cup | UBend
@@ -62,6 +69,8 @@ class Drawn:
     u: Floats
     released: Result | None
     ending: Ending | None
+    estimates: Mapping[str, Limit] = field(default_factory=dict)
+    coarser: tuple[Drawn, ...] = ()
 
     @property
     def u_free(self) -> Floats:
@@ -160,10 +169,8 @@ class Drawn:
         """
         X = self.result.model.mesh.points
         part, places = X + self.u_free.reshape(-1, 3), X + self.u.reshape(-1, 3)
-        for axis in self.case.mirrored:
-            sign = np.where(np.arange(3) == axis, -1.0, 1.0)
-            part, places = np.concatenate([part, sign * part]), np.concatenate([places, sign * places])
-        return lay_by_best_fit(part, places)
+        planes = [Mirror(axis, 0.0) for axis in self.case.mirrored]
+        return lay_by_best_fit(with_images(part, planes), with_images(places, planes))
 
     @property
     def friction_share(self) -> float:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from umform.io.staging import staging
 from umform.io.tables import write_csv, write_json
@@ -14,6 +13,7 @@ from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
 from umform.processes.draw.words import parameters
 from umform.report.versions import versions
+from umform.results.forming.sections import columns as section_columns
 
 _PICTURES = (
     "blank", "curve", "thinning", "major_middle", "limit_margin", "wrinkling", "punch_distance", "gauge", "limits",
@@ -87,14 +87,8 @@ def _write_tables(here: Path, drawn: Drawn) -> None:
     distance = drawn.punch_distance[mesh.connectivity].mean(axis=1)
     fields = drawn.fields | {"punch_distance": distance}
     write_csv(here / "fields.csv", {"x": middle[:, 0], "y": middle[:, 1], **fields})
-    edge = drawn.outline
-    columns = np.concatenate([edge.before, edge.after, edge.draw_in[:, None]], axis=1).T
-    write_csv(here / "outline.csv", dict(zip(("x_before", "y_before", "x", "y", "draw_in"), columns, strict=True)))
-    both = {"s": drawn.sections["drawn"].s}
-    for name, cut in drawn.sections.items():
-        both |= {f"{name}_{side}_{axis}": getattr(cut, side)[:, k]
-                 for side in ("lower", "upper") for k, axis in enumerate("xyz")}  # fmt: skip
-    write_csv(here / "section.csv", both)
+    write_csv(here / "outline.csv", drawn.outline.columns())
+    write_csv(here / "section.csv", section_columns(drawn.sections))
     if isinstance(drawn.case, Cup):
         write_csv(here / "ears.csv", {"angle": drawn.ears.angle, "height": drawn.ears.height})
 
@@ -104,6 +98,7 @@ def record(drawn: Drawn) -> dict[str, Any]:
     return {
         "parameters": parameters(drawn.case),
         "measures": {name: value for name, (value, _) in drawn.measures().items()},
+        "estimates": {name: asdict(limit) for name, limit in drawn.estimates.items()},
         "ending": None if drawn.ending is None else drawn.ending.text,
         "elements": len(drawn.result.model.mesh.connectivity),
         "increments": len(drawn.result) - 1,

@@ -64,11 +64,11 @@ def hemming(case: Hemming, *, tolerance: float = 0.1, frames: int = FRAMES, prog
             if not case.insert:
                 _refuse_touch(case, strip, way * (1.0 - part / _PARTS))
             tick("flattening", part / _PARTS)
-        force = -run.result["stroke_force"] / case.sheet.thickness
+        force = run.result["stroke_force"] / case.sheet.thickness
         run.take(Release(plate, **unloading_keys(case.sheet)))
     released = Strip.of(model.mesh, model.u)
     result = run.close()
-    whole = -result["stroke_force"] / case.sheet.thickness
+    whole = result["stroke_force"] / case.sheet.thickness
     warnings = (*first.warnings, *result.warnings)
     return Hem(case, first, measured(case, force, strip, released), result["stroke"], whole, released, warnings, result)
 

@@ -74,6 +74,11 @@ class EarProfile:
         """Angles of the valleys around the whole cup, in degrees."""
         return self._extremes(-1.0)
 
+    def harmonic(self, number: int) -> float:
+        """Amplitude of the wave of the height that goes around the whole cup so many times."""
+        height = self._equal_steps()
+        return float(2.0 * np.abs(np.fft.rfft(height)[number]) / len(height))
+
     def _extremes(self, sign: float) -> Floats:
         from scipy.signal import find_peaks  # slow to import
 
@@ -85,11 +90,15 @@ class EarProfile:
 
     def _smooth(self) -> Floats:
         """Heights at equal steps of the angle from 0, without waves shorter than so many elements of the rim."""
-        nodes = len(self.whole().angle)
-        count = 360 * max(1, round(nodes / 36))
-        waves = np.fft.rfft(self.at(np.linspace(0.0, 360.0, count, endpoint=False)))
-        waves[nodes // _ELEMENTS + 1 :] = 0.0
-        return np.asarray(np.fft.irfft(waves, count), dtype=float)
+        height = self._equal_steps()
+        waves = np.fft.rfft(height)
+        waves[len(self.whole().angle) // _ELEMENTS + 1 :] = 0.0
+        return np.asarray(np.fft.irfft(waves, len(height)), dtype=float)
+
+    def _equal_steps(self) -> Floats:
+        """Heights at equal steps of the angle from 0, straight between the nodes."""
+        count = 360 * max(1, round(len(self.whole().angle) / 36))
+        return self.at(np.linspace(0.0, 360.0, count, endpoint=False))
 
     def _closed(self) -> tuple[Floats, Floats]:
         return np.append(self.angle, self.angle[0] + 360.0), np.append(self.height, self.height[0])

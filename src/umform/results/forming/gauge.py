@@ -88,6 +88,14 @@ def lay_on_three_points(points: ArrayLike, gauge: ArrayLike, supports: ArrayLike
     return _laid(x, y, rotation, y[chosen[0]] - rotation @ x[chosen[0]])
 
 
+def far_apart(points: Floats) -> list[int]:
+    """Three points of a large triangle: the farthest from the middle, then from that point, then from their line."""
+    first = int(np.linalg.norm(points - points.mean(axis=0), axis=1).argmax())
+    second = int(np.linalg.norm(points - points[first], axis=1).argmax())
+    areas = np.linalg.norm(np.cross(points - points[first], points[second] - points[first]), axis=1)
+    return [first, second, int(areas.argmax())]
+
+
 def _pairs(points: ArrayLike, gauge: ArrayLike) -> tuple[Floats, Floats]:
     x, y = np.asarray(points, dtype=float), np.asarray(gauge, dtype=float)
     if x.shape != y.shape or x.ndim != 2 or x.shape[1] != 3 or len(x) < 3:

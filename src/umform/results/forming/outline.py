@@ -28,6 +28,17 @@ class Outline:
     after: Floats
     draw_in: Floats
 
+    @property
+    def is_closed(self) -> bool:
+        """Whether the edge goes around the sheet: its ends are as near to each other as its nodes."""
+        steps = np.linalg.norm(np.diff(self.before, axis=0), axis=1)
+        return bool(len(steps) > 2 and np.linalg.norm(self.before[0] - self.before[-1]) < 1.5 * steps.max())
+
+    def columns(self) -> dict[str, Floats]:
+        """Columns of a table."""
+        names = ("x_before", "y_before", "x", "y", "draw_in")
+        return dict(zip(names, [*self.before.T, *self.after.T, self.draw_in], strict=True))
+
 
 def draw_in(mesh: Mesh, u: Floats, edge: Selector = "rim") -> Outline:
     """How far an edge of the sheet was drawn in. eq. (5.66)

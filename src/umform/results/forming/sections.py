@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,6 +35,43 @@ class Section:
         """Half-way between the skins."""
         return 0.5 * (self.lower + self.upper)
 
+    def line(self, along: Floats) -> Floats:
+        """Mid-surface, shape (n, 2): way along a horizontal direction, and z."""
+        return np.stack([self.middle @ along, self.middle[:, 2]], axis=1)
+
+
+def columns(cuts: Mapping[str, Section]) -> dict[str, Floats]:
+    """Columns of a table: way along the undeformed section, and both skins in each state.
+
+    Parameters
+    ----------
+    cuts : mapping of str to Section
+        The same section in several states, by their names.
+    """
+    found = {"s": next(iter(cuts.values())).s}
+    for name, cut in cuts.items():
+        for side in ("lower", "upper"):
+            found |= {f"{name}_{side}_{axis}": getattr(cut, side)[:, k] for k, axis in enumerate("xyz")}
+    return found
+
+
+def horizontal(normal: ArrayLike) -> Floats:
+    """Unit vector in the plane of a section and normal to z; its largest component is positive."""
+    n = np.asarray(normal, dtype=float)
+    n = n / np.abs(n).max()
+    along = np.array([-n[1], n[0], 0.0])
+    size = float(np.linalg.norm(along))
+    if not size > 1e-9:
+        raise InvalidValue(
+            "the plane of a section stands on the sheet",
+            where="normal",
+            value=f"normal {normal!r}",
+            cause="a plane parallel to the blank, or no direction",
+            remedy="a normal in the plane of the blank: (0, 1, 0) for a section along x",
+        )
+    unit: Floats = along * (np.sign(along[np.argmax(np.abs(along))]) / size)
+    return unit
+
 
 def section(mesh: Mesh, u: Floats, point: ArrayLike = (0.0, 0.0, 0.0), normal: ArrayLike = (0.0, 1.0, 0.0)) -> Section:
     """Cut the undeformed sheet by a plane, and follow the section into the part.
@@ -57,6 +95,7 @@ def section(mesh: Mesh, u: Floats, point: ArrayLike = (0.0, 0.0, 0.0), normal: A
         If the plane does not cut the sheet.
     """
     n = np.asarray(normal, dtype=float)
+    n = n / np.abs(n).max()  # the squares of large numbers overflow
     n = n / np.linalg.norm(n)
     X, x = mesh.points, mesh.points + u.reshape(-1, 3)
     cells = mesh.connectivity

@@ -33,6 +33,9 @@ class UBendAngles:
     theta2: float
     radius: float
 
+    def __str__(self) -> str:
+        return f"theta1 {self.theta1:.1f}°, theta2 {self.theta2:.1f}°, radius of the wall {self.radius:.0f}"
+
 
 def u_bend_angles(line: Floats, heights: tuple[float, float, float] = HEIGHTS, *, flange: int = 10) -> UBendAngles:
     """Measure half of a U-bend.

@@ -113,7 +113,7 @@ class Shape:
         self.path = Path(path)
         self._shape = _scaled(_read(self.path), scale)
         self.size = self._size()
-        if self.path.suffix.lower() in IGES:
+        if self.path.suffix.lower() in IGES or not self._has_solid():  # loose faces have no common orientation
             self._shape = _sewn(self._shape, _SEWN * self.size)
 
     def faces(self, arrow: float, angle: float) -> list[Face]:
@@ -128,6 +128,11 @@ class Shape:
         _static("BRepTools", "BRepTools", "Clean")(self._shape)
         mesh.BRepMesh_IncrementalMesh(self._shape, arrow, False, angle, False)
         return [self._face(face, number) for number, face in enumerate(self._explored(), start=1)]
+
+    def _has_solid(self) -> bool:
+        exploring = importlib.import_module("OCP.TopExp").TopExp_Explorer
+        kinds = importlib.import_module("OCP.TopAbs").TopAbs_ShapeEnum
+        return bool(exploring(self._shape, kinds.TopAbs_SOLID).More())
 
     def _explored(self) -> list[Any]:
         exploring = importlib.import_module("OCP.TopExp").TopExp_Explorer

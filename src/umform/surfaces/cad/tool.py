@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from umform import _core
-from umform.errors import DrawingError, TurnedNormals
+from umform.errors import DrawingError, TurnedFaces, TurnedNormals
 from umform.surfaces.cad.deviation import distances
 from umform.surfaces.cad.elementary import elementary
 from umform.surfaces.cad.opencascade import Face, Shape
@@ -100,6 +100,8 @@ class CadTool(Tool):
             share = _LEAST_SHARE
             try:
                 made = _tool(shape, arrow, angle, sharp, open)
+            except TurnedFaces:  # at any size of the triangles
+                raise
             except TurnedNormals as error:  # triangles may be too coarse for the radii
                 refusal: DrawingError | None = error
             else:

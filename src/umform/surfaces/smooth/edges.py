@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from umform.errors import HoleInSurface, TurnedNormals, UnfitTriangles
+from umform.errors import HoleInSurface, TurnedFaces, UnfitTriangles
 from umform.surfaces.joined import groups
 from umform.surfaces.triangles import Floats, Ids, Triangles
 
@@ -51,7 +51,7 @@ def connected(surface: Triangles, where: str, *, rims: bool = False) -> Edges:
     ------
     UnfitTriangles
         If a triangle has no area, more than two meet in an edge, or the surface is folded on itself.
-    TurnedNormals
+    TurnedFaces
         If two neighbours have their normals on different sides.
     HoleInSurface
         If the surface has a rim.
@@ -74,20 +74,20 @@ def connected(surface: Triangles, where: str, *, rims: bool = False) -> Edges:
             remedy="export the outer faces only, each of them once",
         )
     one, other = order[first[times == 2]], order[first[times == 2] + 1]
+    mate = np.full(len(start), -1)
+    mate[one], mate[other] = other, one
+    if not rims and (mate < 0).any():  # before normals: faces around a hole have no orientation of their own
+        _refuse_holes(surface.points, start[mate < 0], end[mate < 0], where)
     turned = start[one] == start[other]
     if turned.any():
-        raise TurnedNormals(
+        raise TurnedFaces(
             "triangles beside each other have their normals on different sides",
             where=where,
             value=_places(middles[one[turned]], "edge"),
             cause="faces whose normals were not unified before the export",
             remedy="unify the normals in the program that wrote the file: out of the tool, towards the sheet",
         )
-    mate = np.full(len(start), -1)
-    mate[one], mate[other] = other, one
     _refuse_folds(surface, one // 3, other // 3, middles[one], where)
-    if not rims and (mate < 0).any():
-        _refuse_holes(surface.points, start[mate < 0], end[mate < 0], where)
     return Edges(start, end, mate)
 
 
@@ -130,13 +130,16 @@ def _refuse_holes(points: Floats, start: Ids, end: Ids, where: str) -> None:
     sums = np.stack([np.bincount(label, points[used, k], rims) for k in range(3)], axis=1)
     middle = sums / np.bincount(label, minlength=rims)[:, None]
     longest = np.argsort(-length, kind="stable")
-    named = [f"rim of length {length[i]:.6g} around {_point(middle[i])}" for i in longest[:_PLACES]]
+    edges = np.bincount(label[one], minlength=rims)
+    named = [
+        f"rim of length {length[i]:.6g}, {edges[i]} open edges, around {_point(middle[i])}" for i in longest[:_PLACES]
+    ]
     more = f" and {rims - _PLACES} more" if rims > _PLACES else ""
     raise HoleInSurface(
         "the surface of a tool must be closed",
         where=where,
         value="; ".join(named) + more,
-        cause="a hole, a gap between faces, or a die face without the block below it",
+        cause="a hole, a missing face, a gap between faces, or a die face without the block below it",
         remedy="close the surface, weld within a larger distance, or say open=True: the tool then ends at its rims",
     )
 

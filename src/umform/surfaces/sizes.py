@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import InvalidValue
-from umform.mesh import Mesh
+from umform.surfaces.size_map import ToolSizes
 from umform.surfaces.tool import Surface
 
 Floats = NDArray[np.float64]
@@ -21,51 +20,6 @@ _STEPS, _ON = 300, 1e-6
 _DOUBLINGS = 20
 #: Lines of the map along the longer side of the blank.
 _LINES = 121
-
-
-@dataclass(frozen=True)
-class ToolSizes:
-    """Sizes of elements over a blank; called with x and y it gives one, as :func:`umform.mesh.blank` takes it.
-
-    Attributes
-    ----------
-    x, y : ndarray
-        Lines of the map.
-    radius : ndarray, shape (x, y)
-        Smallest radius of the mid-surface on the tools over which this part of the sheet moves; infinite where there is
-        none.
-    size : ndarray, shape (x, y)
-        Sizes.
-    turn : float
-        Largest angle in degrees that an element turns.
-    """
-
-    x: Floats
-    y: Floats
-    radius: Floats
-    size: Floats
-    turn: float
-
-    def __call__(self, x: float, y: float) -> float:
-        """Size at a place, linear between the lines of the map; outside the map the size at its border."""
-        return float(_between(self.x, self.y, self.size, np.array([[x, y]]))[0])
-
-    def turns(self, mesh: Mesh) -> Floats:
-        """Largest angle in degrees by which each element of a blank turns over the local radius; (cells,)."""
-        corners = mesh.points[mesh.connectivity[:, [0, 1, 2, 3]], :2]
-        sides = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1)
-        bend = _between(self.x, self.y, 1.0 / self.radius, corners.mean(axis=1))
-        return np.asarray(np.degrees(sides * bend))
-
-    def __str__(self) -> str:
-        bent = np.isfinite(self.radius)
-        if not bent.any():
-            return f"no tool bends the sheet: elements of {self.size.max():.3g}"
-        return (
-            f"elements from {self.size.min():.3g} to {self.size.max():.3g}, which turn by up to {self.turn:.3g} "
-            f"degrees over radii from {self.radius[bent].min():.3g}; "
-            f"{100.0 * bent.mean():.0f} % of the blank goes over them"
-        )
 
 
 def tool_sizes(
@@ -143,7 +97,7 @@ def tool_sizes(
     radius[radius > flat] = np.inf
     radius = radius.reshape(len(x), len(y))
     around, size = _spread((x[1] - x[0], y[1] - y[0]), radius, math.radians(turn), flow, math.log(growth), largest)
-    return ToolSizes(x, y, around, np.maximum(size, smallest), turn)
+    return ToolSizes(x, y, around, np.maximum(size, smallest), turn, smallest)
 
 
 def _corners(box: ArrayLike) -> tuple[Floats, Floats]:
@@ -250,18 +204,3 @@ def _spread(
         around = np.minimum(around, np.where(away <= flow, least, np.inf))
         size = np.minimum(size, turn * least + growth * np.maximum(away - flow, 0.0))
     return around, size
-
-
-def _between(x: Floats, y: Floats, values: Floats, at: Floats) -> Floats:
-    """Values of a map at some places (n, 2), linear in each of its meshes."""
-    index, part = [], []
-    for line, k in ((x, 0), (y, 1)):
-        step = (line[-1] - line[0]) / (len(line) - 1)
-        place = np.clip((at[:, k] - line[0]) / step, 0.0, len(line) - 1.0)
-        first = np.minimum(place.astype(int), len(line) - 2)
-        index.append(first)
-        part.append(place - first)
-    (i, j), (a, b) = index, part
-    lower = (1 - b) * values[i, j] + b * values[i, j + 1]
-    upper = (1 - b) * values[i + 1, j] + b * values[i + 1, j + 1]
-    return np.asarray((1 - a) * lower + a * upper)
