@@ -191,7 +191,7 @@ def u(
         friction=friction,
         stroke=stroke,
         element=element,
-        turn=_chosen(turn, coarse, 20.0, 12.0),
+        turn=_chosen(turn, coarse, 24.0, 12.0),
         layers=layers or None,
         thickness_points=thickness_points,
         contact_points=contact_points,
