@@ -155,6 +155,8 @@ def _finished(sheet: Sheet, x: Floats, size: Floats, made: _Attached, line: Line
         else:
             good[len(inner) :] &= ~bad[len(inner) :]
     missed = int((~good).sum())
+    if 2 * missed > len(made.layer):
+        raise MeshError("elements that end on the line would be too bad", value=f"{missed} of {len(made.layer)}")
     quads = quads[good]
     used = np.unique(quads)
     fresh = used[used >= count]
