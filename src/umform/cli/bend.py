@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from umform.cli.bend_screen import show_bend
 from umform.cli.check import Force
 from umform.cli.drawing import without_help_texts
 from umform.cli.drawn_tools import drawn_tools
@@ -19,14 +20,15 @@ from umform.cli.options import SHEET, SOLUTION, FlowCurve, Material, Modulus, Po
 from umform.cli.root import Debug, Overwrite, Verbose, app, console, printing
 from umform.cli.sequence import run_sequence
 from umform.cli.timing import Timed, show_timing
-from umform.cli.warnings import echo_warnings, print_warnings_once
+from umform.cli.warnings import print_warnings_once
 from umform.errors import UmformError
 
 if TYPE_CHECKING:
     from umform.model import Model
     from umform.processes.air_bending.bend import AirBend
-    from umform.processes.air_bending.budget import Budget
+    from umform.processes.air_bending.branches import Brake
     from umform.processes.air_bending.measures import Measures
+    from umform.processes.air_bending.parameters import AirBending
     from umform.run import Result
 
 
@@ -111,13 +113,12 @@ def bend(
     """
     from umform.io.folders import folder_for
     from umform.io.staging import staging
-    from umform.processes.air_bending.bottoming import check_force, press_to_force, with_travel
+    from umform.processes.air_bending.bottoming import check_force, with_travel
     from umform.processes.air_bending.branches import FRAMES, Brake
-    from umform.processes.air_bending.case import air_bending
     from umform.processes.air_bending.checks import check_angle, check_tolerance
     from umform.processes.air_bending.files import FILES, RESULTS, write_files
     from umform.processes.air_bending.parameters import AirBending
-    from umform.processes.air_bending.search import bending_table, find_stroke
+    from umform.processes.air_bending.search import bending_table
     from umform.timing import Timing, timings
 
     print_warnings_once()
@@ -169,13 +170,7 @@ def bend(
     if strokes:
         replace(case, stroke=strokes[-1])  # refuses a stroke beyond air bending before the first run
     if print_deck:
-        from umform.deck import deck_of
-
-        if force_per_metre is not None:
-            case = press_to_force(case, force_per_metre, frames=1).case
-        elif angle is not None:
-            case = find_stroke(case, angle, tolerance=tolerance, frames=1).case
-        typer.echo(deck_of(case), nl=False)
+        _print_deck(case, angle, force_per_metre, tolerance)
         return
     if angle is not None:
         check_angle(case, angle)
@@ -189,12 +184,7 @@ def bend(
     with staging(place, FILES):
         with _what_was_reached(place) as rows:
             rows += bending_table(case, strokes, brake=brake) if strokes else []
-            if force_per_metre is not None:
-                done = press_to_force(case, force_per_metre, brake=brake).bend
-            elif angle is None:
-                done = air_bending(case, brake=brake)
-            else:
-                done = find_stroke(case, angle, tolerance=tolerance, brake=brake).bend
+            done = _bent(brake, case, angle, force_per_metre, tolerance)
         errors = None
         try:
             if budget:
@@ -202,7 +192,7 @@ def bend(
 
                 errors = error_budget(done.case, done.measures, processes=processes)
             with printing(f"the files of the bend are in {place}"):
-                _show(done, rows, errors, note, length)
+                show_bend(done, rows, errors, note, length)
         except KeyboardInterrupt as stop:
             stop.add_note(f"  results so far are in {place}: all but the budget")
             raise
@@ -213,6 +203,34 @@ def bend(
     console().print(f"Written to {place}: {', '.join(file.name for file in files)}", soft_wrap=True)
     if timing:
         show_timing(Timing.sum(spent), "Where the time went, but for the runs of the budget")
+
+
+def _print_deck(case: AirBending, angle: float | None, force_per_metre: float | None, tolerance: float) -> None:
+    """Print a bend as a deck, with the stroke that its angle or its force needs."""
+    from umform.deck import deck_of
+    from umform.processes.air_bending.bottoming import press_to_force
+    from umform.processes.air_bending.search import find_stroke
+
+    if force_per_metre is not None:
+        case = press_to_force(case, force_per_metre, frames=1).case
+    elif angle is not None:
+        case = find_stroke(case, angle, tolerance=tolerance, frames=1).case
+    typer.echo(deck_of(case), nl=False)
+
+
+def _bent(
+    brake: Brake, case: AirBending, angle: float | None, force_per_metre: float | None, tolerance: float
+) -> AirBend:
+    """Bend to a force, to a stroke, or to an angle after springback."""
+    from umform.processes.air_bending.bottoming import press_to_force
+    from umform.processes.air_bending.case import air_bending
+    from umform.processes.air_bending.search import find_stroke
+
+    if force_per_metre is not None:
+        return press_to_force(case, force_per_metre, brake=brake).bend
+    if angle is not None:
+        return find_stroke(case, angle, tolerance=tolerance, brake=brake).bend
+    return air_bending(case, brake=brake)
 
 
 def _refuse_implausible(model: Model, *, force: bool) -> None:
@@ -250,43 +268,3 @@ def _what_was_reached(out: Path) -> Iterator[list[Measures]]:
         if files:
             stop.add_note(f"  results so far are in {out}: {', '.join(file.name for file in files)}")
         raise
-
-
-def _show(done: AirBend, rows: list[Measures], errors: Budget | None, note: str, length: float | None) -> None:
-    """Print measures, bending table, and remarks."""
-    from umform.processes.air_bending.formulas import shop_forces
-    from umform.processes.air_bending.remarks import remarks, tools_text, total_force
-    from umform.processes.air_bending.words import summary, summary_header, table_header, table_rows
-    from umform.results.penetration import penetrations
-
-    screen = console()
-    screen.print(tools_text(done.case), soft_wrap=True)
-    _print_table("Air bending", summary_header(errors), summary(done.measures, done.case.width, errors))
-    screen.print("rows of the table: docs/air-bending.md, What is measured")
-    low, high = shop_forces(done.case)
-    screen.print(f"rule of the shop for the largest force: {low:.1f} to {high:.1f} N/mm (1.33 to 1.42 Rm t²/V)")
-    if length is not None:
-        screen.print(total_force(done.measures.largest_force, length), soft_wrap=True)
-    for remark in remarks(done.case, done.measures):
-        screen.print(remark, soft_wrap=True)
-    if rows:
-        _print_table("Bending table", table_header(), table_rows(rows))
-    for name, said in penetrations(done.result.model, done.result).items():
-        screen.print(f"contact {name}: {said}", soft_wrap=True)
-    if note:
-        screen.print(note, soft_wrap=True)
-    echo_warnings(done.warnings)
-    for name, why in (errors.failures if errors else {}).items():
-        typer.echo(f"umform: {name}: {why}", err=True)
-
-
-def _print_table(title: str, header: list[str], rows: list[list[str]]) -> None:
-    from rich import box
-    from rich.table import Table
-
-    table = Table(title=title, box=box.SIMPLE_HEAD)
-    for number, name in enumerate(header):
-        table.add_column(name, justify="left" if number == 0 or name == "unit" else "right", no_wrap=number == 0)
-    for row in rows:
-        table.add_row(*row)
-    console().print(table)

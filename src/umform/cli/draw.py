@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from umform.processes.draw.u_bend import UBend
 
 _TOOLS = "Tools (mm, N)"
+#: Printed where springback has no error.
+_ONE_MESH = "springback of one mesh, its error is unknown: three meshes (without --coarse, or --extrapolate) give it"
 #: Options of diameters by the radii of a cup.
 _DIAMETERS = {
     "die_radius": "half of --opening",
@@ -95,6 +97,7 @@ def cup(
 
     The defaults are the tools of the ESAFORM benchmark 2021. Each number is defined in docs/forming-results.md.
     """
+    from umform.processes.draw.case import draw
     from umform.processes.draw.cup import CLEARANCE, Cup
 
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
@@ -118,7 +121,7 @@ def cup(
         contact_points=contact_points,
         penalty=_chosen(penalty, coarse, 1e4, 3e4),
     )
-    _run(case, out, "cup", note, limit_curve, overwrite=overwrite, timing=timing)
+    _run(case, draw, out, "cup", note, limit_curve, overwrite=overwrite, timing=timing)
 
 
 @group.command()
@@ -145,12 +148,22 @@ def u(
     swift: SwiftCurve = None,
     flow_curve: FlowCurve = None,
     limit_curve: LimitCurve = None,
-    element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND8",
+    element: Annotated[str, option("Element of the catalogue.", SOLUTION)] = "BEND18",
     turn: Turn = None,
     layers: Layers = 1,
     thickness_points: ThicknessPoints = None,
-    contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 3,
-    penalty: Annotated[float, option("Contact pressure per penetration.", SOLUTION)] = 1000.0,
+    contact_points: Annotated[int, option("Contact points per direction and facet.", SOLUTION)] = 4,
+    penalty: Annotated[
+        float | None, option("Contact pressure per penetration; default by the allowed penetration.", SOLUTION)
+    ] = None,
+    extrapolate: Annotated[
+        bool | None,
+        option(
+            "Also run two coarser meshes: springback and forces with their errors; default, but not with --coarse.",
+            SOLUTION,
+            "--extrapolate/--no-extrapolate",
+        ),
+    ] = None,
     overwrite: Overwrite = False,
     timing: Timed = False,
     verbose: Verbose = 0,
@@ -160,6 +173,8 @@ def u(
 
     The defaults are the tools of the NUMISHEET benchmark 93. Each number is defined in docs/forming-results.md.
     """
+    from umform.processes.draw.case import draw
+    from umform.processes.draw.three_meshes import extrapolated
     from umform.processes.draw.u_bend import CLEARANCE, UBend
 
     law, note = law_of(material, young, poisson, yield_stress, hardening_modulus, swift, flow_curve, thickness)
@@ -176,13 +191,15 @@ def u(
         friction=friction,
         stroke=stroke,
         element=element,
-        turn=_chosen(turn, coarse, 20.0, 13.0),
+        turn=_chosen(turn, coarse, 20.0, 12.0),
         layers=layers or None,
         thickness_points=thickness_points,
         contact_points=contact_points,
         penalty=penalty,
     )
-    _run(case, out, "u-bend", note, limit_curve, overwrite=overwrite, timing=timing)
+    three = not coarse if extrapolate is None else extrapolate
+    how = extrapolated if three else draw
+    _run(case, how, out, "u-bend", note, limit_curve, overwrite=overwrite, timing=timing)
 
 
 def _chosen(given: Any, coarse: bool, first: Any, usual: Any) -> Any:
@@ -220,12 +237,19 @@ def _why(error: Exception) -> str:
 
 
 def _run(
-    case: Cup | UBend, out: str | None, name: str, note: str, limit: Path | None, *, overwrite: bool, timing: bool
+    case: Cup | UBend,
+    how: Callable[..., Drawn],
+    out: str | None,
+    name: str,
+    note: str,
+    limit: Path | None,
+    *,
+    overwrite: bool,
+    timing: bool,
 ) -> None:
     """Draw, print, write."""
     from umform.io.folders import folder_for
     from umform.io.staging import staging
-    from umform.processes.draw.case import draw
     from umform.processes.draw.files import FILES, draw_blank, write_files
     from umform.processes.draw.words import before_the_run
 
@@ -236,7 +260,7 @@ def _run(
     say(f"umform: {before_the_run(case)}")
     with staging(place, FILES):
         say(f"umform: the mesh of the blank is drawn in {draw_blank(place, case)}")
-        drawn = draw(case, limit=curve)
+        drawn = how(case, limit=curve)
         try:
             with printing(f"the files of the part are in {place}"):
                 _show(drawn, note)
@@ -258,15 +282,18 @@ def _show(drawn: Drawn, note: str) -> None:
     from umform.processes.draw.words import summary, title
     from umform.results.penetration import penetrations
 
-    table = Table("quantity", title=title(drawn), box=box.SIMPLE_HEAD)
-    table.add_column("value", justify="right")
-    table.add_column("unit")
-    for row in summary(drawn):
+    columns, *rows = summary(drawn)
+    table = Table(title=title(drawn), box=box.SIMPLE_HEAD)
+    for name in columns:
+        table.add_column(name, justify="left" if name in ("quantity", "unit") else "right")
+    for row in rows:
         table.add_row(*row)
     screen = console()
     screen.print(table)
     for name, said in penetrations(drawn.result.model, drawn.result).items():
         screen.print(f"contact {name}: {said}", soft_wrap=True)
+    if drawn.angles is not None and not drawn.estimates:
+        screen.print(_ONE_MESH, soft_wrap=True)
     if note:
         screen.print(note, soft_wrap=True)
     echo_warnings(drawn.warnings)

@@ -12,6 +12,7 @@ from umform.deck.contents import Contents
 from umform.deck.drawn_tools import Profiled
 from umform.deck.errors import DeckError
 from umform.deck.foreign import Foreign
+from umform.deck.measure_checks import check_measures
 from umform.deck.metal import J2, Metal
 from umform.deck.outline import Outlined
 from umform.deck.places import Place
@@ -21,7 +22,6 @@ from umform.deck.rolling import direction
 from umform.deck.source import Source
 from umform.deck.steps import Free, Named
 from umform.deck.supports import Rigid
-from umform.deck.unloading import loading_steps
 from umform.elements import Rolling
 from umform.elements.technology import Element
 from umform.errors import UmformError
@@ -105,7 +105,7 @@ class _Builder:
         options = self._options(model)
         self._raise()
         steps = self._steps(Named(controls, supports, contacts))
-        self._measures(model)
+        check_measures(self.contents, model, self._at)
         self._raise()
         return Problem(
             model=model,
@@ -298,13 +298,6 @@ class _Builder:
             with self._at("steps", number):
                 steps.append(part.build(named))
         return steps
-
-    def _measures(self, model: Model) -> None:
-        """Refuse measures that cannot be taken."""
-        released = loading_steps(self.contents) < len(self.contents.steps)
-        for name, part in self.contents.measures.items():
-            with self._at("measures", name):
-                part.check(model, released=released)
 
     def _at(self, *path: str | int) -> Place:
         """Context for a part of the deck: errors get its place."""

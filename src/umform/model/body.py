@@ -20,6 +20,7 @@ from umform.mesh import Mesh
 from umform.model.control import Twins
 from umform.model.cut import Cut
 from umform.model.elsewhere import not_here
+from umform.model.failing_point import at_failing_point
 from umform.model.selected_cells import Cells, cell_numbers
 from umform.model.term import At, Energies, Found, Into, Term, Tree
 from umform.model.through_thickness import completed, points_through
@@ -226,20 +227,8 @@ class Body(Term):
         scatter, self.block.step = into.scatters[self][0], at.step
         failed, scale, failure = self.block.evaluate(at.u, scatter, into.residual, into.values, at.du, product)
         if failed >= 0:
-            failed, failure = int(self.cells[failed]), failure + self._at_point(failed, at.u)
+            failed, failure = int(self.cells[failed]), failure + at_failing_point(self.block, failed, at.u)
         return BodyFound(scale, failed=failed, failure=failure, flows=self.block.flowing)
-
-    def _at_point(self, cell: int, u: Floats) -> str:
-        """Point of a cell at which its law failed, as text; empty if it failed for another reason."""
-        point, E = self.block.failing_point(cell, u)
-        if point < 0:
-            return ""
-        names = list(self.block.state_names)
-        text = f" at its point {point} with the strain ({', '.join(f'{value:.4g}' for value in E)})"
-        if "eqps" not in names:
-            return text
-        place = sum(size for name, size in self.block.state_names.items() if names.index(name) < names.index("eqps"))
-        return f"{text}, plastic strain {self.block.state[cell, point, place]:.4g}"
 
     def recover(self, du: Floats, mixed: bool) -> None:
         """Update the enhanced parameters. eq. (2.19)"""

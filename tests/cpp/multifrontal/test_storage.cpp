@@ -1,9 +1,14 @@
 // Where the columns of fronts lie, and the memory that updates share.
+#include <algorithm>
+#include <cstdint>
 #include <set>
 #include <vector>
 
 #include "check.hpp"
+#include "umform/multifrontal/elimination.hpp"
 #include "umform/multifrontal/panels.hpp"
+#include "umform/multifrontal/plan.hpp"
+#include "umform/multifrontal/schedule.hpp"
 #include "umform/multifrontal/storage.hpp"
 
 using namespace umform;
@@ -71,8 +76,52 @@ void check_arena() {
     arena.give(b, 16);
     arena.give(d, 32);
     CHECK(arena.take(100, true, 0) == memory.data());
+    arena.reset(memory.data(), 100);
+    CHECK(arena.take(8, false, 48) == memory.data() + 48);  // what is free on both sides stays so
+    CHECK(arena.take(48, true, 0) == memory.data() && arena.take(44, true, 48) == memory.data() + 56);
     arena.reset(memory.data(), 0);
     CHECK(arena.take(8, false, 0) == nullptr);
+}
+
+/// Upper triangle of the pattern of a square grid of nodes with three equations each.
+struct Grid {
+    std::vector<std::int32_t> indptr{0}, indices;
+
+    explicit Grid(int side) {
+        for (int row = 0; row < 3 * side * side; ++row) {
+            const int x = row / 3 % side, y = row / 3 / side;
+            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, side - 1); ++v)
+                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, side - 1); ++u)
+                    for (int k = 0; k < 3; ++k)
+                        if (const int column = 3 * (v * side + u) + k; column >= row) indices.push_back(column);
+            indptr.push_back(static_cast<std::int32_t>(indices.size()));
+        }
+    }
+};
+
+/// Updates share the memory of the columns of the last front, apart from those of its children, which are still read while
+/// these columns are filled: behind them there is room for all.
+void check_last_front() {
+    const Grid grid(40);
+    const Rows rows{grid.indptr.data(), grid.indices.data(), static_cast<int>(grid.indptr.size()) - 1};
+    const Quotient quotient = make_quotient(rows.indptr, rows.indices, rows.n);
+    const Plan plan(rows, true, quotient, eliminate(quotient));
+    const Schedule schedule(plan);
+    const Front& last = plan.fronts.back();
+    CHECK(schedule.last + 1 == static_cast<int>(plan.fronts.size()));
+    const std::size_t columns = Panels::of_factor(last.size, last.pivots, true).size();
+    CHECK(schedule.begin < last.factor + columns && last.factor + columns <= schedule.floor);
+
+    std::vector<double> memory(schedule.end - schedule.begin);
+    Arena arena;
+    arena.reset(memory.data(), memory.size());
+    const std::size_t floor = schedule.floor - schedule.begin;
+    for (int k = plan.children_start[schedule.last]; k < plan.children_start[schedule.last + 1]; ++k) {
+        const int child = plan.children[k];
+        const std::size_t size = Arena::padded(Panels::of_update(plan.fronts[child].updates(), 0, true).size());
+        const double* data = arena.take(size, schedule.side(child), floor);
+        CHECK(data != nullptr && data >= memory.data() + floor);
+    }
 }
 
 /// What finds no room in the arena comes from the pool, and goes back to where it has come from.
@@ -107,6 +156,7 @@ int main() {
     check_panels();
     check_halves();
     check_arena();
+    check_last_front();
     check_rooms();
     check_stacks();
     return report("storage of fronts");

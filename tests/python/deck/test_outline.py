@@ -26,9 +26,8 @@ size = 6.0
 
 def deck_text(more=""):
     """The square cup from a blank with a round corner and a hole."""
-    text = (
-        template("square-cup").replace('nodes = "x0"', 'nodes = "edge_4"').replace('nodes = "y0"', 'nodes = "edge_0"')
-    )
+    text = template("square-cup").replace('edge = ["x1", "y1"]', 'edge = ["edge_1", "edge_2", "edge_3"]')
+    text = text.replace('nodes = "x0"', 'nodes = "edge_4"').replace('nodes = "y0"', 'nodes = "edge_0"')
     return (
         text[: text.index("[mesh]")]
         + MESH

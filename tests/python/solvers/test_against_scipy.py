@@ -2,30 +2,23 @@
 
 from __future__ import annotations
 
-import importlib.util
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from matrices import error_of, factored, grid, tangent
 from scipy import sparse
 from scipy.linalg import ldl
 from scipy.sparse.linalg import spsolve
 
 from umform.errors import SolveError
 
-_SPEC = importlib.util.spec_from_file_location("matrices", Path(__file__).with_name("matrices.py"))
-matrices = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(matrices)
-factored, error_of = matrices.factored, matrices.error_of
-
 EPS = float(np.finfo(np.float64).eps)
 SHAPES = {
-    "sheet": lambda: matrices.grid((10, 10), 3),
-    "stack": lambda: matrices.grid((6, 6, 3), 2),
-    "8 nodes": lambda: matrices.tangent((8, 5)),
-    "18 nodes": lambda: matrices.tangent((3, 2), "hex18"),
+    "sheet": lambda: grid((10, 10), 3),
+    "stack": lambda: grid((6, 6, 3), 2),
+    "8 nodes": lambda: tangent((8, 5)),
+    "18 nodes": lambda: tangent((3, 2), "hex18"),
 }
 
 

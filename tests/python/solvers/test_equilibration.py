@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import importlib.util
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from matrices import error_of, factored, grid, negative_eigenvalues, saddle, some_matrix, tangent
 from scipy import sparse
 
 from umform.errors import SolveError
-
-_SPEC = importlib.util.spec_from_file_location("matrices", Path(__file__).with_name("matrices.py"))
-matrices = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(matrices)
-factored, error_of, grid = matrices.factored, matrices.error_of, matrices.grid
-negative_eigenvalues = matrices.negative_eigenvalues
 
 KINDS = ["positive", "indefinite", "unsymmetric"]
 SHAPES = {
@@ -25,8 +17,8 @@ SHAPES = {
     "strip": grid((20, 3), 3),
     "scalars": grid((16, 16), 1),
     "solid": grid((4, 4, 5), 3),
-    "8 nodes": matrices.tangent((9, 7)),
-    "zeros on the diagonal": matrices.saddle(8, 30, 1),
+    "8 nodes": tangent((9, 7)),
+    "zeros on the diagonal": saddle(8, 30, 1),
 }
 
 
@@ -79,7 +71,7 @@ def test_scaled_equations_are_solved_as_well_as_others(case, decades, seed):
 @given(decades=st.floats(0.0, 12.0), seed=st.integers(0, 10**6), symmetric=st.booleans())
 def test_any_sparsity_in_any_scale(decades, seed, symmetric):
     """With a diagonal, which may be weak: solved to rounding with the right inertia and sign, or refused."""
-    matrix = matrices.some_matrix(seed, symmetric)
+    matrix = some_matrix(seed, symmetric)
     n = len(matrix)
     signs = np.random.default_rng(seed).choice([-0.3, 0.3], n)
     matrix += np.diag(np.where(np.diag(matrix) == 0.0, signs, 0.0))
@@ -156,7 +148,7 @@ def test_what_is_eliminated_has_rows_and_columns_alike(case):
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("cell", ["hex8", "hex18"])
 def test_tangents_of_sheets_stay_as_they_are(kind, cell):
-    matrix = matrices.tangent((8, 4), cell)
+    matrix = tangent((8, 4), cell)
     if kind == "unsymmetric":
         matrix = matrix + 0.2 * sparse.triu(matrix, 1)
     elif kind == "indefinite":

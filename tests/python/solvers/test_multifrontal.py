@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import subprocess
 import sys
 from pathlib import Path
@@ -11,25 +10,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from matrices import error_of, factored, grid, negative_eigenvalues, saddle, some_matrix, stored, tangent
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from umform.errors import SingularMatrix, SolveError
 from umform.solvers import make_solver, multifrontal
 from umform.solvers.multifrontal import Multifrontal
-
-_SPEC = importlib.util.spec_from_file_location("matrices", Path(__file__).with_name("matrices.py"))
-matrices = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(matrices)
-stored = matrices.stored
-factored = matrices.factored
-error_of = matrices.error_of
-negative_eigenvalues = matrices.negative_eigenvalues
-grid = matrices.grid
-tangent = matrices.tangent
-saddle = matrices.saddle
-some_matrix = matrices.some_matrix
-
 
 SHAPES = {
     "chain": lambda: grid((60,), 1),

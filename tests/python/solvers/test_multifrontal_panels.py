@@ -2,24 +2,12 @@
 
 from __future__ import annotations
 
-import importlib.util
-from pathlib import Path
-
 import numpy as np
 import pytest
+from matrices import error_of, factored, grid, negative_eigenvalues, stored
 from scipy import sparse
 
 from umform.solvers.multifrontal import Multifrontal
-
-_SPEC = importlib.util.spec_from_file_location("matrices", Path(__file__).with_name("matrices.py"))
-matrices = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(matrices)
-stored = matrices.stored
-factored = matrices.factored
-error_of = matrices.error_of
-negative_eigenvalues = matrices.negative_eigenvalues
-grid = matrices.grid
-saddle = matrices.saddle
 
 
 def check(matrix, columns, limit=1e-13):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import subprocess
 import sys
 import threading
@@ -10,16 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matrices import grid, saddle, stored
 from scipy import sparse
 
 import umform
 from umform.solvers import blas
 from umform.solvers.multifrontal import Multifrontal
 
-_SPEC = importlib.util.spec_from_file_location("matrices", Path(__file__).with_name("matrices.py"))
-matrices = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(matrices)
-grid, saddle, stored = matrices.grid, matrices.saddle, matrices.stored
 SCALED = ["scaled indefinite", "scaled unsymmetric"]
 
 

@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-import importlib.util
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 import pytest
+from matrices import factored, grid, stored
 from scipy import sparse
 
 import umform as uf
 from umform.errors import NoConvergence, SingularMatrix
 from umform.solvers import multifrontal
 from umform.solvers.singularity import Iteration, weak_pivot
-
-_SPEC = importlib.util.spec_from_file_location("matrices", Path(__file__).with_name("matrices.py"))
-matrices = importlib.util.module_from_spec(_SPEC)
-_SPEC.loader.exec_module(matrices)
-factored, grid = matrices.factored, matrices.grid
 
 
 def sheet(size, cells, turned=0.0, clamped=True):
@@ -90,7 +84,7 @@ def test_a_mechanism_without_a_weak_pivot_is_seen_in_a_solution(size, cells, sym
 def test_the_first_matrix_of_a_pattern_alone_is_asked_for_a_solution(monkeypatch):
     asked = []
     monkeypatch.setattr(multifrontal, "large_solution", lambda *_: asked.append(1))
-    pattern, values = matrices.stored(grid((9, 9), 2))
+    pattern, values = stored(grid((9, 9), 2))
     solver = multifrontal.Multifrontal()
     for expected in (1, 2):
         solver.analyse(pattern)

@@ -137,8 +137,7 @@ class Dissection {
         for (int k = 0; k < margin; ++k)
             if (touches(sorted_[k], last)) part_[sorted_[k]] = middle, --firsts;
         gather(first, middle, last);
-        between_.part(firsts - margin, side_);
-        const int few = static_cast<int>(std::count(side_.begin(), side_.end(), 0));
+        const int few = between_.part(firsts - margin, fewest_, side_);
         if (firsts > 0 && few < fewest_) {
             fewest_ = few;
             for (const int v : sorted_) best_[v] = part_[v] == first ? -1 : part_[v] == last ? 1 : side_[local_[v]];

@@ -36,14 +36,17 @@ inline std::uint64_t mixed(std::uint64_t x) {
 /// A number for the set of columns of each row. Two of n sets have the same number by chance once in 2^65 / n^2 matrices: the
 /// order is poorer then, and blocks refuse their entries.
 inline std::vector<std::uint64_t> row_keys(const std::int32_t* indptr, const std::int32_t* indices, int n) {
-    std::vector<std::uint64_t> key(n, 0);
+    std::vector<std::uint64_t> key(n), mix(n);
+    for (int row = 0; row < n; ++row) key[row] = mix[row] = mixed(row);  // the diagonal
     for (int row = 0; row < n; ++row) {
-        const std::uint64_t mine = mixed(row);
+        const std::uint64_t mine = mix[row];
+        std::uint64_t sum = 0;
         for (int k = indptr[row]; k < indptr[row + 1]; ++k) {
             const int column = indices[k];
-            key[row] += mixed(column);
-            if (column != row) key[column] += mine;
+            if (column == row) continue;
+            sum += mix[column], key[column] += mine;
         }
+        key[row] += sum;
     }
     return key;
 }
@@ -53,6 +56,7 @@ inline std::vector<std::int32_t> equal_rows(const std::int32_t* indptr, const st
     const std::vector<std::uint64_t> key = row_keys(indptr, indices, n);
     std::vector<std::int32_t> set(n);
     std::unordered_map<std::uint64_t, std::int32_t> known;
+    known.reserve(n / 4);
     for (int row = 0; row < n; ++row) {
         if (row > 0 && key[row] == key[row - 1])
             set[row] = set[row - 1];

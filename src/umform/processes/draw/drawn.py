@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -13,6 +14,7 @@ from umform.errors import InvalidValue
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.endings import Ending, tears_from
 from umform.processes.draw.u_bend import UBend
+from umform.processes.limit import Limit
 from umform.report.symmetry import Mirror, with_images
 from umform.results.forming import (
     EarProfile,
@@ -55,6 +57,10 @@ class Drawn:
         The opening of the tools; None if the run ended earlier.
     ending : Ending, optional
         What went wrong; None if nothing did.
+    estimates : mapping of str to Limit
+        Measures extrapolated to zero element size; empty for one mesh.
+    coarser : tuple of Drawn
+        The same part on coarser meshes, the coarsest first, that gave the estimates.
     """
 
     case: Cup | UBend
@@ -63,6 +69,8 @@ class Drawn:
     u: Floats
     released: Result | None
     ending: Ending | None
+    estimates: Mapping[str, Limit] = field(default_factory=dict)
+    coarser: tuple[Drawn, ...] = ()
 
     @property
     def u_free(self) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -97,6 +98,7 @@ def record(drawn: Drawn) -> dict[str, Any]:
     return {
         "parameters": parameters(drawn.case),
         "measures": {name: value for name, (value, _) in drawn.measures().items()},
+        "estimates": {name: asdict(limit) for name, limit in drawn.estimates.items()},
         "ending": None if drawn.ending is None else drawn.ending.text,
         "elements": len(drawn.result.model.mesh.connectivity),
         "increments": len(drawn.result) - 1,

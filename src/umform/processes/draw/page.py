@@ -8,7 +8,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from umform.processes.draw.drawn import Drawn
-from umform.processes.draw.words import before_the_run, parameters, summary, title
+from umform.processes.draw.words import before_the_run, meshes, parameters, summary, title
 from umform.report import parts
 from umform.report.materials import material_text
 from umform.report.page import closing, parameter_parts, settings
@@ -28,6 +28,11 @@ _CAPTIONS = {
     "section": "Section at y = 0, at the end of the stroke and out of the tools.",
     "ears": "Height of the cup over the angle to the rolling direction.",
 }
+
+_ESTIMATES = (
+    "Values with an error are extrapolated to zero element size from these meshes. All else, pictures too, is from the "
+    "finest mesh."
+)
 
 
 def write_page(path: Path, drawn: Drawn, figures: Mapping[str, Figure], note: str = "") -> Path:
@@ -53,7 +58,12 @@ def _parts(drawn: Drawn, figures: Mapping[str, Figure], note: str) -> Iterator[s
     for message in counted(drawn.warnings):
         yield parts.note(message, bad=True)
     yield parts.heading("Measures")
-    yield parts.table(["quantity", "value", "unit"], summary(drawn))
+    columns, *rows = summary(drawn)
+    yield parts.table(columns, rows)
+    if drawn.estimates:
+        yield parts.paragraph(_ESTIMATES)
+        columns, *rows = meshes(drawn)
+        yield parts.table(columns, rows)
     for name, figure in figures.items():
         yield parts.figure(figure, _CAPTIONS[name])
     yield from parameter_parts(parameters(drawn.case) | {"material": material_text(drawn.case.material)}, note)

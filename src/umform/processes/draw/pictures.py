@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
+from umform.processes.draw.words import angles_text
 from umform.processes.sizes_picture import sizes_figure
 from umform.report.forming import limit_diagram
 from umform.report.part_pictures import (
@@ -115,7 +116,7 @@ def sections(drawn: Drawn) -> Figure:
     along, wall, title = np.array([1.0, 0.0, 0.0]), None, ""
     if drawn.angles is not None and drawn.wall_heights is not None:
         line = drawn.sections["released"].line(along)
-        wall, title = np.array([crossing(line, height) for height in drawn.wall_heights]), f"{drawn.angles} mm"
+        wall, title = np.array([crossing(line, height) for height in drawn.wall_heights]), angles_text(drawn)
     return section_picture(cuts, along, points=wall, title=title)
 
 

@@ -23,16 +23,22 @@ from umform.processes.draw.rules import (
     tight,
     unusual_pressure,
 )
+from umform.processes.limit import allowed_penetration
 from umform.processes.rules import check_rules, length
 from umform.results.forming.u_bend import HEIGHTS
 from umform.surfaces import Box, Plane, UDie
 
 #: Usual clearance beside the punch in thicknesses, that of NUMISHEET 93: 1 mm for a sheet of 0.78 mm.
 CLEARANCE = 1.0 / 0.78
+#: A given penalty of the holder over that of the other tools, and its allowed penetration in thicknesses by which it is
+#: chosen otherwise, eq. (4.29). Under a stiff plane points of a flat sheet open and close at small forces, and Newton's
+#: method takes many increments or fails.
+_HOLDER, _GIVEN_WAY = 0.06, 1.0 / 100.0
 _RULES = COMMON | {
     "length": length("the length of the blank", "in mm, such as 350"),
     "punch_width": length("the width of the punch", "in mm, such as 50"),
     "opening": length("the opening of the die", "in mm, such as 52"),
+    "penalty": COMMON["penalty"].optional(),
     "width": length("the width of the blank", "in mm, such as 35; forces are those on it"),
 }
 
@@ -66,8 +72,11 @@ class UBend:
         Name in the catalogue.
     turn : float
         Largest angle in degrees that an element turns over the edge of the punch or of the die.
-    layers, thickness_points, contact_points, penalty
+    layers, thickness_points, contact_points
         As for :class:`Cup`.
+    penalty : float, optional
+        Pressure per penetration on die and punch; on the holder 0.06 of it. Default: by the allowed penetration, eqs.
+        (4.29) and (4.190).
     """
 
     kind: ClassVar[str] = "u-bend"
@@ -82,12 +91,12 @@ class UBend:
     holder_force: float
     friction: float = 0.144
     stroke: float | None = None
-    element: str = "BEND8"
-    turn: float = 15.0
+    element: str = "BEND18"
+    turn: float = 12.0
     layers: int | None = 1
     thickness_points: int | None = None
-    contact_points: int = 3
-    penalty: float = 1000.0
+    contact_points: int = 4
+    penalty: float | None = None
 
     def __post_init__(self) -> None:
         values = self.record()
@@ -164,6 +173,14 @@ class UBend:
         largest = max(3.0 * math.radians(self.turn) * edge, 2.0 * self.thickness)
         return bending_sizes(0.0, 0.5 * self.length, bent, turn=self.turn, largest=largest)
 
+    @property
+    def allowed(self) -> float:
+        """Penetration allowed on the edges of punch and die. eq. (4.190)"""
+        radius = min(self.punch_edge, self.die_edge)
+        chords = 1 if element(self.element).cell == "hex8" else 2
+        spacing = math.radians(self.turn) * (radius + 0.5 * self.thickness) / chords
+        return allowed_penetration(spacing, radius, self.thickness)
+
     def blank(self) -> Mesh:
         """Half of a strip of unit width, its lower face at z = 0."""
         heights = np.linspace(0.0, self.thickness, self.stacked + 1)
@@ -178,18 +195,26 @@ class UBend:
         model.symmetry("x0", "x")
         model.fix(np.arange(len(model.mesh.points)), "y")
         deep = 2.0 * self.way + 20.0 * t
-        rule: dict[str, Any] = {"points": self.contact_points, "friction": self.friction}
+        edges, flat = self._contacts()
         die = model.tool("die", UDie(self.opening, deep, self.die_edge, self.die_edge))
-        model.contact("lower", die, name="on_die", penalty=self.penalty, **rule)
+        model.contact("lower", die, name="on_die", **edges)
         holder = model.tool("holder", Plane((0.0, 0.0, t), (0.0, 0.0, -1.0)))
         hold = held_by(model, holder, 0.5 * self.holder_force / self.width, blocks=False)
-        model.contact("upper", holder, name="under_holder", penalty=0.06 * self.penalty, **rule)
+        under = model.contact("upper", holder, name="under_holder", **flat)
+        under.allowed = None  # the holder tilts the flange: its edge is pressed deeper than the flat of eq. (4.29)
         punch = Box((0.0, 0.0, t + deep), (self.punch_width, 10.0 * t + 100.0, 2.0 * deep), self.punch_edge)
         ram = model.tool("punch", punch)
-        model.contact("upper", ram, name="under_punch", penalty=self.penalty, **rule)
+        model.contact("upper", ram, name="under_punch", **edges)
         stroke = model.drive(ram, "-z", name="stroke")
         gauge = model.hold_rigid(lambda x, y, z: x < 1e-9, name="gauge")
         return model, Press(hold, stroke, self.way, gauge)
+
+    def _contacts(self) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Settings of the contacts with the edges of punch and die, and with the holder."""
+        rule: dict[str, Any] = {"points": self.contact_points, "friction": self.friction}
+        if self.penalty is None:
+            return rule | {"penetration": self.allowed}, rule | {"penetration": _GIVEN_WAY * self.thickness}
+        return rule | {"penalty": self.penalty}, rule | {"penalty": _HOLDER * self.penalty}
 
     @property
     def parts(self) -> float:

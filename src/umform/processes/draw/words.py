@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from umform.elements import element
 from umform.processes.draw.cup import Cup
 from umform.processes.draw.drawn import Drawn
 from umform.processes.draw.u_bend import UBend
+from umform.processes.limit import Limit
 
 
 def parameters(case: Cup | UBend) -> dict[str, Any]:
@@ -27,8 +29,51 @@ def title(drawn: Drawn) -> str:
 
 
 def summary(drawn: Drawn) -> list[list[str]]:
-    """Rows of all measures: name, value, unit."""
-    return [[name, f"{value:.4g}", unit] for name, (value, unit) in drawn.measures().items()]
+    """Rows of all measures, the names of the columns first: name, value, unit.
+
+    With estimates there are more columns: the value at zero element size and its error, then that on the finest mesh.
+    """
+    measures = drawn.measures().items()
+    if not drawn.estimates:
+        return [["quantity", "value", "unit"], *([name, f"{value:.4g}", unit] for name, (value, unit) in measures)]
+    rows = [["quantity", "value", "error", "finest mesh", "unit"]]
+    for name, (value, unit) in measures:
+        limit = drawn.estimates.get(name)
+        if limit is None:
+            rows.append([name, f"{value:.4g}", "", "", unit])
+        else:
+            rows.append([name, *_with_error(limit), f"{value:.4g}", unit])
+    return rows
+
+
+def _with_error(limit: Limit) -> tuple[str, str]:
+    """A limit and its error, both to the second digit of the error."""
+    if not limit.error:
+        return f"{limit.value:.4g}", ""
+    digits = max(1 - math.floor(math.log10(limit.error)), 0)
+    return f"{limit.value:.{digits}f}", f"± {limit.error:.{digits}f}"
+
+
+def angles_text(drawn: Drawn) -> str:
+    """Angles and radius of a U-bend in a line, with their errors if there are any; empty without angles."""
+    if drawn.angles is None:
+        return ""
+    rows = {name: row for name, *row in summary(drawn)[1:]}
+    shown = {"theta1": ("theta1", "°"), "theta2": ("theta2", "°"), "radius of the wall": ("radius", " mm")}
+    return ", ".join(
+        f"{label} {rows[name][0]}{' ' + rows[name][1] if drawn.estimates else ''}{unit}"
+        for name, (label, unit) in shown.items()
+    )
+
+
+def meshes(drawn: Drawn) -> list[list[str]]:
+    """Rows of the measures on each mesh that gave the estimates, the names of the columns first."""
+    names = list(drawn.estimates)
+    rows = [["degrees per element", "elements", *names]]
+    for mesh in (*drawn.coarser, drawn):
+        measures, elements = mesh.measures(), len(mesh.result.model.mesh.connectivity)
+        rows.append([f"{mesh.case.turn:.4g}", str(elements), *(f"{measures[name][0]:.4g}" for name in names)])
+    return rows
 
 
 def before_the_run(case: Cup | UBend) -> str:

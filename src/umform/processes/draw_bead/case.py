@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 from umform.elements import rolling_at
 from umform.model import Model
-from umform.processes.draw_bead.limit import Limit, Limits
+from umform.processes.draw_bead.limits import Limits
 from umform.processes.draw_bead.measures import Drawn
 from umform.processes.draw_bead.parameters import DrawBead
+from umform.processes.limit import FINER, Limit
 from umform.run import solve
 from umform.steps import Move, Step
 
-#: Ratio of the element counts of successive meshes.
-_FINER = math.sqrt(2.0)
 #: Margin of the penalty that follows from a coarser mesh.
 _MARGIN = 1.2
 #: States that each step keeps for pictures.
@@ -54,14 +52,14 @@ def extrapolated(case: DrawBead, *, frames: int = FRAMES, solver: str = "auto", 
         Results on the finest mesh, with extrapolated forces and their errors.
     """
     every: list[Drawn] = []
-    for part in (_FINER**-2, 1.0 / _FINER, 1.0):
+    for part in (FINER**-2, 1.0 / FINER, 1.0):
         mesh = replace(case, elements=case.elements * part)
         if every and case.penalty is None:
             mesh = replace(mesh, penalty=penalty_by(every[-1], mesh))
         every.append(drawn_through(mesh, frames=frames if part == 1.0 else 0, solver=solver, progress=progress))
     fine = every[-1]
     limits = Limits(
-        Limit.of_three([one.restraint for one in every], _FINER), Limit.of_three([one.uplift for one in every], _FINER)
+        Limit.of_three([one.restraint for one in every], FINER), Limit.of_three([one.uplift for one in every], FINER)
     )
     return replace(fine, limits=limits)
 

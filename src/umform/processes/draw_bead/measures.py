@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from umform.processes.draw_bead.limit import Limits
+from umform.processes.draw_bead.limits import Limits
 from umform.processes.draw_bead.parameters import DrawBead
 from umform.results import fields
 from umform.run import Result

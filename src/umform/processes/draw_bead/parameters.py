@@ -13,6 +13,7 @@ from umform.elements.technology import Element
 from umform.materials import J2, Metal
 from umform.mesh import Mesh, strip
 from umform.processes.draw_bead.checks import check_geometry, check_parameters
+from umform.processes.limit import allowed_penetration
 from umform.surfaces import Arc, Extruded, Line, Profile, UDie
 
 
@@ -148,7 +149,7 @@ class DrawBead:
     @property
     def allowed(self) -> float:
         """Allowed penetration: half the rise of an arc over an element, 1/200 of the thickness at least. eq. (4.190)"""
-        return max(self.size**2 / (16.0 * min(self.radius, self.groove_radius)), self.thickness / 200.0)
+        return allowed_penetration(self.size, min(self.radius, self.groove_radius), self.thickness)
 
     def sheet(self) -> Mesh:
         """A strip of the width one; its right end lies beside the groove, its left end is drawn up to there."""

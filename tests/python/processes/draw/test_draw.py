@@ -46,7 +46,10 @@ U = UBend(
     die_edge=5.0,
     holder_force=2450.0,
     stroke=20.0,
+    element="BEND8",
     turn=30.0,
+    contact_points=3,
+    penalty=1000.0,
 )
 
 

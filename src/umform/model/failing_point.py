@@ -1,0 +1,31 @@
+"""The point of an element at which its law failed, in words for a message."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from umform import _core
+
+
+def at_failing_point(block: _core.ShellBlock, cell: int, u: NDArray[np.float64]) -> str:
+    """Point of a cell at which its law failed, as text; empty if it failed for another reason.
+
+    Parameters
+    ----------
+    block : ShellBlock
+        The elements.
+    cell : int
+        Row of the element in the block.
+    u : ndarray, shape (nodes * 3,)
+        Displacements at which it failed.
+    """
+    point, E = block.failing_point(cell, u)
+    if point < 0:
+        return ""
+    names = list(block.state_names)
+    text = f" at its point {point} with the strain ({', '.join(f'{value:.4g}' for value in E)})"
+    if "eqps" not in names:
+        return text
+    place = sum(size for name, size in block.state_names.items() if names.index(name) < names.index("eqps"))
+    return f"{text}, plastic strain {block.state[cell, point, place]:.4g}"
