@@ -36,11 +36,14 @@ LIMIT, PATIENCE = 100, 10
 #: Largest imbalance of forces and moments. A drift of the energies above the second number, over the largest energy,
 #: must be that of coarse increments: by increments of half the size it must fall to this part of it, or below.
 FORCES, ENERGIES, FALLS = 1e-6, 0.02, 0.6
+#: What the warning of a jump says.
+JUMPED = "jumped to the next stable state"
 #: Part of the largest energy below which forces are round-off: a sheet that nothing touches yet.
 NOTHING = 1e-12
-#: Jobs of all kinds that the ordinary tests run: the cheapest ones, and cheap ones that throw much away.
+#: Jobs of all kinds that the ordinary tests run: the cheapest ones, cheap ones that throw much away, and two that jump
+#: at the end of a stable path.
 SAMPLE = (
-    8, 9, 22, 23, 24, 33, 46, 57, 71, 72, 77, 93, 99, 112, 117, 124, 130, 133, 141, 165, 167, 180, 191, 194,
+    8, 9, 22, 23, 24, 33, 46, 57, 71, 72, 77, 93, 99, 104, 112, 117, 124, 130, 133, 141, 165, 166, 167, 180, 191, 194,
     197, 218, 224, 228, 233, 237, 244, 245, 264, 269, 270, 271, 274, 282, 292, 296,
 )  # fmt: skip
 
@@ -77,6 +80,7 @@ def outcome(number: int) -> dict[str, Any]:
         "iterations": int(sum(result["iterations"].sum() for result in done.results)),
         "evaluations": made.evaluations,
         "share thrown away": round(made.share, 3),
+        "jumps": sum(JUMPED in warning for result in done.results for warning in result.warnings),
         "failed attempts": dict(made.causes.most_common()),
         "drift": drift(done),
     }

@@ -36,6 +36,11 @@ Evaluations are those of residual and tangent. "Thrown away" are those of failed
 ## Jobs that do not finish
 
 {failures}
+
+## Jobs that jump
+
+Jobs: {jumps}. The stable path ends, as in perfect plasticity it may, and the sheet jumps to the next stable state, of
+which the run warns ([attempts](attempts.md)).
 """
 
 _Outcomes = Sequence[Mapping[str, Any]]
@@ -130,6 +135,7 @@ def page(outcomes: _Outcomes) -> str:
         verdict="met" if share >= GOAL and not hangs else "missed",
         table=table(outcomes),
         failures="\n".join(explained or ["All finish."]),
+        jumps=", ".join(str(one["number"]) for one in outcomes if one.get("jumps")) or "none",
     )
 
 

@@ -31,6 +31,8 @@ SMALL_CHUNK = 256
 #: Bytes of steps per write for which its cost is small relative to that of compression.
 BUFFER = 4_000_000
 COMPRESSION = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
+#: Bytes of a chunk up to which compression takes more time than the space is worth.
+SMALL = 2048
 MESH_OFFSETS = ("PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets")
 
 
@@ -286,12 +288,13 @@ class VtkHdfSeries:
 def _put(root: Any, name: str, start: int, rows: FloatArray | IntArray, chunk: int = SMALL_CHUNK) -> None:
     """Write rows from `start` on, in a dataset created at need.
 
-    The step of a field is one chunk, so that it is compressed and read as a whole.
+    The step of a field is one chunk, so that it is compressed and read as a whole; a small one is not compressed.
     """
     if name in root:
         data = root[name]
         data.resize(start + len(rows), axis=0)
         data[start:] = rows
     else:
-        shape = rows.shape[1:]
-        root.create_dataset(name, data=rows, maxshape=(None, *shape), chunks=(chunk, *shape), **COMPRESSION)
+        chunks = (chunk, *rows.shape[1:])
+        packed = COMPRESSION if math.prod(chunks) * rows.itemsize > SMALL else {}
+        root.create_dataset(name, data=rows, maxshape=(None, *rows.shape[1:]), chunks=chunks, **packed)

@@ -131,9 +131,11 @@ class _LateralFaces:
         if (ends >= self._count).all():  # both on the line
             return []
         fibres = self._support[stack, side]
-        along = self._rims[np.isin(self._rims, fibres[fibres >= 0]).all(axis=1)]
-        found = [(int(a), int(b)) for a, b in along]
-        return found if len(found) >= len(np.unique(fibres[fibres >= 0])) - 1 else []
+        fibres = fibres[fibres >= 0]
+        if not np.isin(fibres, self._rims).all():
+            return []
+        along = self._rims[np.isin(self._rims, fibres).all(axis=1)]
+        return [(int(a), int(b)) for a, b in along]
 
     def cut(self) -> NDArray[np.int32]:
         """Faces of the edge that no rim of the sheet has."""

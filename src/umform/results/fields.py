@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -183,14 +183,20 @@ def undeformed_thickness(model: Model) -> Floats:
     return _thickness(model, model.mesh.points)
 
 
-def _thickness(model: Model, x: Floats) -> Floats:
+@cache
+def _derivatives(half: int) -> Floats:
+    """Derivatives of the shape functions in the middle of each pair of nodes, shape (3 half, 2 half)."""
     from umform.mesh import FACE_NODES
 
+    at_nodes = np.concatenate([FACE_NODES[:half], np.zeros((half, 1))], axis=1)
+    derivatives: Floats = _core.shell_functions(2 * half, at_nodes)[1].reshape(3 * half, 2 * half)
+    return derivatives
+
+
+def _thickness(model: Model, x: Floats) -> Floats:
     cells = model.mesh.connectivity
     half = cells.shape[1] // 2
-    at_nodes = np.concatenate([FACE_NODES[:half], np.zeros((half, 1))], axis=1)
-    _, dN = _core.shell_functions(2 * half, at_nodes)
-    g = np.einsum("qia,eak->eqik", dN, x[cells])
+    g = (_derivatives(half) @ x[cells]).reshape(len(cells), half, 3, 3)
     r, s = g[:, :, 0], g[:, :, 1]
     normal = r[..., _NEXT] * s[..., _LAST] - r[..., _LAST] * s[..., _NEXT]
     along = np.einsum("eqk,eqk->eq", g[:, :, 2], normal)

@@ -47,7 +47,7 @@ def augmented(model: Model, newton: Newton, converged: Converged) -> Converged:
             contact.augment(found[contact], part)
         change = changed_residual(model, converged.evaluation, parts)
         again = newton.go_on(converged, change)
-        converged = replace(again, iterations=converged.iterations, passes=converged.passes + again.iterations)
+        converged = replace(converged, evaluation=again.evaluation, passes=converged.passes + again.iterations)
         log.debug("    pass %d of the multipliers, %d iterations", number, len(again.iterations))
     return converged
 

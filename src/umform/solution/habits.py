@@ -34,6 +34,9 @@ class Habits:
         Successive failures of softer penalties while a tool held the sheet.
     soft_rest : int
         Failed increments that will be cut without them.
+    last : bool
+        Whether the next increment will not be cut: beyond it lies a limit point, and a jump to the next stable state is
+        accepted however far it is. eq. (5.102)
     """
 
     misses: int = 0
@@ -41,6 +44,7 @@ class Habits:
     stable: bool = True
     soft_misses: int = 0
     soft_rest: int = 0
+    last: bool = False
 
     @property
     def extrapolates(self) -> bool:
@@ -54,7 +58,7 @@ class Habits:
 
     def learn(self, failed: Mapping[str, Cause], won: str, negative_pivots: int | None) -> None:
         """Record an increment: the strategies that failed and why, the one that converged, the pivots at the end."""
-        self.stable = not negative_pivots
+        self.stable, self.last = not negative_pivots, False
         if won == "extrapolation":
             self.misses = 0
         elif "extrapolation" in failed:
@@ -75,5 +79,5 @@ class Habits:
             self.soft_rest = min(2**self.soft_misses - 1, _LONGEST_SOFT_REST)
 
     def last_chance(self) -> None:
-        """Try softer penalties in an increment that will not be cut."""
-        self.soft_rest = 0
+        """Try softer penalties, and a jump, in an increment that will not be cut."""
+        self.soft_rest, self.last = 0, True

@@ -197,18 +197,17 @@ class Newton:
         iterations = recorder.iterations
         system.recover(du, manner.mixed)
         u = u + du if beyond is None else u + du + beyond
-        criteria, prospects = Criteria(system, options.residual, options.increment), Prospects(system)
-        shift = Shift(system)
+        criteria, shift = Criteria(system, options.residual, options.increment), Shift(system)
+        prospects = Prospects(system)
         reuse = Reuse(options, system.pattern.n, system.effort)
         pivots = reuse.remember(first.factors) if first is not None else None
         criteria.entry = first.entry if first is not None else None
         lean = first is not None and self._lean(reuse, manner)
         evaluation = system.evaluate(u, tangent=not lean)
-        increment, step_length = self._relative(du, evaluation), 1.0
+        increment, step_length, shifted = self._relative(du, evaluation), 1.0, False
         status = previous = evaluation.status
-        shifted = False
 
-        for _ in range(options.max_iterations):
+        while len(iterations) < prospects.most(options.max_iterations):
             self.check_domain(evaluation, iterations)
             r = system.restrict(evaluation.residual)
             norm = math.sqrt(system.ranks.dot(r, r))
@@ -223,16 +222,18 @@ class Newton:
                 self._check_flight(evaluation, iterations)
                 if lean:
                     system.follow()
-                return Converged(evaluation, iterations)
+                return Converged(evaluation, iterations, jumped=prospects.jumps)
             longest = prospects.longest(evaluation, previous, norm, iterations)
             if not reuse.factors_will_do(norm / scale, increment, settled=manner.reuses and not moved):
                 if lean:
                     evaluation = system.evaluate(u)
                 pivots = reuse.remember(solver.factor(evaluation))
                 prospects.bear(pivots, norm / scale, manner.wary, iterations)
+                pivots = shift.negative_pivots(evaluation, pivots, asked=prospects.asks(norm / scale, manner.wary))
                 shifted = prospects.shifts(pivots, manner.wary)
                 if shifted:
                     shift.factor(solver, evaluation)
+                manner = manner.searching(prospects.jumps)
                 criteria.entry = system.largest_entry(evaluation.values)
             elif lean:
                 system.follow()
@@ -245,7 +246,7 @@ class Newton:
             criteria.entry = criteria.entry if lean else None
             increment = step_length * self._relative(du, evaluation)
             previous, status = status, evaluation.status
-        raise Failed(f"no convergence in {options.max_iterations} iterations", iterations, Cause.ITERATIONS)
+        raise Failed(f"no convergence in {len(iterations)} iterations", iterations, Cause.ITERATIONS)
 
     def _lean(self, reuse: Reuse, manner: Manner) -> bool:
         """Whether an iteration evaluates the forces first: where factors are expensive, it may need no tangent."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from umform.errors import InvalidValue
@@ -71,6 +71,12 @@ class Wary(Enum):
     NOT = "it goes on"
     OF_MORE = "it ends where negative pivots become more from one iteration to the next"
     OF_ANY = "it ends at once"
+    UNTIL_DOWNHILL = "it ends at once, unless the iterations go downhill to the next stable state already"
+
+    @property
+    def of_any(self) -> bool:
+        """Whether the last equilibrium was stable: an indefinite tangent is unexpected."""
+        return self in (Wary.OF_ANY, Wary.UNTIL_DOWNHILL)
 
 
 @dataclass(frozen=True)
@@ -93,3 +99,7 @@ class Manner:
     reuses: bool
     mixed: bool
     wary: Wary = Wary.NOT
+
+    def searching(self, wanted: bool) -> Manner:
+        """The same, with a line search if it is wanted."""
+        return replace(self, line_search=self.line_search or wanted)

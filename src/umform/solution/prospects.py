@@ -14,16 +14,37 @@ from umform.solution.system import Evaluation, System
 
 #: A residual that is far from equilibrium, relative to the force scale.
 _FAR = 0.1
+#: A jump to the next stable state may take so many times the iterations of an increment.
+_JUMP = 4
 
 
 class Prospects:
-    """Monitors the successive iterations of one increment."""
+    """Monitors the successive iterations of one increment.
+
+    Attributes
+    ----------
+    jumps : bool
+        Whether the iterations go down to the next stable state, however far it is. eq. (5.102)
+    """
 
     def __init__(self, system: System) -> None:
         self._cycle = Cycle(system)
         self._stall = None if system.smooth else Stall()
         self._pivots = 0
-        self._downhill = False
+        self._downhill = self.jumps = False
+
+    def most(self, iterations: int) -> int:
+        """Largest number of iterations; parameter: that of an increment without a jump."""
+        return _JUMP * iterations if self.jumps else iterations
+
+    def asks(self, residual: float, wary: Wary) -> bool:
+        """Whether the stability of an unsymmetric tangent is worth the factors of its symmetric part. eq. (5.101)
+
+        It is after a cycle of contact, on the way down, and near equilibrium in the last attempt; parameters as of
+        `bear`.
+        """
+        last = wary is Wary.UNTIL_DOWNHILL and residual <= _FAR
+        return self._cycle.met or self._downhill or last
 
     def longest(
         self, evaluation: Evaluation, before: NDArray[np.uint8], norm: float, iterations: list[Iteration]
@@ -75,9 +96,9 @@ class Prospects:
             If there are too many far from equilibrium.
         """
         before, self._pivots = self._pivots, pivots or 0
-        if residual <= _FAR or not pivots:
+        if residual <= _FAR or not pivots or self.jumps:
             return
-        if wary is Wary.OF_ANY or (wary is Wary.OF_MORE and pivots > before > 0):
+        if wary.of_any or (wary is Wary.OF_MORE and pivots > before > 0):
             reason = f"the tangent has {pivots} negative pivots far from equilibrium"
             raise Failed(reason, iterations, Cause.INDEFINITE)
 
@@ -87,8 +108,9 @@ class Prospects:
 
         It is if the last equilibrium was stable, and if contact has cycled.
         """
-        wanted = bool(pivots) and (wary is Wary.OF_ANY or self._cycle.met)
+        wanted = bool(pivots) and (wary.of_any or self._cycle.met)
         self._downhill = self._downhill or wanted
+        self.jumps = self.jumps or (wanted and wary is Wary.UNTIL_DOWNHILL)
         return wanted
 
 

@@ -82,11 +82,22 @@ class Failed(Exception):
 
 @dataclass(frozen=True)
 class Converged:
-    """A converged increment: the evaluation, the iterations, and those of augmentations at the same loads."""
+    """A converged increment.
+
+    Attributes
+    ----------
+    evaluation : Evaluation
+        At the equilibrium.
+    iterations, passes : list of Iteration
+        Iterations, and those of augmentations at the same loads.
+    jumped : bool
+        Whether the sheet jumped to another stable state, since none was near. eq. (5.102)
+    """
 
     evaluation: Any
     iterations: list[Iteration]
     passes: list[Iteration] = field(default_factory=list)
+    jumped: bool = False
 
     @property
     def x(self) -> Floats:

@@ -58,7 +58,9 @@ class Increment:
     @property
     def wary(self) -> Wary:
         """An indefinite tangent far from equilibrium ends an attempt: softer penalties converge faster."""
-        return Wary.OF_ANY if self.touches and self.habits.stable else Wary.NOT
+        if not (self.touches and self.habits.stable):
+            return Wary.NOT
+        return Wary.UNTIL_DOWNHILL if self.habits.last else Wary.OF_ANY
 
     @property
     def wary_with_soft_tools(self) -> Wary:

@@ -90,6 +90,12 @@ class Moving:
         except Failed as failure:
             self._cut(run, step, failure, target)
             return
+        if converged.jumped:
+            way = float(np.abs(model.u - x_before[: model.u.size]).max())
+            run.result.warn(
+                f"step {run.number}, time {time:.4f}: the stable path ends (buckling, or a hinge of a metal without "
+                f"hardening): the sheet jumped to the next stable state, by up to {way:.3g}; the way between is dynamic"
+            )
         before, self.last_size, self.fraction = self.fraction, target - self.fraction, target
         self.count += 1
         self.done = target == 1.0

@@ -10,7 +10,9 @@ import pytest
 from umform.errors import InvalidValue, NoConvergence
 
 #: How many jobs the sample has.
-SAMPLE = 40
+SAMPLE = 42
+#: Those that jump at the end of a stable path.
+JUMPS = {104, 166}
 
 
 @pytest.fixture
@@ -23,6 +25,7 @@ def test_the_sample_arrives(robust, which):
     ended = robust.outcome(robust.SAMPLE[which])
     assert (ended["outcome"], ended["reason"]) == ("arrived", "")
     assert ended["increments"] > 0
+    assert (ended["jumps"] > 0) == (ended["number"] in JUMPS)
 
 
 def test_the_sample_has_jobs_of_all_kinds(robust):
@@ -131,6 +134,9 @@ def test_the_page_has_the_rate_and_each_failure(script, monkeypatch):
     assert "\n75.0% finish; the goal is 99.5% and no job that hangs: missed.\n" in text
     assert "| air bend | 2 | 50.0% | 2.0 | 2.0 | 20 | 50% |" in text
     assert "* **Job 1**, air bend, no convergence: a limit point" in text
+    assert "\nJobs: none. The stable path ends" in text
+    jumped = outcome(29) | {"jumps": 1}
+    assert "\nJobs: 29. The stable path ends" in page.page([outcome(0), outcome(1, "no convergence"), jumped])
 
 
 def test_explanations_are_of_the_jobs_that_are_drawn(script, monkeypatch):

@@ -26,6 +26,16 @@ def test_supports_along_the_axes_load_no_scipy():
     assert not {"scipy", "matplotlib", "h5py"} & set(run.stdout.split())
 
 
+def test_a_model_loads_the_tools_laws_and_solvers_in_use():
+    run = subprocess.run([sys.executable, "-c", _ORDINARY], capture_output=True, text=True, check=True)
+    loaded = set(run.stdout.split())
+    assert {"umform.surfaces.simple", "umform.materials.elastic", "umform.solvers.multifrontal"} <= loaded
+    tools = {f"umform.surfaces.{name}" for name in ("cad", "triangulated", "press_brake", "led_around", "sizes")}
+    laws = {f"umform.materials.{name}" for name in ("metal", "umat", "compiled", "yield_functions")}
+    solvers = {f"umform.solvers.{name}" for name in ("pardiso", "banded", "superlu")}
+    assert not loaded & (tools | laws | solvers)
+
+
 def test_a_name_is_found_without_a_list_of_all_names():
     model = uf.Model(
         uf.mesh.strip(length=1, width=1, thickness=1, cells=(1, 1)), "DISP3D", material=uf.SVK(E=1.0, nu=0.3)

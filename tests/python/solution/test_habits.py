@@ -72,3 +72,12 @@ def test_an_increment_that_will_not_be_cut_has_softer_penalties():
     habits.last_chance()
     assert habits.softens
     assert habits.soft_misses == 1
+
+
+def test_only_the_last_attempt_may_jump():
+    habits = Habits()
+    assert not habits.last
+    habits.last_chance()
+    assert habits.last
+    habits.learn(failed={}, won="tangent", negative_pivots=0)
+    assert not habits.last

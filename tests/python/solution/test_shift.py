@@ -22,25 +22,33 @@ from umform.timing import Timing
 STROKE = 24.5
 
 
-def bent_without_friction():
+def bent(elements=60, friction=0.0):
     """A strip pushed into a round die by a cylinder: its legs slide over the shoulders, on a few points each."""
-    mesh = uf.mesh.strip(60.0, 1.0, 1.0, (60, 1)).transformed(lambda X: X + np.array([0.0, 0.0, 0.5]))
+    mesh = uf.mesh.strip(60.0, 1.0, 1.0, (elements, 1)).transformed(lambda X: X + np.array([0.0, 0.0, 0.5]))
     metal = uf.J2(E=70500.0, nu=0.342, hardening=uf.Swift(550.4, 0.0093, 0.223))
     model = uf.Model(mesh, "BEND8", material=metal)
     model.symmetry("x0", "x")
     model.fix(np.arange(len(mesh.points)), "y")
     die = model.tool("die", uf.UDie(50.0, 29.0, 4.0, 25.0))
     punch = model.tool("punch", uf.Cylinder((0.0, 0.0, 24.5), "y", 23.5))
-    model.contact("lower", die, penalty=3000.0, points=3)
-    model.contact("upper", punch, penalty=3000.0, points=3)
+    model.contact("lower", die, penalty=3000.0, points=3, friction=friction)
+    model.contact("upper", punch, penalty=3000.0, points=3, friction=friction)
     return model, uf.Move(model.drive(punch, "-z", "stroke"), STROKE)
 
 
 def test_a_strip_that_loses_its_hold_on_a_shoulder_jumps_to_the_next_stable_state():
-    model, stroke = bent_without_friction()
+    model, stroke = bent()
     result = uf.solve(model, stroke, progress=False, frames=0)
     assert result["stroke"][-1] == STROKE
     assert result.timing.attempts.share < 0.3
+    assert np.abs(result.balance().drift).max() < 0.02
+
+
+def test_so_does_one_with_an_unsymmetric_tangent():
+    model, stroke = bent(24, friction=0.001)
+    result = uf.solve(model, stroke, progress=False, frames=0)
+    assert not model.pattern.symmetric
+    assert result["stroke"][-1] == STROKE
     assert np.abs(result.balance().drift).max() < 0.02
 
 

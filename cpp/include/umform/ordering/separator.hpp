@@ -60,6 +60,7 @@ class Between {
     static constexpr std::int32_t kNone = -1, kLast = -2, kFar = std::numeric_limits<std::int32_t>::max();
     std::vector<std::int32_t> before_, after_;  // of each vertex on a path its neighbours there, or none: a side
     std::vector<std::uint8_t> used_;            // is it on a path?
+    bool forward_ = false;                      // direction in which neighbours are tried
     std::vector<std::int32_t> left_;            // of each vertex its steps to the last side
     std::vector<std::int32_t> arc_, queue_, way_;
     std::vector<std::uint8_t> reached_, back_;  // from the first side, to the last side
@@ -81,6 +82,7 @@ class Between {
     /// reached from the first side.
     int paths() {
         reached_.assign(2 * size(), 0), arc_.assign(2 * size(), 0);
+        forward_ = !forward_;  // so that passes do not repeat each other
         int number = 0;
         for (int v = 0; v < size(); ++v) {
             if (!at_first[v] || reached_[2 * v]) continue;
@@ -115,9 +117,10 @@ class Between {
         }
         if (at_last[v]) return kLast;
         const int degree = start[v + 1] - start[v];
+        const int begin = forward_ ? start[v] : start[v + 1] - 1, step = forward_ ? 1 : -1;
         while (arc < 2 * degree) {
             const bool nearer = arc < degree;
-            const int next = to[start[v] + arc - (nearer ? 0 : degree)];
+            const int next = to[begin + step * (arc - (nearer ? 0 : degree))];
             ++arc;
             if ((left_[next] < left_[v]) == nearer && !reached_[2 * next]) return 2 * next;
         }

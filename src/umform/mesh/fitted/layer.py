@@ -22,8 +22,8 @@ Line = Callable[[Floats], tuple[Floats, Floats]]
 
 #: Least distance of the inner stacks from the line, relative to the local size: least width of the layer. eq. (1.28)
 _CLEAR = 0.35
-#: Least sine of the angles of a quadrilateral: from 20 to 160 degrees; and that from which nothing is smoothed.
-_LEAST_SINE, _GOOD_SINE = 0.342, 0.64
+#: Least sine of the angles of a quadrilateral: from 15 to 165 degrees; and that from which nothing is smoothed.
+_LEAST_SINE, _GOOD_SINE = 0.2588, 0.64
 #: Moves below this part of the local size are left out.
 _STILL = 0.02
 #: Rounds in which stacks are left out, or moves are taken back.
@@ -155,6 +155,8 @@ def _finished(sheet: Sheet, x: Floats, size: Floats, made: _Attached, line: Line
         else:
             good[len(inner) :] &= ~bad[len(inner) :]
     missed = int((~good).sum())
+    if 2 * missed > len(made.layer):
+        raise MeshError("elements that end on the line would be too bad", value=f"{missed} of {len(made.layer)}")
     quads = quads[good]
     used = np.unique(quads)
     fresh = used[used >= count]
