@@ -68,10 +68,12 @@ class Weights:
         """
         from scipy.spatial import Delaunay  # slow to import
 
-        s, r = np.meshgrid(_core.gauss(rule[1])[0], _core.gauss(rule[0])[0], indexing="ij")  # r changes first
-        N = bilinear(np.stack([r.ravel(), s.ravel()], axis=1))[0]
-        sources = np.einsum("qa,eai->eqi", N, x[sheet.quads[stacks]]).reshape(-1, 2)
-        targets = np.einsum("qa,eai->eqi", N, new).reshape(-1, 2)
+        own, two = _in_plane(rule), _in_plane((max(rule[0], 2), max(rule[1], 2)))
+        sources = np.einsum("qa,eai->eqi", two, x[sheet.quads[stacks]]).reshape(-1, 2)
+        targets = np.einsum("qa,eai->eqi", own, new).reshape(-1, 2)
+        second, first = np.divmod(np.arange(len(two)), max(rule[0], 2))  # a single point across stands for two
+        row = np.minimum(second, rule[1] - 1) * rule[0] + np.minimum(first, rule[0] - 1)
+        rows = (np.arange(len(stacks))[:, None] * len(own) + row).ravel()
         net = Delaunay(sources)
         simplex = net.find_simplex(targets)
         outside = np.flatnonzero(simplex < 0)
@@ -82,8 +84,8 @@ class Weights:
             share[k] = every[simplex[k]]
         share = np.maximum(share, 0.0)
         share /= share.sum(axis=1, keepdims=True)
-        shape = (len(new), len(N), 3)
-        return cls(stacks, np.asarray(net.simplices[simplex], dtype=np.int64).reshape(shape), share.reshape(shape))
+        shape = (len(new), len(own), 3)
+        return cls(stacks, rows[net.simplices[simplex]].reshape(shape), share.reshape(shape))
 
     def mean(self, values: Floats) -> Floats:
         """Means (new, points, ...) of values (old, points, ...) at all points, layer by layer through the thickness."""
@@ -93,6 +95,12 @@ class Weights:
         mean = np.moveaxis(np.einsum("eqk,eqk...->eq...", self.share, flat[self.of]), 2, 1)
         out: Floats = mean.reshape(len(mean), -1, *values.shape[2:])
         return out
+
+
+def _in_plane(rule: tuple[int, int]) -> Floats:
+    """Shape functions (points, 4) at the points of a rule in r and s; r changes first."""
+    s, r = np.meshgrid(_core.gauss(rule[1])[0], _core.gauss(rule[0])[0], indexing="ij")
+    return bilinear(np.stack([r.ravel(), s.ravel()], axis=1))[0]
 
 
 def _barycentric(transform: Floats, points: Floats) -> Floats:

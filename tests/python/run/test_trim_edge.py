@@ -157,6 +157,18 @@ def test_a_line_on_the_formed_part_is_met_where_the_part_is(bent):
     assert part.mesh.points[cut, 0].mean() > 10.5  # it was bent down there
 
 
+def test_a_strip_in_plane_strain_has_one_point_across():
+    model = uf.Model(uf.mesh.strip(20.0, 1.0, 1.0, (20, 1)), material=STEEL, plane_strain=True)
+    model.fix("x0")
+    model.fix(lambda x, y, z: x > 0.5, directions="y")
+    press = model.force("x1", (0.0, 0.0, -0.5), "press")
+    result = uf.solve(model, [uf.Move(press, 1.2, steps=3), uf.Move(press, 0.5, steps=1)], frames=0)
+    part = uf.Trim(across(13.3), formed=False).of(result)
+    assert part.edge_distance < 1e-12 and part.remark == "" and part.model.bodies[0].element.surface_rule == (2, 1)
+    eqps = model.block.state[11:15, :, 6]
+    assert eqps.min() <= part.model.block.state[~part.same][..., 6].max() <= eqps.max()
+
+
 def test_what_cannot_be_fitted_follows_elements_and_says_why():
     plate = uf.mesh.plate(8.0, 4.0, 0.5, (8, 4), cell="hex18")
     part = uf.Trim(across(4.4)).of(uf.Model(plate, "DISP9K3DEAS", material=uf.SVK(E=210e3, nu=0.3)))
