@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-LAZY = ["umform.deck", "umform.io", "umform.materials", "umform.processes", "umform.surfaces"]
+LAZY = ["umform.deck", "umform.io", "umform.materials", "umform.processes", "umform.results.forming", "umform.surfaces"]
 
 
 @pytest.mark.parametrize("package", LAZY)

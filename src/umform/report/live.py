@@ -18,7 +18,6 @@ import numpy as np
 from umform.io.tables import write_csv
 from umform.plotting import COLOURS, plot_history, plot_shape
 from umform.report import parts
-from umform.report.packing import compressed
 from umform.report.scene import Scene, scene_of
 from umform.report.symmetry import modelled_part, whole
 from umform.results.leading import leading_controls
@@ -88,7 +87,7 @@ def style() -> str:
 
 def _scripts(scene: Scene) -> str:
     """Data and programs."""
-    library = compressed(_asset("three/three.min.js").encode())
+    library = b64encode(_packed_asset("three/three.min.js.gz")).decode("ascii")
     program = "\n".join(_asset(name) for name in _SCRIPTS)
     return (
         f'<script type="application/octet-stream" id="scene">{scene.data}</script>\n'
@@ -141,6 +140,10 @@ def _table(columns: Mapping[str, NDArray[float64]]) -> str:
 
 def _asset(name: str) -> str:
     return files("umform.report").joinpath("assets", name).read_text(encoding="utf-8")
+
+
+def _packed_asset(name: str) -> bytes:
+    return files("umform.report").joinpath("assets", name).read_bytes()
 
 
 def _filled(name: str, **values: str) -> str:

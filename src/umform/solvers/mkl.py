@@ -66,7 +66,9 @@ def _candidates() -> Iterator[Path]:
     prefix = Path(sys.prefix)
     yield from sorted(prefix.glob("lib/libmkl_rt.so*"), reverse=True)  # the newest
     yield from sorted(prefix.glob("Library/bin/mkl_rt*.dll"), reverse=True)
-    from importlib import metadata  # the import is slow
+    if not any(any(Path(folder).glob("mkl-*.dist-info")) for folder in sys.path):
+        return  # before an import that takes some per cent of a short run
+    from importlib import metadata
 
     try:
         files = metadata.files("mkl") or []

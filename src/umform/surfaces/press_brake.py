@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from umform import _core
 from umform.errors import InvalidValue
@@ -87,7 +88,7 @@ class VDie(Section):
     bottom_radius: float = 0.0
     depth: float | None = None
 
-    @property
+    @cached_property
     def profile(self) -> Profile:
         """Section, from right to left."""
         half = 0.5 * positive(self.opening, "VDie.opening", "opening")
@@ -146,7 +147,7 @@ class UDie(Section):
     shoulder_radius: float
     bottom_radius: float = 0.0
 
-    @property
+    @cached_property
     def profile(self) -> Profile:
         """Section, from right to left."""
         half = 0.5 * positive(self.opening, "UDie.opening", "opening")
@@ -177,7 +178,7 @@ class WipingDie(Section):
 
     radius: float
 
-    @property
+    @cached_property
     def profile(self) -> Profile:
         """Section, up the side and along the top."""
         radius = not_negative(self.radius, "WipingDie.radius")
@@ -222,7 +223,7 @@ class Punch(Section):
     angle: float
     width: float | None = None
 
-    @property
+    @cached_property
     def profile(self) -> Profile:
         """Section, down the left side and up the right one."""
         half_angle = 0.5 * _angle(self.angle, "Punch.angle")

@@ -361,6 +361,20 @@ def test_mkl_is_found_by_its_package_too(monkeypatch, tmp_path):
     assert "mkl_rt" in mkl.find.__wrapped__().name
 
 
+def test_mkl_is_found_where_pip_says_that_it_is(monkeypatch, tmp_path):
+    site = tmp_path / "site"
+    info = site / "mkl-2024.0.0.dist-info"
+    info.mkdir(parents=True)
+    (site / "libmkl_rt.so.2").touch()
+    monkeypatch.setattr(sys, "prefix", str(tmp_path))
+    monkeypatch.setattr(sys, "path", [str(site)])
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: mkl\nVersion: 2024.0.0\n")
+    (info / "RECORD").write_text("libmkl_rt.so.2,,\n")
+    assert mkl.find.__wrapped__() == (site / "libmkl_rt.so.2").resolve()
+    monkeypatch.setattr(sys, "path", [str(tmp_path)])
+    assert mkl.find.__wrapped__() is None
+
+
 def test_banded_refuses_unsymmetric_patterns():
     with pytest.raises(InvalidValue, match="symmetric"):
         factored("banded", unsymmetric(3), symmetric=False)

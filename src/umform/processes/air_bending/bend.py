@@ -92,7 +92,8 @@ class AirBend:
         step = np.where(number > len(loading(case, loaded.stroke)), 2, np.minimum(number, 1))
         stroke, model = result["stroke"], result.model
         under_load = [frame for frame in result.frames if step[frame.number] < 2]
-        angles = [Section.of(model.mesh, frame.points["displacement"]).angle for frame in under_load]
+        sections = Section.each(model.mesh, (frame.points["displacement"] for frame in under_load))
+        angles = [section.angle for section in sections]
         return cls(
             case=case,
             measures=measures,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import Any
 
 from umform.elements.rolling import Vector, rolling_at
@@ -114,14 +115,14 @@ class AirBending:
         """All parameters by name."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
-    @property
+    @cached_property
     def die(self) -> VDie | Extruded:
         """The die; its top is z = 0."""
         if self.die_section is not None:
             return Extruded(self.die_section.profile)
         return VDie(self.opening, self.die_angle, self.die_radius)
 
-    @property
+    @cached_property
     def punch(self) -> Punch | Extruded:
         """The punch, touching the sheet at z = thickness."""
         if self.punch_section is not None:

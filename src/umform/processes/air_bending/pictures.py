@@ -81,19 +81,20 @@ def _draw_angle(axes: Axes, bend: AirBend, table: Sequence[Measures]) -> None:
     released = [(row.stroke, row.angle) for row in rows]
     axes.plot(*np.array(released).T, "o-", color=_VERMILION, markersize=4, label="after unloading")
     axes.set(xlabel="stroke in mm", ylabel="angle in degrees", title="Angle between the legs")
-    axes.legend()
+    axes.legend(loc="upper right")  # free, as the angle falls: no search for a place
 
 
 def _draw_sheet(axes: Axes, bend: AirBend, section: Section, frame: Frame) -> PolyCollection:
     """Elements of the middle of the sheet, and their mirror images."""
-    x = section.current
-    levels, elements = x.shape[1] - 1, (len(x) - 1) // section.order
+    order, levels = section.order, section.current.shape[1] - 1
+    elements = (len(section.current) - 1) // order
     mesh = bend.result.model.mesh
     values = frame.cells[_FIELD][: len(mesh.connectivity)].reshape(elements, -1, levels)[:, 0]
-    quads = np.stack([x[:-1, :-1], x[1:, :-1], x[1:, 1:], x[:-1, 1:]], axis=2).reshape(-1, 4, 2)
-    colours = np.repeat(values, section.order, axis=0).ravel()
-    both: Any = np.concatenate([quads, quads * [-1.0, 1.0]])  # as a list it would take ten times as long
-    drawn = PolyCollection(both, edgecolors="face", linewidths=0.3, cmap="viridis", array=np.tile(colours, 2))
+    lines = order * np.arange(elements)[:, None] + np.arange(order + 1)  # of each element
+    x = section.current[lines]
+    outlines = np.concatenate([x[:, :, :-1], x[:, ::-1, 1:]], axis=1).swapaxes(1, 2).reshape(-1, 2 * order + 2, 2)
+    both: Any = np.concatenate([outlines, outlines * [-1.0, 1.0]])  # as a list it would take ten times as long
+    drawn = PolyCollection(both, edgecolors="face", linewidths=0.3, cmap="viridis", array=np.tile(values.ravel(), 2))
     axes.add_collection(drawn)
     return drawn
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,15 +42,22 @@ class Section:
     order: int
 
     @classmethod
-    def of(cls, mesh: Mesh, u: Floats) -> Section:
+    def of(cls, mesh: Mesh, u: Floats) -> Self:
         """Section of a mesh of `half_sheet` under displacements u, shape (n, 3) or (3 n,)."""
+        return next(cls.each(mesh, [u]))
+
+    @classmethod
+    def each(cls, mesh: Mesh, states: Iterable[Floats]) -> Iterator[Self]:
+        """Sections of a mesh of `half_sheet` under several displacements, whose lines of nodes are found once."""
         middle = mesh.nodes("y0")
         X = mesh.points[middle][:, [0, 2]]
         lines = len(np.unique(X[:, 0]))
         order = np.lexsort((X[:, 1], X[:, 0]))
         X = X[order].reshape(lines, -1, 2)
-        d = u.reshape(-1, 3)[middle][:, [0, 2]][order].reshape(lines, -1, 2)
-        return cls(X, X + d, 2 if mesh.cell == "hex18" else 1)
+        nodes = middle[order]
+        for u in states:
+            d = u.reshape(-1, 3)[nodes][:, [0, 2]].reshape(lines, -1, 2)
+            yield cls(X, X + d, 2 if mesh.cell == "hex18" else 1)
 
     @property
     def thickness(self) -> float:

@@ -3,14 +3,21 @@
 All of it follows from the mesh and the displacement, so it can be asked for any frame of any run.
 """
 
-from umform.results.forming.ears import EarProfile, ear_profile
-from umform.results.forming.gauge import Laid, lay_by_best_fit, lay_on_three_points
-from umform.results.forming.limits import FormingLimit, KeelerBrazier, LimitTable, limit_margin
-from umform.results.forming.outline import Outline, draw_in
-from umform.results.forming.sections import Section, section
-from umform.results.forming.strains import SheetStrains, add_forming_fields, forming_fields, sheet_strains
-from umform.results.forming.tool_distance import distance_from
-from umform.results.forming.u_bend import UBendAngles, u_bend_angles
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from umform.first_use import at_first_use
+
+if TYPE_CHECKING:
+    from umform.results.forming.ears import EarProfile, ear_profile
+    from umform.results.forming.gauge import Laid, lay_by_best_fit, lay_on_three_points
+    from umform.results.forming.limits import FormingLimit, KeelerBrazier, LimitTable, limit_margin
+    from umform.results.forming.outline import Outline, draw_in
+    from umform.results.forming.sections import Section, section
+    from umform.results.forming.strains import SheetStrains, add_forming_fields, forming_fields, sheet_strains
+    from umform.results.forming.tool_distance import distance_from
+    from umform.results.forming.u_bend import UBendAngles, u_bend_angles
 
 __all__ = [
     "EarProfile",
@@ -34,3 +41,28 @@ __all__ = [
     "sheet_strains",
     "u_bend_angles",
 ]
+
+_HOME = {
+    "EarProfile": "ears",
+    "FormingLimit": "limits",
+    "KeelerBrazier": "limits",
+    "Laid": "gauge",
+    "LimitTable": "limits",
+    "Outline": "outline",
+    "Section": "sections",
+    "SheetStrains": "strains",
+    "UBendAngles": "u_bend",
+    "add_forming_fields": "strains",
+    "distance_from": "tool_distance",
+    "draw_in": "outline",
+    "ear_profile": "ears",
+    "forming_fields": "strains",
+    "lay_by_best_fit": "gauge",
+    "lay_on_three_points": "gauge",
+    "limit_margin": "limits",
+    "section": "sections",
+    "sheet_strains": "strains",
+    "u_bend_angles": "u_bend",
+}
+
+__getattr__ = at_first_use(__name__, _HOME)
