@@ -51,7 +51,8 @@ def section_picture(
         for number, ((name, cut), colour) in enumerate(zip(cuts.items(), COLOURS, strict=False), 1):
             for label, skin in ((name, cut.lower), ("", cut.upper)):
                 line = "-" if number == len(cuts) else "--"
-                axes.plot(skin @ along, skin[:, 2], line, color=colour, label=label or None)
+                shown = np.insert(skin, np.flatnonzero(cut.gaps) + 1, np.nan, axis=0)  # nothing over a hole
+                axes.plot(shown @ along, shown[:, 2], line, color=colour, label=label or None)
         if points is not None:
             axes.plot(*points.T, "o", color=INK, markersize=4, label="points of the wall")
         axes.set_title(title)
@@ -64,9 +65,14 @@ def outline_picture(edge: Outline, unit: str = "mm", *, equal: bool = True) -> F
     """An edge of the blank before, and in the part; with equal scales unless the edge is nearly straight."""
     with house_style():
         figure, axes = _axes(of_unit("x", unit), of_unit("y", unit))
-        for label, points, line in (("blank", edge.before, "--"), ("end of the stroke", edge.after, "-")):
-            closed = np.concatenate([points, points[:1]]) if edge.is_closed else points
-            axes.plot(*closed.T, line, marker=".", markersize=3, label=label)
+        for label, points, line, colour in (
+            ("blank", edge.before, "--", "C0"),
+            ("end of the stroke", edge.after, "-", "C1"),
+        ):
+            for k, piece in enumerate(edge.pieces):
+                around = points[np.append(piece, piece[0]) if edge.closed[k] else piece]
+                named = None if k else label
+                axes.plot(*around.T, line, marker=".", markersize=3, color=colour, label=named)
         if equal:
             axes.set_aspect("equal")
         _legend_below(figure)

@@ -178,6 +178,10 @@ def test_a_measure_that_is_no_longer_asked_for_leaves_no_files(tmp_path):
         ("wiping", 'kind = "section"\npoint = [90.0, 0.0, 0.0]\nnormal = [1.0, 0.0, 0.0]', "does not cut the sheet"),
         ("wiping", 'kind = "section"\nnormal = [0.0, 0.0, 1.0]', "stands on the sheet"),
         ("wiping", 'kind = "springback"\nheights = [1.0, 2.0, -3.0]', "it should be greater than 0"),
+        ("wiping", 'kind = "springback"\nheights = [3.0, 2.0, 1.0]', "rise from the bottom"),
+        ("wiping", 'kind = "springback"\nheights = [1.0, 1.0, 2.0]', "rise from the bottom"),
+        ("dome", 'kind = "draw_in"\nedge = "centre"', "nodes are no edge of the sheet"),
+        ("wiping", 'kind = "gauge"\npoints = [[0, 0, 0], [9, 0, 0], [19, 0, 0]]', "are on a line"),
         ("wiping", 'kind = "draw_in"', "no node set of that name"),
         ("wiping", 'kind = "draw_in"\nedge = { min = [99.0, 0.0, 0.0] }', "this selects no node"),
         ("wiping", 'kind = "ears"\nrim = "x1"', "the rim of a cup goes around the z-axis"),
@@ -219,7 +223,7 @@ def cut_of(line):
     middle = np.stack([line[:, 0], np.zeros(len(line)), line[:, 1]], axis=1)
     s = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
     half = np.array([0.0, 0.0, 0.5])
-    return Section(s, middle - half, middle + half)
+    return Section(s, middle - half, middle + half, np.zeros(len(s) - 1, dtype=bool))
 
 
 @pytest.mark.parametrize(("side", "down"), [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0)])

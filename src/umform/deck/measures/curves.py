@@ -66,7 +66,7 @@ class SectionCurve(_Cut):
     def take(self, name: str, part: Formed) -> Measured:
         """Both skins in each state, and how far the release moves them."""
         cuts, unit = self._cuts(part), part.units.length
-        rows = [Row("length of the mid-surface", unit, **{state: _length(cut) for state, cut in cuts.items()})]
+        rows = [Row("length of the mid-surface", unit, **{state: cut.length for state, cut in cuts.items()})]
         if RELEASED in cuts:
             moved = np.linalg.norm(cuts[RELEASED].middle - cuts[FORMED].middle, axis=1)
             rows.append(Row("largest displacement by the release", unit, released=float(moved.max())))
@@ -82,7 +82,19 @@ class Springback(_Cut):
     kind: Literal["springback"]
     """The word springback."""
     heights: _Three = HEIGHTS
-    """Heights above the bottom at which the wall is measured; default: those of NUMISHEET 93, 15, 35 and 55 mm."""
+    """Heights above the bottom at which the wall is measured, rising; by default 15, 35 and 55, as in NUMISHEET 93."""
+
+    def check(self, model: Model, *, released: bool) -> None:
+        """Refuse a plane that does not cut the sheet, and heights that do not rise."""
+        super().check(model, released=released)
+        if not self.heights[0] < self.heights[1] < self.heights[2]:
+            raise InvalidValue(
+                "the heights at which the wall is measured rise from the bottom",
+                where="heights",
+                value=", ".join(f"{height:g}" for height in self.heights),
+                cause="another order, or a height twice",
+                remedy=f"heights = {sorted(set(self.heights))}" if len(set(self.heights)) == 3 else "three heights",
+            )
 
     def take(self, name: str, part: Formed) -> Measured:
         """Both angles and the radius in each state; of a whole hat, those of both of its sides."""
@@ -114,8 +126,8 @@ class DrawIn(MeasurePart):
     """Nodes of the edge, or several selections; default: the set rim."""
 
     def check(self, model: Model, *, released: bool) -> None:
-        """Refuse an edge without nodes."""
-        self._nodes(model.mesh)
+        """Refuse an edge without nodes, and nodes that are no edge."""
+        draw_in(model.mesh, np.zeros_like(model.mesh.points), self._nodes(model.mesh))
 
     def _nodes(self, mesh: Mesh) -> Ids:
         chosen = self.edge if isinstance(self.edge, list) else [self.edge]
@@ -130,10 +142,12 @@ class DrawIn(MeasurePart):
         named = {"mean": edge.draw_in.mean(), "largest": edge.draw_in.max(), "least": edge.draw_in.min()}
         if np.ptp(edge.draw_in) < 1e-6 * np.abs(edge.draw_in).max():
             named = {"mean": edge.draw_in.mean()}  # it says all
-        elif not edge.is_closed and len(edge.draw_in) > 1:
+        elif len(edge.pieces) > 1:
+            for piece in edge.pieces:
+                named[f"mean around {_at(edge.before[piece].mean(axis=0))} of the blank"] = edge.draw_in[piece].mean()
+        elif not edge.is_closed:
             for k in (0, -1):
-                x, y = edge.before[k] + 0.0
-                named[f"at ({x:.4g}, {y:.4g}) of the blank"] = edge.draw_in[k]
+                named[f"at {_at(edge.before[k])} of the blank"] = edge.draw_in[k]
         rows = [Row(f"draw-in, {what}", unit, formed=float(value)) for what, value in named.items()]
         low, high = np.sort(np.ptp(edge.before, axis=0))
         caption = "Edge of the blank, and where it is at the end of forming."
@@ -187,8 +201,9 @@ def _harmonic(ears: EarProfile, number: int) -> float:
     return ears.harmonic(number)
 
 
-def _length(cut: Section) -> float:
-    return float(np.linalg.norm(np.diff(cut.middle, axis=0), axis=1).sum())
+def _at(place: Floats) -> str:
+    x, y = place + 0.0
+    return f"({x:.4g}, {y:.4g})"
 
 
 def _section_picture(

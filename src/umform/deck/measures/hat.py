@@ -58,12 +58,13 @@ class Half:
         rise = float(self.line[:, 1].max())
         if not rise > max(heights):
             usual = ", ".join(f"{part * rise:.3g}" for part in (0.25, 0.5, 0.75))
+            flat = rise < 0.01 * float(np.ptp(self.line[:, 0]) + rise)
             raise InvalidValue(
                 "the wall of the section does not reach the heights at which it is measured",
                 where="heights",
                 value=f"{', '.join(f'{height:g}' for height in heights)}; the part ({state}) rises by {rise:.4g}",
                 cause="a short stroke, or a part that is no hat",
-                remedy=f"heights = [{usual}]",
+                remedy="another plane, or a measure of the kind section" if flat else f"heights = [{usual}]",
             )
         found = u_bend_angles(self.line, heights, flange=max(len(self.line) // _FLANGE, 2))
         for what, angle in (("wall", found.theta1), ("flange", found.theta2)):

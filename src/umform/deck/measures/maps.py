@@ -92,6 +92,15 @@ class Gauge(MeasurePart):
         if self.points is None:
             return lay_by_best_fit(part, gauge)
         near = [int(np.argmin(((blank - np.array(point)) ** 2).sum(axis=1))) for point in self.points]
+        if len(set(near)) < 3:
+            raise InvalidValue(
+                "a part lies on three different points of it",
+                where="points",
+                value="the nearest nodes "
+                + "; ".join("({:.4g}, {:.4g}, {:.4g})".format(*(blank[k] + 0.0)) for k in near),
+                cause="two points within an element, or beside the sheet",
+                remedy="three points of a large triangle of the blank",
+            )
         return lay_on_three_points(part, gauge, near)
 
     def take(self, name: str, part: Formed) -> Measured:

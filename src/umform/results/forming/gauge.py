@@ -78,8 +78,8 @@ def lay_on_three_points(points: ArrayLike, gauge: ArrayLike, supports: ArrayLike
     if chosen.shape != (3,) or len(set(chosen.tolist())) < 3 or chosen.min() < 0 or chosen.max() >= len(x):
         raise InvalidValue(
             "a part lies on three different points of it",
-            where="lay_on_three_points",
-            value=supports,
+            where="supports",
+            value=", ".join(str(k) for k in chosen.ravel().tolist()),
             cause="numbers of points that are not there, or one of them twice",
             remedy="three numbers of points that are not on a line",
         )
@@ -113,7 +113,13 @@ def _axes(p: Floats) -> Floats:
     first = p[1] - p[0]
     normal = np.cross(first, p[2] - p[0])
     if not np.linalg.norm(normal) > 1e-9 * (first @ first):
-        raise InvalidValue("the three points that a part lies on are on a line", where="lay_on_three_points", value=p)
+        raise InvalidValue(
+            "the three points that a part lies on are on a line",
+            where="points",
+            value="; ".join(f"({x:.4g}, {y:.4g}, {z:.4g})" for x, y, z in p + 0.0),
+            cause="points along one edge, or of a sheet of one element across",
+            remedy="three points of a large triangle",
+        )
     first, normal = first / np.linalg.norm(first), normal / np.linalg.norm(normal)
     return np.array([first, np.cross(normal, first), normal])
 

@@ -7,9 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from umform.errors import InvalidValue
 from umform.mesh import Mesh, Selector
+from umform.mesh.neighbours import connected
+from umform.results.shape import outer_quads
 
 Floats = NDArray[np.float64]
+Numbers = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -19,20 +23,30 @@ class Outline:
     Attributes
     ----------
     before, after : ndarray, shape (n, 2)
-        Places of the nodes (x, y), mean through the thickness, in the order of the angle before.
+        Places of the nodes (x, y), mean through the thickness, piece by piece, with the sheet on the left.
     draw_in : ndarray, shape (n,)
         Way of each node towards the inside, normal to the edge before; negative outwards.
+    piece : ndarray of int, shape (n,)
+        The connected piece of the edge to which each node belongs, from 0.
+    closed : ndarray of bool, shape (pieces,)
+        Whether a piece goes around the sheet or a hole.
     """
 
     before: Floats
     after: Floats
     draw_in: Floats
+    piece: Numbers
+    closed: NDArray[np.bool_]
 
     @property
     def is_closed(self) -> bool:
-        """Whether the edge goes around the sheet: its ends are as near to each other as its nodes."""
-        steps = np.linalg.norm(np.diff(self.before, axis=0), axis=1)
-        return bool(len(steps) > 2 and np.linalg.norm(self.before[0] - self.before[-1]) < 1.5 * steps.max())
+        """Whether all pieces are closed."""
+        return bool(self.closed.all())
+
+    @property
+    def pieces(self) -> list[Numbers]:
+        """Nodes of each piece."""
+        return [np.flatnonzero(self.piece == k) for k in range(len(self.closed))]
 
     def columns(self) -> dict[str, Floats]:
         """Columns of a table."""
@@ -50,32 +64,76 @@ def draw_in(mesh: Mesh, u: Floats, edge: Selector = "rim") -> Outline:
     u : ndarray, shape (n, 3) or (3 n,)
         Displacement of the nodes.
     edge : str, callable or array_like
-        Nodes of the edge.
+        Nodes of the edge; of one piece or several.
 
     Returns
     -------
     Outline
+
+    Raises
+    ------
+    InvalidValue
+        If a node is inside of the sheet, or no other one of the edge is beside it.
     """
-    ids = mesh.nodes(edge)
-    X, x = mesh.points[ids, :2], (mesh.points + u.reshape(-1, 3))[ids, :2]
-    scale = np.ptp(mesh.points, axis=0).max()
-    _, fibre = np.unique(np.round(X / (1e-6 * scale)), axis=0, return_inverse=True)
-    fibre = fibre.ravel()
-    count = np.bincount(fibre)
-    before, after = (np.stack([np.bincount(fibre, y[:, k]) / count for k in (0, 1)], axis=1) for y in (X, x))
-    order = _along(before, mesh.points[:, :2].mean(axis=0))
-    before, after = before[order], after[order]
-    ahead = np.gradient(before, axis=0) if len(before) > 1 else np.array([[0.0, 1.0]])
-    inwards = np.stack([-ahead[:, 1], ahead[:, 0]], axis=1)
-    inwards /= np.maximum(np.linalg.norm(inwards, axis=1, keepdims=True), 1e-300)
-    inside = mesh.points[:, :2].mean(axis=0) - before
-    inwards *= np.sign((inwards * inside).sum(axis=1, keepdims=True))
-    return Outline(before, after, ((after - before) * inwards).sum(axis=1))
+    half = mesh.connectivity.shape[1] // 2
+    cells = mesh.connectivity.astype(np.int64)
+    fibre = connected(len(mesh.points), np.stack([cells[:, :half].ravel(), cells[:, half:].ravel()], axis=1))
+    levels = np.bincount(fibre)
+    before, after = (
+        np.stack([np.bincount(fibre, y[:, k]) / levels for k in (0, 1)], axis=1)
+        for y in (mesh.points, mesh.points + u.reshape(-1, 3))
+    )
+    chosen = np.zeros(len(levels), dtype=bool)
+    chosen[fibre[mesh.nodes(edge)]] = True
+    sides = _sides(mesh, cells, fibre, before)
+    sides = sides[chosen[sides].all(axis=1)]
+    lost = np.setdiff1d(np.flatnonzero(chosen), sides)
+    if len(lost):
+        x, y = before[lost[0]]
+        raise InvalidValue(
+            "nodes are no edge of the sheet",
+            where="edge",
+            value=f"{len(lost)} of {int(chosen.sum())} places, the first at ({x:.4g}, {y:.4g})",
+            cause="a selection with nodes inside of the sheet, or a single node",
+            remedy="a set of the edge, such as rim or x1, or a box around nodes of the edge",
+        )
+    order, piece, closed = _chains(sides)
+    along = before[sides[:, 1]] - before[sides[:, 0]]
+    inwards = np.zeros_like(before)
+    for end in (0, 1):
+        np.add.at(inwards, sides[:, end], np.stack([-along[:, 1], along[:, 0]], axis=1))
+    inwards = inwards[order] / np.linalg.norm(inwards[order], axis=1, keepdims=True)
+    way = ((after - before)[order] * inwards).sum(axis=1)
+    return Outline(before[order], after[order], way, piece, closed)
 
 
-def _along(points: Floats, centre: Floats) -> NDArray[np.int64]:
-    """Order of points of an edge: by the angle about the middle of the blank."""
-    angle = np.arctan2(*(points - centre).T[::-1])
-    order = np.argsort(angle)
-    gaps = np.diff(angle[order], append=angle[order[0]] + 2.0 * np.pi)
-    return np.roll(order, -(int(np.argmax(gaps)) + 1))
+def _sides(mesh: Mesh, cells: Numbers, fibre: Numbers, places: Floats) -> Numbers:
+    """Sides of the sheet as pairs of fibres, shape (n, 2), with the sheet on the left."""
+    quads = outer_quads(cells)[0]
+    fibres = np.sort(fibre[quads], axis=1)
+    lateral = (fibres[:, 0] == fibres[:, 1]) & (fibres[:, 2] == fibres[:, 3])
+    quads, ends = quads[lateral], fibres[lateral][:, [0, 2]]
+    corners = mesh.points[quads]
+    outwards = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    along = places[ends[:, 1]] - places[ends[:, 0]]
+    back = along[:, 1] * outwards[:, 0] < along[:, 0] * outwards[:, 1]
+    ends[back] = ends[back][:, ::-1]
+    sides: Numbers = np.unique(ends, axis=0)  # one for all layers
+    return sides
+
+
+def _chains(sides: Numbers) -> tuple[Numbers, Numbers, NDArray[np.bool_]]:
+    """Fibres of the sides in their order, the pieces to which they belong, and which pieces are closed."""
+    following = dict(sides.tolist())
+    starts = np.concatenate([np.setdiff1d(sides[:, 0], sides[:, 1]), np.sort(sides[:, 0])]).tolist()
+    chains: list[list[int]] = []
+    seen: set[int] = set()
+    for start in starts:  # ends of open pieces first
+        chain, at = [], start
+        while at is not None and at not in seen:
+            chain.append(at)
+            seen.add(at)
+            at = following.get(at)
+        chains += [chain] if chain else []
+    closed = np.array([following.get(chain[-1]) == chain[0] for chain in chains])
+    return np.concatenate(chains), np.repeat(np.arange(len(chains)), [len(chain) for chain in chains]), closed

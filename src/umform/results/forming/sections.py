@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from umform.errors import InvalidValue
-from umform.mesh import Mesh
+from umform.mesh import Ids, Mesh
 
 Floats = NDArray[np.float64]
 
@@ -24,16 +24,24 @@ class Section:
         Way along the section in the undeformed sheet.
     lower, upper : ndarray
         Both skins now.
+    gaps : ndarray of bool, shape (n - 1,)
+        Whether a hole lies between a place and the next one.
     """
 
     s: Floats
     lower: Floats
     upper: Floats
+    gaps: NDArray[np.bool_]
 
     @property
     def middle(self) -> Floats:
         """Half-way between the skins."""
         return 0.5 * (self.lower + self.upper)
+
+    @property
+    def length(self) -> float:
+        """Length of the middle, without holes."""
+        return float(np.linalg.norm(np.diff(self.middle, axis=0), axis=1)[~self.gaps].sum())
 
     def line(self, along: Floats) -> Floats:
         """Mid-surface, shape (n, 2): way along a horizontal direction, and z."""
@@ -111,13 +119,15 @@ def section(mesh: Mesh, u: Floats, point: ArrayLike = (0.0, 0.0, 0.0), normal: A
             "the plane of a section does not cut the sheet",
             where="section",
             value=f"point {point!r}, normal {normal!r}",
+            cause="a point beside the sheet",
             remedy="a point of the undeformed sheet, and a normal in its plane",
         )
     part = np.where(a == b, 0.0, a / np.where(a == b, 1.0, a - b))[cut, None]
     lower, upper, start = (
         (1.0 - part) * y[of[cut, 0]] + part * y[of[cut, 1]] for y, of in ((x, ends[0]), (x, ends[1]), (X, ends[0]))
     )
-    return _in_order(start, lower, upper, np.cross(n, _facing(start, n)), scale)
+    facet = np.tile(np.arange(len(cells)), len(cut) // len(cells))[cut]
+    return _in_order(start, lower, upper, np.cross(n, _facing(start, n)), scale, facet)
 
 
 def _edges(quads: NDArray[np.int32]) -> NDArray[np.int32]:
@@ -141,12 +151,18 @@ def _facing(points: Floats, n: Floats) -> Floats:
     return facing
 
 
-def _in_order(start: Floats, lower: Floats, upper: Floats, along: Floats, scale: float) -> Section:
-    """Places in their order along the section, each once; of stacked layers the outermost skins."""
+def _in_order(start: Floats, lower: Floats, upper: Floats, along: Floats, scale: float, facet: Ids) -> Section:
+    """Places in their order along the section, each once; of stacked layers the outermost skins. Facets span gaps."""
     s = start @ along
     rounded, first, same = np.unique(np.round(s / (1e-7 * scale)), return_index=True, return_inverse=True)
     order = np.argsort(start[:, 2], kind="stable")
     low, high = np.zeros(len(rounded), dtype=int), np.zeros(len(rounded), dtype=int)
     high[same.ravel()[order]] = order  # the last one stays: the highest layer
     low[same.ravel()[order[::-1]]] = order[::-1]
-    return Section(s[first] - s[first].min(), lower[low], upper[high])
+    begin, end = np.full(facet.max() + 1, len(rounded)), np.zeros(facet.max() + 1, dtype=int)
+    np.minimum.at(begin, facet, same.ravel())
+    np.maximum.at(end, facet, same.ravel())
+    spanned = np.zeros(len(rounded) + 1, dtype=int)
+    np.add.at(spanned, begin, 1)
+    np.add.at(spanned, np.maximum(begin, end), -1)
+    return Section(s[first] - s[first].min(), lower[low], upper[high], np.cumsum(spanned)[: len(rounded) - 1] == 0)

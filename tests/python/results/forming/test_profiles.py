@@ -82,6 +82,54 @@ def test_draw_in():
 
 
 @pytest.mark.parametrize("cell", ["hex8", "hex18"])
+def test_draw_in_of_two_edges_that_face_each_other(cell):
+    strip = uf.mesh.strip(20.0, 1.0, 0.5, (10, 1), cell=cell)
+    u = np.zeros_like(strip.points)
+    u[:, 0] = np.where(strip.points[:, 0] < 10.0, 3.0, -5.0)
+    edge = draw_in(strip, u, np.union1d(strip.nodes("x0"), strip.nodes("x1")))
+    assert [len(piece) for piece in edge.pieces] == ([2, 2] if cell == "hex8" else [3, 3])
+    assert not edge.is_closed
+    np.testing.assert_allclose(edge.draw_in, np.where(edge.before[:, 0] < 10.0, 3.0, 5.0), rtol=1e-12)
+
+
+@pytest.mark.parametrize("layers", [1, 2])
+def test_draw_in_of_an_edge_with_a_corner_inwards(layers):
+    x = np.linspace(0.0, 10.0, 11)
+    whole = uf.mesh.grid(x, x, np.linspace(0.0, 1.0, layers + 1))
+    middle = whole.points[whole.connectivity].mean(axis=1)
+    cells = whole.connectivity[(middle[:, 0] < 3.0) | (middle[:, 1] < 3.0)]
+    used, numbered = np.unique(cells, return_inverse=True)
+    part = uf.Mesh(whole.points[used], {"hex8": numbered.reshape(cells.shape)})
+    rim = np.array([[0, 0], [10, 0], [10, 3], [3, 3], [3, 10], [0, 10]])
+    p, q = rim[:, None], np.roll(rim, -1, axis=0)[:, None]
+    share = np.clip(((part.points[:, :2] - p) * (q - p)).sum(axis=2) / ((q - p) ** 2).sum(axis=2), 0.0, 1.0)
+    on_rim = (np.linalg.norm(part.points[:, :2] - p - share[..., None] * (q - p), axis=2) < 1e-9).any(axis=0)
+    edge = draw_in(part, np.tile([-1.0, 0.0, 0.0], (len(part.points), 1)), np.flatnonzero(on_rim))
+    assert edge.is_closed and len(edge.draw_in) == 40
+    (x, y), corner = edge.before.T, (edge.before[:, None] == rim).all(axis=2).any(axis=1)
+    right = np.isin(x, [3.0, 10.0]) & ((x == 10.0) | (y > 3.0))
+    expected = np.where(x == 0.0, -1.0, np.where(right, 1.0, 0.0))
+    np.testing.assert_allclose(edge.draw_in[~corner], expected[~corner], atol=1e-12)
+
+
+@pytest.mark.parametrize("cell", ["hex8", "hex18"])
+@pytest.mark.parametrize(("y", "gaps"), [(0.0, 1), (5.0, 1), (12.0, 0)])
+def test_section_through_a_hole(cell, y, gaps):
+    washer = uf.mesh.ring(inner=10.0, outer=50.0, thickness=1.0, cells=(24, 8), cell=cell)
+    cut = section(washer, np.zeros_like(washer.points), point=(0.0, y, 0.0))
+    assert cut.gaps.sum() == gaps
+    chord = 2.0 * (np.sqrt(50.0**2 - y**2) - (np.sqrt(10.0**2 - y**2) if gaps else 0.0))
+    assert cut.length == pytest.approx(chord, rel=5e-3)
+
+
+@pytest.mark.parametrize("nodes", ["centre", "lower"])
+def test_nodes_that_are_no_edge_are_refused(nodes):
+    blank = uf.mesh.disc(10.0, 1.0, (4, 3))
+    with pytest.raises(InvalidValue, match="nodes are no edge of the sheet"):
+        draw_in(blank, np.zeros_like(blank.points), nodes)
+
+
+@pytest.mark.parametrize("cell", ["hex8", "hex18"])
 @pytest.mark.parametrize("layers", [1, 2])
 def test_section(cell, layers):
     strip = uf.mesh.strip(6.0, 2.0, 0.5, (6, 3), cell=cell, layers=layers)
