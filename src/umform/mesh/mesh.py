@@ -88,10 +88,11 @@ class Mesh:
                 value=points[node],
                 remedy="look at what wrote the mesh",
             )
-        if len(self.cells) != 1 or next(iter(self.cells)) not in ("hex8", "hex18"):
+        named = isinstance(self.cells, Mapping)
+        if not named or len(self.cells) != 1 or next(iter(self.cells)) not in ("hex8", "hex18"):
             raise WrongCellType(
                 "a mesh has cells of one type, hex8 or hex18",
-                value=", ".join(self.cells) or "none",
+                value=(", ".join(self.cells) or "none") if named else type(self.cells).__name__,
                 remedy="give cells={'hex8': ids} or cells={'hex18': ids}",
             )
         name, raw = next(iter(self.cells.items()))

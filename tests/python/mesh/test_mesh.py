@@ -106,6 +106,12 @@ def test_grid_lines_must_increase_and_cells_be_known():
         grid([0, 1], [0, 1], [0, 1], cell="hex20")
 
 
+def test_cells_without_the_name_of_their_type_are_refused():
+    made = strip(2.0, 1.0, 1.0, (2, 1))
+    with pytest.raises(WrongCellType, match="ndarray"):
+        Mesh(made.points, made.connectivity)
+
+
 # Selection --------------------------------------------------------------------------------------------------
 
 
