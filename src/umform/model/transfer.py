@@ -195,8 +195,7 @@ class _Probe:
             C = np.eye(3) + 2.0 * self.E
             miss = trace - 0.5 * np.log(np.linalg.det(C))
             slope = np.einsum("epij,epijk->epk", np.linalg.inv(C), M)
-            for e in range(len(self._rows)):
-                self.alpha[e, self._thick] += np.linalg.lstsq(slope[e], miss[e], rcond=None)[0]
+            self.alpha[:, self._thick] += np.einsum("ekp,ep->ek", np.linalg.pinv(slope), miss)
             self.E = base + np.einsum("epijk,ek->epij", M, self.alpha[:, self._thick])
 
 
