@@ -8,7 +8,9 @@ import pytest
 import umform as uf
 from umform import _core
 from umform.errors import InvalidValue
+from umform.mesh.fitted.sheet import Sheet
 from umform.mesh.quality import jacobians
+from umform.model.transfer import Weights
 
 STEEL = uf.J2(E=210e3, nu=0.3, hardening=uf.Linear(yield_stress=160.0, modulus=500.0))
 CURVE, BACK = uf.Linear(yield_stress=160.0, modulus=500.0), uf.Chaboche(((4000.0, 40.0),))
@@ -203,3 +205,14 @@ def test_contact_points_keep_their_friction_through_a_cut():
     assert die.found.slip[:points].min() > 0.06
     with pytest.raises(InvalidValue, match="no contact with friction"):
         part.keep_friction(plane, before="punch")
+
+
+def test_states_beyond_the_last_points_are_means_of_known_ones():
+    """Points between the last Gauss points and the edge of the sheet extrapolate nothing. eq. (1.32)"""
+    mesh = uf.mesh.strip(2.0, 1.0, 1.0, (2, 1))
+    sheet = Sheet.of(mesh)
+    x = mesh.points[sheet.nodes[:, 0], :2]
+    new = np.array([[[0.0, 0.0], [0.1, 0.0], [0.1, 1.0], [0.0, 1.0]]])
+    weights = Weights.between(sheet, x, np.arange(2), new, (2, 2))
+    assert (weights.share >= 0.0).all()
+    np.testing.assert_allclose(weights.share.sum(axis=-1), 1.0, rtol=1e-14)

@@ -37,6 +37,13 @@ def test_negative_eigenvalues_of_the_symmetric_part_are_counted(weakest, number)
     assert SymmetricPart(pattern).negative_pivots(values) == number
 
 
+def test_both_triangles_count():
+    """The skew part of this matrix is large: either triangle alone would be indefinite, the symmetric part is not."""
+    pattern = Pattern(2, np.array([0, 2, 4], np.int32), np.array([0, 1, 0, 1], np.int32), symmetric=False)
+    assert SymmetricPart(pattern).negative_pivots(np.array([1.0, 9.0, -9.0, 1.0])) == 0
+    assert SymmetricPart(pattern).negative_pivots(np.array([1.0, 0.0, 9.0, 1.0])) == 1
+
+
 def test_a_singular_symmetric_part_is_not_positive_definite():
     pattern = Pattern(2, np.array([0, 2, 4], np.int32), np.array([0, 1, 0, 1], np.int32), symmetric=False)
     assert SymmetricPart(pattern).negative_pivots(np.array([0.0, 1.0, -1.0, 1.0])) >= 1
