@@ -9,7 +9,22 @@ from umform.deck import load
 from umform.deck.before import write_state
 from umform.errors import UmformError
 
-FIRST = """
+#: Tool and contact of both operations.
+TOOL = """
+[tools.plane]
+shape = "Plane"
+point = [0.0, 0.0, -0.5]
+normal = [0.0, 0.0, 1.0]
+
+[contacts.die]
+tool = "plane"
+faces = "lower"
+friction = 0.3
+penalty = 1e4
+"""
+FIRST = (
+    TOOL
+    + """
 [mesh]
 generator = "strip"
 length = 10.0
@@ -21,17 +36,6 @@ cells = [10, 1]
 law = "SVK"
 E = 210e3
 nu = 0.3
-
-[tools.plane]
-shape = "Plane"
-point = [0.0, 0.0, -0.5]
-normal = [0.0, 0.0, 1.0]
-
-[contacts.die]
-tool = "plane"
-faces = "lower"
-friction = 0.3
-penalty = 1e4
 
 [[supports]]
 kind = "fix"
@@ -63,7 +67,10 @@ kind = "move"
 to = { aside = -0.0299 }
 increments = 1
 """
-SECOND = """
+)
+SECOND = (
+    TOOL
+    + """
 [before]
 deck = "press.toml"
 state = "state.h5"
@@ -75,17 +82,6 @@ line = { corners = [[7.3, -1.0], [7.3, 3.0]], closed = false }
 formed = false
 edge = "EDGE"
 
-[tools.plane]
-shape = "Plane"
-point = [0.0, 0.0, -0.5]
-normal = [0.0, 0.0, 1.0]
-
-[contacts.die]
-tool = "plane"
-faces = "lower"
-friction = 0.3
-penalty = 1e4
-
 [[supports]]
 kind = "fix"
 nodes = "upper"
@@ -95,6 +91,7 @@ kind = "move"
 to = { cut = 0.0 }
 increments = 1
 """
+)
 
 
 @pytest.fixture(scope="module")
